@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/image.h"
+#include "core/base/result.h"
+#include "core/registration/register_scan.h"
+#include "core/sensor/sensor_rig.h"
+
+namespace foresight {
+
+/// Why a sample does not take part in upsampling.
+enum class RejectReason : std::uint8_t {
+  kKept = 0,
+  kFlying,    ///< Eq. (7): floats between two surfaces
+  kIsolated,  ///< alone in the image after Eq. (7)
+  kFlipping,  ///< Fig. 4: hidden from the camera by a nearer surface
+};
+const char* ToString(RejectReason reason);
+
+/// One lidar measurement seen from the camera.
+struct AlignedSample {
+  float u = 0.0f;  ///< pixels; (0, 0) is the centre of the first pixel
+  float v = 0.0f;
+  float depth_m = 0.0f;  ///< along the camera's z axis, > 0
+  std::int32_t line = 0;
+  std::int32_t beam = 0;
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< in camera, metres; z = depth_m
+};
+
+/// Lidar measurements in one image, each knowing its place on the lidar's grid. Only samples with
+/// 0 <= line < lines, 0 <= beam < beams, inside the image and with a positive depth are in here.
+struct AlignedSamples {
+  int width = 0;  ///< of the image, pixels
+  int height = 0;
+  int lines = 0;  ///< of the lidar grid
+  int beams = 0;
+  std::vector<AlignedSample> samples;
+  std::vector<RejectReason> reasons;  ///< one a sample
+
+  double Density() const {
+    return width > 0 && height > 0 ? static_cast<double>(samples.size()) / width / height : 0.0;
+  }
+  std::size_t KeptCount() const;
+
+  /// Fails with kInvalidInput where a sample breaks one of the promises above.
+  Status Check() const;
+};
+
+/// Index into samples for each cell of the lidar's grid, -1 = no sample; (beam, line) = (x, y).
+/// With `only_kept`, rejected samples are left out.
+Image<std::int32_t> GridOf(const AlignedSamples& samples, bool only_kept);
+
+/// Median distance in pixels between neighbours along a line and between lines.
+struct SampleSpacing {
+  double along_line_px = 0.0;
+  double between_lines_px = 0.0;
+};
+/// Fails with kTooFewPoints when there are no neighbours in one of the directions.
+Result<SampleSpacing> MeasureSpacing(const AlignedSamples& samples);
+
+/// Section IV: projects the scan into the image taken at `motor_rad`. Points behind the camera or
+/// outside the image are left out. Fails with kTooFewPoints when none is left. O(points).
+Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig& rig,
+                                    double motor_rad, const RunContext& context);
+
+}  // namespace foresight

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/depth/aligned_samples.h"
+#include "core/depth/reject_flipping.h"
+#include "core/depth/reject_flying.h"
+#include "core/depth/reject_isolated.h"
+#include "core/depth/upsample.h"
+
+namespace foresight {
+
+struct DepthOptions {
+  FlyingPointOptions flying;
+  IsolatedPointOptions isolated;
+  FlippingPointOptions flipping;
+  UpsampleOptions upsample;
+  ConfidenceMaskOptions mask;
+
+  Status Check() const;
+};
+
+/// Everything the pipeline made on the way, so that any stage can be looked at.
+struct DepthResult {
+  AlignedSamples samples;  ///< with the reason of each rejection
+  DenseDepth dense;
+  MaskImage mask;
+  double seconds = 0.0;
+};
+
+/// Section IV from the aligned samples to the mask; calls the stages in their order and nothing
+/// else.
+Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide,
+                                 const DepthOptions& options, const RunContext& context);
+
+}  // namespace foresight

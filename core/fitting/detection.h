@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/fitting/roi.h"
+#include "core/geometry/rigid.h"
+#include "core/objects/valve_model.h"
+
+namespace foresight {
+
+enum class VerdictLevel { kUnsure, kLikely, kConfirmed };
+/// "UNSURE", "LIKELY", "CONFIRMED".
+const char* ToString(VerdictLevel level);
+
+/// What an operator may make of a fit.
+struct Verdict {
+  VerdictLevel level = VerdictLevel::kUnsure;
+  double probability = 0.0;  ///< that the pose is right, in [0, 1]
+  std::string reason;        ///< one sentence
+};
+
+/// How well the measurements support a fit.
+struct FitEvidence {
+  int rays = 0;               ///< looked at
+  int hits = 0;               ///< rays that meet the template
+  double inlier_share = 0.0;  ///< of the hits, those with a range that agrees
+  double see_through = 0.0;   ///< of the hits, those whose beam went on behind the template
+  double rms_m = 0.0;         ///< of the agreeing ranges
+  double arc_coverage = 0.0;  ///< share of the rim's circle with support
+  double margin_nats = 0.0;   ///< log likelihood ahead of the next spoke count
+};
+
+/// One answer to "where is the valve": the best one, or a rival.
+struct ValveCandidate {
+  Rigid<frame::Base, frame::Object> base_from_object;
+  ValveModel model;
+  double log_likelihood = 0.0;
+};
+
+/// A fitted valve.
+struct ValveDetection {
+  ValveCandidate best;
+  bool phase_observable = true;  ///< false: the direction of x means nothing
+  Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();  ///< along the object's axes
+  double sigma_axis_rad = 0.0;
+  double sigma_phase_rad = 0.0;
+  FitEvidence evidence;
+  Verdict verdict;
+  std::vector<ValveCandidate> rivals;  ///< best first
+  ImageRoi roi;                        ///< where it was looked for
+  double seconds = 0.0;
+};
+
+}  // namespace foresight

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/depth/upsample.h"
+#include "core/fitting/roi.h"
+#include "core/registration/register_scan.h"
+#include "core/sensor/sensor_rig.h"
+
+namespace foresight {
+
+/// One measurement with the line of sight it was made along.
+struct RangeRay {
+  Eigen::Vector3d origin;     ///< in base
+  Eigen::Vector3d direction;  ///< in base, length 1
+  double range_m = 0.0;       ///< along direction
+
+  Eigen::Vector3d Point() const { return origin + range_m * direction; }
+};
+
+/// What a fit looks at: the rays of a region of interest, and how good they are.
+struct RaySet {
+  std::vector<RangeRay> rays;
+  Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();  ///< in base: mean origin
+  double sigma_m = 0.010;                               ///< standard deviation of a range
+  double footprint_rad = 0.004;                         ///< full angle between neighbouring rays
+  bool dense = false;            ///< from an upsampled map: neighbouring rays are not independent
+  double samples_per_ray = 1.0;  ///< independent measurements behind a ray; < 1 for a dense map
+};
+
+/// The raw lidar returns that appear inside the region (or within `context_px` of it), kept or not.
+Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const ImageRoi& roi,
+                            double sigma_m);
+
+/// The masked dense depth inside the region; every `stride`-th pixel.
+Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
+                             const ImageRoi& roi, int stride, double sigma_m, double density);
+
+}  // namespace foresight

@@ -1,0 +1,83 @@
+#include "core/objects/valve_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace foresight {
+namespace {
+
+/// Distance of a point to a segment.
+double SegmentDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
+                       const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - a - t * along).norm();
+}
+
+std::vector<Eigen::Vector3d> Circle(double radius, double z) {
+  constexpr int kCorners = 64;
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return points;
+}
+
+}  // namespace
+
+Status ValveModel::Check() const {
+  if (!(rim_radius_m > 0.0) || !(tube_radius_m > 0.0) || !(tube_radius_m < rim_radius_m))
+    return Fail(ErrorCode::kInvalidOptions,
+                "valve: rim_radius_m {} and tube_radius_m {} make no wheel", rim_radius_m,
+                tube_radius_m);
+  if (spokes != 0 && (spokes < 2 || spokes > 6))
+    return Fail(ErrorCode::kInvalidOptions, "valve: spokes {} is neither 0 (disc) nor 2 to 6",
+                spokes);
+  if (!(spoke_radius_m > 0.0) || !(hub_radius_m > 0.0) || !std::isfinite(dish_m))
+    return Fail(ErrorCode::kInvalidOptions,
+                "valve: spoke_radius_m {}, hub_radius_m {} or dish_m {} is not usable",
+                spoke_radius_m, hub_radius_m, dish_m);
+  return {};
+}
+
+double ValveModel::Distance(const Eigen::Vector3d& point) const {
+  const double radial = std::hypot(point.x(), point.y());
+  double distance = std::hypot(radial - rim_radius_m, point.z()) - tube_radius_m;
+  const Eigen::Vector3d hub(0.0, 0.0, -dish_m);
+  distance = std::min(distance, (point - hub).norm() - hub_radius_m);
+  if (spokes == 0) {
+    // A disc from hub to rim: a cone of the spokes' thickness, measured in the half plane of the
+    // point.
+    const Eigen::Vector3d in_plane(radial, 0.0, point.z());
+    return std::min(distance,
+                    SegmentDistance(in_plane, hub, {rim_radius_m, 0.0, 0.0}) - spoke_radius_m);
+  }
+  // Only the nearest spoke matters: turn the point into the sector around the first one.
+  const double sector = 2.0 * std::numbers::pi / spokes;
+  const double angle = std::atan2(point.y(), point.x());
+  const double turned = angle - sector * std::round(angle / sector);
+  const Eigen::Vector3d in_sector(radial * std::cos(turned), radial * std::sin(turned), point.z());
+  return std::min(distance,
+                  SegmentDistance(in_sector, hub, {rim_radius_m, 0.0, 0.0}) - spoke_radius_m);
+}
+
+Wireframe WireframeOf(const ValveModel& model) {
+  Wireframe lines;
+  lines.push_back(Circle(model.rim_radius_m + model.tube_radius_m, 0.0));
+  lines.push_back(Circle(model.rim_radius_m - model.tube_radius_m, 0.0));
+  lines.push_back(Circle(model.hub_radius_m, -model.dish_m));
+  for (int i = 0; i < model.spokes; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / model.spokes;
+    lines.push_back(
+        {{0.0, 0.0, -model.dish_m},
+         {model.rim_radius_m * std::cos(angle), model.rim_radius_m * std::sin(angle), 0.0}});
+  }
+  lines.push_back({{0.0, 0.0, -model.dish_m}, {0.0, 0.0, 0.1}});
+  return lines;
+}
+
+}  // namespace foresight

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/image.h"
+#include "core/base/result.h"
+#include "core/geometry/rigid.h"
+#include "core/objects/valve_model.h"
+
+namespace foresight {
+
+/// How a surface answers light and laser.
+struct Material {
+  Eigen::Vector3d color = {0.6, 0.6, 0.6};  ///< linear reflectance, 0 to 1
+  enum class Pattern { kPlain, kChecker, kStripes, kNoise, kBrick } pattern = Pattern::kPlain;
+  Eigen::Vector3d color2 = {0.4, 0.4, 0.4};  ///< the pattern's other colour
+  double pattern_size_m = 0.1;
+  double lidar_reflectance = 0.5;  ///< at the laser's wavelength
+  double specular = 0.0;           ///< share that is mirrored away: such a return may be lost
+};
+
+/// One triangle mesh in the robot's frame; every solid of a scene is made into one.
+struct SceneMesh {
+  std::string name;
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3i> triangles;
+  Material material;
+};
+
+/// What a scene knows to be true of an object in it.
+struct ValveTruth {
+  std::string name;
+  Rigid<frame::Robot, frame::Object> robot_from_object;
+  ValveModel model;
+};
+struct DrillTruth {
+  std::string name;
+  Rigid<frame::Robot, frame::Object> robot_from_object;  ///< x = the way the bit points, z up
+};
+struct BlockTruth {
+  std::string name;
+  Rigid<frame::Robot, frame::Object> robot_from_object;  ///< centre of the top face, z = its normal
+  Eigen::Vector3d size_m;
+};
+
+struct Light {
+  Eigen::Vector3d position_m = {0.0, 0.0, 2.5};  ///< in robot
+  double intensity = 1.0;                        ///< 1 = a well lit room at 2 m
+};
+
+/// A world to look at, in the robot's frame (x forward, y left, z up; metres).
+struct Scene {
+  std::string name;
+  std::vector<SceneMesh> meshes;
+  std::vector<Light> lights;
+  double ambient = 0.35;
+  std::vector<ValveTruth> valves;
+  std::vector<DrillTruth> drills;
+  std::vector<BlockTruth> blocks;
+};
+
+/// Reads a scene file, docs/formats.md. Fails with kBadData, naming the file and the line; an
+/// unknown key is an error.
+Result<Scene> SceneFromYaml(const std::string& yaml, const std::string& source);
+Result<Scene> LoadScene(const std::filesystem::path& path);
+
+}  // namespace foresight

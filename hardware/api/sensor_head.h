@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/sensor/scan.h"
+
+namespace foresight {
+
+enum class HeadState { kDisconnected, kHoming, kReady, kSweeping, kStopping, kFault };
+/// "disconnected", "homing", "ready", "sweeping", "stopping", "fault".
+const char* ToString(HeadState state);
+
+/// What the head says of itself.
+struct HeadStatus {
+  HeadState state = HeadState::kDisconnected;
+  double time_s = 0.0;       ///< head's clock
+  double angle_rad = 0.0;    ///< reported by the motor
+  double speed_rad_s = 0.0;  ///< reported
+  double commanded_speed_rad_s = 0.0;
+  int lines = 0;  ///< of the running or last scan
+  int expected_lines = 0;
+  int frames = 0;
+  int lost_lines = 0;
+  std::string message;  ///< what happened and what to do, one sentence; empty when all is well
+};
+
+/// How a scan arrives, piece by piece. Called from a thread of the head, in order, never
+/// concurrently; return quickly.
+class ScanSink {
+ public:
+  virtual ~ScanSink() = default;
+  /// Everything but lines, track and frames is filled in.
+  virtual void OnScanStarted(const Scan& header) = 0;
+  virtual void OnLine(const LidarLine& line) = 0;
+  virtual void OnMotorSamples(std::span<const MotorSample> samples) = 0;
+  virtual void OnFrame(const CameraFrame& frame) = 0;
+  virtual void OnScanEnded(ScanState state, const std::string& reason) = 0;
+};
+
+/// A head as the operator's side sees it: in this process, or at the far end of a link. All calls
+/// are safe from any thread and return at once; what they cause shows in Status() and in the sink.
+class SensorHead {
+ public:
+  virtual ~SensorHead() = default;
+
+  virtual std::string Describe() const = 0;
+  virtual HeadStatus Status() const = 0;
+  /// The calibration in force on the head.
+  virtual SensorRig Rig() const = 0;
+
+  /// Connects to the devices and searches the zero reference. Fails with kState while sweeping.
+  virtual foresight::Status Home() = 0;
+  /// Fails with kState unless ready, kInvalidOptions for a bad plan. `sink` lives until
+  /// OnScanEnded.
+  virtual foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) = 0;
+  /// Ends the running scan and keeps what it has; the motor stops.
+  virtual void AbortScan() = 0;
+  /// Stops the motor at once, in every state.
+  virtual void StopMotor() = 0;
+};
+
+}  // namespace foresight

@@ -1,0 +1,46 @@
+# Third-party packages, all from Debian 12. Order matters: PCL is found before VTK and with VTK hidden,
+# or it drags 35 VTK modules into everything that links it.
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc)
+find_package(Ceres 2.1 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Threads REQUIRED)
+find_package(embree 3 REQUIRED)
+
+foreach(package VTK OpenNI OpenNI2 libusb Pcap)
+  set(CMAKE_DISABLE_FIND_PACKAGE_${package} ON)
+endforeach()
+find_package(PCL 1.13 REQUIRED QUIET COMPONENTS common filters registration segmentation)
+foreach(package VTK OpenNI OpenNI2 libusb Pcap)
+  unset(CMAKE_DISABLE_FIND_PACKAGE_${package})
+endforeach()
+add_library(foresight_pcl INTERFACE)
+target_include_directories(foresight_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
+target_link_libraries(foresight_pcl INTERFACE pcl_common pcl_filters pcl_segmentation)
+
+if(FORESIGHT_BUILD_GUI)
+  find_package(VTK 9.1 REQUIRED QUIET COMPONENTS CommonCore CommonDataModel CommonColor
+    CommonTransforms FiltersCore FiltersGeneral FiltersSources RenderingCore RenderingOpenGL2
+    RenderingFreeType RenderingAnnotation RenderingContextOpenGL2 InteractionStyle
+    InteractionWidgets InteractionImage IOImage GUISupportQt)
+  find_package(Qt${VTK_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets Concurrent Svg)
+  find_package(qtadvanceddocking REQUIRED)
+endif()
+
+if(FORESIGHT_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  if(FORESIGHT_BUILD_GUI)
+    find_package(Qt${VTK_QT_VERSION} REQUIRED COMPONENTS Test)
+  endif()
+endif()
+if(FORESIGHT_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()
