@@ -1,0 +1,47 @@
+#include <cmath>
+
+#include "core/depth/aligned_samples.h"
+
+namespace foresight {
+
+Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig& rig,
+                                    double motor_rad, const RunContext& context) {
+  FORESIGHT_CHECK(rig.Check());
+  if (!std::isfinite(motor_rad))
+    return Fail(ErrorCode::kInvalidInput, "alignment: the picture has no motor angle");
+  const Rigid<frame::Camera, frame::Base> camera_from_base = rig.CameraFromBase(motor_rad);
+  AlignedSamples aligned;
+  aligned.width = rig.camera.width;
+  aligned.height = rig.camera.height;
+  aligned.lines = scan.lines;
+  aligned.beams = scan.beams;
+  for (int line = 0; line < scan.lines; ++line) {
+    if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "alignment was cancelled");
+    for (int beam = 0; beam < scan.beams; ++beam) {
+      if (!scan.Valid(line, beam)) continue;
+      const Eigen::Vector3d in_base = scan.points[scan.Index(line, beam)].cast<double>();
+      const Eigen::Vector3d point = camera_from_base * in_base;
+      if (!(point.z() > 0.0)) continue;
+      const auto pixel = rig.camera.Project(point);
+      if (!pixel || !rig.camera.InImage(*pixel)) continue;
+      AlignedSample sample;
+      sample.u = static_cast<float>(pixel->x());
+      sample.v = static_cast<float>(pixel->y());
+      sample.depth_m = static_cast<float>(point.z());
+      sample.line = line;
+      sample.beam = beam;
+      sample.point = point.cast<float>();
+      aligned.samples.push_back(sample);
+    }
+    context.Report(static_cast<double>(line + 1) / scan.lines, "projecting into the picture");
+  }
+  if (aligned.samples.empty())
+    return Fail(
+        ErrorCode::kTooFewPoints,
+        "no lidar return lies in the picture taken at {:.1f} deg; scan a scope that covers it",
+        motor_rad * 57.29577951308232);
+  aligned.reasons.assign(aligned.samples.size(), RejectReason::kKept);
+  return aligned;
+}
+
+}  // namespace foresight

@@ -1,0 +1,34 @@
+#include "core/depth/pipeline.h"
+
+#include <chrono>
+
+namespace foresight {
+
+Status DepthOptions::Check() const {
+  FORESIGHT_CHECK(flying.Check());
+  FORESIGHT_CHECK(isolated.Check());
+  FORESIGHT_CHECK(flipping.Check());
+  FORESIGHT_CHECK(upsample.Check());
+  return mask.Check();
+}
+
+Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide,
+                                 const DepthOptions& options, const RunContext& context) {
+  const auto start = std::chrono::steady_clock::now();
+  FORESIGHT_CHECK(options.Check());
+  FORESIGHT_CHECK(samples.Check());
+  context.Report(0.0, "rejecting outliers");
+  FORESIGHT_CHECK(RejectFlying(samples, options.flying));
+  FORESIGHT_CHECK(RejectIsolated(samples, options.isolated));
+  FORESIGHT_CHECK(RejectFlipping(samples, options.flipping, context));
+
+  DepthResult result;
+  FORESIGHT_TRY(result.dense,
+                UpsampleDepth(samples, guide, options.upsample, context.Part(0.1, 1.0)));
+  FORESIGHT_TRY(result.mask, MaskLowConfidence(result.dense, options.mask));
+  result.samples = std::move(samples);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace foresight

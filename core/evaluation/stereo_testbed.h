@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/depth/aligned_samples.h"
+#include "core/evaluation/stereo_scene.h"
+
+namespace foresight {
+
+/// How the testbed of Section V-A measures a scene.
+struct StereoTestbedOptions {
+  int column_step_px = 4;        ///< along a scan line of the left view
+  int row_step_px = 12;          ///< between scan lines
+  double noise_sigma_m = 0.010;  ///< of the sampled depth
+  std::uint64_t seed = 1;
+
+  Status Check() const;
+};
+
+/// A scene as the testbed's sensor sees it: noisy samples of the left view's depth moved into the
+/// right view, where flipping points and disocclusions arise by themselves.
+struct StereoTrial {
+  AlignedSamples samples;
+  DepthImage truth_m;  ///< of the right view; NaN = unknown
+};
+
+/// Fails with kTooFewPoints when no sample lands in the right view.
+Result<StereoTrial> MakeStereoTrial(const StereoScene& scene, const StereoTestbedOptions& options);
+
+/// True depth of the right view: the left view's known pixels that both views see, moved to the
+/// nearest pixel; the nearest surface wins. Pixels that nothing lands on are unknown.
+DepthImage WarpTruthToRight(const StereoScene& scene);
+
+}  // namespace foresight
