@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/base/image.h"
+#include "core/base/result.h"
+
+namespace foresight {
+
+/// PNG files of every colour type. 16-bit samples are scaled to 8 bits, palettes are resolved,
+/// alpha is dropped (not blended), no gamma is applied: equal numbers in the file stay equal. Fails
+/// with kIo, or with kBadData where the bytes are damaged or a side is longer than 20000 pixels.
+Result<ColorImage> ReadPng(const std::filesystem::path& path);
+/// Same; colours become luminance.
+Result<GrayImage> ReadPngGray(const std::filesystem::path& path);
+
+/// Same, from bytes in memory; `source` names them in an error.
+Result<ColorImage> DecodePng(std::string_view bytes, const std::string& source);
+Result<GrayImage> DecodePngGray(std::string_view bytes, const std::string& source);
+
+/// Lossless. Fails with kInvalidInput for an empty image or a side longer than 20000 pixels.
+Result<std::string> EncodePng(const ColorImage& image);
+Result<std::string> EncodePng(const GrayImage& image);
+Result<std::string> EncodePng16(const Image<std::uint16_t>& image);
+
+/// Encodes and writes the whole file or nothing.
+Status WritePng(const std::filesystem::path& path, const ColorImage& image);
+Status WritePng(const std::filesystem::path& path, const GrayImage& image);
+Status WritePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image);
+
+}  // namespace foresight

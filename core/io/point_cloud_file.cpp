@@ -1,0 +1,67 @@
+#include "core/io/point_cloud_file.h"
+
+#include <bit>
+#include <string>
+
+#include "core/base/atomic_file.h"
+
+namespace foresight {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "values are appended as they lie");
+
+template <class T>
+void Append(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+void AppendCommonFields(std::string& bytes, const CloudPoint& point) {
+  Append(bytes, point.x);
+  Append(bytes, point.y);
+  Append(bytes, point.z);
+  Append(bytes, point.intensity);
+  Append(bytes, point.line);
+  Append(bytes, point.step);
+}
+
+constexpr std::size_t kMaxBytesPerPoint = 28;
+
+}  // namespace
+
+Status WritePly(const std::filesystem::path& path, std::span<const CloudPoint> points,
+                CloudColors colors) {
+  const bool has_color = colors == CloudColors::kRgb;
+  std::string bytes = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
+      "property int line\nproperty int step\n{}end_header\n",
+      points.size(),
+      has_color ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "");
+  bytes.reserve(bytes.size() + points.size() * kMaxBytesPerPoint);
+  for (const CloudPoint& point : points) {
+    AppendCommonFields(bytes, point);
+    if (has_color) Append(bytes, point.color);
+  }
+  return WriteFileAtomically(path, bytes);
+}
+
+Status WritePcd(const std::filesystem::path& path, std::span<const CloudPoint> points,
+                CloudColors colors) {
+  const bool has_color = colors == CloudColors::kRgb;
+  std::string bytes = fmt::format(
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+      "FIELDS x y z intensity line step{}\nSIZE 4 4 4 4 4 4{}\nTYPE F F F F I I{}\n"
+      "COUNT 1 1 1 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
+      has_color ? " rgb" : "", has_color ? " 4" : "", has_color ? " F" : "", has_color ? " 1" : "",
+      points.size(), points.size());
+  bytes.reserve(bytes.size() + points.size() * kMaxBytesPerPoint);
+  for (const CloudPoint& point : points) {
+    AppendCommonFields(bytes, point);
+    const std::uint32_t packed = static_cast<std::uint32_t>(point.color.r) << 16 |
+                                 static_cast<std::uint32_t>(point.color.g) << 8 | point.color.b;
+    if (has_color) Append(bytes, packed);
+  }
+  return WriteFileAtomically(path, bytes);
+}
+
+}  // namespace foresight

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "core/base/image.h"
+#include "core/base/result.h"
+
+namespace foresight {
+
+/// One point as other programs get it.
+struct CloudPoint {
+  float x = 0.0f;  ///< metres, in the frame the caller chose
+  float y = 0.0f;
+  float z = 0.0f;
+  float intensity = 0.0f;
+  std::int32_t line = 0;  ///< lidar line
+  std::int32_t step = 0;  ///< beam within the line
+  Rgb8 color;             ///< written only where the file has colours
+};
+
+enum class CloudColors { kNone, kRgb };
+
+/// Binary little-endian PLY. Writes the whole file or nothing; fails with kIo.
+Status WritePly(const std::filesystem::path& path, std::span<const CloudPoint> points,
+                CloudColors colors);
+
+/// Binary PCD 0.7, unorganised, identity viewpoint; the colour is PCL's packed `rgb`. Same errors.
+Status WritePcd(const std::filesystem::path& path, std::span<const CloudPoint> points,
+                CloudColors colors);
+
+}  // namespace foresight

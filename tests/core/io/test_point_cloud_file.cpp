@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+#include <pcl/point_types.h>
+
+#include "core/io/point_cloud_file.h"
+#include "tests/core/io/temporary_folder.h"
+
+namespace foresight {
+namespace {
+
+const std::vector<CloudPoint>& Points() {
+  static const std::vector<CloudPoint> points = {
+      {1.5f, -2.0f, 3.25f, 1000.0f, 4, 540, {10, 20, 30}},
+      {-1.0f, 0.0f, 2.0f, 7.0f, 5, 541, {255, 0, 128}}};
+  return points;
+}
+
+/// PCL judges the files: it shares no code with the writer.
+void ExpectPoints(const pcl::PCLPointCloud2& cloud) {
+  pcl::PointCloud<pcl::PointXYZRGB> colored;
+  pcl::fromPCLPointCloud2(cloud, colored);
+  ASSERT_EQ(colored.size(), 2u);
+  EXPECT_EQ(colored[0].getVector3fMap(), Eigen::Vector3f(1.5f, -2.0f, 3.25f));
+  EXPECT_EQ(colored[1].getVector3fMap(), Eigen::Vector3f(-1.0f, 0.0f, 2.0f));
+  EXPECT_EQ(colored[1].r, 255);
+  EXPECT_EQ(colored[1].g, 0);
+  EXPECT_EQ(colored[1].b, 128);
+  pcl::PointCloud<pcl::PointXYZI> intensities;
+  pcl::fromPCLPointCloud2(cloud, intensities);
+  EXPECT_EQ(intensities[0].intensity, 1000.0f);
+}
+
+TEST(PointCloudFile, PclReadsThePcdWithItsColors) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WritePcd(folder / "a.pcd", Points(), CloudColors::kRgb));
+  pcl::PCLPointCloud2 cloud;
+  ASSERT_EQ(pcl::io::loadPCDFile(folder / "a.pcd", cloud), 0);
+  ExpectPoints(cloud);
+}
+
+TEST(PointCloudFile, PclReadsThePlyWithItsColors) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudColors::kRgb));
+  pcl::PCLPointCloud2 cloud;
+  ASSERT_EQ(pcl::io::loadPLYFile(folder / "a.ply", cloud), 0);
+  ExpectPoints(cloud);
+}
+
+TEST(PointCloudFile, WithoutColorsAPointTakes24Bytes) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WritePcd(folder / "none.pcd", {}, CloudColors::kNone));
+  ASSERT_TRUE(WritePcd(folder / "two.pcd", Points(), CloudColors::kNone));
+  // "0" and "2" in the header are equally long.
+  EXPECT_EQ(std::filesystem::file_size(folder / "two.pcd"),
+            std::filesystem::file_size(folder / "none.pcd") + 48);
+}
+
+TEST(PointCloudFile, AFolderThatIsNotThereIsAnIoError) {
+  const TemporaryFolder folder;
+  const auto status = WritePly(folder / "missing/a.ply", Points(), CloudColors::kNone);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::kIo);
+}
+
+}  // namespace
+}  // namespace foresight
