@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+
+#include "core/mission/sqlite.h"
+#include "core/sensor/scan.h"
+
+namespace foresight {
+
+/// One row of the table `scan`. The counts are -1 until the scan has ended.
+struct ScanRow {
+  std::int64_t id = 0;
+  std::string uuid;
+  std::int64_t calibration_id = 0;
+  std::int64_t start_utc_ns = 0;
+  std::string source;
+  bool simulated = false;
+  ScanPlan plan;
+  ScanState state = ScanState::kRunning;
+  std::string reason;
+  std::int64_t lines = -1;
+  std::int64_t motor_batches = -1;
+  std::int64_t frames = -1;
+};
+
+/// The scan part of the mission file: rows <-> values, each with its checksum. `file` names the
+/// file in errors. The writers assume that the caller holds a transaction or a savepoint.
+class ScanRows {
+ public:
+  ScanRows(SqliteDatabase& database, const std::string& file) : database_(database), file_(file) {}
+
+  Result<std::int64_t> InsertScan(const Scan& header);
+  Status InsertLine(std::int64_t scan_id, const LidarLine& line);
+  Status InsertMotorSamples(std::int64_t scan_id, std::span<const MotorSample> samples);
+  /// `png` is the frame's picture.
+  Status InsertFrame(std::int64_t scan_id, const CameraFrame& frame, const std::string& png);
+  /// Counts what the scan has and closes its row.
+  Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
+
+  Result<std::vector<ScanRow>> ReadScanRows() const;
+  Result<std::int64_t> CountLines(std::int64_t scan_id) const;
+  Result<std::int64_t> CountFrames(std::int64_t scan_id) const;
+  /// Fails with kInvalidInput when there is no such scan.
+  Result<Scan> ReadScan(std::int64_t id) const;
+
+ private:
+  Result<std::int64_t> CalibrationId(const std::string& rig_yaml);
+  Result<SensorRig> ReadRig(std::int64_t calibration_id) const;
+  Result<std::vector<LidarLine>> ReadLines(const ScanRow& scan) const;
+  Result<MotorTrack> ReadTrack(const ScanRow& scan) const;
+  Result<std::vector<CameraFrame>> ReadFrames(const ScanRow& scan) const;
+  Result<CameraFrame> ReadFrame(const SqliteStatement& row, std::int64_t scan_id,
+                                std::int64_t position) const;
+  Result<std::int64_t> Query(const char* sql, std::int64_t scan_id) const;
+  Status CheckCount(const ScanRow& scan, const char* what, std::size_t found,
+                    std::int64_t expected) const;
+
+  SqliteDatabase& database_;
+  const std::string& file_;
+};
+
+}  // namespace foresight

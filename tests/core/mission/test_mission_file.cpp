@@ -1,0 +1,268 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <thread>
+
+#include "core/mission/mission_file.h"
+#include "tests/core/io/temporary_folder.h"
+#include "tests/core/mission/sample_scan.h"
+
+namespace foresight {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(MissionFile, AScanComesBackBitForBit) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  std::int64_t id = 0;
+  {
+    const auto mission = MissionFile::Create(folder / "m.mission").value();
+    id = Record(*mission, scan);
+  }
+  const auto mission = MissionFile::OpenReadOnly(folder / "m.mission").value();
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), scan));
+}
+
+TEST(MissionFile, TheRigComesBack) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const SensorRig rig = mission->LoadScan(Record(*mission, scan)).value().rig;
+  EXPECT_EQ(rig.camera, scan.rig.camera);
+  EXPECT_EQ(rig.lidar, scan.rig.lidar);
+  EXPECT_EQ(rig.angle_correction, scan.rig.angle_correction);
+  // Rigid normalises its quaternion again, which may move the last digit.
+  EXPECT_TRUE(rig.camera_from_lidar.Matrix().isApprox(scan.rig.camera_from_lidar.Matrix(), 1e-14));
+}
+
+TEST(MissionFile, AClosedMissionIsOneFile) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  Record(*mission, SampleScan(1));
+  ASSERT_TRUE(mission->Close());
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, ElementsAre("m.mission"));
+}
+
+TEST(MissionFile, AnExportIsCompleteWhileTheRecordingGoesOn) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t first = Record(*mission, scan);
+  mission->BeginScan(SampleScan(2)).value();
+  ASSERT_TRUE(mission->ExportTo(folder / "out.mission"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.mission-wal"));
+  const auto exported = MissionFile::OpenReadOnly(folder / "out.mission").value();
+  EXPECT_TRUE(SameButForTheRig(exported->LoadScan(first).value(), scan));
+}
+
+TEST(MissionFile, ListsScansWithoutLoadingThem) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  Scan aborted = SampleScan(2);
+  aborted.state = ScanState::kAborted;
+  aborted.reason = "the operator stopped it";
+  Record(*mission, SampleScan(1));
+  Record(*mission, aborted);
+  const std::vector<ScanSummary> scans = mission->ListScans().value();
+  ASSERT_EQ(scans.size(), 2u);
+  EXPECT_EQ(scans[0].state, ScanState::kComplete);
+  EXPECT_EQ(scans[0].lines, 20);
+  EXPECT_EQ(scans[0].frames, 2);
+  EXPECT_EQ(scans[1].reason, "the operator stopped it");
+  EXPECT_EQ(scans[1].plan, aborted.plan);
+}
+
+TEST(MissionFile, ARunningScanShowsWhatItHasSoFar) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = RecordWithoutEnd(*mission, SampleScan(1));
+  EXPECT_EQ(mission->ListScans().value()[0].state, ScanState::kRunning);
+  EXPECT_EQ(mission->ListScans().value()[0].lines, 20);
+  EXPECT_EQ(mission->LoadScan(id).value().lines.size(), 20u);
+}
+
+/// The files of a mission whose program was killed: a copy taken while it was open.
+void CopyAsIfKilled(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::filesystem::copy_file(from, to);
+  std::filesystem::copy_file(from.string() + "-wal", to.string() + "-wal");
+}
+
+TEST(MissionFile, AKilledRecordingLosesNothingAndIsInterrupted) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = RecordWithoutEnd(*mission, scan);
+  CopyAsIfKilled(folder / "m.mission", folder / "killed.mission");
+
+  const auto reopened = MissionFile::Open(folder / "killed.mission").value();
+  const Scan loaded = reopened->LoadScan(id).value();
+  EXPECT_EQ(loaded.lines, scan.lines);
+  EXPECT_EQ(loaded.state, ScanState::kInterrupted);
+  EXPECT_EQ(loaded.reason, "the recording program ended before the scan did");
+  EXPECT_EQ(reopened->ListScans().value()[0].state, ScanState::kInterrupted);
+}
+
+TEST(MissionFile, AKilledRecordingReadOnlyReadsAsInterrupted) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = RecordWithoutEnd(*mission, SampleScan(1));
+  CopyAsIfKilled(folder / "m.mission", folder / "killed.mission");
+  const auto reopened = MissionFile::OpenReadOnly(folder / "killed.mission").value();
+  EXPECT_EQ(reopened->LoadScan(id).value().state, ScanState::kInterrupted);
+  EXPECT_EQ(reopened->ListScans().value()[0].state, ScanState::kInterrupted);
+}
+
+TEST(MissionFile, ATornLogKeepsACleanBeginning) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = RecordWithoutEnd(*mission, scan);
+  CopyAsIfKilled(folder / "m.mission", folder / "torn.mission");
+  const std::filesystem::path wal = folder / "torn.mission-wal";
+  std::filesystem::resize_file(wal, std::filesystem::file_size(wal) * 2 / 3);
+  const Scan loaded = MissionFile::Open(folder / "torn.mission").value()->LoadScan(id).value();
+  ASSERT_GT(loaded.lines.size(), 5u);
+  ASSERT_LE(loaded.lines.size(), scan.lines.size());
+  EXPECT_TRUE(std::equal(loaded.lines.begin(), loaded.lines.end(), scan.lines.begin()));
+}
+
+TEST(MissionFile, IsInUseWhileAnotherRecords) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  RecordWithoutEnd(*mission, SampleScan(1));
+  for (const auto& second :
+       {MissionFile::Open(folder / "m.mission"), MissionFile::OpenReadOnly(folder / "m.mission")}) {
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::kIo);
+    EXPECT_THAT(second.error().message, HasSubstr("m.mission: is in use by another program"));
+  }
+}
+
+TEST(MissionFile, ReadOnlyLeavesNoTraceAndRefusesToWrite) {
+  const TemporaryFolder folder;
+  MissionFile::Create(folder / "m.mission").value().reset();
+  const auto written = std::filesystem::last_write_time(folder / "m.mission");
+  const auto mission = MissionFile::OpenReadOnly(folder / "m.mission").value();
+  EXPECT_EQ(mission->BeginScan(SampleScan(1)).error().code, ErrorCode::kState);
+  EXPECT_EQ(mission->AddEvent({}).error().code, ErrorCode::kState);
+  EXPECT_EQ(std::filesystem::last_write_time(folder / "m.mission"), written);
+  EXPECT_FALSE(std::filesystem::exists(folder / "m.mission-shm"));
+}
+
+TEST(MissionFile, APathWithSpecialCharactersIsFound) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "50% of #3? \xc3\xa9.mission";
+  MissionFile::Create(path).value().reset();
+  EXPECT_TRUE(std::filesystem::exists(path));
+  EXPECT_TRUE(MissionFile::OpenReadOnly(path));
+}
+
+TEST(MissionFile, CreateNeverReplacesAFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "m.mission") << "precious";
+  EXPECT_EQ(MissionFile::Create(folder / "m.mission").error().code, ErrorCode::kIo);
+  EXPECT_EQ(std::filesystem::file_size(folder / "m.mission"), 8u);
+}
+
+TEST(MissionFile, KeepsDetectionsAndEvents) {
+  const TemporaryFolder folder;
+  DetectionRecord detection{0, 0, "valve", 42, R"({"score":0.9})"};
+  EventRecord event{0, 43, "head", "warning", "the lidar lost 3 lines", "{}"};
+  {
+    const auto mission = MissionFile::Create(folder / "m.mission").value();
+    detection.scan_id = Record(*mission, SampleScan(1));
+    detection.id = mission->AddDetection(detection).value();
+    event.id = mission->AddEvent(event).value();
+  }
+  const auto mission = MissionFile::OpenReadOnly(folder / "m.mission").value();
+  EXPECT_THAT(mission->ListDetections().value(), ElementsAre(detection));
+  EXPECT_THAT(mission->ListEvents().value(), ElementsAre(event));
+}
+
+TEST(MissionFile, ADetectionNeedsItsScan) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  EXPECT_EQ(mission->AddDetection({0, 99, "valve", 0, "{}"}).error().code,
+            ErrorCode::kInvalidInput);
+  EXPECT_THAT(mission->ListDetections().value(), IsEmpty());
+}
+
+TEST(MissionFile, OneScanRunsAtATime) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  mission->BeginScan(SampleScan(1)).value();
+  EXPECT_EQ(mission->BeginScan(SampleScan(2)).error().code, ErrorCode::kState);
+}
+
+TEST(MissionFile, AnEndedScanTakesNoMoreLines) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = Record(*mission, scan);
+  EXPECT_EQ(mission->AppendLine(id, scan.lines[0]).error().code, ErrorCode::kState);
+}
+
+TEST(MissionFile, ImpossibleLinesAreRefusedByName) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = mission->BeginScan(scan).value();
+  ASSERT_TRUE(mission->AppendLine(id, scan.lines[5]));
+  EXPECT_THAT(mission->AppendLine(id, scan.lines[4]).error().message,
+              HasSubstr("line 4 comes after line 5"));
+  LidarLine timeless = scan.lines[6];
+  timeless.time_s = std::nan("");
+  EXPECT_THAT(mission->AppendLine(id, timeless).error().message, HasSubstr("line 6: time nan"));
+}
+
+TEST(MissionFile, ABatchKeepsWhatCameBeforeItsFailure) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = mission->BeginScan(scan).value();
+  const Status status = mission->Batch([&]() -> Status {
+    FORESIGHT_CHECK(mission->AppendLine(id, scan.lines[0]));
+    FORESIGHT_CHECK(mission->AppendLine(id, scan.lines[1]));
+    return mission->AppendLine(id, scan.lines[0]);
+  });
+  EXPECT_EQ(status.error().code, ErrorCode::kInvalidInput);
+  EXPECT_EQ(mission->LoadScan(id).value().lines.size(), 2u);
+}
+
+TEST(MissionFile, ANegativeZeroIsNoDamage) {
+  const TemporaryFolder folder;
+  Scan scan = SampleScan(1);
+  scan.frames[0].target_angle_rad = -0.0;
+  scan.frames[0].gain_db = -0.0;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  EXPECT_EQ(mission->LoadScan(Record(*mission, scan)).value().frames, scan.frames);
+}
+
+TEST(MissionFile, ThreadsMayWriteAndListAtTheSameTime) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  std::jthread writer([&] { Record(*mission, scan); });
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(mission->ListScans());
+  writer.join();
+  EXPECT_EQ(mission->ListScans().value()[0].lines, 20);
+}
+
+TEST(MissionFile, AfterCloseEveryCallSaysSo) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  ASSERT_TRUE(mission->Close());
+  EXPECT_EQ(mission->ListScans().error().code, ErrorCode::kState);
+  EXPECT_EQ(mission->AddEvent({}).error().code, ErrorCode::kState);
+  EXPECT_EQ(mission->Verify({}).error().code, ErrorCode::kState);
+}
+
+}  // namespace
+}  // namespace foresight
