@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/base/image.h"
@@ -21,6 +20,7 @@ struct Material {
   double pattern_size_m = 0.1;
   double lidar_reflectance = 0.5;  ///< at the laser's wavelength
   double specular = 0.0;           ///< share that is mirrored away: such a return may be lost
+  double emission = 0.0;           ///< light of its own; 1 = as bright as white under light 1
 };
 
 /// One triangle mesh in the robot's frame; every solid of a scene is made into one.
@@ -29,6 +29,7 @@ struct SceneMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3i> triangles;
   Material material;
+  Rigid<frame::Robot, frame::Object> robot_from_object;  ///< where the pattern is fixed
 };
 
 /// What a scene knows to be true of an object in it.
@@ -39,7 +40,10 @@ struct ValveTruth {
 };
 struct DrillTruth {
   std::string name;
-  Rigid<frame::Robot, frame::Object> robot_from_object;  ///< x = the way the bit points, z up
+  /// x = the way the bit points, z = up along the grip; the origin is the middle of the grip's axis
+  /// on the surface that the battery stands on.
+  Rigid<frame::Robot, frame::Object> robot_from_object;
+  double scale = 1.0;  ///< 1 = 0.24 m tall
 };
 struct BlockTruth {
   std::string name;
@@ -57,13 +61,13 @@ struct Scene {
   std::string name;
   std::vector<SceneMesh> meshes;
   std::vector<Light> lights;
-  double ambient = 0.35;
+  double ambient = 0.35;  ///< light from everywhere, as a share of light 1
   std::vector<ValveTruth> valves;
   std::vector<DrillTruth> drills;
   std::vector<BlockTruth> blocks;
 };
 
-/// Reads a scene file, docs/formats.md. Fails with kBadData, naming the file and the line; an
+/// Reads a scene file, docs/simulation.md. Fails with kBadData, naming the file and the line; an
 /// unknown key is an error.
 Result<Scene> SceneFromYaml(const std::string& yaml, const std::string& source);
 Result<Scene> LoadScene(const std::filesystem::path& path);

@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <map>
+
+#include "core/base/atomic_file.h"
+#include "core/geometry/angles.h"
+#include "core/io/yaml_reader.h"
+#include "core/simulation/scene.h"
+#include "core/simulation/scene_objects.h"
+#include "core/simulation/shapes.h"
+
+namespace foresight {
+namespace {
+
+using Pose = Rigid<frame::Robot, frame::Object>;
+
+constexpr int kFormatVersion = 1;
+
+double Positive(YamlMap& map, const std::string& key) {
+  const double value = map.Number(key);
+  if (!(value > 0.0)) map.Fault(map.Node(key), "'" + key + "' is not positive");
+  return value;
+}
+
+double Positive(YamlMap& map, const std::string& key, double fallback) {
+  return map.Has(key) ? Positive(map, key) : map.Number(key, fallback);
+}
+
+double Share(YamlMap& map, const std::string& key, double fallback) {
+  const double value = map.Number(key, fallback);
+  if (!(value >= 0.0 && value <= 1.0))
+    map.Fault(map.Node(key), "'" + key + "' is not between 0 and 1");
+  return value;
+}
+
+Eigen::Vector3d Size(YamlMap& map, const std::string& key, const Eigen::Vector3d& fallback) {
+  const Eigen::Vector3d value = map.Vector(key, fallback);
+  if (!(value.minCoeff() > 0.0)) map.Fault(map.Node(key), "'" + key + "' is not positive");
+  return value;
+}
+
+Eigen::Vector3d Color(YamlMap& map, const std::string& key, const Eigen::Vector3d& fallback) {
+  const Eigen::Vector3d value = map.Vector(key, fallback);
+  if (!(value.minCoeff() >= 0.0 && value.maxCoeff() <= 1.0))
+    map.Fault(map.Node(key), "'" + key + "' is not a colour of values between 0 and 1");
+  return value;
+}
+
+Pose PoseOf(YamlMap& map) {
+  const Eigen::Vector3d position = map.Vector("position_m", Eigen::Vector3d::Zero());
+  const Eigen::Vector3d rpy_deg = map.Vector("rpy_deg", Eigen::Vector3d::Zero());
+  const Eigen::Quaterniond rotation =
+      Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.z()), Eigen::Vector3d::UnitZ()) *
+      Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.y()), Eigen::Vector3d::UnitY()) *
+      Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.x()), Eigen::Vector3d::UnitX());
+  return {rotation, position};
+}
+
+Material::Pattern PatternOf(YamlMap& map) {
+  static const std::map<std::string, Material::Pattern> kPatterns = {
+      {"plain", Material::Pattern::kPlain},
+      {"checker", Material::Pattern::kChecker},
+      {"stripes", Material::Pattern::kStripes},
+      {"noise", Material::Pattern::kNoise},
+      {"brick", Material::Pattern::kBrick}};
+  const std::string name = map.Text("pattern", "plain");
+  const auto found = kPatterns.find(name);
+  if (found == kPatterns.end())
+    map.Fault(map.Node("pattern"),
+              "pattern '" + name + "' is not plain, checker, stripes, noise or brick");
+  return found->second;
+}
+
+Material MaterialOf(YamlMap map) {
+  Material material;
+  material.color = Color(map, "color", material.color);
+  material.pattern = PatternOf(map);
+  material.color2 = Color(map, "color2", material.color2);
+  material.pattern_size_m = Positive(map, "pattern_size_m", material.pattern_size_m);
+  material.lidar_reflectance = Share(map, "lidar_reflectance", material.lidar_reflectance);
+  material.specular = Share(map, "specular", material.specular);
+  material.emission = map.Number("emission", material.emission);
+  map.Finish();
+  return material;
+}
+
+Light LightOf(YamlMap& map) {
+  Light light;
+  light.position_m = map.Vector("position_m");
+  light.intensity = Positive(map, "intensity", light.intensity);
+  map.Finish();
+  return light;
+}
+
+/// Reads the parts of one scene file that name materials.
+class SceneReader {
+ public:
+  explicit SceneReader(YamlMap& map) : map_(map) {}
+
+  Scene Read() {
+    const int version = map_.Integer("foresight_scene");
+    if (version != kFormatVersion)
+      map_.Fault(fmt::format("scene format {} is not known; this program reads {}", version,
+                             kFormatVersion));
+    scene_.name = map_.Text("name");
+    scene_.ambient = map_.Number("ambient", scene_.ambient);
+    for (YamlMap& entry : map_.List("lights")) scene_.lights.push_back(LightOf(entry));
+    ReadMaterials();
+    for (YamlMap& entry : map_.List("solids")) ReadSolid(entry);
+    for (YamlMap& entry : map_.List("objects")) ReadObject(entry);
+    map_.Finish();
+    return std::move(scene_);
+  }
+
+ private:
+  void ReadMaterials() {
+    const YAML::Node node = map_.Node("materials");
+    if (!node.IsDefined()) return;
+    if (!node.IsMap()) map_.Fault(node, "'materials' is not a mapping of names");
+    for (const auto& entry : node)
+      materials_[entry.first.Scalar()] = MaterialOf({entry.second, map_.source()});
+  }
+
+  Material Named(YamlMap& map, const std::string& key) const {
+    const std::string name = map.Text(key);
+    const auto found = materials_.find(name);
+    if (found == materials_.end())
+      map.Fault(map.Node(key), "material '" + name + "' is not among the materials");
+    return found->second;
+  }
+  Material Named(YamlMap& map, const std::string& key, const Material& fallback) const {
+    return map.Has(key) ? Named(map, key) : fallback;
+  }
+
+  void ReadSolid(YamlMap& map);
+  Shape ShapeOf(YamlMap& map, const std::string& kind, Pose& pose) const;
+  double LengthOrEnds(YamlMap& map, Pose& pose) const;
+  void ReadObject(YamlMap& map);
+  void ReadValve(YamlMap& map);
+  void ReadDrill(YamlMap& map);
+  void ReadBlock(YamlMap& map);
+
+  YamlMap& map_;
+  Scene scene_;
+  std::map<std::string, Material> materials_;
+};
+
+/// A long solid's length: given, or by the two ends of its axis, which are its pose as well.
+double SceneReader::LengthOrEnds(YamlMap& map, Pose& pose) const {
+  if (!map.Has("from_m") && !map.Has("to_m")) {
+    pose = PoseOf(map);
+    return Positive(map, "length_m");
+  }
+  const Eigen::Vector3d from = map.Vector("from_m");
+  const Eigen::Vector3d to = map.Vector("to_m");
+  if (!((to - from).norm() > 1e-6)) map.Fault("'from_m' and 'to_m' are the same point");
+  pose = Pose() * PoseAlong(from, to);
+  return (to - from).norm();
+}
+
+Shape SceneReader::ShapeOf(YamlMap& map, const std::string& kind, Pose& pose) const {
+  if (kind == "cylinder" || kind == "capsule") {
+    const double length = LengthOrEnds(map, pose);
+    const double radius = Positive(map, "radius_m");
+    return kind == "cylinder" ? CylinderShape(radius, length) : CapsuleShape(radius, length);
+  }
+  pose = PoseOf(map);
+  if (kind == "box") {
+    map.Vector("size_m");  // has no default
+    return BoxShape(Size(map, "size_m", Eigen::Vector3d::Zero()));
+  }
+  if (kind == "plane") {
+    const std::vector<double> size = map.Numbers("size_m", 2);
+    if (!(size[0] > 0.0 && size[1] > 0.0))
+      map.Fault(map.Node("size_m"), "'size_m' is not positive");
+    return RectangleShape(size[0], size[1]);
+  }
+  if (kind == "sphere") return SphereShape(Positive(map, "radius_m"));
+  if (kind == "torus") {
+    const double radius = Positive(map, "radius_m");
+    const double tube = Positive(map, "tube_radius_m");
+    if (tube >= radius)
+      map.Fault(map.Node("tube_radius_m"), "'tube_radius_m' is not below 'radius_m'");
+    return TorusShape(radius, tube);
+  }
+  map.Fault(map.Node("shape"),
+            "shape '" + kind + "' is not box, plane, cylinder, capsule, sphere or torus");
+}
+
+void SceneReader::ReadSolid(YamlMap& map) {
+  const std::string kind = map.Text("shape");
+  SceneMesh mesh;
+  mesh.name = map.Text("name", kind);
+  mesh.material = Named(map, "material");
+  const Shape shape = ShapeOf(map, kind, mesh.robot_from_object);
+  AppendShape(shape, mesh.robot_from_object, mesh);
+  map.Finish();
+  scene_.meshes.push_back(std::move(mesh));
+}
+
+void SceneReader::ReadObject(YamlMap& map) {
+  const std::string kind = map.Text("kind");
+  if (kind == "valve") {
+    ReadValve(map);
+  } else if (kind == "drill") {
+    ReadDrill(map);
+  } else if (kind == "block") {
+    ReadBlock(map);
+  } else {
+    map.Fault(map.Node("kind"), "object '" + kind + "' is not valve, drill or block");
+  }
+}
+
+void SceneReader::ReadValve(YamlMap& map) {
+  ValveObject valve;
+  valve.name = map.Text("name", "valve");
+  const Eigen::Vector3d axis = map.Vector("axis", -Eigen::Vector3d::UnitX());
+  if (!(std::abs(axis.z()) < 0.99 * axis.norm()))
+    map.Fault(map.Node("axis"), "'axis' is zero or vertical");
+  valve.robot_from_object =
+      ValvePose(map.Vector("position_m"), axis, RadiansFromDegrees(map.Number("phase_deg", 0.0)));
+  valve.model.rim_radius_m = map.Number("rim_radius_m", valve.model.rim_radius_m);
+  valve.model.tube_radius_m = map.Number("tube_radius_m", valve.model.tube_radius_m);
+  valve.model.spokes = map.Integer("spokes", valve.model.spokes);
+  valve.model.spoke_radius_m = map.Number("spoke_radius_m", valve.model.spoke_radius_m);
+  valve.model.hub_radius_m = map.Number("hub_radius_m", valve.model.hub_radius_m);
+  valve.model.dish_m = map.Number("dish_m", valve.model.dish_m);
+  if (const Status status = valve.model.Check(); !status) map.Fault(status.error().message);
+  valve.stem_length_m = Positive(map, "stem_length_m", valve.stem_length_m);
+  valve.stem_radius_m = Positive(map, "stem_radius_m", valve.stem_radius_m);
+  valve.flange_radius_m = Positive(map, "flange_radius_m", valve.flange_radius_m);
+  valve.wheel_material = Named(map, "material");
+  valve.body_material = Named(map, "body_material", valve.wheel_material);
+  map.Finish();
+  AddValve(valve, scene_);
+}
+
+void SceneReader::ReadDrill(YamlMap& map) {
+  DrillObject drill;
+  drill.name = map.Text("name", "drill");
+  drill.robot_from_object = PoseOf(map);
+  drill.scale = Positive(map, "scale", drill.scale);
+  drill.shell_material = Named(map, "material");
+  drill.grip_material = Named(map, "grip_material", drill.shell_material);
+  drill.metal_material = Named(map, "metal_material", drill.grip_material);
+  map.Finish();
+  AddDrill(drill, scene_);
+}
+
+void SceneReader::ReadBlock(YamlMap& map) {
+  BlockObject block;
+  block.name = map.Text("name", "block");
+  block.robot_from_object = PoseOf(map);
+  block.size_m = Size(map, "size_m", block.size_m);
+  block.material = Named(map, "material");
+  map.Finish();
+  AddBlock(block, scene_);
+}
+
+}  // namespace
+
+Result<Scene> SceneFromYaml(const std::string& yaml, const std::string& source) {
+  Scene scene;
+  FORESIGHT_CHECK(ParseYaml(yaml, source, [&](YamlMap& map) { scene = SceneReader(map).Read(); }));
+  return scene;
+}
+
+Result<Scene> LoadScene(const std::filesystem::path& path) {
+  FORESIGHT_TRY(const std::string yaml, ReadFile(path, 1 << 20));
+  return SceneFromYaml(yaml, path.string());
+}
+
+}  // namespace foresight

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/geometry/rigid.h"
+#include "core/simulation/scene.h"
+
+namespace foresight {
+
+/// Triangles of one solid in its own frame, metres, wound counter-clockwise seen from outside.
+struct Shape {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+/// Centred on the origin.
+Shape BoxShape(const Eigen::Vector3d& size_m);
+/// A rectangle in z = 0 around the origin.
+Shape RectangleShape(double width_m, double height_m);
+
+// Round shapes turn around z and are centred on the origin. 128 corners to a turn: the flats of a
+// 0.2 m wheel lie 0.06 mm inside the true surface, far below the noise of any sensor here.
+Shape CylinderShape(double radius_m, double length_m);
+Shape SphereShape(double radius_m);
+Shape TorusShape(double radius_m, double tube_radius_m);
+/// Length between the centres of its two half spheres.
+Shape CapsuleShape(double radius_m, double length_m);
+/// A plate of constant thickness between a hub at z = -dish_m and the circle z = 0, r = radius_m.
+Shape DishShape(double radius_m, double dish_m, double thickness_m);
+
+/// Adds the shape to a mesh.
+void AppendShape(const Shape& shape, const Rigid<frame::Robot, frame::Object>& robot_from_shape,
+                 SceneMesh& mesh);
+
+/// The pose in the parent's frame of a shape whose z axis runs from one point to another and whose
+/// origin is half way. The points differ.
+Rigid<frame::Object, frame::Object> PoseAlong(const Eigen::Vector3d& from,
+                                              const Eigen::Vector3d& to);
+
+}  // namespace foresight

@@ -1,0 +1,145 @@
+#include "core/simulation/world.h"
+
+#include <span>
+#include <vector>
+
+#include "core/base/contract.h"
+#include "core/base/parallel.h"
+#include "core/simulation/image_sensor.h"
+#include "core/simulation/lidar_simulator.h"
+#include "core/simulation/motor_simulator.h"
+#include "core/simulation/noise_stream.h"
+#include "core/simulation/picture_renderer.h"
+#include "core/simulation/ray_caster.h"
+
+namespace foresight {
+namespace {
+
+std::shared_ptr<const Scene> Checked(std::shared_ptr<const Scene> scene, const SensorRig& rig,
+                                     const WorldOptions& options) {
+  FORESIGHT_EXPECTS(scene != nullptr, "a world needs a scene");
+  const Status rig_status = rig.Check();
+  FORESIGHT_EXPECTS(rig_status.has_value(), rig_status.error().message);
+  const Status options_status = options.Check();
+  FORESIGHT_EXPECTS(options_status.has_value(), options_status.error().message);
+  return scene;
+}
+
+}  // namespace
+
+struct World::Impl {
+  Impl(std::shared_ptr<const Scene> from, const SensorRig& true_rig, const WorldOptions& with)
+      : scene(Checked(std::move(from), true_rig, with)),
+        rig(true_rig),
+        options(with),
+        caster(scene),
+        motor(with.motor, with.seed),
+        lidar(caster, true_rig, with.lidar, with.seed),
+        renderer(caster, true_rig.camera, with.camera.samples_side),
+        sensor(true_rig.camera, with.camera, with.seed) {}
+
+  double Jitter(NoisePurpose purpose, std::int64_t seq) const {
+    if (!options.motor.enabled) return 0.0;
+    return options.motor.jitter_rad * NoiseStream(options.seed, purpose, seq).Normal();
+  }
+  Rigid<frame::Robot, frame::Camera> RobotFromCamera(double plate_rad) const {
+    return rig.robot_from_base * HeadFromBase(plate_rad).Inverse() * rig.camera_from_head.Inverse();
+  }
+
+  std::shared_ptr<const Scene> scene;
+  SensorRig rig;
+  WorldOptions options;
+  RayCaster caster;
+  MotorSimulator motor;
+  LidarSimulator lidar;
+  PictureRenderer renderer;
+  ImageSensor sensor;
+};
+
+World::World(std::shared_ptr<const Scene> scene, const SensorRig& true_rig,
+             const WorldOptions& options)
+    : impl_(std::make_shared<const Impl>(std::move(scene), true_rig, options)) {}
+
+const Scene& World::scene() const {
+  return *impl_->scene;
+}
+
+const SensorRig& World::true_rig() const {
+  return impl_->rig;
+}
+
+const WorldOptions& World::options() const {
+  return impl_->options;
+}
+
+double World::PlateAngle(double motor_rad, bool moving_up) const {
+  return impl_->motor.PlateAngle(motor_rad, moving_up);
+}
+
+double World::EncoderAngle(double motor_rad) const {
+  return impl_->motor.EncoderAngle(motor_rad);
+}
+
+AngleCorrection World::CalibratedCorrection() const {
+  return impl_->motor.CalibratedCorrection();
+}
+
+LidarLine World::MeasureLine(std::int64_t seq, double time_s,
+                             const std::function<double(double)>& motor_rad_at) const {
+  const LidarModel& lidar = impl_->rig.lidar;
+  const bool moving_up = motor_rad_at(time_s + lidar.BeamTime(lidar.beams - 1)) >=
+                         motor_rad_at(time_s + lidar.BeamTime(0));
+  const double jitter_rad = impl_->Jitter(NoisePurpose::kLidarJitter, seq);
+  return impl_->lidar.Measure(seq, time_s, [&](double beam_time_s) {
+    return PlateAngle(motor_rad_at(beam_time_s), moving_up) + jitter_rad;
+  });
+}
+
+CameraFrame World::TakePicture(std::int64_t seq, double time_s, double exposure_s, double gain_db,
+                               const std::function<double(double)>& motor_rad_at,
+                               const RunContext& context) const {
+  const double start_s = time_s - 0.5 * exposure_s;
+  const bool moving_up = motor_rad_at(start_s + exposure_s) >= motor_rad_at(start_s);
+  const double jitter_rad = impl_->Jitter(NoisePurpose::kPictureJitter, seq);
+  PictureRenderer::CameraMotion motion;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const double moment_s =
+        start_s + exposure_s * (static_cast<double>(i) + 0.5) / static_cast<double>(motion.size());
+    motion[i] = impl_->RobotFromCamera(PlateAngle(motor_rad_at(moment_s), moving_up) + jitter_rad);
+  }
+
+  CameraFrame frame{.seq = seq,
+                    .time_s = time_s,
+                    .exposure_s = exposure_s,
+                    .gain_db = gain_db,
+                    .motor_angle_rad = EncoderAngle(motor_rad_at(time_s)),
+                    .target_angle_rad = 0.0,
+                    .image = {}};
+  const FisheyeCamera& camera = impl_->rig.camera;
+  const auto width = static_cast<std::size_t>(camera.width);
+  ColorImage image(camera.width, camera.height);
+  const bool finished = ParallelFor(camera.height, context, [&](int y) {
+    std::vector<Eigen::Vector3f> light(width);
+    impl_->renderer.RenderRow(motion, y, light);
+    impl_->sensor.ExposeRow(seq, y, exposure_s, gain_db, light, {image.row(y), width});
+  });
+  if (finished) frame.image = std::move(image);
+  return frame;
+}
+
+DepthImage World::TrueDepth(double motor_rad, const RunContext& context) const {
+  const FisheyeCamera& camera = impl_->rig.camera;
+  const auto robot_from_camera = impl_->RobotFromCamera(PlateAngle(motor_rad, true));
+  DepthImage depth(camera.width, camera.height);
+  const bool finished = ParallelFor(camera.height, context, [&](int y) {
+    impl_->renderer.RenderDepthRow(robot_from_camera, y,
+                                   {depth.row(y), static_cast<std::size_t>(camera.width)});
+  });
+  return finished ? depth : DepthImage();
+}
+
+Rigid<frame::Base, frame::Robot> World::BaseFromRobot() const {
+  return impl_->rig.robot_from_base.Inverse();
+}
+
+}  // namespace foresight
