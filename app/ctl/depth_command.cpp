@@ -1,0 +1,71 @@
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "app/ctl/depth_files.h"
+#include "app/ctl/open_scan.h"
+#include "core/depth/imported_samples.h"
+#include "core/geometry/angles.h"
+#include "core/io/png.h"
+#include "core/registration/register_scan.h"
+
+namespace foresight {
+namespace {
+
+struct DepthCommandArguments {
+  ScanArguments scan;
+  DepthArguments depth;
+  std::string out = ".";
+  bool json = false;
+};
+
+Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const OpenedScan opened, OpenScan(arguments.scan));
+  FORESIGHT_TRY(const RegisteredScan registered, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
+  FORESIGHT_TRY(AlignedSamples samples,
+                AlignToImage(registered, opened.scan.rig, opened.frame.motor_angle_rad,
+                             context.Part(0.1, 0.2)));
+  FORESIGHT_TRY(const DepthResult result,
+                ComputeDepth(std::move(samples), opened.frame.image,
+                             DepthOptionsFrom(arguments.depth), context.Part(0.2, 1.0)));
+  WarnOfLowDensity(result);
+  FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
+  FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));
+  const std::filesystem::path folder(arguments.out);
+  FORESIGHT_CHECK(WritePng(folder / "image.png", opened.frame.image));
+  FORESIGHT_CHECK(WriteCsvSamples(folder / "samples.csv", ExportSamples(result.samples)));
+  FORESIGHT_CHECK(SaveSensorRig(opened.scan.rig, folder / "rig.yaml"));
+  const std::size_t count = result.samples.samples.size();
+  const double image_deg = DegreesFromRadians(opened.frame.motor_angle_rad);
+  if (arguments.json)
+    PrintJson({{"scan", opened.id},
+               {"image_deg", image_deg},
+               {"samples", count},
+               {"rejected", count - result.samples.KeptCount()},
+               {"density", result.samples.Density()},
+               {"sigma_spatial_px", result.dense.sigma_spatial_px},
+               {"seconds", result.seconds},
+               {"out", arguments.out}});
+  else
+    PrintLine(fmt::format(
+        "{}: depth.pfm, confidence.pfm, mask.png, image.png, samples.csv, rig.yaml of scan {} at "
+        "{:.1f} deg; {} samples, {} rejected, {:.2f} s",
+        arguments.out, opened.id, image_deg, count, count - result.samples.KeptCount(),
+        result.seconds));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddDepthCommand(CLI::App& app, Invocation& invocation) {
+  const auto arguments = std::make_shared<DepthCommandArguments>();
+  CLI::App* command = app.add_subcommand("depth", "Make the masked dense depth map of a scan");
+  AddScanArguments(*command, arguments->scan);
+  AddDepthArguments(*command, arguments->depth);
+  command->add_option("-o,--out", arguments->out, "Folder for the results")->capture_default_str();
+  command->add_flag("--json", arguments->json, "Print the summary as JSON");
+  command->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) { return Depth(*arguments, context); };
+  });
+}
+
+}  // namespace foresight

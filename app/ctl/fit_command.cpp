@@ -1,0 +1,120 @@
+#include <chrono>
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "app/ctl/depth_files.h"
+#include "app/ctl/open_scan.h"
+#include "core/fitting/detection_json.h"
+#include "core/fitting/fit_valve.h"
+#include "core/geometry/angles.h"
+#include "core/registration/register_scan.h"
+
+namespace foresight {
+namespace {
+
+struct FitArguments {
+  ScanArguments scan;
+  DepthArguments depth;
+  std::vector<double> roi;
+  std::string source = "depth";
+  std::uint64_t seed = 1;
+  bool save = false;
+  bool json = false;
+};
+
+/// Deviations of a range: the lidar's own noise, and what is left of it after upsampling.
+constexpr double kRawSigma_m = 0.010;
+constexpr double kDenseSigma_m = 0.006;
+
+Result<RaySet> RaysOf(const FitArguments& arguments, const OpenedScan& opened, const ImageRoi& roi,
+                      const RunContext& context) {
+  FORESIGHT_TRY(const RegisteredScan registered, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
+  if (arguments.source == "raw") return RaysFromScan(registered, opened.scan.rig, roi, kRawSigma_m);
+  FORESIGHT_TRY(AlignedSamples samples,
+                AlignToImage(registered, opened.scan.rig, opened.frame.motor_angle_rad,
+                             context.Part(0.1, 0.2)));
+  FORESIGHT_TRY(const DepthResult result,
+                ComputeDepth(std::move(samples), opened.frame.image,
+                             DepthOptionsFrom(arguments.depth), context.Part(0.2, 0.6)));
+  return RaysFromDepth(ApplyMask(result.dense.depth_m, result.mask), opened.scan.rig, roi, 2,
+                       kDenseSigma_m, result.samples.Density());
+}
+
+Status SaveDetection(const FitArguments& arguments, std::int64_t scan_id, const std::string& json) {
+  FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
+                MissionFile::Open(arguments.scan.mission));
+  DetectionRecord record;
+  record.scan_id = scan_id;
+  record.kind = "valve";
+  record.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                      std::chrono::system_clock::now().time_since_epoch())
+                      .count();
+  record.json = json;
+  FORESIGHT_CHECK(mission->AddDetection(record));
+  return mission->Close();
+}
+
+void PrintSummary(const ValveDetection& d, const SensorRig& rig) {
+  const Eigen::Vector3d centre = rig.robot_from_base * d.best.base_from_object.translation();
+  const Eigen::Vector3d axis =
+      rig.robot_from_base.Rotate(d.best.base_from_object.Rotate(Eigen::Vector3d::UnitZ()));
+  PrintLine(fmt::format("{} ({:.0f} %): {}", ToString(d.verdict.level),
+                        100.0 * d.verdict.probability, d.verdict.reason));
+  PrintLine(fmt::format("centre in robot  {:.1f} {:.1f} {:.1f} mm, axis {:.4f} {:.4f} {:.4f}",
+                        1000.0 * centre.x(), 1000.0 * centre.y(), 1000.0 * centre.z(), axis.x(),
+                        axis.y(), axis.z()));
+  PrintLine(fmt::format("rim diameter     {:.1f} mm, {} spokes", 2000.0 * d.best.model.rim_radius_m,
+                        d.best.model.spokes));
+}
+
+Result<ExitCode> FitValveCommand(const FitArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const OpenedScan opened, OpenScan(arguments.scan));
+  const ImageRoi roi =
+      ImageRoi::Rectangle(opened.frame.motor_angle_rad, {arguments.roi[0], arguments.roi[1]},
+                          {arguments.roi[2], arguments.roi[3]});
+  FORESIGHT_CHECK(roi.Check());
+  FORESIGHT_TRY(const RaySet rays, RaysOf(arguments, opened, roi, context));
+  FitValveOptions options;
+  options.seed = arguments.seed;
+  FORESIGHT_TRY(ValveDetection detection, FitValve(rays, options, context.Part(0.6, 1.0)));
+  detection.roi = roi;
+  const std::string json = DetectionToJson(detection, opened.scan.rig.robot_from_base);
+  if (arguments.save) FORESIGHT_CHECK(SaveDetection(arguments, opened.id, json));
+  if (arguments.json)
+    PrintLine(json);
+  else
+    PrintSummary(detection, opened.scan.rig);
+  return detection.verdict.level == VerdictLevel::kUnsure ? ExitCode::kNegative : ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddFitCommand(CLI::App& app, Invocation& invocation) {
+  CLI::App* fit = app.add_subcommand("fit", "Fit a known object in a region of a scan");
+  fit->require_subcommand(1);
+  const auto arguments = std::make_shared<FitArguments>();
+  CLI::App* valve = fit->add_subcommand("valve", "Fit a wheel valve");
+  AddScanArguments(*valve, arguments->scan);
+  AddDepthArguments(*valve, arguments->depth);
+  valve
+      ->add_option("--roi", arguments->roi,
+                   "Region in the picture: left top right bottom, in pixels")
+      ->expected(4)
+      ->delimiter(',')
+      ->required();
+  valve
+      ->add_option("--source", arguments->source,
+                   "What to fit: raw (lidar returns) or depth (masked dense depth)")
+      ->check(CLI::IsMember({"raw", "depth"}))
+      ->capture_default_str();
+  valve->add_option("--seed", arguments->seed, "Seed of the random search")->capture_default_str();
+  valve->add_flag("--save", arguments->save, "Write the answer into the mission file");
+  valve->add_flag("--json", arguments->json, "Print the answer as JSON");
+  valve->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) {
+      return FitValveCommand(*arguments, context);
+    };
+  });
+}
+
+}  // namespace foresight

@@ -1,0 +1,47 @@
+#include "app/ctl/open_scan.h"
+
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+Result<std::int64_t> ChooseScan(const MissionFile& mission, std::int64_t wanted) {
+  FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission.ListScans());
+  if (scans.empty())
+    return Fail(ErrorCode::kInvalidInput, "{}: no scan in this mission", mission.path().string());
+  if (wanted == 0) return scans.back().id;
+  for (const ScanSummary& scan : scans)
+    if (scan.id == wanted) return wanted;
+  return Fail(ErrorCode::kInvalidInput, "{}: no scan {}; there are {} to {}",
+              mission.path().string(), wanted, scans.front().id, scans.back().id);
+}
+
+}  // namespace
+
+void AddScanArguments(CLI::App& command, ScanArguments& arguments) {
+  command.add_option("mission,--mission", arguments.mission, "Mission file")->required();
+  command.add_option("--scan", arguments.scan_id, "Number of the scan; default: the last one");
+  command
+      .add_option("--image", arguments.image_deg,
+                  "Use the picture nearest to this angle in degrees")
+      ->check(CLI::Range(-90.0, 90.0));
+}
+
+Result<OpenedScan> OpenScan(const ScanArguments& arguments) {
+  FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
+                MissionFile::OpenReadOnly(arguments.mission));
+  OpenedScan opened;
+  FORESIGHT_TRY(opened.id, ChooseScan(*mission, arguments.scan_id));
+  FORESIGHT_TRY(opened.scan, mission->LoadScan(opened.id));
+  const double middle_rad = 0.5 * (opened.scan.plan.from_rad + opened.scan.plan.to_rad);
+  const double wanted_rad =
+      arguments.image_deg > 90.0 ? middle_rad : RadiansFromDegrees(arguments.image_deg);
+  const CameraFrame* frame = NearestFrame(opened.scan, wanted_rad);
+  if (frame == nullptr)
+    return Fail(ErrorCode::kInvalidInput, "{}: scan {} has no picture", arguments.mission,
+                opened.id);
+  opened.frame = *frame;
+  return opened;
+}
+
+}  // namespace foresight

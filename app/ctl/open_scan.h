@@ -1,0 +1,29 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "core/mission/mission_file.h"
+
+namespace foresight {
+
+/// Command-line options that choose a scan and a picture of a mission file.
+struct ScanArguments {
+  std::string mission;
+  std::int64_t scan_id = 0;   ///< 0 = the last one
+  double image_deg = 1000.0;  ///< beyond any angle = the picture nearest to the middle of the scope
+};
+
+void AddScanArguments(CLI::App& command, ScanArguments& arguments);
+
+struct OpenedScan {
+  std::int64_t id = 0;
+  Scan scan;
+  CameraFrame frame;  ///< the chosen picture
+};
+
+/// Fails with kBadData where the mission is damaged, kInvalidInput where it has no such scan or
+/// picture.
+Result<OpenedScan> OpenScan(const ScanArguments& arguments);
+
+}  // namespace foresight

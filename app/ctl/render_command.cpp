@@ -1,0 +1,112 @@
+#include <cmath>
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "core/geometry/angles.h"
+#include "core/io/pfm.h"
+#include "core/io/png.h"
+#include "core/simulation/world.h"
+
+namespace foresight {
+namespace {
+
+struct RenderArguments {
+  std::string scene;
+  std::string rig;
+  std::string out = ".";
+  double angle_deg = 0.0;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+nlohmann::ordered_json PoseJson(const Rigid<frame::Base, frame::Object>& pose) {
+  const Eigen::Vector3d t = pose.translation();
+  const Eigen::Vector3d axis = pose.Rotate(Eigen::Vector3d::UnitZ());
+  return {{"position_m", {t.x(), t.y(), t.z()}}, {"axis", {axis.x(), axis.y(), axis.z()}}};
+}
+
+/// The smallest rectangle of pixels around a valve, with a margin; null when it is not in the
+/// picture.
+nlohmann::ordered_json RegionOf(const ValveTruth& valve, const World& world, double motor_rad) {
+  const SensorRig& rig = world.true_rig();
+  const auto camera_from_object =
+      rig.CameraFromBase(motor_rad) * (world.BaseFromRobot() * valve.robot_from_object);
+  Eigen::AlignedBox2d box;
+  for (const auto& line : WireframeOf(valve.model))
+    for (const auto& point : line)
+      if (const auto pixel = rig.camera.Project(camera_from_object * point);
+          pixel && rig.camera.InImage(*pixel))
+        box.extend(*pixel);
+  if (box.isEmpty()) return nullptr;
+  const double margin = 0.15 * box.sizes().maxCoeff();
+  return {box.min().x() - margin, box.min().y() - margin, box.max().x() + margin,
+          box.max().y() + margin};
+}
+
+Result<ExitCode> Render(const RenderArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(Scene scene, LoadScene(arguments.scene));
+  SensorRig rig = DefaultSensorRig();
+  if (!arguments.rig.empty()) {
+    FORESIGHT_TRY(rig, LoadSensorRig(arguments.rig));
+  }
+  WorldOptions options;
+  options.seed = arguments.seed;
+  options.motor.enabled = false;
+  const World world(std::make_shared<const Scene>(std::move(scene)), rig, options);
+  const double motor_rad = RadiansFromDegrees(arguments.angle_deg);
+  const CameraFrame frame = world.TakePicture(
+      0, 0.0, 0.004, 0.0, [&](double) { return motor_rad; }, context);
+  DepthImage depth_mm = world.TrueDepth(motor_rad, context);
+  for (float& value : depth_mm.values()) value *= 1000.0f;
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "rendering was cancelled");
+
+  FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
+  const std::filesystem::path folder(arguments.out);
+  FORESIGHT_CHECK(WritePng(folder / "image.png", frame.image));
+  FORESIGHT_CHECK(WritePfm(folder / "depth.pfm", depth_mm));
+  FORESIGHT_CHECK(SaveSensorRig(rig, folder / "rig.yaml"));
+  if (!arguments.json) {
+    PrintLine(fmt::format("{}: image.png, depth.pfm (mm), rig.yaml of '{}' at {:.1f} deg",
+                          arguments.out, world.scene().name, arguments.angle_deg));
+    return ExitCode::kDone;
+  }
+  auto valves = nlohmann::ordered_json::array();
+  for (const ValveTruth& valve : world.scene().valves) {
+    nlohmann::ordered_json json = {{"name", valve.name},
+                                   {"spokes", valve.model.spokes},
+                                   {"rim_radius_m", valve.model.rim_radius_m}};
+    json["base"] = PoseJson(world.BaseFromRobot() * valve.robot_from_object);
+    json["roi"] = RegionOf(valve, world, motor_rad);
+    valves.push_back(json);
+  }
+  PrintJson({{"scene", world.scene().name},
+             {"angle_deg", arguments.angle_deg},
+             {"valves", valves},
+             {"out", arguments.out}});
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddRenderCommand(CLI::App& app, Invocation& invocation) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* command =
+      app.add_subcommand("render", "Render a scene: the camera's picture and its true depth");
+  command->add_option("scene,--scene", arguments->scene, "Scene file (YAML)")->required();
+  command->add_option("--rig", arguments->rig,
+                      "Calibration of the head (YAML); default: the built-in one");
+  command
+      ->add_option("--angle", arguments->angle_deg, "Angle of the plate in degrees, up is positive")
+      ->check(CLI::Range(-90.0, 90.0))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed of the camera's noise")
+      ->capture_default_str();
+  command->add_option("-o,--out", arguments->out, "Folder for image.png, depth.pfm (mm), rig.yaml")
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "Print the true objects as JSON");
+  command->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) { return Render(*arguments, context); };
+  });
+}
+
+}  // namespace foresight
