@@ -1,0 +1,72 @@
+#include "app/workstation/actions.h"
+
+#include "ui/panels/theme.h"
+
+namespace foresight {
+
+Actions::Actions(Workbench* bench, QObject* parent) : QObject(parent), bench_(bench) {
+  open = Add("open", tr("Open mission"), QKeySequence::Open, tr("Show a saved mission"));
+  save = Add("save", tr("Save mission"), QKeySequence::Save,
+             tr("Save all scans and objects to a new mission file, which then takes new ones too"));
+  export_cloud = Add("export", tr("Export cloud"), QKeySequence(QStringLiteral("Ctrl+E")),
+                     tr("Write the lidar's points as PLY, in the robot's frame"));
+  quit = Add(nullptr, tr("Quit"), QKeySequence::Quit, tr("Close the workstation"));
+  scan = Add("scan", tr("Scan"), Qt::Key_Space, tr("Start the planned scan"));
+  abort = Add("abort", tr("Abort scan"), QKeySequence(QStringLiteral("Shift+Esc")),
+              tr("End the scan and keep what it has"));
+  home = Add("home", tr("Home head"), QKeySequence(QStringLiteral("Ctrl+H")),
+             tr("Connect and search the zero reference"));
+  stop = Add("stop", tr("Stop head"), Qt::Key_F12, tr("Stop the scanner's motor at once"));
+  region_tool = Add("region", tr("Region"), Qt::Key_R, tr("Drag a rectangle to choose a region"));
+  valve_tool = Add("valve", tr("Valve"), Qt::Key_V, tr("Drag a rectangle over a valve to fit it"));
+  leave_tool = Add(nullptr, tr("Leave tool"), Qt::Key_Escape, tr("Back to moving the view"));
+  fit = Add("fit", tr("Fit valve"), Qt::Key_F, tr("Fit a valve into the region again"));
+  undo_region = Add("undo", tr("Undo region"), QKeySequence::Undo, tr("Back to the last region"));
+  reset_view = Add(nullptr, tr("Reset view"), Qt::Key_Home, tr("Show everything again"));
+  toggle_mask = Add(nullptr, tr("Mask on or off"), Qt::Key_M, tr("Hatch the uncertain depths"));
+  toggle_layer =
+      Add(nullptr, tr("Depth or confidence"), Qt::Key_C, tr("Change what the depth pane shows"));
+  shortcuts = Add("help", tr("Shortcuts"), Qt::Key_F1, tr("List all keys"));
+  region_tool->setCheckable(true);
+  valve_tool->setCheckable(true);
+  BindToBench();
+  Refresh();
+}
+
+QAction* Actions::Add(const char* icon, const QString& text, const QKeySequence& key,
+                      const QString& tip) {
+  auto* action = new QAction(text, this);
+  if (icon != nullptr) action->setIcon(Icon(icon));
+  action->setShortcut(key);
+  action->setToolTip(tr("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
+  action->setStatusTip(tip);
+  all_ << action;
+  return action;
+}
+
+void Actions::BindToBench() {
+  connect(scan, &QAction::triggered, &bench_->head, &HeadViewModel::scan);
+  connect(abort, &QAction::triggered, &bench_->head, &HeadViewModel::abort);
+  connect(home, &QAction::triggered, &bench_->head, &HeadViewModel::home);
+  connect(stop, &QAction::triggered, &bench_->head, &HeadViewModel::stop);
+  connect(region_tool, &QAction::triggered, &bench_->fit, &FitViewModel::setRoiTool);
+  connect(valve_tool, &QAction::triggered, &bench_->fit, &FitViewModel::setValveTool);
+  connect(leave_tool, &QAction::triggered, &bench_->fit, &FitViewModel::leaveTools);
+  connect(fit, &QAction::triggered, &bench_->fit, &FitViewModel::fit);
+  connect(undo_region, &QAction::triggered, &bench_->session, &SessionModel::undoRoi);
+  connect(&bench_->head, &HeadViewModel::statusChanged, this, &Actions::Refresh);
+  connect(&bench_->fit, &FitViewModel::changed, this, &Actions::Refresh);
+}
+
+void Actions::Refresh() {
+  scan->setEnabled(bench_->head.CanScan());
+  abort->setEnabled(bench_->head.CanAbort());
+  home->setEnabled(bench_->head.CanHome());
+  region_tool->setChecked(bench_->fit.RoiTool() && !bench_->fit.ValveTool());
+  valve_tool->setChecked(bench_->fit.ValveTool());
+  fit->setEnabled(bench_->fit.CanFit());
+  undo_region->setEnabled(bench_->session.CanUndoRoi());
+  export_cloud->setEnabled(bench_->exporter.CanExport());
+}
+
+}  // namespace foresight

@@ -1,0 +1,33 @@
+#include "app/workstation/shortcut_sheet.h"
+
+#include <QDialog>
+#include <QGridLayout>
+#include <QLabel>
+
+namespace foresight {
+
+void ShowShortcutSheet(const QVector<QAction*>& actions, QWidget* parent) {
+  auto* sheet = new QDialog(parent);
+  sheet->setAttribute(Qt::WA_DeleteOnClose);
+  sheet->setWindowTitle(QObject::tr("Shortcuts"));
+  auto* grid = new QGridLayout(sheet);
+  grid->setContentsMargins(24, 20, 24, 20);
+  grid->setHorizontalSpacing(24);
+  grid->setVerticalSpacing(8);
+  int row = 0;
+  for (const QAction* action : actions) {
+    auto* key = new QLabel(action->shortcut().toString(QKeySequence::NativeText));
+    QFont bold = key->font();
+    bold.setBold(true);
+    key->setFont(bold);
+    auto* tip = new QLabel(action->statusTip());
+    tip->setObjectName(QStringLiteral("faint"));
+    grid->addWidget(key, row, 0);
+    grid->addWidget(new QLabel(action->text()), row, 1);
+    grid->addWidget(tip, row, 2);
+    ++row;
+  }
+  sheet->show();
+}
+
+}  // namespace foresight

@@ -1,0 +1,22 @@
+#include "app/workstation/workbench.h"
+
+namespace foresight {
+
+Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
+    : session(mode),
+      head(std::move(sensor_head)),
+      depth(&session),
+      fit(&session),
+      mission(&session),
+      exporter(&session),
+      flow(&head, &session, mode) {
+  QObject::connect(&head, &HeadViewModel::scanEnded, &mission, &MissionViewModel::keepScan);
+  QObject::connect(&fit, &FitViewModel::valveFound, &mission, &MissionViewModel::keepValve);
+}
+
+bool Workbench::Idle() {
+  return !head.Scanning() && !depth.Runner()->Busy() && !fit.Runner()->Busy() &&
+         !mission.Runner()->Busy() && !exporter.Runner()->Busy();
+}
+
+}  // namespace foresight

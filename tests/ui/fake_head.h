@@ -1,0 +1,69 @@
+#pragma once
+
+#include <atomic>
+
+#include "hardware/api/sensor_head.h"
+
+namespace foresight {
+
+/// A head that does what a test tells it, at once and on the caller's thread.
+class FakeHead : public SensorHead {
+ public:
+  explicit FakeHead(SensorRig rig) : rig_(std::move(rig)) { status_.state = HeadState::kReady; }
+
+  std::string Describe() const override { return "fake"; }
+  HeadStatus Status() const override { return status_; }
+  SensorRig Rig() const override { return rig_; }
+
+  foresight::Status Home() override {
+    status_.state = HeadState::kReady;
+    return {};
+  }
+  foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override {
+    if (status_.state != HeadState::kReady)
+      return Fail(ErrorCode::kState, "fake head: it is {}", ToString(status_.state));
+    FORESIGHT_CHECK(plan.Check());
+    plan_ = plan;
+    sink_ = std::move(sink);
+    status_.state = HeadState::kSweeping;
+    return {};
+  }
+  void AbortScan() override {
+    if (sink_) sink_->OnScanEnded(ScanState::kAborted, "by the operator");
+    sink_.reset();
+    status_.state = HeadState::kReady;
+  }
+  void StopMotor() override { stopped_ = true; }
+
+  /// Plays a finished scan into the sink, up to its `lines`-th line.
+  void Deliver(const Scan& scan, std::size_t lines) {
+    Scan header = scan;
+    header.lines.clear();
+    header.frames.clear();
+    header.track = {};
+    sink_->OnScanStarted(header);
+    sink_->OnMotorSamples(scan.track.samples());
+    for (std::size_t i = 0; i < lines; ++i) sink_->OnLine(scan.lines[i]);
+    status_.lines = static_cast<int>(lines);
+    status_.expected_lines = static_cast<int>(scan.lines.size());
+  }
+  void Finish(const Scan& scan, ScanState state) {
+    for (const CameraFrame& frame : scan.frames) sink_->OnFrame(frame);
+    sink_->OnScanEnded(state, "");
+    sink_.reset();
+    status_.state = HeadState::kReady;
+  }
+
+  void SetState(HeadState state) { status_.state = state; }
+  const ScanPlan& LastPlan() const { return plan_; }
+  bool Stopped() const { return stopped_; }
+
+ private:
+  SensorRig rig_;
+  HeadStatus status_;
+  ScanPlan plan_;
+  std::shared_ptr<ScanSink> sink_;
+  bool stopped_ = false;
+};
+
+}  // namespace foresight

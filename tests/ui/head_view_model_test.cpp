@@ -1,0 +1,103 @@
+#include "ui/viewmodels/head_view_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/ui/fake_head.h"
+#include "tests/ui/synthetic_scan.h"
+
+namespace foresight {
+namespace {
+
+struct HeadTest : testing::Test {
+  std::shared_ptr<FakeHead> head = std::make_shared<FakeHead>(DefaultSensorRig());
+  HeadViewModel model{head};
+
+  void SetSpeed(double deg_s) {
+    PlanFields plan = model.Plan();
+    plan.speed_deg_s = deg_s;
+    model.SetPlan(plan);
+  }
+};
+
+TEST_F(HeadTest, PredictionFollowsTheSpeed) {
+  SetSpeed(10.0);
+  EXPECT_EQ(model.Prediction().time.toStdString(), "6.0 s");
+  SetSpeed(20.0);
+  EXPECT_EQ(model.Prediction().time.toStdString(), "3.0 s");
+  EXPECT_EQ(model.Prediction().lines.toStdString(), "120");
+}
+
+TEST_F(HeadTest, WarnsUnderTheFloorOfTwoPercentAndSaysHowFastToScan) {
+  SetSpeed(100.0);
+  const PredictionText fast = model.Prediction();
+  ASSERT_FALSE(fast.warning.isEmpty());
+  EXPECT_TRUE(fast.usable);
+  const ScanPlan plan = model.Plan().ToPlan();
+  const double density = PredictScan(plan, head->Rig())->density;
+  const double advised = std::floor(10.0 * 100.0 * density / 0.02) / 10.0;
+  SetSpeed(advised);
+  EXPECT_TRUE(model.Prediction().warning.isEmpty()) << advised << " deg/s";
+}
+
+TEST_F(HeadTest, AnImpossiblePlanNamesItsFaultAndCannotBeScanned) {
+  PlanFields plan = model.Plan();
+  plan.image_angles_deg = {80.0};
+  model.SetPlan(plan);
+  EXPECT_TRUE(model.Prediction().warning.contains("picture at 80.0 deg"));
+  EXPECT_FALSE(model.CanScan());
+}
+
+TEST_F(HeadTest, AbortIsPossibleOnlyWhileSweeping) {
+  for (const HeadState state : {HeadState::kDisconnected, HeadState::kHoming, HeadState::kReady,
+                                HeadState::kStopping, HeadState::kFault}) {
+    head->SetState(state);
+    model.Poll();
+    EXPECT_FALSE(model.CanAbort()) << ToString(state);
+  }
+  head->SetState(HeadState::kSweeping);
+  model.Poll();
+  EXPECT_TRUE(model.CanAbort());
+}
+
+TEST_F(HeadTest, SendsThePlanInRadians) {
+  SetSpeed(12.0);
+  model.scan();
+  EXPECT_NEAR(head->LastPlan().speed_rad_s, 12.0 * M_PI / 180.0, 1e-12);
+}
+
+TEST_F(HeadTest, ARefusedScanIsReportedAndNotCountedAsRunning) {
+  Notice notice;
+  QObject::connect(&model, &HeadViewModel::noticed, [&](const Notice& n) { notice = n; });
+  head->SetState(HeadState::kFault);
+  model.scan();
+  EXPECT_FALSE(model.Scanning());
+  EXPECT_EQ(notice.level, Notice::Level::kError);
+  EXPECT_FALSE(notice.next.isEmpty());
+}
+
+TEST_F(HeadTest, HandsOverTheScanWhenItEnds) {
+  const Scan source = WallAndValveScan({.from_rad = -0.05, .to_rad = 0.05});
+  std::shared_ptr<const Scan> brought;
+  QObject::connect(&model, &HeadViewModel::scanEnded,
+                   [&](const std::shared_ptr<const Scan>& scan) { brought = scan; });
+  model.scan();
+  head->Deliver(source, source.lines.size());
+  model.Poll();
+  EXPECT_EQ(brought, nullptr);
+  head->Finish(source, ScanState::kComplete);
+  model.Poll();
+  ASSERT_NE(brought, nullptr);
+  EXPECT_EQ(brought->lines, source.lines);
+  EXPECT_EQ(brought->frames.size(), source.frames.size());
+}
+
+TEST_F(HeadTest, StopReachesTheMotorInEveryState) {
+  head->SetState(HeadState::kSweeping);
+  model.stop();
+  EXPECT_TRUE(head->Stopped());
+}
+
+}  // namespace
+}  // namespace foresight

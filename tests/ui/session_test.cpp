@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/ui/fake_head.h"
+#include "tests/ui/synthetic_scan.h"
+#include "tests/ui/wait_for.h"
+#include "ui/viewmodels/depth_view_model.h"
+#include "ui/viewmodels/fit_view_model.h"
+#include "ui/viewmodels/scan_flow.h"
+
+namespace foresight {
+namespace {
+
+std::shared_ptr<const Scan> SharedScan() {
+  // 4 deg/s over 30 deg is dense enough for a fit; made once, as it takes a while.
+  static const auto scan = std::make_shared<const Scan>(
+      WallAndValveScan({.from_rad = -0.26, .to_rad = 0.26, .speed_rad_s = 0.10}));
+  return scan;
+}
+
+struct SessionTest : testing::Test {
+  SessionModel session{SessionMode::kSimulation};
+  DepthViewModel depth{&session};
+  FitViewModel fit{&session};
+  std::vector<Notice> notices;
+
+  SessionTest() {
+    QObject::connect(&session, &SessionModel::noticed,
+                     [this](const Notice& notice) { notices.push_back(notice); });
+  }
+  bool ComputeDepthOf(const std::shared_ptr<const Scan>& scan) {
+    session.SetScan(scan);
+    return WaitFor([&] { return !depth.Runner()->Busy(); }) && session.Depth() != nullptr;
+  }
+  std::ptrdiff_t Kept() const {
+    const auto values = session.Mask()->values();
+    return std::count(values.begin(), values.end(), 255);
+  }
+  /// Two corners around the valve in the picture.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> AroundValve() const {
+    const auto camera_from_base =
+        session.CurrentScan()->rig.CameraFromBase(session.Picture()->motor_angle_rad);
+    const auto center = session.CurrentScan()->rig.camera.Project(
+        camera_from_base * SyntheticValvePose().translation());
+    const Eigen::Vector2d half(50, 50);
+    return {*center - half, *center + half};
+  }
+};
+
+TEST_F(SessionTest, AScanBecomesDepthByItself) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  EXPECT_NE(session.Cloud(), nullptr);
+  EXPECT_EQ(session.Depth()->dense.depth_m.width(), SharedScan()->rig.camera.width);
+  EXPECT_TRUE(notices.empty());
+}
+
+TEST_F(SessionTest, ThresholdChangesTheMaskWithoutComputingDepthAgain) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  const auto before = session.Depth();
+  const auto kept_before = Kept();
+  depth.setThreshold(0.9);
+  EXPECT_LT(Kept(), kept_before);
+  EXPECT_EQ(session.Depth(), before);
+  EXPECT_FALSE(depth.Runner()->Busy());
+  EXPECT_EQ(depth.ComputedCount(), 1);
+}
+
+TEST_F(SessionTest, CancelLeavesTheOldDepth) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  const auto before = session.Depth();
+  depth.compute();
+  depth.Runner()->cancel();
+  ASSERT_TRUE(WaitFor([&] { return !depth.Runner()->Busy(); }));
+  EXPECT_EQ(session.Depth(), before);
+  ASSERT_FALSE(notices.empty());
+  EXPECT_EQ(notices.back().level, Notice::Level::kInfo);
+}
+
+TEST_F(SessionTest, ANewScanNeverShowsTheDepthOfTheOneBefore) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  session.SetScan(std::make_shared<const Scan>(*SharedScan()));
+  EXPECT_EQ(session.Depth(), nullptr);
+  EXPECT_EQ(session.Cloud(), nullptr);
+}
+
+TEST_F(SessionTest, AFailedFitIsReportedAndListedNowhere) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  fit.setValveTool(true);
+  fit.DrawRoi({20, 20}, {60, 60});  // nothing but wall
+  ASSERT_TRUE(WaitFor([&] { return !fit.Runner()->Busy(); }));
+  EXPECT_TRUE(session.Valves().empty());
+  ASSERT_FALSE(notices.empty());
+  EXPECT_EQ(notices.back().level, Notice::Level::kError);
+  EXPECT_FALSE(notices.back().next.isEmpty());
+}
+
+TEST_F(SessionTest, DrawingOverAValveWithTheToolFindsIt) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  fit.setValveTool(true);
+  const auto [a, b] = AroundValve();
+  fit.DrawRoi(a, b);
+  ASSERT_TRUE(WaitFor([&] { return !fit.Runner()->Busy(); }));
+  ASSERT_EQ(session.Valves().size(), 1u) << (notices.empty() ? "" : notices[0].what.toStdString());
+  const ValveDetection& found = session.Valves()[0].detection;
+  const double miss_m =
+      (found.best.base_from_object.translation() - SyntheticValvePose().translation()).norm();
+  EXPECT_LT(miss_m, 0.02);  // the tool's own accuracy is tested with the fit: here only "the valve"
+}
+
+TEST_F(SessionTest, AClickIsNotARegion) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  fit.DrawRoi({100, 100}, {101, 101});
+  EXPECT_FALSE(session.Roi());
+}
+
+TEST_F(SessionTest, UndoBringsTheRegionBeforeBack) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  fit.DrawRoi({10, 10}, {50, 50});
+  const auto first = session.Roi()->polygon;
+  fit.DrawRoi({60, 60}, {90, 90});
+  session.undoRoi();
+  EXPECT_EQ(session.Roi()->polygon, first);
+  session.undoRoi();
+  EXPECT_FALSE(session.Roi());
+  EXPECT_FALSE(session.CanUndoRoi());
+}
+
+TEST_F(SessionTest, AValveOfAnEarlierScanIsNotCurrent) {
+  session.SetScan(SharedScan());
+  FoundValve valve;
+  valve.scan_uuid = SharedScan()->uuid;
+  session.AddValve(valve);
+  EXPECT_TRUE(session.IsCurrent(session.Valves()[0]));
+  Scan another = *SharedScan();
+  another.uuid = NewUuid();
+  session.SetScan(std::make_shared<const Scan>(std::move(another)));
+  EXPECT_FALSE(session.IsCurrent(session.Valves()[0]));
+}
+
+struct ScanFlowTest : SessionTest {
+  std::shared_ptr<FakeHead> fake = std::make_shared<FakeHead>(SharedScan()->rig);
+  HeadViewModel head{fake};
+  ScanFlow flow{&head, &session, SessionMode::kSimulation};
+};
+
+TEST_F(ScanFlowTest, TheCloudGrowsWhileTheHeadSweeps) {
+  head.scan();
+  fake->Deliver(*SharedScan(), 40);
+  ASSERT_TRUE(WaitFor([&] { return session.Cloud() != nullptr; }));
+  EXPECT_EQ(session.Cloud()->lines, 40);
+  EXPECT_EQ(session.CurrentScan(), nullptr);
+}
+
+TEST_F(ScanFlowTest, AnAbortedScanKeepsWhatItHasAndSaysSo) {
+  head.scan();
+  fake->Deliver(*SharedScan(), 40);
+  head.abort();
+  head.Poll();
+  ASSERT_NE(session.CurrentScan(), nullptr);
+  EXPECT_EQ(session.CurrentScan()->lines.size(), 40u);
+  ASSERT_FALSE(notices.empty());
+  EXPECT_TRUE(notices.front().what.contains("aborted"));
+}
+
+TEST_F(ScanFlowTest, NothingOfTheOldScanStaysWhenANewOneBegins) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  head.scan();
+  EXPECT_EQ(session.CurrentScan(), nullptr);
+  EXPECT_EQ(session.Cloud(), nullptr);
+  EXPECT_EQ(session.Depth(), nullptr);
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,169 @@
+#include "ui/panels/head_panel.h"
+
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QFrame>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "ui/panels/theme.h"
+
+namespace foresight {
+namespace {
+
+QLabel* SectionTitle(const QString& text) {
+  auto* label = new QLabel(text);
+  label->setObjectName(QStringLiteral("sectionTitle"));
+  return label;
+}
+
+QString AnglesAsText(const QVector<double>& angles_deg) {
+  QStringList parts;
+  for (const double angle : angles_deg) parts << QString::number(angle);
+  return parts.join(QStringLiteral(", "));
+}
+
+}  // namespace
+
+HeadPanel::HeadPanel(HeadViewModel* head, QWidget* parent) : QWidget(parent), head_(head) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 12, 12, 12);
+  layout->setSpacing(8);
+  layout->addWidget(SectionTitle(tr("Plan")));
+  layout->addWidget(BuildPlan());
+  layout->addSpacing(8);
+  layout->addWidget(SectionTitle(tr("Prediction")));
+  layout->addWidget(BuildPrediction());
+  layout->addSpacing(8);
+  layout->addWidget(BuildButtons());
+  layout->addStretch(1);
+  setMinimumWidth(270);
+  connect(head_, &HeadViewModel::planChanged, this, &HeadPanel::ShowPlan);
+  connect(head_, &HeadViewModel::statusChanged, this, &HeadPanel::ShowStatus);
+  ShowPlan();
+}
+
+QWidget* HeadPanel::BuildPlan() {
+  auto* plan = new QWidget;
+  auto* form = new QFormLayout(plan);
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  AddField(form, tr("From"), -90, 90, 5, tr(" °"), &PlanFields::from_deg);
+  AddField(form, tr("To"), -90, 90, 5, tr(" °"), &PlanFields::to_deg);
+  AddField(form, tr("Speed"), 0.5, 120, 1, tr(" °/s"), &PlanFields::speed_deg_s);
+  angles_ = new QLineEdit(AnglesAsText(head_->Plan().image_angles_deg));
+  angles_->setToolTip(tr("Motor angles in degrees, separated by commas, within the scope"));
+  form->addRow(tr("Pictures at"), angles_);
+  connect(angles_, &QLineEdit::editingFinished, this, &HeadPanel::TakeAngles);
+  AddField(form, tr("Exposure"), 0.1, 100, 1, tr(" ms"), &PlanFields::exposure_ms);
+  return plan;
+}
+
+QDoubleSpinBox* HeadPanel::AddField(QFormLayout* form, const QString& label, double low,
+                                    double high, double step, const QString& unit,
+                                    double PlanFields::*field) {
+  auto* box = new QDoubleSpinBox;
+  box->setRange(low, high);
+  box->setSingleStep(step);
+  box->setDecimals(1);
+  box->setSuffix(unit);
+  box->setValue(head_->Plan().*field);
+  box->setAccessibleName(label);
+  form->addRow(label, box);
+  connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this, field](double value) {
+            PlanFields plan = head_->Plan();
+            plan.*field = value;
+            head_->SetPlan(plan);
+          });
+  return box;
+}
+
+void HeadPanel::TakeAngles() {
+  PlanFields plan = head_->Plan();
+  QVector<double> angles;
+  bool readable = true;
+  for (const QString& part : angles_->text().split(QLatin1Char(','), Qt::SkipEmptyParts)) {
+    bool is_number = false;
+    angles << part.trimmed().toDouble(&is_number);
+    readable = readable && is_number;
+  }
+  if (readable && !angles.isEmpty()) plan.image_angles_deg = angles;
+  angles_->setText(AnglesAsText(plan.image_angles_deg));
+  head_->SetPlan(plan);
+}
+
+QWidget* HeadPanel::BuildPrediction() {
+  auto* card = new QFrame;
+  card->setObjectName(QStringLiteral("card"));
+  auto* layout = new QVBoxLayout(card);
+  auto* form = new QFormLayout;
+  form->setLabelAlignment(Qt::AlignLeft);
+  const auto add = [form](const QString& label, const QString& tip) {
+    auto* value = new QLabel;
+    value->setAlignment(Qt::AlignRight);
+    value->setToolTip(tip);
+    form->addRow(label, value);
+    return value;
+  };
+  time_ = add(tr("Sweep time"), tr("Without the way to the start"));
+  lines_ = add(tr("Lidar lines"), {});
+  coverage_ = add(tr("Coverage"), tr("Lidar points per picture pixel; at least 2 % is wanted"));
+  sigma_ = add(tr("Filter radius σs"), tr("How far the depth filter must reach for points"));
+  layout->addLayout(form);
+
+  warning_row_ = new QWidget;
+  auto* row = new QHBoxLayout(warning_row_);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto* icon = new QLabel;
+  icon->setPixmap(Icon("warning").pixmap(20, 20));
+  warning_ = new QLabel;
+  warning_->setWordWrap(true);
+  row->addWidget(icon, 0, Qt::AlignTop);
+  row->addWidget(warning_, 1);
+  layout->addWidget(warning_row_);
+  return card;
+}
+
+QWidget* HeadPanel::BuildButtons() {
+  auto* buttons = new QWidget;
+  auto* layout = new QVBoxLayout(buttons);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  scan_button_ = new QPushButton(tr("Scan  (Space)"));
+  scan_button_->setObjectName(QStringLiteral("scanButton"));
+  abort_button_ = new QPushButton(Icon("abort"), tr("Abort"));
+  abort_button_->setToolTip(tr("End the scan and keep what it has (Shift+Esc)"));
+  home_button_ = new QPushButton(Icon("home"), tr("Home"));
+  home_button_->setToolTip(tr("Connect and search the zero reference"));
+  layout->addWidget(scan_button_);
+  auto* row = new QHBoxLayout;
+  row->addWidget(abort_button_);
+  row->addWidget(home_button_);
+  layout->addLayout(row);
+  connect(scan_button_, &QPushButton::clicked, head_, &HeadViewModel::scan);
+  connect(abort_button_, &QPushButton::clicked, head_, &HeadViewModel::abort);
+  connect(home_button_, &QPushButton::clicked, head_, &HeadViewModel::home);
+  return buttons;
+}
+
+void HeadPanel::ShowPlan() {
+  const PredictionText prediction = head_->Prediction();
+  time_->setText(prediction.time);
+  lines_->setText(prediction.lines);
+  coverage_->setText(prediction.coverage);
+  sigma_->setText(prediction.sigma);
+  warning_->setText(prediction.warning);
+  warning_row_->setVisible(!prediction.warning.isEmpty());
+  ShowStatus();
+}
+
+void HeadPanel::ShowStatus() {
+  scan_button_->setEnabled(head_->CanScan());
+  abort_button_->setEnabled(head_->CanAbort());
+  home_button_->setEnabled(head_->CanHome());
+}
+
+}  // namespace foresight

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <QWidget>
+
+#include "ui/viewmodels/head_view_model.h"
+
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace foresight {
+
+/// The next scan: scope, speed, pictures, what they will give, and the buttons that start it.
+class HeadPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit HeadPanel(HeadViewModel* head, QWidget* parent = nullptr);
+
+ private:
+  QWidget* BuildPlan();
+  QWidget* BuildPrediction();
+  QWidget* BuildButtons();
+  QDoubleSpinBox* AddField(QFormLayout* form, const QString& label, double low, double high,
+                           double step, const QString& unit, double PlanFields::*field);
+  void TakeAngles();
+  void ShowPlan();
+  void ShowStatus();
+
+  HeadViewModel* head_;
+  QLineEdit* angles_;
+  QLabel* time_;
+  QLabel* lines_;
+  QLabel* coverage_;
+  QLabel* sigma_;
+  QWidget* warning_row_;
+  QLabel* warning_;
+  QPushButton* scan_button_;
+  QPushButton* abort_button_;
+  QPushButton* home_button_;
+};
+
+}  // namespace foresight

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <QFrame>
+
+#include "ui/viewmodels/notice.h"
+
+class QLabel;
+
+namespace foresight {
+
+/// Says what happened and what to do next, without stopping anything. Stays until it is closed or
+/// something newer happens.
+class NoticeStrip : public QFrame {
+  Q_OBJECT
+
+ public:
+  explicit NoticeStrip(QWidget* parent = nullptr);
+  QString Text() const;
+
+ public Q_SLOTS:
+  void show(const foresight::Notice& notice);
+
+ private:
+  QLabel* icon_;
+  QLabel* what_;
+  QLabel* next_;
+};
+
+}  // namespace foresight

@@ -1,0 +1,129 @@
+#include "ui/viewmodels/head_view_model.h"
+
+#include <algorithm>
+
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kPollInterval_ms = 100;
+constexpr int kPollsPerLook = 3;  ///< a running scan is looked at about four times a second
+
+}  // namespace
+
+ScanPlan PlanFields::ToPlan() const {
+  ScanPlan plan;
+  plan.from_rad = RadiansFromDegrees(from_deg);
+  plan.to_rad = RadiansFromDegrees(to_deg);
+  plan.speed_rad_s = RadiansFromDegrees(speed_deg_s);
+  plan.exposure_s = exposure_ms * 1e-3;
+  plan.image_angles_rad.clear();
+  for (const double angle : image_angles_deg)
+    plan.image_angles_rad.push_back(RadiansFromDegrees(angle));
+  return plan;
+}
+
+HeadViewModel::HeadViewModel(std::shared_ptr<SensorHead> head, QObject* parent)
+    : QObject(parent), head_(std::move(head)), status_(head_->Status()) {
+  connect(&timer_, &QTimer::timeout, this, &HeadViewModel::Poll);
+  timer_.start(kPollInterval_ms);
+}
+
+HeadViewModel::~HeadViewModel() {
+  if (live_) head_->AbortScan();
+}
+
+void HeadViewModel::SetPlan(const PlanFields& plan) {
+  plan_ = plan;
+  Q_EMIT planChanged();
+}
+
+PredictionText HeadViewModel::Prediction() const {
+  const auto prediction = PredictScan(plan_.ToPlan(), head_->Rig());
+  PredictionText text;
+  if (!prediction) {
+    text.time = text.lines = text.coverage = text.sigma = QStringLiteral("–");
+    text.warning = QString::fromStdString(prediction.error().message);
+    text.usable = false;
+    return text;
+  }
+  text.time = tr("%1 s").arg(prediction->duration_s, 0, 'f', 1);
+  text.lines = QString::number(prediction->lines);
+  text.coverage = tr("%1 %").arg(100.0 * prediction->density, 0, 'f', 1);
+  text.sigma = tr("%1 px").arg(prediction->sigma_spatial_px, 0, 'f', 1);
+  if (prediction->density < ScanPrediction::kMinDensity) {
+    const double enough = plan_.speed_deg_s * prediction->density / ScanPrediction::kMinDensity;
+    text.warning = tr("Coverage is under the floor of 2 %: the depth will be coarse. "
+                      "Scan at %1 °/s or slower.")
+                       .arg(enough, 0, 'f', 1);
+  }
+  return text;
+}
+
+double HeadViewModel::ScanProgress() const {
+  if (status_.expected_lines <= 0) return 0.0;
+  return std::clamp(static_cast<double>(status_.lines) / status_.expected_lines, 0.0, 1.0);
+}
+
+bool HeadViewModel::CanScan() const {
+  return status_.state == HeadState::kReady && !live_ && Prediction().usable;
+}
+
+bool HeadViewModel::CanAbort() const {
+  return status_.state == HeadState::kSweeping;
+}
+
+bool HeadViewModel::CanHome() const {
+  return status_.state == HeadState::kDisconnected || status_.state == HeadState::kReady ||
+         status_.state == HeadState::kFault;
+}
+
+void HeadViewModel::Poll() {
+  status_ = head_->Status();
+  if (live_) PollScan();
+  Q_EMIT statusChanged();
+}
+
+void HeadViewModel::PollScan() {
+  if (live_->Ended()) {
+    const auto scan = live_->Snapshot();
+    live_.reset();
+    Q_EMIT scanEnded(scan);
+  } else if (++polls_ % kPollsPerLook == 0 && status_.lines != lines_shown_) {
+    lines_shown_ = status_.lines;
+    Q_EMIT scanGrew(live_->Snapshot());
+  }
+}
+
+void HeadViewModel::scan() {
+  if (live_) return;
+  auto live = std::make_shared<LiveScan>();
+  if (const auto started = head_->StartScan(plan_.ToPlan(), live); !started) {
+    Q_EMIT noticed(NoticeOf(tr("Starting the scan"), started.error()));
+    return;
+  }
+  live_ = std::move(live);
+  polls_ = lines_shown_ = 0;
+  Q_EMIT scanStarted();
+  Poll();
+}
+
+void HeadViewModel::abort() {
+  head_->AbortScan();
+}
+
+void HeadViewModel::home() {
+  if (const auto homing = head_->Home(); !homing)
+    Q_EMIT noticed(NoticeOf(tr("Homing the head"), homing.error()));
+  Poll();
+}
+
+void HeadViewModel::stop() {
+  head_->StopMotor();
+  Q_EMIT noticed({Notice::Level::kWarning, tr("The head's motor was told to stop."),
+                  tr("This stops the scanner only, not the robot. Press Home to go on.")});
+  Poll();
+}
+
+}  // namespace foresight

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+#include <QVector>
+#include <memory>
+
+#include "core/sensor/scan_plan.h"
+#include "hardware/api/sensor_head.h"
+#include "ui/viewmodels/live_scan.h"
+#include "ui/viewmodels/notice.h"
+
+namespace foresight {
+
+/// The plan as the operator types it.
+struct PlanFields {
+  double from_deg = -30.0;
+  double to_deg = 30.0;
+  double speed_deg_s = 10.0;
+  QVector<double> image_angles_deg = {0.0};
+  double exposure_ms = 4.0;
+
+  ScanPlan ToPlan() const;
+};
+
+/// What the plan will cost and give, in words.
+struct PredictionText {
+  QString time;      ///< "6.0 s"
+  QString lines;     ///< "240"
+  QString coverage;  ///< "2.5 %"
+  QString sigma;     ///< "18.7 px"
+  QString warning;   ///< what is wrong with the plan and what to do; empty when all is well
+  bool usable = true;
+};
+
+/// The head and the next scan: status at 10 Hz, plan, prediction, commands.
+class HeadViewModel : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit HeadViewModel(std::shared_ptr<SensorHead> head, QObject* parent = nullptr);
+  ~HeadViewModel() override;  ///< ends a running scan
+
+  const HeadStatus& LastStatus() const { return status_; }
+  const PlanFields& Plan() const { return plan_; }
+  void SetPlan(const PlanFields& plan);
+  PredictionText Prediction() const;
+  /// In [0, 1], of the running scan.
+  double ScanProgress() const;
+
+  bool CanScan() const;
+  bool CanAbort() const;
+  bool CanHome() const;
+  /// Whether a scan was started and has not been handed over yet.
+  bool Scanning() const { return live_ != nullptr; }
+
+  /// Reads the head's status now; otherwise it is read ten times a second.
+  void Poll();
+
+ public Q_SLOTS:
+  void scan();
+  void abort();
+  void home();
+  void stop();
+
+ Q_SIGNALS:
+  void statusChanged();
+  void planChanged();
+  void scanStarted();
+  /// What has arrived so far, about four times a second.
+  void scanGrew(const std::shared_ptr<const foresight::Scan>& scan);
+  void scanEnded(const std::shared_ptr<const foresight::Scan>& scan);
+  void noticed(const foresight::Notice& notice);
+
+ private:
+  void PollScan();
+
+  std::shared_ptr<SensorHead> head_;
+  HeadStatus status_;
+  PlanFields plan_;
+  std::shared_ptr<LiveScan> live_;
+  int polls_ = 0;
+  int lines_shown_ = 0;
+  QTimer timer_;
+};
+
+}  // namespace foresight

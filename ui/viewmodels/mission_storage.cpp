@@ -1,0 +1,82 @@
+#include "ui/viewmodels/mission_storage.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/fitting/detection_json.h"
+
+namespace foresight {
+namespace {
+
+constexpr const char* kValveKind = "valve";
+
+std::int64_t NowUtc_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context) {
+  FORESIGHT_TRY(const std::int64_t id, file->BeginScan(scan));
+  const Status appended = file->Batch([&]() -> Status {
+    for (std::size_t i = 0; i < scan.lines.size(); ++i) {
+      FORESIGHT_CHECK(file->AppendLine(id, scan.lines[i]));
+      context.Report(0.8 * static_cast<double>(i) / static_cast<double>(scan.lines.size()),
+                     "writing lines");
+    }
+    FORESIGHT_CHECK(file->AppendMotorSamples(id, scan.track.samples()));
+    for (const CameraFrame& frame : scan.frames) FORESIGHT_CHECK(file->AppendFrame(id, frame));
+    return {};
+  });
+  FORESIGHT_CHECK(appended);
+  return file->EndScan(id, scan.state, scan.reason);
+}
+
+}  // namespace
+
+Status AppendToMission(MissionFile* file, const std::vector<std::shared_ptr<const Scan>>& scans,
+                       const std::vector<FoundValve>& valves, const RunContext& context) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const double count = static_cast<double>(scans.size());
+    FORESIGHT_CHECK(AppendScan(
+        file, *scans[i],
+        context.Part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)));
+  }
+  FORESIGHT_TRY(const std::vector<ScanSummary> summaries, file->ListScans());
+  for (const FoundValve& valve : valves) {
+    const auto scan =
+        std::find_if(summaries.begin(), summaries.end(),
+                     [&](const ScanSummary& summary) { return summary.uuid == valve.scan_uuid; });
+    if (scan == summaries.end())
+      return Fail(ErrorCode::kInvalidInput, "mission file {}: no scan {} for a valve",
+                  file->path().string(), valve.scan_uuid);
+    DetectionRecord record;
+    record.scan_id = scan->id;
+    record.kind = kValveKind;
+    record.utc_ns = NowUtc_ns();
+    record.json = DetectionToJson(valve.detection, valve.rig.robot_from_base);
+    FORESIGHT_CHECK(file->AddDetection(record));
+  }
+  return {};
+}
+
+Result<std::vector<FoundValve>> ValvesInMission(const MissionFile& file, std::int64_t scan_id,
+                                                const Scan& scan) {
+  std::vector<FoundValve> valves;
+  FORESIGHT_TRY(const std::vector<DetectionRecord> records, file.ListDetections());
+  for (const DetectionRecord& record : records) {
+    if (record.scan_id != scan_id || record.kind != kValveKind) continue;
+    FoundValve valve;
+    FORESIGHT_TRY(valve.detection, ValveDetectionFromJson(record.json));
+    valve.rig = scan.rig;
+    valve.scan_uuid = scan.uuid;
+    valve.scan_time = QDateTime::fromMSecsSinceEpoch(scan.start_utc_ns / 1'000'000);
+    // An age that goes on where the mission's clock left it.
+    valve.found = std::chrono::steady_clock::now() -
+                  std::chrono::nanoseconds(std::max<std::int64_t>(0, NowUtc_ns() - record.utc_ns));
+    valves.push_back(std::move(valve));
+  }
+  return valves;
+}
+
+}  // namespace foresight

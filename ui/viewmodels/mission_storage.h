@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/mission/mission_file.h"
+#include "ui/viewmodels/session_model.h"
+
+namespace foresight {
+
+/// Appends whole scans and the valves found in them. A valve whose scan is not in the file is an
+/// error (kInvalidInput).
+Status AppendToMission(MissionFile* file, const std::vector<std::shared_ptr<const Scan>>& scans,
+                       const std::vector<FoundValve>& valves, const RunContext& context);
+
+/// The valves that the file holds for a scan.
+Result<std::vector<FoundValve>> ValvesInMission(const MissionFile& file, std::int64_t scan_id,
+                                                const Scan& scan);
+
+}  // namespace foresight

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <QMetaType>
+#include <QString>
+
+#include "core/base/result.h"
+
+namespace foresight {
+
+/// Something the operator should know: what happened, and what to do next. Shown in a strip, never
+/// in a dialog.
+struct Notice {
+  enum class Level { kInfo, kWarning, kError };
+  Level level = Level::kInfo;
+  QString what;
+  QString next;
+};
+
+/// The notice for a failed step; `doing` starts the sentence, e.g. "Fitting the valve".
+Notice NoticeOf(const QString& doing, const Error& error);
+
+}  // namespace foresight
+
+Q_DECLARE_METATYPE(foresight::Notice)

@@ -1,0 +1,45 @@
+#include "ui/viewmodels/scan_flow.h"
+
+namespace foresight {
+
+ScanFlow::ScanFlow(HeadViewModel* head, SessionModel* session, SessionMode mode, QObject* parent)
+    : QObject(parent), head_(head), session_(session), mode_(mode) {
+  connect(head, &HeadViewModel::scanStarted, this, &ScanFlow::Begin);
+  connect(head, &HeadViewModel::scanGrew, this, &ScanFlow::Grow);
+  connect(head, &HeadViewModel::scanEnded, this, &ScanFlow::End);
+  connect(head, &HeadViewModel::noticed, session, &SessionModel::Report);
+}
+
+void ScanFlow::Begin() {
+  // Nothing of an older scan stays on the screen while a new one runs.
+  session_->SetScan(nullptr);
+  session_->SetMode(mode_);
+}
+
+void ScanFlow::Grow(const std::shared_ptr<const Scan>& scan) {
+  if (runner_.Busy()) return;  // the next look shows more
+  runner_.Run<RegisteredScan>(
+      tr("Placing points"),
+      [scan](const RunContext& context) { return RegisterScan(*scan, context); },
+      [this, scan](Result<RegisteredScan> cloud) {
+        // Too few points yet, or the whole scan has come meanwhile.
+        if (!cloud || !head_->Scanning()) return;
+        session_->SetCloud(std::make_shared<const RegisteredScan>(std::move(*cloud)), scan->rig);
+      });
+}
+
+void ScanFlow::End(const std::shared_ptr<const Scan>& scan) {
+  runner_.cancel();
+  if (scan->state != ScanState::kComplete) {
+    const QString reason = QString::fromStdString(scan->reason);
+    session_->Report({Notice::Level::kWarning,
+                      tr("The scan was %1%2.")
+                          .arg(QString::fromUtf8(ToString(scan->state)),
+                               reason.isEmpty() ? QString() : QStringLiteral(": ") + reason),
+                      scan->lines.empty() ? tr("Nothing was measured; scan again.")
+                                          : tr("What was measured until then is shown.")});
+  }
+  if (!scan->lines.empty()) session_->SetScan(scan);
+}
+
+}  // namespace foresight

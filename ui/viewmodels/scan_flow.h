@@ -1,0 +1,30 @@
+#pragma once
+
+#include <QObject>
+
+#include "ui/viewmodels/head_view_model.h"
+#include "ui/viewmodels/session_model.h"
+#include "ui/viewmodels/task_runner.h"
+
+namespace foresight {
+
+/// Brings a scan from the head into the session: the points while they arrive, the whole scan at
+/// its end. Depth follows by itself, because the session has a new scan then.
+class ScanFlow : public QObject {
+  Q_OBJECT
+
+ public:
+  ScanFlow(HeadViewModel* head, SessionModel* session, SessionMode mode, QObject* parent = nullptr);
+
+ private:
+  void Begin();
+  void Grow(const std::shared_ptr<const Scan>& scan);
+  void End(const std::shared_ptr<const Scan>& scan);
+
+  HeadViewModel* head_;
+  SessionModel* session_;
+  SessionMode mode_;
+  TaskRunner runner_;
+};
+
+}  // namespace foresight

@@ -1,0 +1,221 @@
+#include "ui/views/cloud_canvas.h"
+
+#include <vtkAxesActor.h>
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkPointPicker.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <QMouseEvent>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/render/vtk_data.h"
+#include "ui/views/color_bar.h"
+#include "ui/views/overlay_style.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kOrbitPerPixel_rad = 0.008;
+
+vtkPolyDataMapper* MapperOf(vtkActor* actor) {
+  return static_cast<vtkPolyDataMapper*>(actor->GetMapper());
+}
+
+vtkSmartPointer<vtkActor> MakeActor(const vtkSmartPointer<vtkPolyData>& data) {
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetPointSize(2.0f);
+  return actor;
+}
+
+/// The middle of the points ahead of the robot (within 35 deg of its x axis), or of all of them.
+Eigen::Vector3d MiddleOf(const PointSet& set) {
+  std::array<std::vector<float>, 3> ahead, all;
+  const std::size_t stride = std::max<std::size_t>(1, set.points.size() / 20'000);
+  for (std::size_t i = 0; i < set.points.size(); i += stride) {
+    const Eigen::Vector3f way = set.points[i] - set.viewpoint;
+    const bool is_ahead = way.x() > 0.8f * way.norm();
+    for (int axis = 0; axis < 3; ++axis) {
+      all[static_cast<std::size_t>(axis)].push_back(set.points[i][axis]);
+      if (is_ahead) ahead[static_cast<std::size_t>(axis)].push_back(set.points[i][axis]);
+    }
+  }
+  auto& chosen = ahead[0].empty() ? all : ahead;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    auto& values = chosen[static_cast<std::size_t>(axis)];
+    if (values.empty()) return middle;
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    middle[axis] = *half;
+  }
+  return middle;
+}
+
+vtkSmartPointer<vtkAxesActor> MakeAxes(double length_m, bool labels) {
+  auto axes = vtkSmartPointer<vtkAxesActor>::New();
+  axes->SetTotalLength(length_m, length_m, length_m);
+  axes->SetAxisLabels(labels ? 1 : 0);
+  return axes;
+}
+
+}  // namespace
+
+CloudCanvas::CloudCanvas(QWidget* parent)
+    : QVTKOpenGLNativeWidget(parent),
+      renderer_(vtkSmartPointer<vtkRenderer>::New()),
+      points_(MakeActor(VtkPointsOf({}, 0))),
+      sample_(MakeActor(VtkPointsOf({}, 0))),
+      templates_(MakeActor(VtkLinesOf({}))),
+      color_bar_(MakeColorBar()),
+      compass_(vtkSmartPointer<vtkOrientationMarkerWidget>::New()) {
+  setRenderWindow(vtkNew<vtkGenericOpenGLRenderWindow>());
+  renderWindow()->AddRenderer(renderer_);
+  renderer_->SetBackground(0.07, 0.08, 0.10);
+  renderer_->SetBackground2(0.15, 0.17, 0.20);
+  renderer_->GradientBackgroundOn();
+  templates_->GetProperty()->SetColor(kTemplateColor.r / 255.0, kTemplateColor.g / 255.0,
+                                      kTemplateColor.b / 255.0);
+  templates_->GetProperty()->SetLineWidth(3.0f);
+  sample_->VisibilityOff();
+  for (const auto& actor : {points_, sample_, templates_}) renderer_->AddActor(actor);
+  renderer_->AddActor(MakeAxes(0.2, false));
+  renderer_->AddActor2D(color_bar_);
+  compass_->SetOrientationMarker(MakeAxes(1.0, true));
+  compass_->SetInteractor(interactor());
+  compass_->SetViewport(0.0, 0.0, 0.14, 0.22);
+  compass_->EnabledOn();
+  compass_->InteractiveOff();
+  setMinimumSize(160, 120);
+  setFocusPolicy(Qt::ClickFocus);
+  setAccessibleName(tr("3D cloud"));
+}
+
+void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const QString& color_title) {
+  const ValueRange range = RobustRange(set.values);
+  const auto table = VtkTableOf(map, range);
+  for (const auto& [actor, limit] :
+       {std::pair(points_, set.points.size()), std::pair(sample_, kSamplePoints)}) {
+    MapperOf(actor)->SetInputData(VtkPointsOf(set, limit));
+    MapperOf(actor)->SetLookupTable(table);
+    MapperOf(actor)->SetScalarRange(range.low, range.high);
+  }
+  color_bar_->SetLookupTable(table);
+  color_bar_->SetTitle(color_title.toUtf8().constData());
+  color_bar_->SetVisibility(set.values.empty() ? 0 : 1);
+  home_.focal = MiddleOf(set);
+  home_.distance_m = std::max(0.5, 1.25 * (home_.focal - set.viewpoint.cast<double>()).norm());
+  home_.azimuth_rad = -0.35;
+  home_.elevation_rad = 0.35;
+  if (!moved_) ResetView();
+  Redraw();
+}
+
+void CloudCanvas::SetTemplates(const Wireframe& lines) {
+  MapperOf(templates_)->SetInputData(VtkLinesOf(lines));
+  Redraw();
+}
+
+void CloudCanvas::ResetView() {
+  camera_ = home_;
+  moved_ = false;
+  PlaceCamera();
+  Redraw();
+}
+
+bool CloudCanvas::event(QEvent* event) {
+  switch (event->type()) {
+    case QEvent::MouseButtonPress:
+      setFocus();
+      last_position_ = static_cast<QMouseEvent*>(event)->localPos();
+      ShowSample(true);
+      return true;
+    case QEvent::MouseMove:
+      OnMove(*static_cast<QMouseEvent*>(event));
+      return true;
+    case QEvent::MouseButtonRelease:
+      ShowSample(false);
+      return true;
+    case QEvent::MouseButtonDblClick:
+      LookAtPointUnder(static_cast<QMouseEvent*>(event)->localPos());
+      return true;
+    case QEvent::Wheel:
+      camera_.Zoom(std::pow(0.9985, static_cast<QWheelEvent*>(event)->angleDelta().y()));
+      moved_ = true;
+      PlaceCamera();
+      Redraw();
+      return true;
+    case QEvent::KeyPress:
+      event->ignore();  // VTK's own keys (e, q, w) must not reach an operator
+      return false;
+    default:
+      return QVTKOpenGLNativeWidget::event(event);
+  }
+}
+
+void CloudCanvas::OnMove(const QMouseEvent& event) {
+  const QPointF way = event.localPos() - last_position_;
+  last_position_ = event.localPos();
+  if (event.buttons() == Qt::NoButton) return;
+  if (event.buttons() & Qt::LeftButton && !(event.modifiers() & Qt::ShiftModifier)) {
+    camera_.Orbit(kOrbitPerPixel_rad * way.x(), kOrbitPerPixel_rad * way.y());
+  } else {
+    const double view_angle = renderer_->GetActiveCamera()->GetViewAngle() * M_PI / 180.0;
+    const double metres_per_pixel =
+        2.0 * camera_.distance_m * std::tan(0.5 * view_angle) / std::max(1, height());
+    camera_.Pan(-metres_per_pixel * way.x(), metres_per_pixel * way.y());
+  }
+  moved_ = true;
+  PlaceCamera();
+  Redraw();
+}
+
+void CloudCanvas::LookAtPointUnder(const QPointF& position) {
+  vtkNew<vtkPointPicker> picker;  // the hardware selector takes a second a million points here
+  picker->SetTolerance(0.01);
+  picker->PickFromListOn();
+  picker->AddPickList(points_);
+  const double ratio = devicePixelRatioF();
+  if (!picker->Pick(position.x() * ratio, (height() - 1 - position.y()) * ratio, 0.0, renderer_))
+    return;
+  double picked[3];
+  picker->GetPickPosition(picked);
+  camera_.focal = {picked[0], picked[1], picked[2]};
+  moved_ = true;
+  PlaceCamera();
+  Redraw();
+}
+
+void CloudCanvas::ShowSample(bool sample) {
+  points_->SetVisibility(sample ? 0 : 1);
+  sample_->SetVisibility(sample ? 1 : 0);
+  if (!sample) Redraw();
+}
+
+void CloudCanvas::PlaceCamera() {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  const Eigen::Vector3d position = camera_.Position();
+  camera->SetFocalPoint(camera_.focal.data());
+  camera->SetPosition(position.data());
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  renderer_->ResetCameraClippingRange();
+}
+
+void CloudCanvas::resizeEvent(QResizeEvent* event) {
+  QVTKOpenGLNativeWidget::resizeEvent(event);
+  PlaceColorBar(color_bar_, width(), height());
+}
+
+void CloudCanvas::Redraw() {
+  if (!isVisible()) return;
+  renderer_->ResetCameraClippingRange();
+  renderWindow()->Render();
+}
+
+}  // namespace foresight

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "ui/render/point_set.h"
+#include "ui/viewmodels/session_model.h"
+#include "ui/viewmodels/task_runner.h"
+#include "ui/views/cloud_canvas.h"
+#include "ui/views/pane.h"
+
+class QComboBox;
+
+namespace foresight {
+
+/// The scan in 3D: the lidar's points as they arrive, or the masked depth as a cloud.
+class CloudPane : public Pane {
+  Q_OBJECT
+
+ public:
+  explicit CloudPane(SessionModel* session, QWidget* parent = nullptr);
+
+  CloudCanvas* Canvas() { return canvas_; }
+  /// How many points are drawn.
+  std::size_t PointCount() const { return point_count_; }
+
+ private:
+  enum class Source { kLidar, kDepth };
+
+  void BuildControls();
+  void FillColors();
+  void Prepare();
+  void Show(const PointSet& set);
+  PointColor Color() const;
+  bool HasData() const;
+
+  SessionModel* session_;
+  CloudCanvas* canvas_;
+  TaskRunner runner_;
+  QComboBox* source_;
+  QComboBox* color_;
+  bool outdated_ = false;  ///< newer data came while the last were being prepared
+  std::size_t point_count_ = 0;
+};
+
+}  // namespace foresight

@@ -1,0 +1,240 @@
+#include "ui/views/depth_canvas.h"
+
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkImageMapper3D.h>
+#include <vtkImageProperty.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <QMouseEvent>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/render/vtk_data.h"
+#include "ui/views/color_bar.h"
+#include "ui/views/overlay_style.h"
+
+namespace foresight {
+namespace {
+
+vtkSmartPointer<vtkActor> LineActor(Rgb8 color, float width) {
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(VtkLinesOf({}));
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(color.r / 255.0, color.g / 255.0, color.b / 255.0);
+  actor->GetProperty()->SetLineWidth(width);
+  actor->GetProperty()->LightingOff();
+  actor->SetPosition(0.0, 0.0, 1.0);  // in front of the picture
+  return actor;
+}
+
+void SetLines(vtkActor* actor, const Polylines& lines) {
+  static_cast<vtkPolyDataMapper*>(actor->GetMapper())->SetInputData(VtkLinesOf(lines));
+}
+
+}  // namespace
+
+DepthCanvas::DepthCanvas(QWidget* parent)
+    : QVTKOpenGLNativeWidget(parent),
+      renderer_(vtkSmartPointer<vtkRenderer>::New()),
+      picture_(vtkSmartPointer<vtkImageActor>::New()),
+      color_bar_(MakeColorBar()),
+      templates_(LineActor(kTemplateColor, 3.0f)),
+      roi_(LineActor(kRoiColor, 2.0f)),
+      drag_actor_(LineActor(kRoiColor, 2.0f)) {
+  setRenderWindow(vtkNew<vtkGenericOpenGLRenderWindow>());
+  renderWindow()->AddRenderer(renderer_);
+  renderer_->SetBackground(0.09, 0.10, 0.12);
+  renderer_->GetActiveCamera()->ParallelProjectionOn();
+  renderer_->AddActor(picture_);
+  for (const auto& actor : {templates_, roi_, drag_actor_}) renderer_->AddActor(actor);
+  renderer_->AddActor2D(color_bar_);
+  setMinimumSize(160, 120);
+  setMouseTracking(true);
+  setFocusPolicy(Qt::ClickFocus);
+  setAccessibleName(tr("Depth map"));
+}
+
+void DepthCanvas::SetPicture(const ColorImage& picture) {
+  const bool same_size = picture.width() == image_width_ && picture.height() == image_height_;
+  image_width_ = std::max(1, picture.width());
+  image_height_ = std::max(1, picture.height());
+  picture_->GetMapper()->SetInputData(VtkImageOf(picture));
+  if (!same_size) shows_all_ = true;
+  if (shows_all_) ShowAll();
+  Redraw();
+}
+
+void DepthCanvas::SetColorBar(ColorMap map, const ValueRange& range, const QString& title) {
+  color_bar_->SetLookupTable(VtkTableOf(map, range));
+  color_bar_->SetTitle(title.toUtf8().constData());
+  Redraw();
+}
+
+void DepthCanvas::SetRoi(const std::optional<ImageRoi>& roi) {
+  SetLines(roi_, roi ? Outline(*roi) : Polylines());
+  Redraw();
+}
+
+Polylines DepthCanvas::Outline(const ImageRoi& roi) const {
+  std::vector<Eigen::Vector3d> line;
+  for (const auto& corner : roi.polygon)
+    line.emplace_back(corner.x(), image_height_ - 1 - corner.y(), 0.0);
+  line.push_back(line.front());
+  return {line};
+}
+
+void DepthCanvas::SetTemplates(const PixelLines& pixel_lines) {
+  Polylines lines;
+  for (const auto& pixel_line : pixel_lines) {
+    auto& line = lines.emplace_back();
+    for (const auto& pixel : pixel_line)
+      line.emplace_back(pixel.x(), image_height_ - 1 - pixel.y(), 0.0);
+  }
+  SetLines(templates_, lines);
+  Redraw();
+}
+
+void DepthCanvas::SetDrawing(bool drawing) {
+  drawing_ = drawing;
+  setCursor(drawing ? Qt::CrossCursor : Qt::OpenHandCursor);
+  drag_.Cancel();
+  DrawDrag();
+}
+
+void DepthCanvas::ShowAll() {
+  shows_all_ = true;
+  // The picture fills what the colour bar leaves.
+  const double room_x = std::max(1, width() - kColorBarWidth_px);
+  const double scale =
+      std::max(image_width_ / room_x, image_height_ / std::max(1.0, height() * 1.0));
+  half_height_ = 0.5 * scale * height();
+  center_ = {0.5 * (image_width_ - 1) + 0.5 * scale * kColorBarWidth_px, 0.5 * (image_height_ - 1)};
+  PlaceCamera();
+}
+
+void DepthCanvas::PlaceCamera() {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetFocalPoint(center_.x(), center_.y(), 0.0);
+  camera->SetPosition(center_.x(), center_.y(), 10.0);
+  camera->SetViewUp(0.0, 1.0, 0.0);
+  camera->SetParallelScale(half_height_);
+  camera->SetClippingRange(1.0, 20.0);
+  PlaceColorBar(color_bar_, width(), height());
+}
+
+double DepthCanvas::Scale() const {
+  return 2.0 * half_height_ / std::max(1, height());
+}
+
+Eigen::Vector2d DepthCanvas::PixelAt(const QPointF& position) const {
+  const double x = center_.x() + (position.x() - 0.5 * width()) * Scale();
+  const double y = center_.y() - (position.y() - 0.5 * height()) * Scale();
+  return {x, image_height_ - 1 - y};
+}
+
+QPoint DepthCanvas::WidgetFromPixel(const Eigen::Vector2d& pixel) const {
+  const double y = image_height_ - 1 - pixel.y();
+  return {static_cast<int>(std::lround(0.5 * width() + (pixel.x() - center_.x()) / Scale())),
+          static_cast<int>(std::lround(0.5 * height() - (y - center_.y()) / Scale()))};
+}
+
+bool DepthCanvas::event(QEvent* event) {
+  switch (event->type()) {
+    case QEvent::MouseButtonPress:
+      if (OnPress(*static_cast<QMouseEvent*>(event))) return true;
+      break;
+    case QEvent::MouseMove:
+      if (OnMove(*static_cast<QMouseEvent*>(event))) return true;
+      break;
+    case QEvent::MouseButtonRelease:
+      if (OnRelease(*static_cast<QMouseEvent*>(event))) return true;
+      break;
+    case QEvent::Wheel:
+      OnWheel(*static_cast<QWheelEvent*>(event));
+      return true;
+    case QEvent::KeyPress:
+      if (static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape && drag_.Active()) {
+        drag_.Cancel();
+        DrawDrag();
+        return true;
+      }
+      event->ignore();  // VTK's own keys (e, q, w) must not reach an operator
+      return false;
+    default:
+      break;
+  }
+  return QVTKOpenGLNativeWidget::event(event);
+}
+
+bool DepthCanvas::OnPress(const QMouseEvent& event) {
+  setFocus();
+  if (drawing_ && event.button() == Qt::LeftButton) {
+    drag_.Begin(PixelAt(event.localPos()));
+  } else {
+    panning_ = true;
+    pan_from_ = event.localPos();
+  }
+  return true;
+}
+
+bool DepthCanvas::OnMove(const QMouseEvent& event) {
+  if (drag_.Active()) {
+    drag_.Move(PixelAt(event.localPos()));
+    DrawDrag();
+  } else if (panning_) {
+    const QPointF way = event.localPos() - pan_from_;
+    pan_from_ = event.localPos();
+    shows_all_ = false;
+    center_ += Scale() * Eigen::Vector2d(-way.x(), way.y());
+    PlaceCamera();
+    Redraw();
+  }
+  Q_EMIT pixelPointedAt(PixelAt(event.localPos()));
+  return true;
+}
+
+bool DepthCanvas::OnRelease(const QMouseEvent& event) {
+  panning_ = false;
+  drag_.Move(PixelAt(event.localPos()));
+  if (const auto corners = drag_.End()) {
+    DrawDrag();
+    Q_EMIT roiDrawn(corners->first, corners->second);
+  }
+  return true;
+}
+
+void DepthCanvas::OnWheel(const QWheelEvent& event) {
+  const QPointF middle(0.5 * width(), 0.5 * height());
+  const QPointF off = event.position() - middle;
+  const Eigen::Vector2d offset(off.x(), -off.y());
+  const Eigen::Vector2d under_mouse = center_ + Scale() * offset;
+  half_height_ = std::clamp(half_height_ * std::pow(0.9985, event.angleDelta().y()), 5.0, 1e5);
+  center_ = under_mouse - Scale() * offset;
+  shows_all_ = false;
+  PlaceCamera();
+  Redraw();
+}
+
+void DepthCanvas::resizeEvent(QResizeEvent* event) {
+  QVTKOpenGLNativeWidget::resizeEvent(event);
+  if (shows_all_)
+    ShowAll();
+  else
+    PlaceCamera();
+}
+
+void DepthCanvas::DrawDrag() {
+  const auto& corners = drag_.Current();
+  SetLines(drag_actor_, corners ? Outline(ImageRoi::Rectangle(0.0, corners->first, corners->second))
+                                : Polylines());
+  Redraw();
+}
+
+void DepthCanvas::Redraw() {
+  // QWidget::update() would only show the last frame again.
+  if (isVisible()) renderWindow()->Render();
+}
+
+}  // namespace foresight

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkActor.h>
+#include <vtkImageActor.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkSmartPointer.h>
+
+#include "core/base/image.h"
+#include "core/fitting/roi.h"
+#include "ui/render/color_map.h"
+#include "ui/render/projected_wireframe.h"
+#include "ui/render/vtk_data.h"
+#include "ui/views/roi_drag.h"
+
+namespace foresight {
+
+/// A painted depth map in VTK with a colour bar, regions and templates. The world is the image:
+/// x = u, y = height - 1 - v. Wheel zooms, dragging pans or, in drawing mode, draws a region.
+class DepthCanvas : public QVTKOpenGLNativeWidget {
+  Q_OBJECT
+
+ public:
+  explicit DepthCanvas(QWidget* parent = nullptr);
+
+  void SetPicture(const ColorImage& picture);
+  void SetColorBar(ColorMap map, const ValueRange& range, const QString& title);
+  void SetRoi(const std::optional<ImageRoi>& roi);
+  void SetTemplates(const PixelLines& lines);
+  void SetDrawing(bool drawing);
+  void ShowAll();
+  /// Where a pixel of the picture is on this widget.
+  QPoint WidgetFromPixel(const Eigen::Vector2d& pixel) const;
+
+ Q_SIGNALS:
+  void roiDrawn(const Eigen::Vector2d& corner_a, const Eigen::Vector2d& corner_b);
+  void pixelPointedAt(const Eigen::Vector2d& pixel);
+
+ protected:
+  bool event(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  bool OnPress(const QMouseEvent& event);
+  bool OnMove(const QMouseEvent& event);
+  bool OnRelease(const QMouseEvent& event);
+  void OnWheel(const QWheelEvent& event);
+  Eigen::Vector2d PixelAt(const QPointF& position) const;
+  /// World units (pixels of the picture) in a pixel of the widget.
+  double Scale() const;
+  Polylines Outline(const ImageRoi& roi) const;
+  void PlaceCamera();
+  void DrawDrag();
+  void Redraw();
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkImageActor> picture_;
+  vtkSmartPointer<vtkScalarBarActor> color_bar_;
+  vtkSmartPointer<vtkActor> templates_;
+  vtkSmartPointer<vtkActor> roi_;
+  vtkSmartPointer<vtkActor> drag_actor_;
+  RoiDrag drag_;
+  QPointF pan_from_;
+  bool panning_ = false;
+  bool drawing_ = false;
+  bool shows_all_ = true;
+  int image_width_ = 1;
+  int image_height_ = 1;
+  Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< world point in the widget's middle
+  double half_height_ = 1.0;                          ///< world units from there to the top
+};
+
+}  // namespace foresight

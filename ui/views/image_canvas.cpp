@@ -1,0 +1,162 @@
+#include "ui/views/image_canvas.h"
+
+#include <QGraphicsPathItem>
+#include <QGraphicsPixmapItem>
+#include <QMouseEvent>
+#include <QPainterPath>
+#include <cmath>
+
+#include "ui/render/qimage_of.h"
+#include "ui/views/overlay_style.h"
+
+namespace foresight {
+namespace {
+
+QPen CosmeticPen(const QColor& color, double width, Qt::PenStyle style = Qt::SolidLine) {
+  QPen pen(color, width, style);
+  pen.setCosmetic(true);
+  return pen;
+}
+
+QColor ColorFrom(Rgb8 color) {
+  return {color.r, color.g, color.b};
+}
+
+template <class Points>
+QPainterPath PathThrough(const Points& points, bool closed) {
+  QPolygonF polygon;
+  for (const Eigen::Vector2d& point : points) polygon << QPointF(point.x(), point.y());
+  QPainterPath path;
+  path.addPolygon(polygon);
+  if (closed) path.closeSubpath();
+  return path;
+}
+
+}  // namespace
+
+ImageCanvas::ImageCanvas(QWidget* parent) : QGraphicsView(parent) {
+  setScene(new QGraphicsScene(this));
+  setFrameShape(QFrame::NoFrame);
+  setRenderHint(QPainter::SmoothPixmapTransform);
+  setRenderHint(QPainter::Antialiasing);
+  setTransformationAnchor(AnchorUnderMouse);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setDragMode(ScrollHandDrag);
+  setMinimumSize(160, 120);
+  setAccessibleName(tr("Camera picture"));
+
+  picture_ = scene()->addPixmap({});
+  picture_->setTransformationMode(Qt::SmoothTransformation);
+  picture_->setOffset(-0.5, -0.5);
+  templates_shadow_ = scene()->addPath({}, CosmeticPen(QColor(0, 0, 0, 160), 4.0));
+  templates_ = scene()->addPath({}, CosmeticPen(ColorFrom(kTemplateColor), 2.0));
+  roi_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5));
+  drag_item_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5, Qt::DashLine),
+                                QColor(255, 255, 255, 40));
+}
+
+void ImageCanvas::SetPicture(const ColorImage& picture) {
+  picture_->setPixmap(QPixmap::fromImage(QImageOf(picture)));
+  const QRectF frame(-0.5, -0.5, picture.width(), picture.height());
+  const bool same_size = scene()->sceneRect() == frame;
+  scene()->setSceneRect(frame);
+  if (!same_size) ShowAll();
+}
+
+void ImageCanvas::SetRoi(const std::optional<ImageRoi>& roi) {
+  roi_->setPath(roi ? PathThrough(roi->polygon, true) : QPainterPath());
+}
+
+void ImageCanvas::SetTemplates(const PixelLines& lines) {
+  QPainterPath path;
+  for (const auto& line : lines) path.addPath(PathThrough(line, false));
+  templates_->setPath(path);
+  templates_shadow_->setPath(path);
+}
+
+void ImageCanvas::SetDrawing(bool drawing) {
+  drawing_ = drawing;
+  setDragMode(drawing ? NoDrag : ScrollHandDrag);
+  viewport()->setCursor(drawing ? Qt::CrossCursor : Qt::OpenHandCursor);
+  drag_.Cancel();
+  DrawDrag();
+}
+
+void ImageCanvas::ShowAll() {
+  shows_all_ = true;
+  if (!sceneRect().isEmpty()) fitInView(sceneRect(), Qt::KeepAspectRatio);
+}
+
+QPoint ImageCanvas::WidgetFromPixel(const Eigen::Vector2d& pixel) const {
+  return mapFromScene(QPointF(pixel.x(), pixel.y()));
+}
+
+Eigen::Vector2d ImageCanvas::PixelAt(const QPoint& position) const {
+  const QPointF scene_point = mapToScene(position);
+  return {scene_point.x(), scene_point.y()};
+}
+
+void ImageCanvas::mousePressEvent(QMouseEvent* event) {
+  if (!drawing_ || event->button() != Qt::LeftButton) {
+    QGraphicsView::mousePressEvent(event);
+    return;
+  }
+  setFocus();
+  drag_.Begin(PixelAt(event->pos()));
+}
+
+void ImageCanvas::mouseMoveEvent(QMouseEvent* event) {
+  if (drag_.Active()) {
+    drag_.Move(PixelAt(event->pos()));
+    DrawDrag();
+  } else {
+    QGraphicsView::mouseMoveEvent(event);
+  }
+}
+
+void ImageCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  drag_.Move(PixelAt(event->pos()));
+  if (const auto corners = drag_.End()) {
+    DrawDrag();
+    Q_EMIT roiDrawn(corners->first, corners->second);
+  } else {
+    QGraphicsView::mouseReleaseEvent(event);
+  }
+}
+
+void ImageCanvas::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape && drag_.Active()) {
+    drag_.Cancel();
+    DrawDrag();
+  } else {
+    event->ignore();  // arrows and letters belong to the window's shortcuts
+  }
+}
+
+void ImageCanvas::wheelEvent(QWheelEvent* event) {
+  const double factor = std::pow(1.0015, event->angleDelta().y());
+  shows_all_ = false;
+  scale(factor, factor);
+}
+
+void ImageCanvas::resizeEvent(QResizeEvent* event) {
+  QGraphicsView::resizeEvent(event);
+  if (shows_all_) ShowAll();
+}
+
+void ImageCanvas::showEvent(QShowEvent* event) {
+  QGraphicsView::showEvent(event);
+  if (shows_all_) ShowAll();
+}
+
+void ImageCanvas::DrawDrag() {
+  QPainterPath path;
+  if (const auto& corners = drag_.Current())
+    path.addRect(QRectF(QPointF(corners->first.x(), corners->first.y()),
+                        QPointF(corners->second.x(), corners->second.y()))
+                     .normalized());
+  drag_item_->setPath(path);
+}
+
+}  // namespace foresight

@@ -1,0 +1,59 @@
+#include "ui/views/image_pane.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QSignalBlocker>
+
+#include "core/geometry/angles.h"
+#include "ui/views/templates_in_picture.h"
+
+namespace foresight {
+
+ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent)
+    : Pane(new ImageCanvas, tr("No scan yet: press Scan (Space)"), parent),
+      session_(session),
+      canvas_(static_cast<ImageCanvas*>(Pane::Canvas())),
+      choice_(new QComboBox) {
+  choice_->setAccessibleName(tr("Picture"));
+  Controls()->addWidget(choice_);
+  connect(session_, &SessionModel::scanChanged, this, &ImagePane::FillChoice);
+  connect(session_, &SessionModel::pictureChanged, this, &ImagePane::ShowPicture);
+  connect(session_, &SessionModel::valvesChanged, this, &ImagePane::ShowTemplates);
+  connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
+  connect(choice_, QOverload<int>::of(&QComboBox::activated), session_,
+          &SessionModel::SelectPicture);
+  connect(fit, &FitViewModel::changed, this, [this, fit] { canvas_->SetDrawing(fit->RoiTool()); });
+  connect(canvas_, &ImageCanvas::roiDrawn, fit, &FitViewModel::DrawRoi);
+  FillChoice();
+}
+
+void ImagePane::FillChoice() {
+  const QSignalBlocker blocker(choice_);
+  choice_->clear();
+  if (session_->CurrentScan())
+    for (const CameraFrame& frame : session_->CurrentScan()->frames)
+      choice_->addItem(tr("At %1°").arg(DegreesFromRadians(frame.motor_angle_rad), 0, 'f', 1));
+  choice_->setVisible(choice_->count() > 1);
+}
+
+void ImagePane::ShowPicture() {
+  const CameraFrame* picture = session_->Picture();
+  ShowCanvas(picture != nullptr);
+  if (picture == nullptr) {
+    SetCaption({});
+    return;
+  }
+  const QSignalBlocker blocker(choice_);
+  choice_->setCurrentIndex(session_->PictureIndex());
+  canvas_->SetPicture(picture->image);
+  SetCaption(tr("Scan of %1, picture at %2°")
+                 .arg(session_->ScanTime().toString(QStringLiteral("HH:mm:ss")))
+                 .arg(DegreesFromRadians(picture->motor_angle_rad), 0, 'f', 1));
+  ShowTemplates();
+}
+
+void ImagePane::ShowTemplates() {
+  canvas_->SetTemplates(TemplatesInPicture(*session_));
+}
+
+}  // namespace foresight

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "ui/viewmodels/fit_view_model.h"
+#include "ui/views/image_canvas.h"
+#include "ui/views/pane.h"
+
+class QComboBox;
+
+namespace foresight {
+
+/// The camera's picture, with the choice between those of the scan.
+class ImagePane : public Pane {
+  Q_OBJECT
+
+ public:
+  ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent = nullptr);
+
+  ImageCanvas* Canvas() { return canvas_; }
+
+ private:
+  void ShowPicture();
+  void FillChoice();
+  void ShowTemplates();
+
+  SessionModel* session_;
+  ImageCanvas* canvas_;
+  QComboBox* choice_;
+};
+
+}  // namespace foresight

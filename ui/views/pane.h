@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QWidget>
+
+class QHBoxLayout;
+class QLabel;
+class QStackedLayout;
+class QVBoxLayout;
+
+namespace foresight {
+
+/// The frame that all three panes share: a row of controls, a canvas with a hint in its place while
+/// there is nothing to show, and a line of caption that says what is seen and how old it is.
+class Pane : public QWidget {
+  Q_OBJECT
+
+ public:
+  Pane(QWidget* canvas, const QString& hint, QWidget* parent);
+
+  QWidget* Canvas() const { return canvas_; }
+  void ShowCanvas(bool show);
+  void SetHint(const QString& hint);
+  void SetCaption(const QString& caption);
+
+ protected:
+  QHBoxLayout* Controls() { return controls_; }
+  QVBoxLayout* Footer() { return footer_; }
+
+ private:
+  QWidget* canvas_;
+  QLabel* hint_;
+  QLabel* caption_;
+  QHBoxLayout* controls_;
+  QStackedLayout* stack_;
+  QVBoxLayout* footer_;
+};
+
+}  // namespace foresight
