@@ -294,12 +294,14 @@ Status MissionFile::EndScan(std::int64_t scan_id, ScanState state, const std::st
 Status MissionFile::Batch(const std::function<Status()>& body) {
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckWritable());
+  const std::int64_t running_before = impl_->running_scan;
   FORESIGHT_CHECK(impl_->database->Run("BEGIN IMMEDIATE"));
   Status status = body();
   const Status committed =
       impl_->database->InTransaction() ? impl_->database->Run("COMMIT") : Status{};
   if (!committed) {
     (void)impl_->database->Run("ROLLBACK");
+    impl_->running_scan = running_before;
     return committed;
   }
   return status;

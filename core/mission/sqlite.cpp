@@ -1,6 +1,7 @@
 #include "core/mission/sqlite.h"
 
-#include <cmath>
+#include <sqlite3.h>
+
 #include <limits>
 
 namespace foresight {
@@ -60,6 +61,10 @@ int OpenFlags(SqliteDatabase::Mode mode) {
 }
 
 }  // namespace
+
+void SqliteStatement::Finalize::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
 
 SqliteStatement& SqliteStatement::Bind(std::int64_t value) {
   const int code = sqlite3_bind_int64(statement_.get(), ++bound_, value);
@@ -121,6 +126,14 @@ std::string SqliteStatement::Text(int column) const {
   const int size = sqlite3_column_bytes(statement_.get(), column);
   return bytes == nullptr || size <= 0 ? std::string()
                                        : std::string(bytes, static_cast<std::size_t>(size));
+}
+
+void SqliteDatabase::Close::operator()(sqlite3* connection) const {
+  sqlite3_close_v2(connection);
+}
+
+bool SqliteDatabase::InTransaction() const {
+  return sqlite3_get_autocommit(connection_.get()) == 0;
 }
 
 Result<SqliteDatabase> SqliteDatabase::Open(const std::filesystem::path& path, Mode mode) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sqlite3.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -9,6 +7,10 @@
 #include <string_view>
 
 #include "core/base/result.h"
+
+// SQLite itself is included in sqlite.cpp only.
+struct sqlite3;
+struct sqlite3_stmt;
 
 namespace foresight {
 
@@ -36,7 +38,7 @@ class SqliteStatement {
  private:
   friend class SqliteDatabase;
   struct Finalize {
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+    void operator()(sqlite3_stmt* statement) const;
   };
   SqliteStatement(sqlite3_stmt* statement, const std::string& file)
       : statement_(statement), file_(file) {}
@@ -44,7 +46,7 @@ class SqliteStatement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
   std::string file_;
   int bound_ = 0;
-  int bind_error_ = SQLITE_OK;
+  int bind_error_ = 0;
 };
 
 /// One connection. Errors of SQLite become kIo (disk, rights, in use) or kBadData (damage), and
@@ -58,12 +60,11 @@ class SqliteDatabase {
   Result<SqliteStatement> Prepare(const char* sql) const;
   /// The first column of the first row.
   Result<std::int64_t> Integer(const char* sql) const;
-  std::int64_t LastInsertId() const { return sqlite3_last_insert_rowid(connection_.get()); }
-  bool InTransaction() const { return sqlite3_get_autocommit(connection_.get()) == 0; }
+  bool InTransaction() const;
 
  private:
   struct Close {
-    void operator()(sqlite3* connection) const { sqlite3_close_v2(connection); }
+    void operator()(sqlite3* connection) const;
   };
 
   std::unique_ptr<sqlite3, Close> connection_;

@@ -1,0 +1,239 @@
+#include "hardware/head/capture_head.h"
+
+#include <chrono>
+
+#include "core/base/contract.h"
+#include "core/base/log.h"
+
+namespace foresight {
+namespace {
+
+constexpr std::chrono::milliseconds kIdlePeriod{100};
+constexpr std::chrono::microseconds kHomingPoll{5000};
+
+std::int64_t WallClock_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+CaptureHead::CaptureHead(HeadDevices devices, SensorRig rig, CaptureOptions options)
+    : devices_(std::move(devices)), rig_(std::move(rig)), options_(std::move(options)) {
+  FORESIGHT_EXPECTS(devices_.lidar && devices_.camera && devices_.motor && devices_.clock,
+                    "a head has all of its devices");
+  FORESIGHT_EXPECTS(options_.Check().has_value(), options_.Check().error().message);
+  FORESIGHT_EXPECTS(rig_.Check().has_value(), rig_.Check().error().message);
+  status_.message = "not connected: home the head";
+  thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+}
+
+CaptureHead::~CaptureHead() {
+  thread_.request_stop();
+  ++stop_count_;
+  StopMotorNow();
+  thread_.join();
+  StopMotorNow();
+}
+
+std::string CaptureHead::Describe() const {
+  return options_.description;
+}
+
+HeadStatus CaptureHead::Status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+
+Status CaptureHead::Home() {
+  const std::lock_guard lock(mutex_);
+  if (status_.state != HeadState::kDisconnected && status_.state != HeadState::kReady &&
+      status_.state != HeadState::kFault)
+    return Fail(ErrorCode::kState, "{}: cannot be homed while {}", options_.description,
+                ToString(status_.state));
+  status_.state = HeadState::kHoming;
+  status_.message = "searching the zero reference";
+  request_ = HomeRequest{stop_count_};
+  wake_.notify_all();
+  return {};
+}
+
+Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) {
+  FORESIGHT_EXPECTS(sink != nullptr, "a scan needs somewhere to go");
+  FORESIGHT_TRY(const ScanPrediction prediction, PredictScan(plan, rig_));
+  const std::lock_guard lock(mutex_);
+  if (status_.state != HeadState::kReady)
+    return Fail(ErrorCode::kState, "{}: cannot scan while {}{}", options_.description,
+                ToString(status_.state),
+                status_.state == HeadState::kDisconnected ? ": home it first" : "");
+  ScanRequest request{stop_count_, Scan(), std::move(sink)};
+  request.header.uuid = NewUuid();
+  request.header.start_utc_ns =
+      WallClock_ns() - static_cast<std::int64_t>(devices_.clock->Now() * 1e9);
+  request.header.source = options_.description;
+  request.header.simulated = options_.simulated;
+  request.header.plan = plan;
+  request.header.rig = rig_;
+  abort_requested_ = false;
+  status_.state = HeadState::kSweeping;
+  status_.commanded_speed_rad_s = plan.speed_rad_s;
+  status_.lines = status_.frames = status_.lost_lines = 0;
+  status_.expected_lines = prediction.lines;
+  status_.message.clear();
+  request_ = std::move(request);
+  wake_.notify_all();
+  return {};
+}
+
+void CaptureHead::AbortScan() {
+  abort_requested_ = true;
+}
+
+void CaptureHead::StopMotor() {
+  // In this order: if the thread starts a move in between, it sees the count afterwards and stops.
+  ++stop_count_;
+  StopMotorNow();
+}
+
+void CaptureHead::Work(const std::stop_token& stop) {
+  for (;;) {
+    Request request;
+    {
+      std::unique_lock lock(mutex_);
+      const auto asked = [this] { return !std::holds_alternative<std::monostate>(request_); };
+      wake_.wait_for(lock, stop, kIdlePeriod, asked);
+      request = std::exchange(request_, std::monostate());
+    }
+    try {
+      // A request that was accepted is answered even now: somebody waits for the scan's end.
+      if (auto* home = std::get_if<HomeRequest>(&request)) {
+        RunHoming(*home, stop);
+      } else if (auto* scan = std::get_if<ScanRequest>(&request)) {
+        RunScan(*scan, stop);
+      } else if (stop.stop_requested()) {
+        return;
+      } else {
+        LookAtMotor();
+      }
+    } catch (const std::exception& error) {
+      EnterFault(error.what());
+    }
+  }
+}
+
+void CaptureHead::RunHoming(const HomeRequest& request, const std::stop_token& stop) {
+  const foresight::Status homed = ConnectAndHome(request, stop);
+  if (homed) {
+    Update([](HeadStatus& status) {
+      status.state = HeadState::kReady;
+      status.message.clear();
+    });
+    LookAtMotor();
+  } else if (homed.error().code == ErrorCode::kCancelled) {
+    StopMotorNow();
+    Update([&](HeadStatus& status) {
+      status.state = HeadState::kDisconnected;
+      status.message = homed.error().message;
+    });
+  } else {
+    EnterFault(homed.error().message);
+  }
+}
+
+Status CaptureHead::ConnectAndHome(const HomeRequest& request, const std::stop_token& stop) {
+  const auto stopped = [&] { return stop.stop_requested() || stop_count_ != request.stops_before; };
+  FORESIGHT_CHECK(devices_.motor->Connect());
+  FORESIGHT_CHECK(devices_.lidar->Connect());
+  FORESIGHT_CHECK(devices_.camera->Connect());
+  if (!stopped()) FORESIGHT_CHECK(devices_.motor->StartHoming());
+  const double deadline_s = devices_.clock->Now() + options_.homing_timeout_s;
+  for (;;) {
+    if (stopped())
+      return Fail(ErrorCode::kCancelled, "homing was stopped: home again before scanning");
+    FORESIGHT_TRY(const bool moving, devices_.motor->Moving());
+    if (!moving) break;
+    if (devices_.clock->Now() > deadline_s)
+      return Fail(ErrorCode::kDevice, "{}: found no zero reference within {:.0f} s",
+                  devices_.motor->Describe(), options_.homing_timeout_s);
+    devices_.clock->Sleep(kHomingPoll);
+    Update([this](HeadStatus& status) { status.time_s = devices_.clock->Now(); });
+  }
+  if (!devices_.motor->Homed())
+    return Fail(ErrorCode::kDevice, "{}: came to rest without finding its zero reference",
+                devices_.motor->Describe());
+  return {};
+}
+
+void CaptureHead::RunScan(ScanRequest& request, const std::stop_token& stop) {
+  CaptureSweep::Hooks hooks;
+  hooks.interruption = [&]() -> std::optional<SweepEnd> {
+    if (stop.stop_requested())
+      return SweepEnd{ScanState::kInterrupted, "the head was switched off", false, true};
+    if (stop_count_ != request.stops_before)
+      return SweepEnd{ScanState::kAborted, "the operator stopped the motor", false, false};
+    if (abort_requested_)
+      return SweepEnd{ScanState::kAborted, "the operator ended the scan", false, false};
+    return std::nullopt;
+  };
+  hooks.report = [this](const SweepProgress& progress) {
+    Update([&](HeadStatus& status) {
+      status.state = progress.state;
+      status.time_s = devices_.clock->Now();
+      status.angle_rad = progress.position.angle_rad;
+      status.speed_rad_s = progress.speed_rad_s;
+      status.lines = progress.lines;
+      status.frames = progress.frames;
+      status.lost_lines = progress.lost_lines;
+    });
+  };
+  CaptureSweep sweep(devices_, options_, request.header, *request.sink, hooks);
+  const SweepEnd end = sweep.Run();
+  request.sink.reset();
+  if (end.fault) return EnterFault(end.reason);
+  Update([&](HeadStatus& status) {
+    status.state = HeadState::kReady;
+    status.speed_rad_s = 0.0;
+    status.commanded_speed_rad_s = 0.0;
+    status.message = end.reason;
+  });
+}
+
+/// Between the scans: shows the operator where the motor is, and notices when it is lost.
+void CaptureHead::LookAtMotor() {
+  if (Status().state != HeadState::kReady) return;
+  const Result<MotorSample> position = devices_.motor->Position();
+  if (!position) return EnterFault(position.error().message);
+  devices_.motor->TakeTrack();  // nobody needs it, and it must not pile up
+  Update([&](HeadStatus& status) {
+    status.time_s = devices_.clock->Now();
+    status.angle_rad = position->angle_rad;
+  });
+}
+
+void CaptureHead::EnterFault(const std::string& what) {
+  StopMotorNow();
+  LogError("{}: {}", options_.description, what);
+  Update([&](HeadStatus& status) {
+    status.state = HeadState::kFault;
+    status.speed_rad_s = 0.0;
+    status.commanded_speed_rad_s = 0.0;
+    status.message =
+        what + "; the motor is stopped. Check the device's power and cable, then home the head";
+  });
+}
+
+void CaptureHead::StopMotorNow() noexcept {
+  try {
+    devices_.motor->QuickStop();
+  } catch (const std::exception& error) {
+    LogError("{}: {}", options_.description, error.what());
+  }
+}
+
+void CaptureHead::Update(const std::function<void(HeadStatus&)>& change) {
+  const std::lock_guard lock(mutex_);
+  change(status_);
+}
+
+}  // namespace foresight

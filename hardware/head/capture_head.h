@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <variant>
+
+#include "hardware/api/sensor_head.h"
+#include "hardware/head/capture_options.h"
+#include "hardware/head/capture_sweep.h"
+#include "hardware/head/head_devices.h"
+
+namespace foresight {
+
+/// A head on devices of this process. One thread owns the devices and the state machine
+/// Disconnected -> Homing -> Ready -> Sweeping -> Stopping -> Ready, and Fault from everywhere;
+/// only Motor::QuickStop is also called from the threads of the callers. Every error and the
+/// destructor stop the motor. A scan's clock is the head's clock.
+class CaptureHead final : public SensorHead {
+ public:
+  /// `rig` is the calibration in force. Throws ContractViolation when a device is missing or the
+  /// options or the rig do not pass their Check().
+  CaptureHead(HeadDevices devices, SensorRig rig, CaptureOptions options);
+  /// Stops the motor, ends a running scan as interrupted, and waits for the thread.
+  ~CaptureHead() override;
+
+  std::string Describe() const override;
+  HeadStatus Status() const override;
+  SensorRig Rig() const override { return rig_; }
+  foresight::Status Home() override;
+  foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
+  void AbortScan() override;
+  void StopMotor() override;
+
+ private:
+  struct HomeRequest {
+    int stops_before;  ///< stop_count_ when it was asked for: a later stop ends it
+  };
+  struct ScanRequest {
+    int stops_before;
+    Scan header;
+    std::shared_ptr<ScanSink> sink;
+  };
+  using Request = std::variant<std::monostate, HomeRequest, ScanRequest>;
+
+  void Work(const std::stop_token& stop);
+  void RunHoming(const HomeRequest& request, const std::stop_token& stop);
+  foresight::Status ConnectAndHome(const HomeRequest& request, const std::stop_token& stop);
+  void RunScan(ScanRequest& request, const std::stop_token& stop);
+  void LookAtMotor();
+  void EnterFault(const std::string& what);
+  void StopMotorNow() noexcept;
+  void Update(const std::function<void(HeadStatus&)>& change);
+
+  HeadDevices devices_;
+  const SensorRig rig_;
+  const CaptureOptions options_;
+
+  mutable std::mutex mutex_;  ///< guards status_ and request_
+  HeadStatus status_;
+  Request request_;
+  std::condition_variable_any wake_;
+  std::atomic<int> stop_count_{0};
+  std::atomic<bool> abort_requested_{false};
+  std::jthread thread_;  ///< last: starts when everything else is there
+};
+
+}  // namespace foresight

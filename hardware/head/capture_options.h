@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/result.h"
+
+namespace foresight {
+
+/// How a head conducts a sweep.
+struct CaptureOptions {
+  std::string description = "head";  ///< stands in every scan as its source
+  bool simulated = false;
+  /// The drive's; places the run-up so that the whole scope is swept at constant speed.
+  double acceleration_rad_s2 = 6.981317007977318;  ///< 400 deg/s^2
+  double settle_s = 0.06;                          ///< constant speed before and after the scope
+  double travel_speed_rad_s = 0.5235987755982988;  ///< to the start of a sweep, 30 deg/s
+  double homing_timeout_s = 60.0;
+  double lidar_timeout_s = 0.5;    ///< 20 lines of silence
+  double camera_timeout_s = 10.0;  ///< since the last frame; a simulated picture takes a second
+
+  Status Check() const;
+  /// From standstill to the scope, and from the scope to standstill.
+  double RunUp(double speed_rad_s) const;
+};
+
+}  // namespace foresight

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+
+#include "hardware/api/camera.h"
+#include "hardware/api/lidar.h"
+#include "hardware/api/motor.h"
+#include "hardware/api/sensor_clock.h"
+
+namespace foresight {
+
+/// The devices of one head. All are there; connecting is up to the head.
+struct HeadDevices {
+  std::unique_ptr<Lidar> lidar;
+  std::unique_ptr<Camera> camera;
+  std::unique_ptr<Motor> motor;
+  std::shared_ptr<SensorClock> clock;
+};
+
+}  // namespace foresight

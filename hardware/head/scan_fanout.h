@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hardware/api/sensor_head.h"
+
+namespace foresight {
+
+/// Hands a scan to several sinks, in their order.
+class ScanFanout final : public ScanSink {
+ public:
+  explicit ScanFanout(std::vector<std::shared_ptr<ScanSink>> sinks);
+
+  void OnScanStarted(const Scan& header) override;
+  void OnLine(const LidarLine& line) override;
+  void OnMotorSamples(std::span<const MotorSample> samples) override;
+  void OnFrame(const CameraFrame& frame) override;
+  void OnScanEnded(ScanState state, const std::string& reason) override;
+
+ private:
+  std::vector<std::shared_ptr<ScanSink>> sinks_;
+};
+
+}  // namespace foresight

@@ -1,0 +1,150 @@
+#include "hardware/head/scan_recorder.h"
+
+#include "core/base/contract.h"
+#include "core/base/log.h"
+
+namespace foresight {
+namespace {
+
+/// A disk this far behind (an hour of lines, two minutes of pictures) will not catch up; the memory
+/// of the machine is worth more then.
+constexpr std::size_t kMaxWaitingBytes = std::size_t{512} << 20;
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
+}  // namespace
+
+ScanRecorder::ScanRecorder(std::shared_ptr<MissionFile> mission)
+    : mission_(std::move(mission)),
+      outcome_(Fail(ErrorCode::kState, "no scan has been recorded yet")) {
+  FORESIGHT_EXPECTS(mission_ != nullptr, "a recorder has a mission file");
+  thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+}
+
+ScanRecorder::~ScanRecorder() {
+  thread_.request_stop();
+  thread_.join();
+  if (!running_) return;
+  const Status ended = mission_->EndScan(*running_, ScanState::kInterrupted,
+                                         "the recorder was closed before the scan ended");
+  if (!ended) LogError("{}", ended.error().message);
+}
+
+void ScanRecorder::OnScanStarted(const Scan& header) {
+  Push(header, 0);
+}
+
+void ScanRecorder::OnLine(const LidarLine& line) {
+  Push(line, (line.range_mm.size() + line.intensity.size()) * sizeof(std::uint16_t));
+}
+
+void ScanRecorder::OnMotorSamples(std::span<const MotorSample> samples) {
+  Push(std::vector<MotorSample>(samples.begin(), samples.end()), samples.size_bytes());
+}
+
+void ScanRecorder::OnFrame(const CameraFrame& frame) {
+  Push(frame, frame.image.size() * sizeof(Rgb8));
+}
+
+void ScanRecorder::OnScanEnded(ScanState state, const std::string& reason) {
+  Push(End{state, reason}, 0);
+}
+
+void ScanRecorder::Push(Piece piece, std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (std::holds_alternative<Scan>(piece)) overflowed_ = false;
+  if (overflowed_) return;
+  if (waiting_bytes_ + bytes > kMaxWaitingBytes) {
+    overflowed_ = true;
+    piece = Error{ErrorCode::kIo, fmt::format("{}: the disk is too slow: {} MB are waiting for it",
+                                              mission_->path().string(), waiting_bytes_ >> 20)};
+    bytes = 0;
+  }
+  waiting_bytes_ += bytes;
+  waiting_.push_back(std::move(piece));
+  idle_ = false;
+  wake_.notify_all();
+}
+
+Result<std::int64_t> ScanRecorder::WaitUntilWritten() {
+  std::unique_lock lock(mutex_);
+  written_.wait(lock, [this] { return idle_; });
+  return outcome_;
+}
+
+void ScanRecorder::Work(const std::stop_token& stop) {
+  for (;;) {
+    std::deque<Piece> pieces;
+    {
+      std::unique_lock lock(mutex_);
+      if (waiting_.empty()) {
+        idle_ = true;
+        written_.notify_all();
+      }
+      wake_.wait(lock, stop, [this] { return !waiting_.empty(); });
+      if (waiting_.empty()) return;
+      pieces.swap(waiting_);
+      waiting_bytes_ = 0;
+    }
+    try {
+      WriteAll(pieces);
+    } catch (const std::exception& error) {
+      GiveUp({ErrorCode::kIo, fmt::format("{}: {}", mission_->path().string(), error.what())});
+    }
+  }
+}
+
+/// Everything that waited goes to the disk in one commit.
+void ScanRecorder::WriteAll(std::deque<Piece>& pieces) {
+  const Status status = mission_->Batch([&]() -> Status {
+    for (const Piece& piece : pieces)
+      if (const Status written = Write(piece); !written) GiveUp(written.error());
+    return {};
+  });
+  if (!status) GiveUp(status.error());
+}
+
+Status ScanRecorder::Write(const Piece& piece) {
+  if (const auto* header = std::get_if<Scan>(&piece)) return WriteHeader(*header);
+  if (!running_) return {};  // it was given up, and that was told
+  const std::int64_t id = *running_;
+  return std::visit(
+      Overloaded{[](const Scan&) -> Status { return {}; },
+                 [&](const LidarLine& line) { return mission_->AppendLine(id, line); },
+                 [&](const std::vector<MotorSample>& samples) {
+                   return mission_->AppendMotorSamples(id, samples);
+                 },
+                 [&](const CameraFrame& frame) { return mission_->AppendFrame(id, frame); },
+                 [&](const End& end) {
+                   running_.reset();
+                   return mission_->EndScan(id, end.state, end.reason);
+                 },
+                 [](const Error& error) -> Status { return tl::unexpected(error); }},
+      piece);
+}
+
+Status ScanRecorder::WriteHeader(const Scan& header) {
+  running_.reset();
+  FORESIGHT_TRY(running_, mission_->BeginScan(header));
+  const std::lock_guard lock(mutex_);
+  outcome_ = *running_;
+  return {};
+}
+
+void ScanRecorder::GiveUp(const Error& error) {
+  LogError("{}", error.message);
+  if (running_) {
+    const Status ended = mission_->EndScan(*running_, ScanState::kInterrupted, error.message);
+    if (!ended) LogError("{}", ended.error().message);
+    running_.reset();
+  }
+  const std::lock_guard lock(mutex_);
+  outcome_ = tl::unexpected(error);
+}
+
+}  // namespace foresight

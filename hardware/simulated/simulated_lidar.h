@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "core/simulation/world.h"
+#include "hardware/api/lidar.h"
+#include "hardware/simulated/simulated_clock.h"
+#include "hardware/simulated/simulated_shaft.h"
+
+namespace foresight {
+
+/// A lidar whose mirror turns for ever; a line is ready when its last beam has come back.
+class SimulatedLidar final : public Lidar {
+ public:
+  SimulatedLidar(std::shared_ptr<const World> world, std::shared_ptr<SimulatedClock> clock,
+                 std::shared_ptr<const SimulatedShaft> shaft);
+
+  std::string Describe() const override { return "simulated lidar"; }
+  Status Connect() override { return {}; }
+  Status Start() override;
+  void Stop() override { running_ = false; }
+  Result<std::optional<LidarLine>> WaitForLine(std::chrono::milliseconds timeout) override;
+
+ private:
+  std::shared_ptr<const World> world_;
+  std::shared_ptr<SimulatedClock> clock_;
+  std::shared_ptr<const SimulatedShaft> shaft_;
+  bool running_ = false;
+  std::int64_t next_turn_ = 0;  ///< of the mirror since the head was switched on
+};
+
+}  // namespace foresight

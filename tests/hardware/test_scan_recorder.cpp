@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hardware/head/scan_recorder.h"
+#include "tests/core/io/temporary_folder.h"
+#include "tests/core/mission/sample_scan.h"
+#include "tests/hardware/tiny_head.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+void Send(ScanSink& sink, const Scan& scan) {
+  Scan header = scan;
+  header.lines.clear();
+  header.frames.clear();
+  header.track = {};
+  header.state = ScanState::kRunning;
+  sink.OnScanStarted(header);
+  sink.OnMotorSamples(scan.track.samples());
+  for (const LidarLine& line : scan.lines) sink.OnLine(line);
+  for (const CameraFrame& frame : scan.frames) sink.OnFrame(frame);
+  sink.OnScanEnded(scan.state, scan.reason);
+}
+
+TEST(ScanRecorder, TheMissionFileHoldsWhatTheAssemblerSaw) {
+  const TemporaryFolder folder;
+  TinyHead tiny;
+  ASSERT_TRUE(tiny.Home());
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  const auto recorder = std::make_shared<ScanRecorder>(mission);
+  tiny.sinks = std::make_shared<ScanFanout>(
+      std::vector<std::shared_ptr<ScanSink>>{tiny.assembler, recorder, tiny.watch});
+  const auto scan = tiny.Run(TinyPlan());
+  ASSERT_TRUE(scan);
+  const std::int64_t id = recorder->WaitUntilWritten().value();
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), *scan));
+}
+
+TEST(ScanRecorder, WritesOneScanAfterTheOther) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  ScanRecorder recorder(mission);
+  Send(recorder, SampleScan(1));
+  Send(recorder, SampleScan(2));
+  const std::int64_t id = recorder.WaitUntilWritten().value();
+  ASSERT_EQ(mission->ListScans().value().size(), 2u);
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), SampleScan(2)));
+}
+
+TEST(ScanRecorder, BeforeTheFirstScanThereIsNothingWritten) {
+  const TemporaryFolder folder;
+  ScanRecorder recorder(MissionFile::Create(folder / "m.mission").value());
+  EXPECT_EQ(recorder.WaitUntilWritten().error().code, ErrorCode::kState);
+}
+
+TEST(ScanRecorder, ALineThatCannotBeWrittenEndsTheScanAsInterrupted) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  ScanRecorder recorder(mission);
+  Scan scan = SampleScan(1);
+  scan.lines[5].seq = 0;  // backwards
+  Send(recorder, scan);
+  EXPECT_THAT(recorder.WaitUntilWritten().error().message, HasSubstr("line 0 comes after line 4"));
+  const ScanSummary summary = mission->ListScans().value().at(0);
+  EXPECT_EQ(summary.state, ScanState::kInterrupted);
+  EXPECT_EQ(summary.lines, 5);
+}
+
+TEST(ScanRecorder, AFullyWrittenScanFollowsAFailedOne) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  ScanRecorder recorder(mission);
+  Scan bad = SampleScan(1);
+  bad.lines[5].seq = 0;
+  Send(recorder, bad);
+  Send(recorder, SampleScan(2));
+  const std::int64_t id = recorder.WaitUntilWritten().value();
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), SampleScan(2)));
+}
+
+TEST(ScanRecorder, ClosedDuringAScanItLeavesAnInterruptedOne) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  const Scan scan = SampleScan(1);
+  {
+    ScanRecorder recorder(mission);
+    recorder.OnScanStarted(scan);
+    recorder.OnLine(scan.lines[0]);
+  }
+  const ScanSummary summary = mission->ListScans().value().at(0);
+  EXPECT_EQ(summary.state, ScanState::kInterrupted);
+  EXPECT_EQ(summary.lines, 1);
+}
+
+TEST(ScanRecorder, AClosedMissionIsAnErrorNotACrash) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  ScanRecorder recorder(mission);
+  ASSERT_TRUE(mission->Close());
+  Send(recorder, SampleScan(1));
+  EXPECT_THAT(recorder.WaitUntilWritten().error().message, HasSubstr("is closed"));
+}
+
+}  // namespace
+}  // namespace foresight
