@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/simulation/scene.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+std::string SceneWithSolid(const std::string& solid) {
+  return "foresight_scene: 1\n"
+         "name: test\n"
+         "materials:\n"
+         "  grey: {color: [0.5, 0.5, 0.5]}\n"
+         "solids:\n"
+         "  - {shape: sphere, radius_m: 1, material: grey}\n"
+         "  - " +
+         solid + "\n";
+}
+
+std::string ErrorOf(const std::string& yaml) {
+  const auto scene = SceneFromYaml(yaml, "test.yaml");
+  return scene ? "no error" : scene.error().message;
+}
+
+TEST(SceneFile, NamesATypoWithItsLine) {
+  EXPECT_THAT(
+      ErrorOf(SceneWithSolid("{shape: sphere, radius_m: 1, materail: grey, material: grey}")),
+      testing::AllOf(HasSubstr("test.yaml:7"), HasSubstr("'materail'")));
+}
+
+TEST(SceneFile, NamesAnUnknownMaterialWithItsLine) {
+  EXPECT_THAT(ErrorOf(SceneWithSolid("{shape: sphere, radius_m: 1, material: gray}")),
+              testing::AllOf(HasSubstr("test.yaml:7"), HasSubstr("'gray'")));
+}
+
+TEST(SceneFile, NamesAMissingKeyWithItsLine) {
+  EXPECT_THAT(ErrorOf(SceneWithSolid("{shape: box, material: grey}")),
+              testing::AllOf(HasSubstr("test.yaml:7"), HasSubstr("'size_m'")));
+}
+
+TEST(SceneFile, NamesAnUnknownShape) {
+  EXPECT_THAT(ErrorOf(SceneWithSolid("{shape: cone, material: grey}")), HasSubstr("'cone'"));
+}
+
+TEST(SceneFile, RefusesANegativeRadius) {
+  EXPECT_THAT(ErrorOf(SceneWithSolid("{shape: sphere, radius_m: -1, material: grey}")),
+              testing::AllOf(HasSubstr("test.yaml:7"), HasSubstr("'radius_m' is not positive")));
+}
+
+TEST(SceneFile, RefusesAColourAboveOne) {
+  EXPECT_THAT(ErrorOf("foresight_scene: 1\nname: x\nmaterials:\n  a: {color: [255, 0, 0]}\n"),
+              testing::AllOf(HasSubstr("test.yaml:4"), HasSubstr("'color'")));
+}
+
+TEST(SceneFile, RefusesAValveThatIsNoWheel) {
+  EXPECT_THAT(ErrorOf("foresight_scene: 1\nname: x\nmaterials: {a: {}}\nobjects:\n"
+                      "  - {kind: valve, position_m: [1, 0, 1], spokes: 9, material: a}\n"),
+              testing::AllOf(HasSubstr("test.yaml:5"), HasSubstr("spokes 9")));
+}
+
+TEST(SceneFile, RefusesAnotherFormatVersion) {
+  EXPECT_THAT(ErrorOf("foresight_scene: 2\nname: x\n"), HasSubstr("scene format 2 is not known"));
+}
+
+TEST(SceneFile, ReportsAFileThatIsNotThere) {
+  const auto scene = LoadScene("/nonexistent/scene.yaml");
+  ASSERT_FALSE(scene.has_value());
+  EXPECT_EQ(scene.error().code, ErrorCode::kIo);
+}
+
+TEST(SceneFile, APipeReachesBothOfItsPoints) {
+  const auto scene = SceneFromYaml(
+      SceneWithSolid("{shape: cylinder, radius_m: 0.1, from_m: [1, 2, 3], to_m: [1, 2, 5], "
+                     "material: grey}"),
+      "test.yaml");
+  ASSERT_TRUE(scene.has_value()) << scene.error().message;
+  float low = 100.0f;
+  float high = -100.0f;
+  for (const Eigen::Vector3f& vertex : scene->meshes.back().vertices) {
+    low = std::min(low, vertex.z());
+    high = std::max(high, vertex.z());
+  }
+  EXPECT_NEAR(low, 3.0, 1e-5);
+  EXPECT_NEAR(high, 5.0, 1e-5);
+}
+
+TEST(SceneFile, TurnsRollPitchYawAboutFixedAxesInThisOrder) {
+  // Roll takes y to z, pitch leaves x in z's plane: [90, 0, 90] takes the box's x to robot y.
+  const auto scene = SceneFromYaml(
+      SceneWithSolid("{shape: box, size_m: [3, 1, 2], rpy_deg: [90, 0, 90], material: grey}"),
+      "test.yaml");
+  ASSERT_TRUE(scene.has_value()) << scene.error().message;
+  Eigen::Vector3f high = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& vertex : scene->meshes.back().vertices) high = high.cwiseMax(vertex);
+  EXPECT_LT((high - Eigen::Vector3f(1.0f, 1.5f, 0.5f)).norm(), 1e-5f);
+}
+
+}  // namespace
+}  // namespace foresight
