@@ -1,12 +1,11 @@
-#include <chrono>
 #include <memory>
 
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
 #include "app/ctl/open_scan.h"
+#include "app/ctl/save_valve.h"
 #include "core/fitting/detection_json.h"
-#include "core/fitting/fit_valve.h"
-#include "core/geometry/angles.h"
+#include "core/fitting/fit_in_scan.h"
 #include "core/registration/register_scan.h"
 
 namespace foresight {
@@ -22,35 +21,33 @@ struct FitArguments {
   bool json = false;
 };
 
-/// Deviations of a range: the lidar's own noise, and what is left of it after upsampling.
-constexpr double kRawSigma_m = 0.010;
-constexpr double kDenseSigma_m = 0.006;
-
-Result<RaySet> RaysOf(const FitArguments& arguments, const OpenedScan& opened, const ImageRoi& roi,
-                      const RunContext& context) {
-  FORESIGHT_TRY(const RegisteredScan registered, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
-  if (arguments.source == "raw") return RaysFromScan(registered, opened.scan.rig, roi, kRawSigma_m);
+/// The scan up to the point that the source needs, and the fit in it.
+Result<ValveDetection> FitIn(const FitArguments& arguments, const OpenedScan& opened,
+                             const RunContext& context) {
+  const SensorRig& rig = opened.scan.rig;
+  const double motor_rad = opened.frame.motor_angle_rad;
+  const ImageRoi roi = ImageRoi::Rectangle(motor_rad, {arguments.roi[0], arguments.roi[1]},
+                                           {arguments.roi[2], arguments.roi[3]});
+  FORESIGHT_CHECK(roi.Check());
+  FitValveOptions options;
+  options.seed = arguments.seed;
+  FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
+  if (arguments.source == "raw")
+    return FitValveInScan({rig, cloud}, FitSource::kRaw, roi, options, context.Part(0.1, 1.0));
   FORESIGHT_TRY(AlignedSamples samples,
-                AlignToImage(registered, opened.scan.rig, opened.frame.motor_angle_rad,
-                             context.Part(0.1, 0.2)));
-  FORESIGHT_TRY(const DepthResult result,
+                AlignToImage(cloud, rig, motor_rad, context.Part(0.1, 0.2)));
+  FORESIGHT_TRY(const DepthResult depth,
                 ComputeDepth(std::move(samples), opened.frame.image,
                              DepthOptionsFrom(arguments.depth), context.Part(0.2, 0.6)));
-  return RaysFromDepth(ApplyMask(result.dense.depth_m, result.mask), opened.scan.rig, roi, 2,
-                       kDenseSigma_m, result.samples.Density());
+  return FitValveInScan({rig, cloud, &depth}, FitSource::kDepth, roi, options,
+                        context.Part(0.6, 1.0));
 }
 
-Status SaveDetection(const FitArguments& arguments, std::int64_t scan_id, const std::string& json) {
+Status Save(const FitArguments& arguments, std::int64_t scan_id, const ValveDetection& detection,
+            const SensorRig& rig) {
   FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
                 MissionFile::Open(arguments.scan.mission));
-  DetectionRecord record;
-  record.scan_id = scan_id;
-  record.kind = "valve";
-  record.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                      std::chrono::system_clock::now().time_since_epoch())
-                      .count();
-  record.json = json;
-  FORESIGHT_CHECK(mission->AddDetection(record));
+  FORESIGHT_CHECK(SaveValve(*mission, scan_id, detection, rig));
   return mission->Close();
 }
 
@@ -69,19 +66,10 @@ void PrintSummary(const ValveDetection& d, const SensorRig& rig) {
 
 Result<ExitCode> FitValveCommand(const FitArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const OpenedScan opened, OpenScan(arguments.scan));
-  const ImageRoi roi =
-      ImageRoi::Rectangle(opened.frame.motor_angle_rad, {arguments.roi[0], arguments.roi[1]},
-                          {arguments.roi[2], arguments.roi[3]});
-  FORESIGHT_CHECK(roi.Check());
-  FORESIGHT_TRY(const RaySet rays, RaysOf(arguments, opened, roi, context));
-  FitValveOptions options;
-  options.seed = arguments.seed;
-  FORESIGHT_TRY(ValveDetection detection, FitValve(rays, options, context.Part(0.6, 1.0)));
-  detection.roi = roi;
-  const std::string json = DetectionToJson(detection, opened.scan.rig.robot_from_base);
-  if (arguments.save) FORESIGHT_CHECK(SaveDetection(arguments, opened.id, json));
+  FORESIGHT_TRY(const ValveDetection detection, FitIn(arguments, opened, context));
+  if (arguments.save) FORESIGHT_CHECK(Save(arguments, opened.id, detection, opened.scan.rig));
   if (arguments.json)
-    PrintLine(json);
+    PrintLine(DetectionToJson(detection, opened.scan.rig.robot_from_base));
   else
     PrintSummary(detection, opened.scan.rig);
   return detection.verdict.level == VerdictLevel::kUnsure ? ExitCode::kNegative : ExitCode::kDone;

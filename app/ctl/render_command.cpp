@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "app/ctl/true_valve.h"
 #include "core/geometry/angles.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
@@ -25,22 +26,18 @@ nlohmann::ordered_json PoseJson(const Rigid<frame::Base, frame::Object>& pose) {
   return {{"position_m", {t.x(), t.y(), t.z()}}, {"axis", {axis.x(), axis.y(), axis.z()}}};
 }
 
-/// The smallest rectangle of pixels around a valve, with a margin; null when it is not in the
-/// picture.
-nlohmann::ordered_json RegionOf(const ValveTruth& valve, const World& world, double motor_rad) {
-  const SensorRig& rig = world.true_rig();
-  const auto camera_from_object =
-      rig.CameraFromBase(motor_rad) * (world.BaseFromRobot() * valve.robot_from_object);
-  Eigen::AlignedBox2d box;
-  for (const auto& line : WireframeOf(valve.model))
-    for (const auto& point : line)
-      if (const auto pixel = rig.camera.Project(camera_from_object * point);
-          pixel && rig.camera.InImage(*pixel))
-        box.extend(*pixel);
-  if (box.isEmpty()) return nullptr;
-  const double margin = 0.15 * box.sizes().maxCoeff();
-  return {box.min().x() - margin, box.min().y() - margin, box.max().x() + margin,
-          box.max().y() + margin};
+nlohmann::ordered_json ValveJson(const ValveTruth& valve, const World& world, double motor_rad) {
+  nlohmann::ordered_json json = {{"name", valve.name},
+                                 {"spokes", valve.model.spokes},
+                                 {"rim_radius_m", valve.model.rim_radius_m}};
+  json["base"] = PoseJson(world.BaseFromRobot() * valve.robot_from_object);
+  json["roi"] = nullptr;
+  if (const auto roi = RegionOfTrueValve(valve, world, motor_rad)) {
+    const Eigen::Vector2d& a = roi->polygon[0];
+    const Eigen::Vector2d& b = roi->polygon[2];
+    json["roi"] = {a.x(), a.y(), b.x(), b.y()};
+  }
+  return json;
 }
 
 Result<ExitCode> Render(const RenderArguments& arguments, const RunContext& context) {
@@ -71,14 +68,8 @@ Result<ExitCode> Render(const RenderArguments& arguments, const RunContext& cont
     return ExitCode::kDone;
   }
   auto valves = nlohmann::ordered_json::array();
-  for (const ValveTruth& valve : world.scene().valves) {
-    nlohmann::ordered_json json = {{"name", valve.name},
-                                   {"spokes", valve.model.spokes},
-                                   {"rim_radius_m", valve.model.rim_radius_m}};
-    json["base"] = PoseJson(world.BaseFromRobot() * valve.robot_from_object);
-    json["roi"] = RegionOf(valve, world, motor_rad);
-    valves.push_back(json);
-  }
+  for (const ValveTruth& valve : world.scene().valves)
+    valves.push_back(ValveJson(valve, world, motor_rad));
   PrintJson({{"scene", world.scene().name},
              {"angle_deg", arguments.angle_deg},
              {"valves", valves},

@@ -1,0 +1,115 @@
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "app/ctl/demo_report.h"
+#include "app/ctl/fly_scan.h"
+#include "app/ctl/save_valve.h"
+#include "core/fitting/fit_in_scan.h"
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+struct DemoArguments {
+  SimulationArguments simulation;
+  std::string out = "demo";
+  bool json = false;
+};
+
+/// Wide enough for valve, drill and blocks of the room.
+ScanPlan DemoPlan() {
+  ScanPlan plan;
+  plan.from_rad = RadiansFromDegrees(-50.0);
+  plan.to_rad = RadiansFromDegrees(20.0);
+  plan.speed_rad_s = RadiansFromDegrees(10.0);
+  plan.image_angles_rad = {RadiansFromDegrees(-15.0)};
+  return plan;
+}
+
+/// From the scan to the fit, as the operator's programs do it.
+Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome,
+               const RunContext& context) {
+  const CameraFrame* frame = NearestFrame(outcome.scan, DemoPlan().image_angles_rad.front());
+  if (frame == nullptr) return Fail(ErrorCode::kDevice, "the scan came home without a picture");
+  outcome.frame = *frame;
+  const double motor_rad = frame->motor_angle_rad;
+  FORESIGHT_TRY(outcome.registered, RegisterScan(outcome.scan, context));
+  FORESIGHT_TRY(AlignedSamples samples,
+                AlignToImage(outcome.registered, outcome.scan.rig, motor_rad, context));
+  FORESIGHT_TRY(outcome.depth,
+                ComputeDepth(std::move(samples), frame->image, DepthOptions(), context));
+  const auto roi = RegionOfTrueValve(truth, world, motor_rad);
+  if (!roi)
+    return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the picture",
+                world.scene().name);
+  FORESIGHT_TRY(outcome.valve,
+                FitValveInScan({outcome.scan.rig, outcome.registered, &outcome.depth},
+                               FitSource::kDepth, *roi, FitValveOptions(), context));
+  outcome.error = CompareWithTruth(outcome.valve.best, truth, world);
+  return {};
+}
+
+void PrintOutcome(const DemoArguments& arguments, const DemoOutcome& o) {
+  const std::string report = (std::filesystem::path(arguments.out) / "report.html").string();
+  if (arguments.json) {
+    PrintJson({{"report", report},
+               {"mission", o.mission_file},
+               {"verdict", ToString(o.valve.verdict.level)},
+               {"probability", o.valve.verdict.probability},
+               {"center_error_mm", 1000.0 * o.error.center_m},
+               {"axis_error_deg", DegreesFromRadians(o.error.axis_rad)},
+               {"radius_error_mm", 1000.0 * o.error.radius_m},
+               {"spokes_right", o.error.spokes == 0},
+               {"depth_seconds", o.depth.seconds},
+               {"fit_seconds", o.valve.seconds}});
+    return;
+  }
+  PrintLine(
+      fmt::format("valve    {} ({:.0f} %), {:.1f} mm and {:.2f} deg from the truth, spokes {}",
+                  ToString(o.valve.verdict.level), 100.0 * o.valve.verdict.probability,
+                  1000.0 * o.error.center_m, DegreesFromRadians(o.error.axis_rad),
+                  o.error.spokes == 0 ? "right" : "wrong"));
+  PrintLine("report   " + report);
+  PrintLine("mission  " + o.mission_file);
+}
+
+Result<ExitCode> Demo(const DemoArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const SimulatedSite site, SetUpSite(arguments.simulation));
+  if (site.world->scene().valves.empty())
+    return Fail(ErrorCode::kInvalidInput, "{}: a demo mission needs a scene with a valve",
+                arguments.simulation.scene);
+  FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
+  DemoOutcome outcome;
+  outcome.mission_file = (std::filesystem::path(arguments.out) / "mission.foresight").string();
+  fmt::print(stderr, "scanning {}\n", site.world->scene().name);
+  FORESIGHT_TRY(const auto mission, OpenOrCreateMission(outcome.mission_file));
+  FORESIGHT_TRY(const std::int64_t id, FlyScan(*site.head, DemoPlan(), mission, context));
+  FORESIGHT_TRY(outcome.scan, mission->LoadScan(id));
+  fmt::print(stderr, "computing depth and fitting the valve\n");
+  FORESIGHT_CHECK(Process(*site.world, site.world->scene().valves.front(), outcome, context));
+  FORESIGHT_CHECK(SaveValve(*mission, id, outcome.valve, outcome.scan.rig));
+  FORESIGHT_CHECK(mission->Close());
+  FORESIGHT_CHECK(WriteHtmlReport(ReportOf(outcome), arguments.out));
+  PrintOutcome(arguments, outcome);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddDemoCommand(CLI::App& app, Invocation& invocation) {
+  const auto arguments = std::make_shared<DemoArguments>();
+  CLI::App* command = app.add_subcommand(
+      "demo", "Fly the demo mission: scan, depth, valve, and a report with pictures");
+  command->add_option("--scene", arguments->simulation.scene, "Scene file (YAML) with a valve")
+      ->required();
+  command->add_option("--seed", arguments->simulation.seed, "Seed of all noise")
+      ->capture_default_str();
+  command->add_option("-o,--out", arguments->out, "Folder for the report and the mission file")
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "Print the outcome as JSON");
+  command->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) { return Demo(*arguments, context); };
+  });
+}
+
+}  // namespace foresight

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/run_context.h"
+#include "core/mission/mission_file.h"
+#include "core/simulation/world.h"
+#include "hardware/api/sensor_head.h"
+
+namespace foresight {
+
+/// How to set up a head on a simulated scene.
+struct SimulationArguments {
+  std::string scene;
+  std::string rig;  ///< the true head; empty = the built-in one
+  std::uint64_t seed = 1;
+  bool real_time = false;
+};
+
+/// The scene with a head in it, whose calibration is as good as the paper's procedure can make it.
+struct SimulatedSite {
+  std::shared_ptr<const World> world;
+  std::unique_ptr<SensorHead> head;
+};
+Result<SimulatedSite> SetUpSite(const SimulationArguments& arguments);
+
+/// Homes the head, flies the plan and records it. Progress goes to standard error. Returns the
+/// number of the scan in the mission; a cancelled scan is aborted and kept.
+Result<std::int64_t> FlyScan(SensorHead& head, const ScanPlan& plan,
+                             std::shared_ptr<MissionFile> mission, const RunContext& context);
+
+/// Opens the mission file for more, or makes it.
+Result<std::shared_ptr<MissionFile>> OpenOrCreateMission(const std::string& path);
+
+}  // namespace foresight

@@ -1,0 +1,22 @@
+#include "app/ctl/save_valve.h"
+
+#include <chrono>
+
+#include "core/fitting/detection_json.h"
+
+namespace foresight {
+
+Status SaveValve(MissionFile& mission, std::int64_t scan_id, const ValveDetection& detection,
+                 const SensorRig& rig) {
+  DetectionRecord record;
+  record.scan_id = scan_id;
+  record.kind = "valve";
+  record.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                      std::chrono::system_clock::now().time_since_epoch())
+                      .count();
+  record.json = DetectionToJson(detection, rig.robot_from_base);
+  FORESIGHT_CHECK(mission.AddDetection(record));
+  return {};
+}
+
+}  // namespace foresight
