@@ -50,12 +50,12 @@ QWidget* HeadPanel::BuildPlan() {
   auto* form = new QFormLayout(plan);
   form->setContentsMargins(0, 0, 0, 0);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  AddField(form, tr("From"), -90, 90, 5, tr(" °"), &PlanFields::from_deg);
-  AddField(form, tr("To"), -90, 90, 5, tr(" °"), &PlanFields::to_deg);
+  AddField(form, tr("From"), -90, 90, 5, tr("°"), &PlanFields::from_deg);
+  AddField(form, tr("To"), -90, 90, 5, tr("°"), &PlanFields::to_deg);
   AddField(form, tr("Speed"), 0.5, 120, 1, tr(" °/s"), &PlanFields::speed_deg_s);
   angles_ = new QLineEdit(AnglesAsText(head_->Plan().image_angles_deg));
   angles_->setToolTip(tr("Motor angles in degrees, separated by commas, within the scope"));
-  form->addRow(tr("Pictures at"), angles_);
+  form->addRow(tr("Pictures, °"), angles_);
   connect(angles_, &QLineEdit::editingFinished, this, &HeadPanel::TakeAngles);
   AddField(form, tr("Exposure"), 0.1, 100, 1, tr(" ms"), &PlanFields::exposure_ms);
   return plan;

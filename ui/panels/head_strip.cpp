@@ -61,7 +61,7 @@ HeadStrip::HeadStrip(HeadViewModel* head, SessionModel* session, QWidget* parent
   message_ = new QLabel;
   message_->setWordWrap(true);
   layout->addWidget(message_, 1);
-  auto* stop = new QPushButton(Icon("stop"), tr("STOP HEAD  (F12)"));
+  auto* stop = new QPushButton(Icon("stop"), tr(" STOP HEAD  (F12)"));
   stop->setObjectName(QStringLiteral("stopButton"));
   stop->setToolTip(
       tr("Stops the scanner's motor at once. The robot's emergency stop is separate."));

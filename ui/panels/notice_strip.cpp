@@ -8,30 +8,22 @@
 
 namespace foresight {
 
-NoticeStrip::NoticeStrip(QWidget* parent)
-    : QFrame(parent), icon_(new QLabel), what_(new QLabel), next_(new QLabel) {
+NoticeStrip::NoticeStrip(QWidget* parent) : QFrame(parent), icon_(new QLabel), text_(new QLabel) {
   setObjectName(QStringLiteral("notice"));
   auto* close = new QToolButton;
   close->setIcon(Icon("abort"));
   close->setAutoRaise(true);
   close->setToolTip(tr("Close"));
-  QFont bold = what_->font();
-  bold.setBold(true);
-  what_->setFont(bold);
-  what_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(12, 6, 12, 6);
   layout->setSpacing(12);
   layout->addWidget(icon_);
-  layout->addWidget(what_);
-  layout->addWidget(next_, 1);
+  layout->addWidget(text_, 1);
   layout->addWidget(close);
   connect(close, &QToolButton::clicked, this, &QWidget::hide);
   hide();
-}
-
-QString NoticeStrip::Text() const {
-  return what_->text();
 }
 
 void NoticeStrip::show(const Notice& notice) {
@@ -39,8 +31,9 @@ void NoticeStrip::show(const Notice& notice) {
                      : notice.level == Notice::Level::kWarning ? "warning"
                                                                : "info";
   icon_->setPixmap(Icon(icon).pixmap(20, 20));
-  what_->setText(notice.what);
-  next_->setText(notice.next);
+  notice_ = notice;
+  text_->setText(QStringLiteral("<b>%1</b>&nbsp;&nbsp; %2")
+                     .arg(notice.what.toHtmlEscaped(), notice.next.toHtmlEscaped()));
   setVisible(true);
 }
 

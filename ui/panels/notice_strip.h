@@ -15,15 +15,15 @@ class NoticeStrip : public QFrame {
 
  public:
   explicit NoticeStrip(QWidget* parent = nullptr);
-  QString Text() const;
+  const Notice& Shown() const { return notice_; }
 
  public Q_SLOTS:
   void show(const foresight::Notice& notice);
 
  private:
   QLabel* icon_;
-  QLabel* what_;
-  QLabel* next_;
+  QLabel* text_;
+  Notice notice_;
 };
 
 }  // namespace foresight

@@ -8,6 +8,7 @@
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "ui/panels/theme.h"
 #include "ui/panels/valve_card.h"
@@ -25,7 +26,6 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, QWidget* pa
   empty_->setWordWrap(true);
   empty_->setAlignment(Qt::AlignCenter);
   empty_->setObjectName(QStringLiteral("faint"));
-  list_->setMaximumHeight(150);
   list_->setAccessibleName(tr("Found objects"));
   auto* scroll = new QScrollArea;
   scroll->setWidgetResizable(true);
@@ -85,6 +85,8 @@ void ObjectsPanel::ShowValves() {
     list_->addItem(new QListWidgetItem(Icon("valve"), text));
   }
   list_->setCurrentRow(session_->SelectedValve());
+  const int rows = std::min(6, list_->count());
+  list_->setFixedHeight(rows * std::max(24, list_->sizeHintForRow(0)) + 2 * list_->frameWidth());
   const bool chosen = session_->SelectedValve() >= 0;
   empty_->setVisible(valves.empty());
   list_->setVisible(!valves.empty());

@@ -47,6 +47,8 @@ QLabel#badge { color: #16181c; font-weight: bold; border-radius: 4px; padding: 2
 QFrame#strip { background: #1c1f24; border-bottom: 1px solid #14161a; }
 QFrame#notice { background: #33291f; border-bottom: 1px solid #14161a; }
 QFrame#card { background: #2c3138; border-radius: 6px; }
+QToolButton:checked { background: #2f74b0; border: 1px solid #2f74b0; border-radius: 3px; color: white; }
+QToolBar QToolButton:checked { border-radius: 4px; }
 QPushButton { padding: 6px 12px; }
 QPushButton#scanButton { background: #2f74b0; color: white; border: none; border-radius: 6px;
   font-size: 14pt; font-weight: bold; padding: 12px; }

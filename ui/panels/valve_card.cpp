@@ -115,7 +115,7 @@ void ValveCard::Show(const FoundValve& valve, bool is_current) {
                              .arg(spokes)
                              .arg(DegreesFromRadians(found.sigma_phase_rad), 0, 'f', 1)
                        : tr("%1, angle not observable").arg(spokes));
-  support_->setText(tr("%1 of %2 rays hit, %3 % agree,\nRMS %4 mm")
+  support_->setText(tr("%1 of %2 rays hit\n%3 % agree, RMS %4 mm")
                         .arg(found.evidence.hits)
                         .arg(found.evidence.rays)
                         .arg(100.0 * found.evidence.inlier_share, 0, 'f', 0)

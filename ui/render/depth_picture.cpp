@@ -10,7 +10,8 @@ namespace {
 constexpr Rgb8 kNothing = {46, 50, 56};
 constexpr Rgb8 kHatchDark = {72, 77, 84};
 constexpr Rgb8 kHatchLight = {112, 118, 126};
-constexpr int kHatchPeriod_px = 12;
+constexpr int kHatchPeriod_px = 16;
+constexpr double kLeastSpan_m = 0.5;
 
 Rgb8 Hatch(int x, int y) {
   return (x + y) % kHatchPeriod_px < kHatchPeriod_px / 3 ? kHatchLight : kHatchDark;
@@ -50,8 +51,11 @@ ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer
 
 ValueRange RangeOf(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer) {
   if (layer == DepthLayer::kConfidence) return {0.0, 1.0};
-  if (mask == nullptr) return RobustRange(dense.depth_m.values());
-  return RobustRange(ApplyMask(dense.depth_m, *mask).values());
+  const ValueRange range = mask == nullptr ? RobustRange(dense.depth_m.values())
+                                           : RobustRange(ApplyMask(dense.depth_m, *mask).values());
+  // On a flat wall the colours would otherwise show nothing but noise.
+  const double widen = std::max(0.0, kLeastSpan_m - (range.high - range.low)) / 2.0;
+  return {range.low - widen, range.high + widen};
 }
 
 }  // namespace foresight

@@ -14,7 +14,8 @@ enum class DepthLayer { kDepth, kConfidence };
 ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer,
                       const ValueRange& range);
 
-/// The span of values of a layer: the depths that the mask keeps, or 0 to 1 for confidence.
+/// The span of values of a layer: the depths that the mask keeps, at least half a metre, or 0 to 1
+/// for confidence.
 ValueRange RangeOf(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer);
 
 }  // namespace foresight

@@ -86,19 +86,24 @@ void HeadViewModel::Poll() {
 }
 
 void HeadViewModel::PollScan() {
-  if (live_->Ended()) {
-    const auto scan = live_->Snapshot();
+  const bool under_way =
+      status_.state == HeadState::kSweeping || status_.state == HeadState::kStopping;
+  const bool look = ++polls_ % kPollsPerLook == 0 && status_.lines != lines_shown_;
+  if (under_way && !look) return;  // a snapshot is a copy of the scan
+  const auto scan = live_->Snapshot();
+  if (!scan) return;
+  if (scan->state != ScanState::kRunning) {
     live_.reset();
     Q_EMIT scanEnded(scan);
-  } else if (++polls_ % kPollsPerLook == 0 && status_.lines != lines_shown_) {
+  } else if (look) {
     lines_shown_ = status_.lines;
-    Q_EMIT scanGrew(live_->Snapshot());
+    Q_EMIT scanGrew(scan);
   }
 }
 
 void HeadViewModel::scan() {
   if (live_) return;
-  auto live = std::make_shared<LiveScan>();
+  auto live = std::make_shared<ScanAssembler>();
   if (const auto started = head_->StartScan(plan_.ToPlan(), live); !started) {
     Q_EMIT noticed(NoticeOf(tr("Starting the scan"), started.error()));
     return;

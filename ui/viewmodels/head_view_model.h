@@ -8,7 +8,7 @@
 
 #include "core/sensor/scan_plan.h"
 #include "hardware/api/sensor_head.h"
-#include "ui/viewmodels/live_scan.h"
+#include "hardware/head/scan_assembler.h"
 #include "ui/viewmodels/notice.h"
 
 namespace foresight {
@@ -79,7 +79,7 @@ class HeadViewModel : public QObject {
   std::shared_ptr<SensorHead> head_;
   HeadStatus status_;
   PlanFields plan_;
-  std::shared_ptr<LiveScan> live_;
+  std::shared_ptr<ScanAssembler> live_;
   int polls_ = 0;
   int lines_shown_ = 0;
   QTimer timer_;

@@ -12,7 +12,6 @@
 #include <cmath>
 
 #include "ui/render/vtk_data.h"
-#include "ui/views/color_bar.h"
 #include "ui/views/overlay_style.h"
 
 namespace foresight {
@@ -70,10 +69,10 @@ vtkSmartPointer<vtkAxesActor> MakeAxes(double length_m, bool labels) {
 CloudCanvas::CloudCanvas(QWidget* parent)
     : QVTKOpenGLNativeWidget(parent),
       renderer_(vtkSmartPointer<vtkRenderer>::New()),
+      overlay_(vtkSmartPointer<vtkRenderer>::New()),
       points_(MakeActor(VtkPointsOf({}, 0))),
       sample_(MakeActor(VtkPointsOf({}, 0))),
       templates_(MakeActor(VtkLinesOf({}))),
-      color_bar_(MakeColorBar()),
       compass_(vtkSmartPointer<vtkOrientationMarkerWidget>::New()) {
   setRenderWindow(vtkNew<vtkGenericOpenGLRenderWindow>());
   renderWindow()->AddRenderer(renderer_);
@@ -82,11 +81,18 @@ CloudCanvas::CloudCanvas(QWidget* parent)
   renderer_->GradientBackgroundOn();
   templates_->GetProperty()->SetColor(kTemplateColor.r / 255.0, kTemplateColor.g / 255.0,
                                       kTemplateColor.b / 255.0);
-  templates_->GetProperty()->SetLineWidth(3.0f);
+  templates_->GetProperty()->SetLineWidth(2.0f);
   sample_->VisibilityOff();
-  for (const auto& actor : {points_, sample_, templates_}) renderer_->AddActor(actor);
+  renderer_->AddActor(points_);
+  renderer_->AddActor(sample_);
+  // Templates lie among the points they were fitted to: a layer of their own keeps them visible.
+  overlay_->AddActor(templates_);
+  overlay_->SetLayer(1);
+  overlay_->SetActiveCamera(renderer_->GetActiveCamera());
+  overlay_->InteractiveOff();
+  renderWindow()->SetNumberOfLayers(2);
+  renderWindow()->AddRenderer(overlay_);
   renderer_->AddActor(MakeAxes(0.2, false));
-  renderer_->AddActor2D(color_bar_);
   compass_->SetOrientationMarker(MakeAxes(1.0, true));
   compass_->SetInteractor(interactor());
   compass_->SetViewport(0.0, 0.0, 0.14, 0.22);
@@ -97,8 +103,7 @@ CloudCanvas::CloudCanvas(QWidget* parent)
   setAccessibleName(tr("3D cloud"));
 }
 
-void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const QString& color_title) {
-  const ValueRange range = RobustRange(set.values);
+void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const ValueRange& range) {
   const auto table = VtkTableOf(map, range);
   for (const auto& [actor, limit] :
        {std::pair(points_, set.points.size()), std::pair(sample_, kSamplePoints)}) {
@@ -106,9 +111,6 @@ void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const QString& co
     MapperOf(actor)->SetLookupTable(table);
     MapperOf(actor)->SetScalarRange(range.low, range.high);
   }
-  color_bar_->SetLookupTable(table);
-  color_bar_->SetTitle(color_title.toUtf8().constData());
-  color_bar_->SetVisibility(set.values.empty() ? 0 : 1);
   home_.focal = MiddleOf(set);
   home_.distance_m = std::max(0.5, 1.25 * (home_.focal - set.viewpoint.cast<double>()).norm());
   home_.azimuth_rad = -0.35;
@@ -205,11 +207,6 @@ void CloudCanvas::PlaceCamera() {
   camera->SetPosition(position.data());
   camera->SetViewUp(0.0, 0.0, 1.0);
   renderer_->ResetCameraClippingRange();
-}
-
-void CloudCanvas::resizeEvent(QResizeEvent* event) {
-  QVTKOpenGLNativeWidget::resizeEvent(event);
-  PlaceColorBar(color_bar_, width(), height());
 }
 
 void CloudCanvas::Redraw() {

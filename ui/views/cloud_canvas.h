@@ -4,7 +4,6 @@
 #include <vtkActor.h>
 #include <vtkOrientationMarkerWidget.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
 
 #include "core/objects/valve_model.h"
@@ -22,7 +21,7 @@ class CloudCanvas : public QVTKOpenGLNativeWidget {
  public:
   explicit CloudCanvas(QWidget* parent = nullptr);
 
-  void SetPoints(const PointSet& set, ColorMap map, const QString& color_title);
+  void SetPoints(const PointSet& set, ColorMap map, const ValueRange& range);
   void SetTemplates(const Wireframe& lines);
   /// Looks at the middle of what lies ahead of the robot.
   void ResetView();
@@ -31,7 +30,6 @@ class CloudCanvas : public QVTKOpenGLNativeWidget {
 
  protected:
   bool event(QEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void OnMove(const QMouseEvent& event);
@@ -44,10 +42,10 @@ class CloudCanvas : public QVTKOpenGLNativeWidget {
   static constexpr std::size_t kSamplePoints = 100'000;
 
   vtkSmartPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkRenderer> overlay_;
   vtkSmartPointer<vtkActor> points_;
   vtkSmartPointer<vtkActor> sample_;
   vtkSmartPointer<vtkActor> templates_;
-  vtkSmartPointer<vtkScalarBarActor> color_bar_;
   vtkSmartPointer<vtkOrientationMarkerWidget> compass_;
   OrbitCamera camera_;
   OrbitCamera home_;

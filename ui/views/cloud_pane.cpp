@@ -6,6 +6,7 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 
+#include "ui/views/color_bar.h"
 #include "ui/views/templates_in_picture.h"
 
 namespace foresight {
@@ -118,7 +119,10 @@ void CloudPane::Show(const PointSet& set) {
       break;
   }
   ShowCanvas(true);
-  canvas_->SetPoints(set, map, title);
+  const ValueRange range = RobustRange(set.values);
+  canvas_->SetPoints(set, map, range);
+  Colors()->Set(map, range, title);
+  Colors()->setVisible(!set.values.empty());
   point_count_ = set.points.size();
   SetCaption(
       tr("%1 points, robot frame").arg(QLocale().toString(static_cast<qulonglong>(point_count_))));

@@ -1,36 +1,53 @@
 #include "ui/views/color_bar.h"
 
-#include <vtkTextProperty.h>
+#include <QPainter>
 #include <algorithm>
 
 namespace foresight {
+namespace {
 
-vtkSmartPointer<vtkScalarBarActor> MakeColorBar() {
-  auto bar = vtkSmartPointer<vtkScalarBarActor>::New();
-  bar->SetNumberOfLabels(5);
-  bar->SetLabelFormat("%.2f");
-  bar->SetUnconstrainedFontSize(true);
-  bar->SetBarRatio(0.28);
-  for (vtkTextProperty* text : {bar->GetLabelTextProperty(), bar->GetTitleTextProperty()}) {
-    text->SetFontFamilyToArial();
-    text->SetFontSize(14);
-    text->SetColor(0.90, 0.92, 0.94);
-    text->BoldOff();
-    text->ItalicOff();
-    text->ShadowOff();
-  }
-  return bar;
+constexpr int kWidth_px = 86;
+constexpr int kBarWidth_px = 18;
+constexpr int kMargin_px = 12;
+constexpr int kTallest_px = 300;
+constexpr int kIntervals = 4;
+
+}  // namespace
+
+ColorBar::ColorBar(QWidget* parent) : QWidget(parent) {
+  setFixedWidth(kWidth_px);
 }
 
-void PlaceColorBar(vtkScalarBarActor* bar, int canvas_width, int canvas_height) {
-  constexpr int kMargin_px = 12;
-  constexpr int kTallest_px = 320;
-  const int height = std::clamp(canvas_height - 2 * kMargin_px, 40, kTallest_px);
-  const double width_share = static_cast<double>(kColorBarWidth_px - 8) / std::max(1, canvas_width);
-  const double height_share = static_cast<double>(height) / std::max(1, canvas_height);
-  bar->SetPosition(1.0 - width_share, 0.5 * (1.0 - height_share));
-  bar->SetWidth(width_share);
-  bar->SetHeight(height_share);
+void ColorBar::Set(ColorMap map, const ValueRange& range, const QString& title) {
+  map_ = map;
+  range_ = range;
+  title_ = title;
+  setAccessibleName(tr("Colours: %1 to %2 %3").arg(range.low).arg(range.high).arg(title));
+  update();
+}
+
+void ColorBar::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  const int line = fontMetrics().height();
+  const int bar_height = std::clamp(height() - 2 * kMargin_px - 2 * line, line, kTallest_px);
+  const int top = (height() - bar_height + line) / 2;
+  painter.setPen(palette().color(QPalette::WindowText));
+  painter.drawText(QRect(0, top - line - line / 2 - 2, width(), line),
+                   Qt::AlignLeft | Qt::AlignVCenter, QStringLiteral("  ") + title_);
+  for (int y = 0; y < bar_height; ++y) {
+    const Rgb8 color = ColorOf(map_, 1.0 - static_cast<double>(y) / std::max(1, bar_height - 1));
+    painter.fillRect(kMargin_px, top + y, kBarWidth_px, 1, QColor(color.r, color.g, color.b));
+  }
+  const int digits = range_.high - range_.low < 50.0 ? 2 : 0;
+  for (int i = 0; i <= kIntervals; ++i) {
+    const double share = static_cast<double>(i) / kIntervals;
+    const int y = top + static_cast<int>((1.0 - share) * (bar_height - 1));
+    const int x = kMargin_px + kBarWidth_px;
+    painter.drawLine(x, y, x + 4, y);
+    painter.drawText(QRect(x + 8, y - line / 2, width() - x - 8, line),
+                     Qt::AlignLeft | Qt::AlignVCenter,
+                     QString::number(range_.low + share * (range_.high - range_.low), 'f', digits));
+  }
 }
 
 }  // namespace foresight

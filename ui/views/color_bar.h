@@ -1,17 +1,28 @@
 #pragma once
 
-#include <vtkScalarBarActor.h>
-#include <vtkSmartPointer.h>
+#include <QString>
+#include <QWidget>
+
+#include "ui/render/color_map.h"
 
 namespace foresight {
 
-/// Room to the right of a canvas that a colour bar takes, logical pixels.
-constexpr int kColorBarWidth_px = 92;
+/// What the colours of a canvas mean: the map from bottom to top, with values and their unit.
+/// Painted by Qt, because VTK's own bar has no readable small type.
+class ColorBar : public QWidget {
+  Q_OBJECT
 
-/// A colour bar in the type of the panes.
-vtkSmartPointer<vtkScalarBarActor> MakeColorBar();
+ public:
+  explicit ColorBar(QWidget* parent = nullptr);
+  void Set(ColorMap map, const ValueRange& range, const QString& title);
 
-/// Puts it at the right edge of a canvas of this size.
-void PlaceColorBar(vtkScalarBarActor* bar, int canvas_width, int canvas_height);
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  ColorMap map_ = ColorMap::kTurbo;
+  ValueRange range_;
+  QString title_;
+};
 
 }  // namespace foresight

@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "ui/render/vtk_data.h"
-#include "ui/views/color_bar.h"
 #include "ui/views/overlay_style.h"
 
 namespace foresight {
@@ -39,8 +38,7 @@ DepthCanvas::DepthCanvas(QWidget* parent)
     : QVTKOpenGLNativeWidget(parent),
       renderer_(vtkSmartPointer<vtkRenderer>::New()),
       picture_(vtkSmartPointer<vtkImageActor>::New()),
-      color_bar_(MakeColorBar()),
-      templates_(LineActor(kTemplateColor, 3.0f)),
+      templates_(LineActor(kTemplateColor, 2.0f)),
       roi_(LineActor(kRoiColor, 2.0f)),
       drag_actor_(LineActor(kRoiColor, 2.0f)) {
   setRenderWindow(vtkNew<vtkGenericOpenGLRenderWindow>());
@@ -49,7 +47,6 @@ DepthCanvas::DepthCanvas(QWidget* parent)
   renderer_->GetActiveCamera()->ParallelProjectionOn();
   renderer_->AddActor(picture_);
   for (const auto& actor : {templates_, roi_, drag_actor_}) renderer_->AddActor(actor);
-  renderer_->AddActor2D(color_bar_);
   setMinimumSize(160, 120);
   setMouseTracking(true);
   setFocusPolicy(Qt::ClickFocus);
@@ -63,12 +60,6 @@ void DepthCanvas::SetPicture(const ColorImage& picture) {
   picture_->GetMapper()->SetInputData(VtkImageOf(picture));
   if (!same_size) shows_all_ = true;
   if (shows_all_) ShowAll();
-  Redraw();
-}
-
-void DepthCanvas::SetColorBar(ColorMap map, const ValueRange& range, const QString& title) {
-  color_bar_->SetLookupTable(VtkTableOf(map, range));
-  color_bar_->SetTitle(title.toUtf8().constData());
   Redraw();
 }
 
@@ -105,12 +96,10 @@ void DepthCanvas::SetDrawing(bool drawing) {
 
 void DepthCanvas::ShowAll() {
   shows_all_ = true;
-  // The picture fills what the colour bar leaves.
-  const double room_x = std::max(1, width() - kColorBarWidth_px);
-  const double scale =
-      std::max(image_width_ / room_x, image_height_ / std::max(1.0, height() * 1.0));
+  const double scale = std::max(static_cast<double>(image_width_) / std::max(1, width()),
+                                static_cast<double>(image_height_) / std::max(1, height()));
   half_height_ = 0.5 * scale * height();
-  center_ = {0.5 * (image_width_ - 1) + 0.5 * scale * kColorBarWidth_px, 0.5 * (image_height_ - 1)};
+  center_ = {0.5 * (image_width_ - 1), 0.5 * (image_height_ - 1)};
   PlaceCamera();
 }
 
@@ -121,7 +110,6 @@ void DepthCanvas::PlaceCamera() {
   camera->SetViewUp(0.0, 1.0, 0.0);
   camera->SetParallelScale(half_height_);
   camera->SetClippingRange(1.0, 20.0);
-  PlaceColorBar(color_bar_, width(), height());
 }
 
 double DepthCanvas::Scale() const {

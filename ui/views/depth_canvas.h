@@ -4,19 +4,17 @@
 #include <vtkActor.h>
 #include <vtkImageActor.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
 
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
-#include "ui/render/color_map.h"
 #include "ui/render/projected_wireframe.h"
 #include "ui/render/vtk_data.h"
 #include "ui/views/roi_drag.h"
 
 namespace foresight {
 
-/// A painted depth map in VTK with a colour bar, regions and templates. The world is the image:
+/// A painted depth map in VTK with regions and templates over it. The world is the image:
 /// x = u, y = height - 1 - v. Wheel zooms, dragging pans or, in drawing mode, draws a region.
 class DepthCanvas : public QVTKOpenGLNativeWidget {
   Q_OBJECT
@@ -25,7 +23,6 @@ class DepthCanvas : public QVTKOpenGLNativeWidget {
   explicit DepthCanvas(QWidget* parent = nullptr);
 
   void SetPicture(const ColorImage& picture);
-  void SetColorBar(ColorMap map, const ValueRange& range, const QString& title);
   void SetRoi(const std::optional<ImageRoi>& roi);
   void SetTemplates(const PixelLines& lines);
   void SetDrawing(bool drawing);
@@ -56,7 +53,6 @@ class DepthCanvas : public QVTKOpenGLNativeWidget {
 
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkImageActor> picture_;
-  vtkSmartPointer<vtkScalarBarActor> color_bar_;
   vtkSmartPointer<vtkActor> templates_;
   vtkSmartPointer<vtkActor> roi_;
   vtkSmartPointer<vtkActor> drag_actor_;

@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "ui/views/color_bar.h"
 #include "ui/views/templates_in_picture.h"
 
 namespace foresight {
@@ -66,6 +67,7 @@ void DepthPane::BuildThreshold() {
   readout_->setMinimumWidth(150);
   readout_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 4, 8, 4);
   row->setSpacing(8);
   row->addWidget(new QLabel(tr("Threshold")));
   row->addWidget(slider_, 1);
@@ -96,9 +98,10 @@ void DepthPane::Paint() {
   // The span comes from the depth's own mask, so that colours stay put while the threshold moves.
   const ValueRange range = RangeOf(result.dense, &result.mask, layer);
   canvas_->SetPicture(PaintDepth(result.dense, mask, layer, range));
-  canvas_->SetColorBar(shows_depth ? ColorMap::kTurbo : ColorMap::kCividis, range,
-                       shows_depth ? tr("m") : tr("of max"));
-  SetCaption(tr("%1 % of pixels measured, computed in %2 s")
+  Colors()->Set(shows_depth ? ColorMap::kTurbo : ColorMap::kCividis, range,
+                shows_depth ? tr("depth, m") : tr("of max"));
+  Colors()->show();
+  SetCaption(tr("%1 % measured, computed in %2 s")
                  .arg(100.0 * result.samples.Density(), 0, 'f', 1)
                  .arg(result.seconds, 0, 'f', 2));
 }

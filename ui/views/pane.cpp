@@ -5,7 +5,14 @@
 #include <QStackedLayout>
 #include <QVBoxLayout>
 
+#include "ui/views/color_bar.h"
+
 namespace foresight {
+namespace {
+
+constexpr int kControlHeight_px = 28;  // the same in every pane, so that canvases align
+
+}  // namespace
 
 Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
     : QWidget(parent), canvas_(canvas) {
@@ -22,13 +29,22 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
   auto* holder = new QWidget;
   stack_ = new QStackedLayout(holder);
   stack_->addWidget(hint_);
-  stack_->addWidget(canvas_);
+  shown_ = new QWidget;
+  colors_ = new ColorBar;
+  colors_->hide();
+  auto* row = new QHBoxLayout(shown_);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(0);
+  row->addWidget(canvas_, 1);
+  row->addWidget(colors_);
+  stack_->addWidget(shown_);
   footer_ = new QVBoxLayout;
-  footer_->setContentsMargins(8, 4, 8, 4);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
+  caption_->setMinimumHeight(kControlHeight_px);
+  caption_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   controls_->addWidget(caption_, 1);
   layout->addLayout(controls_);
   layout->addWidget(holder, 1);
@@ -36,7 +52,7 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
 }
 
 void Pane::ShowCanvas(bool show) {
-  stack_->setCurrentWidget(show ? canvas_ : hint_);
+  stack_->setCurrentWidget(show ? shown_ : hint_);
 }
 
 void Pane::SetHint(const QString& hint) {
@@ -45,6 +61,7 @@ void Pane::SetHint(const QString& hint) {
 
 void Pane::SetCaption(const QString& caption) {
   caption_->setText(caption);
+  caption_->setToolTip(caption);
 }
 
 }  // namespace foresight

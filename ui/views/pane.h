@@ -9,8 +9,11 @@ class QVBoxLayout;
 
 namespace foresight {
 
-/// The frame that all three panes share: a row of controls, a canvas with a hint in its place while
-/// there is nothing to show, and a line of caption that says what is seen and how old it is.
+class ColorBar;
+
+/// The frame that all three panes share: a row of controls, a canvas with a colour bar, a hint in
+/// their place while there is nothing to show, and a line of caption that says what is seen and how
+/// old it is.
 class Pane : public QWidget {
   Q_OBJECT
 
@@ -21,6 +24,7 @@ class Pane : public QWidget {
   void ShowCanvas(bool show);
   void SetHint(const QString& hint);
   void SetCaption(const QString& caption);
+  ColorBar* Colors() { return colors_; }
 
  protected:
   QHBoxLayout* Controls() { return controls_; }
@@ -32,6 +36,8 @@ class Pane : public QWidget {
   QLabel* caption_;
   QHBoxLayout* controls_;
   QStackedLayout* stack_;
+  QWidget* shown_;
+  ColorBar* colors_;
   QVBoxLayout* footer_;
 };
 

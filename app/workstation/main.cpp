@@ -1,0 +1,88 @@
+#include <CLI/CLI.hpp>
+#include <QApplication>
+#include <QTimer>
+
+#include "app/workstation/main_window.h"
+#include "app/workstation/unattended.h"
+#include "core/base/log.h"
+#include "hardware/simulated/simulated_head.h"
+#include "ui/panels/theme.h"
+#include "ui/views/vtk_setup.h"
+
+namespace foresight {
+namespace {
+
+struct Options {
+  std::string scene = "resources/scenes/valve.yaml";
+  std::string rig;
+  std::string mission;
+  std::uint64_t seed = 1;
+  bool fast = false;
+  UnattendedOptions unattended;
+};
+
+int Parse(int argc, char** argv, Options* options) {
+  CLI::App app{"Foresight, the workstation for a rotating lidar-camera head"};
+  app.add_option("--scene", options->scene, "Scene file that the simulated head looks at");
+  app.add_option("--rig", options->rig, "Calibration file of the simulated head");
+  app.add_option("--seed", options->seed, "Seed of the simulated noise");
+  app.add_flag("--fast", options->fast, "Let the simulated head's time run as fast as it can");
+  app.add_option("--open", options->mission, "Mission file to show");
+  app.add_flag("--scan", options->unattended.scan, "Start a scan as soon as the head is ready");
+  app.add_option("--screenshot", options->unattended.screenshot,
+                 "Save a picture of the window when all is computed, then quit");
+  app.set_version_flag("--version", FORESIGHT_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& stop) {
+    return app.exit(stop) == 0 ? -1 : 2;
+  }
+  return 0;
+}
+
+Result<std::shared_ptr<SensorHead>> MakeHead(const Options& options) {
+  SimulatedHeadOptions simulation;
+  simulation.world.seed = options.seed;
+  simulation.speed = options.fast ? SimulationSpeed::kAsFastAsPossible : SimulationSpeed::kRealTime;
+  if (!options.rig.empty()) {
+    FORESIGHT_TRY(simulation.true_rig, LoadSensorRig(options.rig));
+    simulation.believed_rig = simulation.true_rig;
+  }
+  FORESIGHT_TRY(std::shared_ptr<SensorHead> head, MakeSimulatedHead(options.scene, simulation));
+  return head;
+}
+
+int Run(int argc, char** argv) {
+  Options options;
+  if (const int outcome = Parse(argc, argv, &options); outcome != 0)
+    return outcome < 0 ? 0 : outcome;
+  SetUpVtk();
+  QApplication application(argc, argv);
+  ApplyTheme(&application);
+  auto head = MakeHead(options);
+  if (!head) {
+    LogError("{}", head.error().message);
+    return 1;
+  }
+  Workbench bench(std::move(*head), SessionMode::kSimulation);
+  MainWindow window(&bench);
+  window.show();
+  bench.head.home();
+  if (!options.mission.empty()) bench.mission.Open(QString::fromStdString(options.mission));
+  Unattended unattended(&bench, &window, options.unattended);
+  return QApplication::exec();
+}
+
+}  // namespace
+}  // namespace foresight
+
+int main(int argc, char** argv) {
+  QApplication::setHighDpiScaleFactorRoundingPolicy(
+      Qt::HighDpiScaleFactorRoundingPolicy::Round);  // VTK's panes need whole factors
+  try {
+    return foresight::Run(argc, argv);
+  } catch (const std::exception& fault) {
+    foresight::LogError("internal fault: {}", fault.what());
+    return 70;
+  }
+}

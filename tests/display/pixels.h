@@ -1,0 +1,32 @@
+#pragma once
+
+#include <QImage>
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/base/image.h"
+
+namespace foresight {
+
+/// The share of pixels for which `matches` holds.
+template <class Matches>
+double ShareOf(const QImage& picture, const Matches& matches) {
+  qint64 count = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) count += matches(picture.pixelColor(x, y)) ? 1 : 0;
+  return static_cast<double>(count) / std::max(1, picture.width() * picture.height());
+}
+
+/// Neither grey nor nearly black.
+inline bool IsColoured(const QColor& color) {
+  return color.value() > 50 && color.saturation() > 90;
+}
+
+inline bool IsNear(const QColor& color, Rgb8 wanted) {
+  constexpr int kTolerance = 60;  // lines are antialiased over what lies below
+  return std::abs(color.red() - wanted.r) < kTolerance &&
+         std::abs(color.green() - wanted.g) < kTolerance &&
+         std::abs(color.blue() - wanted.b) < kTolerance;
+}
+
+}  // namespace foresight

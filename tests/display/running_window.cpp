@@ -1,0 +1,61 @@
+#include "tests/display/running_window.h"
+
+#include <QPushButton>
+
+#include "hardware/simulated/simulated_head.h"
+#include "tests/display/mouse.h"
+#include "tests/ui/wait_for.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kScanLimit_ms = 60'000;  // the simulated camera and the depth take seconds each
+
+}  // namespace
+
+RunningWindow::RunningWindow() {
+  const std::string file = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
+  scene_ = LoadScene(file).value();
+  SimulatedHeadOptions options;
+  options.speed = SimulationSpeed::kAsFastAsPossible;
+  std::shared_ptr<SensorHead> head = MakeSimulatedHead(file, options).value();
+  bench_ = std::make_unique<Workbench>(std::move(head), SessionMode::kSimulation);
+  window_ = std::make_unique<MainWindow>(bench_.get());
+  window_->show();
+  bench_->head.home();
+}
+
+RunningWindow::~RunningWindow() = default;
+
+bool RunningWindow::ScanWithTheMouse() {
+  auto* button = window_->findChild<QPushButton*>(QStringLiteral("scanButton"));
+  if (!WaitFor([&] { return button->isEnabled(); }, kScanLimit_ms)) return false;
+  Click(button);
+  const bool computed =
+      WaitFor([&] { return bench_->session.Depth() && bench_->Idle(); }, kScanLimit_ms);
+  Settle();
+  return computed;
+}
+
+Eigen::Vector3d RunningWindow::ValveInRobot() const {
+  return scene_.valves.at(0).robot_from_object.translation();
+}
+
+std::pair<Eigen::Vector2d, Eigen::Vector2d> RunningWindow::AroundValve() {
+  const Scan& scan = *bench_->session.CurrentScan();
+  const auto camera_from_robot =
+      scan.rig.CameraFromBase(bench_->session.Picture()->motor_angle_rad) *
+      scan.rig.robot_from_base.Inverse();
+  const Eigen::Vector3d center = camera_from_robot * ValveInRobot();
+  const double radius_m = 1.35 * scene_.valves.at(0).model.rim_radius_m;
+  return {*scan.rig.camera.Project(center - Eigen::Vector3d(radius_m, radius_m, 0.0)),
+          *scan.rig.camera.Project(center + Eigen::Vector3d(radius_m, radius_m, 0.0))};
+}
+
+void RunningWindow::Settle() {
+  QElapsedTimer timer;
+  timer.start();
+  WaitFor([&] { return timer.elapsed() > 500; });
+}
+
+}  // namespace foresight

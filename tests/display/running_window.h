@@ -1,0 +1,37 @@
+#pragma once
+
+#include <QRect>
+#include <memory>
+
+#include "app/workstation/main_window.h"
+#include "core/simulation/scene.h"
+#include "tests/display/stall_meter.h"
+
+namespace foresight {
+
+/// The main window on a fast simulated head that looks at resources/scenes/valve.yaml.
+class RunningWindow {
+ public:
+  RunningWindow();
+  ~RunningWindow();
+
+  Workbench& bench() { return *bench_; }
+  MainWindow& window() { return *window_; }
+  double WorstStall_ms() const { return stalls_.Worst_ms(); }
+
+  /// Presses the Scan button with the mouse and waits for the depth.
+  bool ScanWithTheMouse();
+  /// Two corners around the scene's valve, in pixels of the current picture.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> AroundValve();
+  Eigen::Vector3d ValveInRobot() const;
+  /// Draws what is pending.
+  void Settle();
+
+ private:
+  Scene scene_;
+  std::unique_ptr<Workbench> bench_;
+  std::unique_ptr<MainWindow> window_;
+  StallMeter stalls_;
+};
+
+}  // namespace foresight
