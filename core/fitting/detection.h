@@ -27,9 +27,11 @@ struct FitEvidence {
   int hits = 0;               ///< rays that meet the template
   double inlier_share = 0.0;  ///< of the hits, those with a range that agrees
   double see_through = 0.0;   ///< of the hits, those whose beam went on behind the template
+  double blocked_gaps = 0.0;  ///< of the rays between the spokes, those that did not get through
   double rms_m = 0.0;         ///< of the agreeing ranges
   double arc_coverage = 0.0;  ///< share of the rim's circle with support
   double margin_nats = 0.0;   ///< log likelihood ahead of the next spoke count
+  double gain_nats = 0.0;     ///< log likelihood ahead of no valve at all
 };
 
 /// One answer to "where is the valve": the best one, or a rival.

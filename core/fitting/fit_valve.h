@@ -19,10 +19,12 @@ struct FitValveOptions {
 };
 
 /// Finds one wheel valve among the rays of a region, Section V-B: wall, rim circle, then the
-/// template with each number of spokes, compared by how well it explains every ray, those that pass
-/// through the wheel included. The pose is in base; z of the object points to the viewer. Fails
-/// with kTooFewPoints (a region with too few rays) and kNoConvergence (nothing like a wheel in it),
-/// with a message that says what to do. About a second.
+/// template as a disc and with each number of spokes, compared by how well it explains every ray,
+/// those that pass through the wheel included. The pose is in base; z of the object points to the
+/// viewer, x along the spoke that is nearest to up (-y of base). `roi` stays empty: the caller
+/// knows it. The same rays, options and seed give the same answer on any number of threads. Fails
+/// with kTooFewPoints (a region with too few rays), kNoConvergence (nothing like a wheel in it),
+/// with a message that says what to do, and kCancelled. About half a second.
 Result<ValveDetection> FitValve(const RaySet& rays, const FitValveOptions& options,
                                 const RunContext& context);
 

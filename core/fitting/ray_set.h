@@ -29,11 +29,16 @@ struct RaySet {
   double samples_per_ray = 1.0;  ///< independent measurements behind a ray; < 1 for a dense map
 };
 
-/// The raw lidar returns that appear inside the region (or within `context_px` of it), kept or not.
+/// The raw lidar returns that appear inside the region, also those that the depth filters would
+/// reject: a fit has its own model of bad returns. Origins are the lidar's on each line. Fails with
+/// kInvalidInput (the region) and kTooFewPoints (nothing inside it). O(points).
 Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const ImageRoi& roi,
                             double sigma_m);
 
-/// The masked dense depth inside the region; every `stride`-th pixel.
+/// The masked dense depth inside the region; every `stride`-th pixel in both directions, seen from
+/// the camera's centre. `density` is the share of pixels with a lidar measurement of their own: an
+/// upsampled map holds no more independent measurements than went into it. Fails with kInvalidInput
+/// (the region, the stride, the map's size) and kTooFewPoints. O(pixels of the region).
 Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
                              const ImageRoi& roi, int stride, double sigma_m, double density);
 

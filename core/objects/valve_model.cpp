@@ -30,14 +30,15 @@ std::vector<Eigen::Vector3d> Circle(double radius, double z) {
 }  // namespace
 
 Status ValveModel::Check() const {
-  if (!(rim_radius_m > 0.0) || !(tube_radius_m > 0.0) || !(tube_radius_m < rim_radius_m))
+  if (!std::isfinite(rim_radius_m) || !(tube_radius_m > 0.0) || !(tube_radius_m < rim_radius_m))
     return Fail(ErrorCode::kInvalidOptions,
                 "valve: rim_radius_m {} and tube_radius_m {} make no wheel", rim_radius_m,
                 tube_radius_m);
   if (spokes != 0 && (spokes < 2 || spokes > 6))
     return Fail(ErrorCode::kInvalidOptions, "valve: spokes {} is neither 0 (disc) nor 2 to 6",
                 spokes);
-  if (!(spoke_radius_m > 0.0) || !(hub_radius_m > 0.0) || !std::isfinite(dish_m))
+  if (!(spoke_radius_m > 0.0) || !(hub_radius_m > 0.0) ||
+      !std::isfinite(spoke_radius_m + hub_radius_m + dish_m))
     return Fail(ErrorCode::kInvalidOptions,
                 "valve: spoke_radius_m {}, hub_radius_m {} or dish_m {} is not usable",
                 spoke_radius_m, hub_radius_m, dish_m);

@@ -1,0 +1,67 @@
+#include "core/fitting/roi.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace foresight {
+namespace {
+
+constexpr double kMinSize_px = 4.0;
+
+bool OnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).squaredNorm() < 1e-12;
+}
+
+}  // namespace
+
+ImageRoi ImageRoi::Rectangle(double motor_rad, const Eigen::Vector2d& corner_a,
+                             const Eigen::Vector2d& corner_b) {
+  const Eigen::Vector2d low = corner_a.cwiseMin(corner_b);
+  const Eigen::Vector2d high = corner_a.cwiseMax(corner_b);
+  return {motor_rad, {low, {high.x(), low.y()}, high, {low.x(), high.y()}}};
+}
+
+bool ImageRoi::Contains(const Eigen::Vector2d& pixel) const {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d& a = polygon[i];
+    const Eigen::Vector2d& b = polygon[j];
+    if (OnSegment(pixel, a, b)) return true;
+    if ((a.y() > pixel.y()) == (b.y() > pixel.y())) continue;
+    const double crossing = a.x() + (pixel.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    if (pixel.x() < crossing) inside = !inside;
+  }
+  return inside;
+}
+
+PixelBox ImageRoi::Bounds() const {
+  PixelBox box;
+  if (polygon.empty()) return box;
+  box.low = box.high = polygon.front();
+  for (const Eigen::Vector2d& corner : polygon) {
+    box.low = box.low.cwiseMin(corner);
+    box.high = box.high.cwiseMax(corner);
+  }
+  return box;
+}
+
+Status ImageRoi::Check() const {
+  if (!std::isfinite(motor_rad))
+    return Fail(ErrorCode::kInvalidInput, "region: its motor angle is not a number");
+  if (polygon.size() < 3)
+    return Fail(ErrorCode::kInvalidInput, "region: {} corners, needs at least 3", polygon.size());
+  for (const Eigen::Vector2d& corner : polygon)
+    if (!corner.allFinite())
+      return Fail(ErrorCode::kInvalidInput, "region: corner ({}, {}) is not a pixel", corner.x(),
+                  corner.y());
+  const Eigen::Vector2d size = Bounds().high - Bounds().low;
+  if (size.minCoeff() < kMinSize_px)
+    return Fail(ErrorCode::kInvalidInput,
+                "region: {:.1f} x {:.1f} px is too small, draw at least 4", size.x(), size.y());
+  return {};
+}
+
+}  // namespace foresight

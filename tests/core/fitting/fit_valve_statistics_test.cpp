@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "core/depth/pipeline.h"
+#include "core/fitting/fit_valve.h"
+#include "core/geometry/angles.h"
+#include "core/registration/register_scan.h"
+#include "core/simulation/world.h"
+#include "tests/support/valve_rays.h"
+#include "tests/support/valve_scan.h"
+
+namespace foresight {
+namespace {
+
+using testing::CompareValves;
+using testing::ValveError;
+
+constexpr double kSigma_m = 0.010;
+
+bool PoseRight(const ValveError& error) {
+  return error.center_m < 0.020 && DegreesFromRadians(error.axis_rad) < 5.0 &&
+         error.radius_m < 0.012;
+}
+
+TEST(FitValveStatistics, WheelsOfAllKindsAreFound) {
+  int pose_right = 0;
+  int spokes_right = 0;
+  int confirmed = 0;
+  int confirmed_wrongly = 0;
+  constexpr int kViews = 60;
+  for (std::uint64_t seed = 1; seed <= kViews; ++seed) {
+    const testing::ValveScene scene = MakeValveScene(testing::RandomValveView(seed));
+    const auto found = FitValve(scene.rays, {}, {});
+    if (!found) continue;
+    const ValveError error = CompareValves(found->best, scene.truth);
+    pose_right += PoseRight(error) ? 1 : 0;
+    spokes_right += error.spokes_right ? 1 : 0;
+    if (found->verdict.level != VerdictLevel::kConfirmed) continue;
+    ++confirmed;
+    confirmed_wrongly += PoseRight(error) && error.spokes_right ? 0 : 1;
+  }
+  std::printf("pose %d, spokes %d, confirmed %d (wrongly %d) of %d\n", pose_right, spokes_right,
+              confirmed, confirmed_wrongly, kViews);
+  EXPECT_GE(pose_right, 56);    // 0.93
+  EXPECT_GE(spokes_right, 57);  // 0.95
+  EXPECT_EQ(confirmed_wrongly, 0);
+}
+
+TEST(FitValveStatistics, OtherThingsAreNotConfirmed) {
+  using Object = testing::ValveView::Object;
+  for (const Object object : {Object::kNothing, Object::kBox, Object::kBall}) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      testing::ValveView view = testing::RandomValveView(seed);
+      view.object = object;
+      const auto found = FitValve(MakeValveScene(view).rays, {}, {});
+      if (found) {
+        EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed)
+            << "object " << static_cast<int>(object) << ", seed " << seed;
+      }
+    }
+  }
+}
+
+/// The valve scene of the repository, swept at 10 deg/s, with the wheel in a region around it.
+class SimulatedValve : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto scene = LoadScene(FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_FALSE(scene->valves.empty());
+    scene_ = std::make_shared<const Scene>(std::move(*scene));
+  }
+
+  struct Seen {
+    Scan scan;
+    RegisteredScan cloud;
+    ImageRoi roi;
+    ValveCandidate truth;
+  };
+
+  Seen Look(std::uint64_t seed) const {
+    WorldOptions options;
+    options.seed = seed;
+    const World world(scene_, DefaultSensorRig(), options);
+    Seen seen;
+    seen.scan = testing::SweepWorld(world, RadiansFromDegrees(-20), RadiansFromDegrees(20),
+                                    RadiansFromDegrees(10), 0.0);
+    auto cloud = RegisterScan(seen.scan, {});
+    EXPECT_TRUE(cloud);
+    seen.cloud = std::move(*cloud);
+    const ValveTruth& truth = scene_->valves.front();
+    seen.truth = {world.BaseFromRobot() * truth.robot_from_object, truth.model, 0.0};
+    const double motor_rad = seen.scan.frames.front().motor_angle_rad;
+    const Eigen::Vector3d center =
+        seen.scan.rig.CameraFromBase(motor_rad) * seen.truth.base_from_object.translation();
+    const auto pixel = seen.scan.rig.camera.Project(center);
+    EXPECT_TRUE(pixel);
+    // As an operator draws it: a third more than the rim, not quite centred.
+    const double half_px = 1.35 * truth.model.rim_radius_m / center.z() * seen.scan.rig.camera.fx;
+    Random random(seed, 3);
+    const Eigen::Vector2d off(random.Uniform(-12.0, 12.0), random.Uniform(-12.0, 12.0));
+    const Eigen::Vector2d half(half_px, half_px);
+    seen.roi = ImageRoi::Rectangle(motor_rad, *pixel + off - half, *pixel + off + half);
+    return seen;
+  }
+
+  /// Whether a fit is as good as a gripper needs it; prints a row of the table.
+  static bool GoodEnough(std::uint64_t seed, const Result<ValveDetection>& found,
+                         const ValveCandidate& truth) {
+    if (!found) {
+      std::printf("%2d %s\n", static_cast<int>(seed), found.error().message.c_str());
+      return false;
+    }
+    const ValveError error = CompareValves(found->best, truth);
+    std::printf(
+        "%2d N %d centre %4.1f mm axis %4.2f deg R %4.1f mm phase %4.1f deg %s %.3f %.2f s\n",
+        static_cast<int>(seed), found->best.model.spokes, 1000.0 * error.center_m,
+        DegreesFromRadians(error.axis_rad), 1000.0 * error.radius_m,
+        DegreesFromRadians(error.phase_rad), ToString(found->verdict.level),
+        found->verdict.probability, found->seconds);
+    return error.spokes_right && error.center_m < 0.010 && DegreesFromRadians(error.axis_rad) < 3.0;
+  }
+
+  std::shared_ptr<const Scene> scene_;
+};
+
+TEST_F(SimulatedValve, IsFoundInTheRawReturns) {
+  int good = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Seen seen = Look(seed);
+    const auto rays = RaysFromScan(seen.cloud, seen.scan.rig, seen.roi, kSigma_m);
+    ASSERT_TRUE(rays) << rays.error().message;
+    good += GoodEnough(seed, FitValve(*rays, {}, {}), seen.truth) ? 1 : 0;
+  }
+  EXPECT_GE(good, 18);
+}
+
+TEST_F(SimulatedValve, IsFoundInTheDenseDepth) {
+  // Upsampling a picture takes most of the time, so fewer seeds than above.
+  int good = 0;
+  constexpr int kSeeds = 6;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Seen seen = Look(seed);
+    auto samples = AlignToImage(seen.cloud, seen.scan.rig, seen.roi.motor_rad, {});
+    ASSERT_TRUE(samples) << samples.error().message;
+    const double density = samples->Density();
+    const auto depth =
+        ComputeDepth(std::move(*samples), seen.scan.frames.front().image, DepthOptions(), {});
+    ASSERT_TRUE(depth) << depth.error().message;
+    const auto rays = RaysFromDepth(ApplyMask(depth->dense.depth_m, depth->mask), seen.scan.rig,
+                                    seen.roi, 2, kSigma_m, density);
+    ASSERT_TRUE(rays) << rays.error().message;
+    good += GoodEnough(seed, FitValve(*rays, {}, {}), seen.truth) ? 1 : 0;
+  }
+  EXPECT_GE(good, kSeeds - 1);
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,148 @@
+#include "core/fitting/fit_valve.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/geometry/angles.h"
+#include "tests/support/valve_rays.h"
+
+namespace foresight {
+namespace {
+
+using testing::CompareValves;
+using testing::MakeValveScene;
+using testing::RandomValveView;
+using testing::ValveError;
+using testing::ValveScene;
+using testing::ValveView;
+
+class FitValveSpokes : public ::testing::TestWithParam<int> {};
+
+TEST_P(FitValveSpokes, AreCountedAndTheWheelIsPlaced) {
+  ValveView view = RandomValveView(static_cast<std::uint64_t>(GetParam()));
+  view.model.spokes = GetParam();
+  view.distance_m = 1.3;
+  const ValveScene scene = MakeValveScene(view);
+  const auto found = FitValve(scene.rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  const ValveError error = CompareValves(found->best, scene.truth);
+  EXPECT_TRUE(error.spokes_right) << found->best.model.spokes;
+  // What a gripper needs; the noise alone (10 mm over 200 rays) would allow a tenth of it.
+  EXPECT_LT(error.center_m, 0.010);
+  EXPECT_LT(DegreesFromRadians(error.axis_rad), 3.0);
+  EXPECT_LT(DegreesFromRadians(error.phase_rad), 4.0);
+}
+INSTANTIATE_TEST_SUITE_P(TwoToSix, FitValveSpokes, ::testing::Values(2, 3, 4, 5, 6));
+
+TEST(FitValve, ItsAxisPointsToTheViewerAndItsSpokeUp) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const ValveScene scene = MakeValveScene(RandomValveView(seed));
+    const auto found = FitValve(scene.rays, {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    const auto& pose = found->best.base_from_object;
+    const Eigen::Vector3d to_viewer = scene.rays.viewpoint - pose.translation();
+    EXPECT_GT(pose.Rotate(Eigen::Vector3d::UnitZ()).dot(to_viewer), 0.0);
+    // The next spoke is 60 deg away or more, so the best of them is within 90 deg of up (-y).
+    EXPECT_LE(pose.Rotate(Eigen::Vector3d::UnitX()).y(), 1e-9);
+  }
+}
+
+TEST(FitValve, ADiscHasNoPhase) {
+  ValveView view = RandomValveView(2);
+  view.model.spokes = 0;
+  view.model.dish_m = 0.0;
+  view.distance_m = 1.2;
+  const ValveScene scene = MakeValveScene(view);
+  const auto found = FitValve(scene.rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->best.model.spokes, 0);
+  EXPECT_FALSE(found->phase_observable);
+}
+
+TEST(FitValve, AFlatWallIsNoValve) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    ValveView view = RandomValveView(seed);
+    view.object = ValveView::Object::kNothing;
+    view.pipe = false;
+    const auto found = FitValve(MakeValveScene(view).rays, {}, {});
+    if (found) {
+      EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << seed;
+    } else {
+      EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << seed;
+    }
+  }
+}
+
+TEST(FitValve, APipeAlongAWallIsNotConfirmed) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    ValveView view = RandomValveView(seed);
+    view.object = ValveView::Object::kNothing;
+    view.pipe = true;
+    const auto found = FitValve(MakeValveScene(view).rays, {}, {});
+    if (found) {
+      EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->verdict.reason;
+    }
+  }
+}
+
+TEST(FitValve, AnEmptyRegionOrNaNsTellWhatToDo) {
+  RaySet rays;
+  for (const int count : {0, 3, 500}) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    rays.rays.assign(static_cast<std::size_t>(count),
+                     {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), nan});
+    const auto found = FitValve(rays, {}, {});
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, ErrorCode::kTooFewPoints);
+    EXPECT_NE(found.error().message.find("draw it larger"), std::string::npos);
+  }
+}
+
+TEST(FitValve, ManyTimesTheSamePointIsNoValve) {
+  RaySet rays;
+  rays.rays.assign(500, {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 1.0});
+  EXPECT_FALSE(FitValve(rays, {}, {}));
+}
+
+TEST(FitValve, IsTheSameOnAnyNumberOfThreads) {
+  const ValveScene scene = MakeValveScene(RandomValveView(6));
+  RunContext one;
+  one.threads = 1;
+  RunContext four;
+  four.threads = 4;
+  const auto a = FitValve(scene.rays, {}, one);
+  const auto b = FitValve(scene.rays, {}, four);
+  ASSERT_TRUE(a && b);
+  EXPECT_TRUE(a->best.base_from_object.Matrix() == b->best.base_from_object.Matrix());
+  EXPECT_EQ(a->evidence.margin_nats, b->evidence.margin_nats);
+}
+
+TEST(FitValve, StopsWhenAsked) {
+  std::stop_source stop;
+  stop.request_stop();
+  RunContext context;
+  context.stop = stop.get_token();
+  const auto found = FitValve(MakeValveScene(RandomValveView(1)).rays, {}, context);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
+}
+
+TEST(FitValve, ReportsItsProgressToTheEnd) {
+  Progress progress;
+  RunContext context;
+  context.progress = &progress;
+  ASSERT_TRUE(FitValve(MakeValveScene(RandomValveView(1)).rays, {}, context));
+  EXPECT_EQ(progress.permille.load(), 1000);
+}
+
+TEST(FitValve, RefusesAnEmptyRangeOfRadii) {
+  FitValveOptions options;
+  options.max_rim_radius_m = 0.01;
+  const auto found = FitValve({}, options, {});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kInvalidOptions);
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,97 @@
+#include "core/fitting/ray_set.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace foresight {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// Three returns of one line: straight ahead of the camera, far to its right, and none.
+RegisteredScan ThreeBeams(const SensorRig& rig, double motor_rad) {
+  RegisteredScan scan;
+  scan.lines = 1;
+  scan.beams = 3;
+  const auto base_from_camera = rig.CameraFromBase(motor_rad).Inverse();
+  scan.points = {(base_from_camera * Eigen::Vector3d(0.0, 0.0, 2.0)).cast<float>(),
+                 (base_from_camera * Eigen::Vector3d(1.0, 0.0, 2.0)).cast<float>(),
+                 Eigen::Vector3f::Constant(kNaN)};
+  scan.range_m = {2.0f, 2.2f, kNaN};
+  scan.intensity = {0.0f, 0.0f, 0.0f};
+  scan.origins = {Eigen::Vector3f(0.01f, 0.02f, 0.03f)};
+  return scan;
+}
+
+ImageRoi AroundTheCenter(const SensorRig& rig, double motor_rad) {
+  const Eigen::Vector2d center(rig.camera.cx, rig.camera.cy);
+  return ImageRoi::Rectangle(motor_rad, center - Eigen::Vector2d(20, 20),
+                             center + Eigen::Vector2d(20, 20));
+}
+
+TEST(RaysFromScan, TakesTheReturnsInTheRegionFromTheLidarsOrigin) {
+  const SensorRig rig = DefaultSensorRig();
+  const RegisteredScan scan = ThreeBeams(rig, 0.2);
+  const auto set = RaysFromScan(scan, rig, AroundTheCenter(rig, 0.2), 0.01);
+  ASSERT_TRUE(set) << set.error().message;
+  ASSERT_EQ(set->rays.size(), 1U);
+  EXPECT_LT((set->rays[0].Point() - scan.points[0].cast<double>()).norm(), 1e-6);
+  EXPECT_LT((set->rays[0].origin - scan.origins[0].cast<double>()).norm(), 1e-9);
+  EXPECT_LT((set->viewpoint - scan.origins[0].cast<double>()).norm(), 1e-9);
+}
+
+TEST(RaysFromScan, TheRegionBelongsToTheAngleItWasDrawnAt) {
+  // Turned by 0.5 rad the same pixels look elsewhere: 1 m beside the point at 2 m.
+  const SensorRig rig = DefaultSensorRig();
+  const auto set = RaysFromScan(ThreeBeams(rig, 0.2), rig, AroundTheCenter(rig, 0.7), 0.01);
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().code, ErrorCode::kTooFewPoints);
+}
+
+TEST(RaysFromDepth, APixelsRayEndsAtItsDepth) {
+  const SensorRig rig = DefaultSensorRig();
+  DepthImage depth(rig.camera.width, rig.camera.height, kNaN);
+  depth(700, 500) = 1.5f;
+  const ImageRoi roi = ImageRoi::Rectangle(-0.3, {600, 400}, {800, 600});
+  const auto set = RaysFromDepth(depth, rig, roi, 1, 0.01, 0.02);
+  ASSERT_TRUE(set) << set.error().message;
+  ASSERT_EQ(set->rays.size(), 1U);
+  const Eigen::Vector3d in_camera = rig.CameraFromBase(-0.3) * set->rays[0].Point();
+  EXPECT_NEAR(in_camera.z(), 1.5, 1e-6);  // a float's depth
+  const auto pixel = rig.camera.Project(in_camera);
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->x(), 700.0, 1e-6);
+  EXPECT_NEAR(pixel->y(), 500.0, 1e-6);
+}
+
+TEST(RaysFromDepth, CountsNoMoreMeasurementsThanTheLidarMade) {
+  const SensorRig rig = DefaultSensorRig();
+  const DepthImage depth(rig.camera.width, rig.camera.height, 2.0f);
+  const ImageRoi roi = ImageRoi::Rectangle(0.0, {600, 400}, {699, 499});
+  const auto set = RaysFromDepth(depth, rig, roi, 2, 0.01, 0.02);
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->rays.size(), 2500U);
+  EXPECT_TRUE(set->dense);
+  // 100 x 100 px at 2 % are 200 measurements.
+  EXPECT_NEAR(set->samples_per_ray * static_cast<double>(set->rays.size()), 200.0, 1e-9);
+}
+
+TEST(RaysFromDepth, ARegionBeyondTheImageIsCutAtItsEdge) {
+  const SensorRig rig = DefaultSensorRig();
+  const DepthImage depth(rig.camera.width, rig.camera.height, 2.0f);
+  const auto set =
+      RaysFromDepth(depth, rig, ImageRoi::Rectangle(0.0, {-50, -50}, {9, 9}), 1, 0.01, 0.02);
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->rays.size(), 100U);
+}
+
+TEST(RaysFromDepth, RefusesAMapOfAnotherSize) {
+  const auto set = RaysFromDepth(DepthImage(10, 10, 1.0f), DefaultSensorRig(),
+                                 ImageRoi::Rectangle(0.0, {0, 0}, {9, 9}), 1, 0.01, 0.02);
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().code, ErrorCode::kInvalidInput);
+}
+
+}  // namespace
+}  // namespace foresight
