@@ -50,6 +50,15 @@ TEST(Motor, TheFastTermStaysUnknownToACalibrationEveryTenDegrees) {
   }
 }
 
+TEST(Motor, ACalibrationKnowsThePlateAtItsKnotsEveryTenDegrees) {
+  const MotorSimulator motor({}, 1);
+  const AngleCorrection correction = motor.CalibratedCorrection();
+  ASSERT_EQ(correction.knots().size(), 19u);
+  for (const AngleCorrection::Knot& knot : correction.knots())
+    EXPECT_NEAR(correction.PlateAngle(knot.motor_rad), motor.PlateAngle(knot.motor_rad, true),
+                1e-12);
+}
+
 TEST(Motor, BacklashSeparatesUpFromDown) {
   const MotorSimulator motor({}, 1);
   EXPECT_NEAR(motor.PlateAngle(0.3, false) - motor.PlateAngle(0.3, true), RadiansFromDegrees(0.03),
