@@ -298,9 +298,9 @@ TEST(CaptureHead, ItsDestructorStopsTheMotorDuringASweep) {
   ASSERT_TRUE(tiny.Home());
   std::promise<void> sweeping;
   tiny.watch->action = [&] {
-    sweeping.set_value();
     // Holds the sweep until the destructor has stopped the motor.
     const int before = tiny.motor->quick_stops;
+    sweeping.set_value();
     while (tiny.motor->quick_stops == before) std::this_thread::yield();
   };
   ASSERT_TRUE(tiny.head->StartScan(TinyPlan(), tiny.sinks));
