@@ -112,15 +112,19 @@ TEST_F(Workstation, TheThresholdAtOneMasksNearlyEverything) {
   EXPECT_GT(ShareOf(DepthPixels(), IsColoured), 0.5);
 }
 
-TEST_F(Workstation, TheGuiThreadNeverStallsForLong) {
-  RecordProperty("worst_stall_ms", static_cast<int>(running->WorstStall_ms()));
-  std::printf("worst stall of the GUI thread: %.0f ms\n", running->WorstStall_ms());
+TEST_F(Workstation, TheGuiThreadNeverStallsForLongDuringAScan) {
+  const Stall worst = running->WorstStallOfTheScan();
+  std::printf("worst stall of the GUI thread: %.0f ms, its own work in it %.0f ms\n", worst.wall_ms,
+              worst.cpu_ms);
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr double kLimit_ms = 3000.0;
+  constexpr double kFactor = 10.0;
 #else
-  constexpr double kLimit_ms = 250.0;
+  constexpr double kFactor = 1.0;
 #endif
-  EXPECT_LT(running->WorstStall_ms(), kLimit_ms);
+  EXPECT_LT(worst.cpu_ms, kFactor * 250.0);
+  // On a machine shared with others the thread also waits for its turn: a wider limit, which still
+  // catches a thread that waits for a disk or for the depth.
+  EXPECT_LT(worst.wall_ms, kFactor * 1500.0);
 }
 
 }  // namespace

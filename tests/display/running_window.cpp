@@ -23,6 +23,8 @@ RunningWindow::RunningWindow() {
   window_ = std::make_unique<MainWindow>(bench_.get());
   window_->show();
   bench_->head.home();
+  Settle();  // the first drawing of everything, which takes a second, is no stall of a mission
+  stalls_.TakeWorst();
 }
 
 RunningWindow::~RunningWindow() = default;
@@ -34,6 +36,7 @@ bool RunningWindow::ScanWithTheMouse() {
   const bool computed =
       WaitFor([&] { return bench_->session.Depth() && bench_->Idle(); }, kScanLimit_ms);
   Settle();
+  scan_stall_ = stalls_.TakeWorst();
   return computed;
 }
 

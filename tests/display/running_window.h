@@ -17,7 +17,8 @@ class RunningWindow {
 
   Workbench& bench() { return *bench_; }
   MainWindow& window() { return *window_; }
-  double WorstStall_ms() const { return stalls_.Worst_ms(); }
+  /// From pressing the button to the depth on the screen.
+  Stall WorstStallOfTheScan() const { return scan_stall_; }
 
   /// Presses the Scan button with the mouse and waits for the depth.
   bool ScanWithTheMouse();
@@ -32,6 +33,7 @@ class RunningWindow {
   std::unique_ptr<Workbench> bench_;
   std::unique_ptr<MainWindow> window_;
   StallMeter stalls_;
+  Stall scan_stall_;
 };
 
 }  // namespace foresight

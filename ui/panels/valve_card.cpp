@@ -8,6 +8,7 @@
 
 #include "core/geometry/angles.h"
 #include "ui/panels/theme.h"
+#include "ui/viewmodels/age_text.h"
 
 namespace foresight {
 namespace {
@@ -27,13 +28,6 @@ Look LookOf(VerdictLevel level) {
       break;
   }
   return {"unsure", state_color::kBad};
-}
-
-QString AgeText(std::chrono::seconds age) {
-  const auto seconds = age.count();
-  if (seconds < 60) return ValveCard::tr("%1 s").arg(seconds);
-  if (seconds < 3600) return ValveCard::tr("%1 min %2 s").arg(seconds / 60).arg(seconds % 60);
-  return ValveCard::tr("%1 h %2 min").arg(seconds / 3600).arg(seconds / 60 % 60);
 }
 
 }  // namespace
@@ -120,7 +114,7 @@ void ValveCard::Show(const FoundValve& valve, bool is_current) {
                         .arg(found.evidence.rays)
                         .arg(100.0 * found.evidence.inlier_share, 0, 'f', 0)
                         .arg(1000.0 * found.evidence.rms_m, 0, 'f', 1));
-  source_->setText(tr("%1, %2").arg(valve.scan_time.toString(QStringLiteral("HH:mm:ss")),
+  source_->setText(tr("%1\n%2").arg(valve.scan_time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")),
                                     QString::fromStdString(valve.scan_uuid).left(8)));
   ShowAge(valve);
 }

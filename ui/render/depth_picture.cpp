@@ -32,27 +32,27 @@ ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer
   const auto table = TableOf(is_depth ? ColorMap::kTurbo : ColorMap::kCividis);
   const FloatImage& source = is_depth ? dense.depth_m : dense.confidence;
   const double unit = is_depth || dense.max_confidence <= 0.0f ? 1.0 : dense.max_confidence;
+  // A million pixels in the GUI thread: one multiplication each.
+  const auto low = static_cast<float>(range.low * unit);
+  const auto scale = static_cast<float>(255.0 / ((range.high - range.low) * unit));
   ColorImage picture(source.width(), source.height());
   for (int y = 0; y < source.height(); ++y) {
     for (int x = 0; x < source.width(); ++x) {
-      const double value = source(x, y) / unit;
       if (!std::isfinite(dense.depth_m(x, y))) {
         picture(x, y) = kNothing;
       } else if (mask != nullptr && (*mask)(x, y) == 0) {
         picture(x, y) = Hatch(x, y);
       } else {
-        const double fraction = std::clamp(range.Fraction(value), 0.0, 1.0);
-        picture(x, y) = table[static_cast<std::size_t>(std::lround(255.0 * fraction))];
+        const float place = std::clamp((source(x, y) - low) * scale, 0.0f, 255.0f);
+        picture(x, y) = table[static_cast<std::size_t>(place + 0.5f)];
       }
     }
   }
   return picture;
 }
 
-ValueRange RangeOf(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer) {
-  if (layer == DepthLayer::kConfidence) return {0.0, 1.0};
-  const ValueRange range = mask == nullptr ? RobustRange(dense.depth_m.values())
-                                           : RobustRange(ApplyMask(dense.depth_m, *mask).values());
+ValueRange DepthRangeOf(const DepthImage& depth_m, const MaskImage& mask) {
+  const ValueRange range = RobustRange(ApplyMask(depth_m, mask).values());
   // On a flat wall the colours would otherwise show nothing but noise.
   const double widen = std::max(0.0, kLeastSpan_m - (range.high - range.low)) / 2.0;
   return {range.low - widen, range.high + widen};

@@ -14,8 +14,7 @@ enum class DepthLayer { kDepth, kConfidence };
 ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer,
                       const ValueRange& range);
 
-/// The span of values of a layer: the depths that the mask keeps, at least half a metre, or 0 to 1
-/// for confidence.
-ValueRange RangeOf(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer);
+/// The span of the depths that the mask keeps, at least half a metre.
+ValueRange DepthRangeOf(const DepthImage& depth_m, const MaskImage& mask);
 
 }  // namespace foresight

@@ -2,10 +2,10 @@
 
 #include <vtkAxesActor.h>
 #include <vtkCamera.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkPointPicker.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <QMouseEvent>
 #include <algorithm>
 #include <array>
@@ -31,6 +31,14 @@ vtkSmartPointer<vtkActor> MakeActor(const vtkSmartPointer<vtkPolyData>& data) {
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetPointSize(2.0f);
   return actor;
+}
+
+/// So that the shaders of points are made when the window opens and not in the first scan.
+PointSet OnePoint() {
+  PointSet set;
+  set.points = {Eigen::Vector3f::Zero()};
+  set.values = {0.0f};
+  return set;
 }
 
 /// The middle of the points ahead of the robot (within 35 deg of its x axis), or of all of them.
@@ -67,14 +75,13 @@ vtkSmartPointer<vtkAxesActor> MakeAxes(double length_m, bool labels) {
 }  // namespace
 
 CloudCanvas::CloudCanvas(QWidget* parent)
-    : QVTKOpenGLNativeWidget(parent),
+    : VtkCanvas(parent),
       renderer_(vtkSmartPointer<vtkRenderer>::New()),
       overlay_(vtkSmartPointer<vtkRenderer>::New()),
-      points_(MakeActor(VtkPointsOf({}, 0))),
+      points_(MakeActor(VtkPointsOf(OnePoint(), 1))),
       sample_(MakeActor(VtkPointsOf({}, 0))),
       templates_(MakeActor(VtkLinesOf({}))),
       compass_(vtkSmartPointer<vtkOrientationMarkerWidget>::New()) {
-  setRenderWindow(vtkNew<vtkGenericOpenGLRenderWindow>());
   renderWindow()->AddRenderer(renderer_);
   renderer_->SetBackground(0.07, 0.08, 0.10);
   renderer_->SetBackground2(0.15, 0.17, 0.20);
@@ -95,7 +102,7 @@ CloudCanvas::CloudCanvas(QWidget* parent)
   renderer_->AddActor(MakeAxes(0.2, false));
   compass_->SetOrientationMarker(MakeAxes(1.0, true));
   compass_->SetInteractor(interactor());
-  compass_->SetViewport(0.0, 0.0, 0.14, 0.22);
+  compass_->SetViewport(0.0, 0.0, 0.16, 0.32);
   compass_->EnabledOn();
   compass_->InteractiveOff();
   setMinimumSize(160, 120);
@@ -112,7 +119,7 @@ void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const ValueRange&
     MapperOf(actor)->SetScalarRange(range.low, range.high);
   }
   home_.focal = MiddleOf(set);
-  home_.distance_m = std::max(0.5, 1.25 * (home_.focal - set.viewpoint.cast<double>()).norm());
+  home_.distance_m = std::max(0.5, 1.5 * (home_.focal - set.viewpoint.cast<double>()).norm());
   home_.azimuth_rad = -0.35;
   home_.elevation_rad = 0.35;
   if (!moved_) ResetView();
@@ -157,7 +164,7 @@ bool CloudCanvas::event(QEvent* event) {
       event->ignore();  // VTK's own keys (e, q, w) must not reach an operator
       return false;
     default:
-      return QVTKOpenGLNativeWidget::event(event);
+      return VtkCanvas::event(event);
   }
 }
 
@@ -206,13 +213,10 @@ void CloudCanvas::PlaceCamera() {
   camera->SetFocalPoint(camera_.focal.data());
   camera->SetPosition(position.data());
   camera->SetViewUp(0.0, 0.0, 1.0);
-  renderer_->ResetCameraClippingRange();
 }
 
-void CloudCanvas::Redraw() {
-  if (!isVisible()) return;
+void CloudCanvas::Prepare() {
   renderer_->ResetCameraClippingRange();
-  renderWindow()->Render();
 }
 
 }  // namespace foresight

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
 #include <vtkOrientationMarkerWidget.h>
 #include <vtkRenderer.h>
@@ -10,12 +9,13 @@
 #include "ui/render/color_map.h"
 #include "ui/render/point_set.h"
 #include "ui/views/orbit_camera.h"
+#include "ui/views/vtk_canvas.h"
 
 namespace foresight {
 
 /// Points and templates in 3D, in the robot's frame. Left button orbits about the point looked at,
 /// right or middle pans, wheel zooms, a double click looks at the point under the mouse.
-class CloudCanvas : public QVTKOpenGLNativeWidget {
+class CloudCanvas : public VtkCanvas {
   Q_OBJECT
 
  public:
@@ -30,13 +30,13 @@ class CloudCanvas : public QVTKOpenGLNativeWidget {
 
  protected:
   bool event(QEvent* event) override;
+  void Prepare() override;
 
  private:
   void OnMove(const QMouseEvent& event);
   void LookAtPointUnder(const QPointF& position);
   void ShowSample(bool sample);
   void PlaceCamera();
-  void Redraw();
 
   /// While the camera moves only this many points are drawn, or software rendering stutters.
   static constexpr std::size_t kSamplePoints = 100'000;

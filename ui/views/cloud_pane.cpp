@@ -23,9 +23,11 @@ CloudPane::CloudPane(SessionModel* session, QWidget* parent)
       source_(new QComboBox),
       color_(new QComboBox) {
   BuildControls();
-  for (auto signal :
-       {&SessionModel::cloudChanged, &SessionModel::depthChanged, &SessionModel::maskChanged})
-    connect(session_, signal, this, &CloudPane::Prepare);
+  connect(session_, &SessionModel::cloudChanged, this, &CloudPane::Prepare);
+  for (auto signal : {&SessionModel::depthChanged, &SessionModel::maskChanged})
+    connect(session_, signal, this, [this] {
+      if (!ShowsLidar()) Prepare();
+    });
   connect(session_, &SessionModel::valvesChanged, this,
           [this] { canvas_->SetTemplates(TemplatesInRobot(*session_)); });
   connect(session_, &SessionModel::scanChanged, this,
@@ -55,21 +57,22 @@ void CloudPane::BuildControls() {
 void CloudPane::FillColors() {
   const QSignalBlocker blocker(color_);
   color_->clear();
-  if (source_->currentData().toInt() == static_cast<int>(Source::kDepth))
-    color_->addItem(tr("Picture"), static_cast<int>(PointColor::kPicture));
+  if (!ShowsLidar()) color_->addItem(tr("Picture"), static_cast<int>(PointColor::kPicture));
   color_->addItem(tr("Height"), static_cast<int>(PointColor::kHeight));
   color_->addItem(tr("Range"), static_cast<int>(PointColor::kRange));
-  if (source_->currentData().toInt() == static_cast<int>(Source::kLidar))
-    color_->addItem(tr("Intensity"), static_cast<int>(PointColor::kIntensity));
+  if (ShowsLidar()) color_->addItem(tr("Intensity"), static_cast<int>(PointColor::kIntensity));
 }
 
 PointColor CloudPane::Color() const {
   return static_cast<PointColor>(color_->currentData().toInt());
 }
 
+bool CloudPane::ShowsLidar() const {
+  return source_->currentData().toInt() == static_cast<int>(Source::kLidar);
+}
+
 bool CloudPane::HasData() const {
-  if (source_->currentData().toInt() == static_cast<int>(Source::kLidar))
-    return session_->Cloud() != nullptr;
+  if (ShowsLidar()) return session_->Cloud() != nullptr;
   return session_->Depth() && session_->Picture() != nullptr;
 }
 
@@ -85,8 +88,7 @@ void CloudPane::Prepare() {
     outdated_ = true;
     return;
   }
-  const bool lidar = source_->currentData().toInt() == static_cast<int>(Source::kLidar);
-  const auto work = [lidar, cloud = session_->Cloud(), rig = session_->Rig(),
+  const auto work = [lidar = ShowsLidar(), cloud = session_->Cloud(), rig = session_->Rig(),
                      scan = session_->CurrentScan(), picture = session_->PictureIndex(),
                      depth = session_->Depth(), mask = session_->Mask(),
                      color = Color()](const RunContext&) -> Result<PointSet> {

@@ -29,6 +29,7 @@ class CloudPane : public Pane {
   void Prepare();
   void Show(const PointSet& set);
   PointColor Color() const;
+  bool ShowsLidar() const;
   bool HasData() const;
 
   SessionModel* session_;

@@ -1,11 +1,11 @@
 #include "ui/views/depth_canvas.h"
 
 #include <vtkCamera.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageMapper3D.h>
 #include <vtkImageProperty.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
@@ -35,16 +35,16 @@ void SetLines(vtkActor* actor, const Polylines& lines) {
 }  // namespace
 
 DepthCanvas::DepthCanvas(QWidget* parent)
-    : QVTKOpenGLNativeWidget(parent),
+    : VtkCanvas(parent),
       renderer_(vtkSmartPointer<vtkRenderer>::New()),
       picture_(vtkSmartPointer<vtkImageActor>::New()),
       templates_(LineActor(kTemplateColor, 2.0f)),
       roi_(LineActor(kRoiColor, 2.0f)),
       drag_actor_(LineActor(kRoiColor, 2.0f)) {
-  setRenderWindow(vtkNew<vtkGenericOpenGLRenderWindow>());
   renderWindow()->AddRenderer(renderer_);
   renderer_->SetBackground(0.09, 0.10, 0.12);
   renderer_->GetActiveCamera()->ParallelProjectionOn();
+  picture_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
   renderer_->AddActor(picture_);
   for (const auto& actor : {templates_, roi_, drag_actor_}) renderer_->AddActor(actor);
   setMinimumSize(160, 120);
@@ -153,7 +153,7 @@ bool DepthCanvas::event(QEvent* event) {
     default:
       break;
   }
-  return QVTKOpenGLNativeWidget::event(event);
+  return VtkCanvas::event(event);
 }
 
 bool DepthCanvas::OnPress(const QMouseEvent& event) {
@@ -206,7 +206,7 @@ void DepthCanvas::OnWheel(const QWheelEvent& event) {
 }
 
 void DepthCanvas::resizeEvent(QResizeEvent* event) {
-  QVTKOpenGLNativeWidget::resizeEvent(event);
+  VtkCanvas::resizeEvent(event);
   if (shows_all_)
     ShowAll();
   else
@@ -218,11 +218,6 @@ void DepthCanvas::DrawDrag() {
   SetLines(drag_actor_, corners ? Outline(ImageRoi::Rectangle(0.0, corners->first, corners->second))
                                 : Polylines());
   Redraw();
-}
-
-void DepthCanvas::Redraw() {
-  // QWidget::update() would only show the last frame again.
-  if (isVisible()) renderWindow()->Render();
 }
 
 }  // namespace foresight

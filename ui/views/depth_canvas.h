@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
 #include <vtkImageActor.h>
 #include <vtkRenderer.h>
@@ -11,12 +10,13 @@
 #include "ui/render/projected_wireframe.h"
 #include "ui/render/vtk_data.h"
 #include "ui/views/roi_drag.h"
+#include "ui/views/vtk_canvas.h"
 
 namespace foresight {
 
 /// A painted depth map in VTK with regions and templates over it. The world is the image:
 /// x = u, y = height - 1 - v. Wheel zooms, dragging pans or, in drawing mode, draws a region.
-class DepthCanvas : public QVTKOpenGLNativeWidget {
+class DepthCanvas : public VtkCanvas {
   Q_OBJECT
 
  public:
@@ -49,7 +49,6 @@ class DepthCanvas : public QVTKOpenGLNativeWidget {
   Polylines Outline(const ImageRoi& roi) const;
   void PlaceCamera();
   void DrawDrag();
-  void Redraw();
 
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkImageActor> picture_;

@@ -22,7 +22,12 @@ DepthPane::DepthPane(SessionModel* session, DepthViewModel* depth, FitViewModel*
   BuildControls();
   BuildThreshold();
   const auto show_templates = [this] { canvas_->SetTemplates(TemplatesInPicture(*session_)); };
-  connect(session_, &SessionModel::depthChanged, this, &DepthPane::Paint);
+  connect(session_, &SessionModel::depthChanged, this, [this] {
+    // The span comes from the depth's own mask, so that colours stay put while the threshold moves.
+    if (const auto& depth_result = session_->Depth())
+      depth_range_ = DepthRangeOf(depth_result->dense.depth_m, depth_result->mask);
+    Paint();
+  });
   connect(session_, &SessionModel::depthChanged, this, show_templates);
   connect(session_, &SessionModel::maskChanged, this, &DepthPane::Paint);
   connect(session_, &SessionModel::valvesChanged, this, show_templates);
@@ -95,8 +100,7 @@ void DepthPane::Paint() {
   const MaskImage* mask = mask_box_->isChecked() ? session_->Mask().get() : nullptr;
   const bool shows_depth = depth_button_->isChecked();
   const DepthLayer layer = shows_depth ? DepthLayer::kDepth : DepthLayer::kConfidence;
-  // The span comes from the depth's own mask, so that colours stay put while the threshold moves.
-  const ValueRange range = RangeOf(result.dense, &result.mask, layer);
+  const ValueRange range = shows_depth ? depth_range_ : ValueRange{0.0, 1.0};
   canvas_->SetPicture(PaintDepth(result.dense, mask, layer, range));
   Colors()->Set(shows_depth ? ColorMap::kTurbo : ColorMap::kCividis, range,
                 shows_depth ? tr("depth, m") : tr("of max"));

@@ -37,6 +37,7 @@ class DepthPane : public Pane {
   SessionModel* session_;
   DepthViewModel* depth_;
   DepthCanvas* canvas_;
+  ValueRange depth_range_;
   QToolButton* depth_button_;
   QToolButton* confidence_button_;
   QCheckBox* mask_box_;

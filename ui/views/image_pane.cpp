@@ -3,8 +3,10 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
+#include <algorithm>
 
 #include "core/geometry/angles.h"
+#include "ui/viewmodels/age_text.h"
 #include "ui/views/templates_in_picture.h"
 
 namespace foresight {
@@ -24,6 +26,8 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent)
           &SessionModel::SelectPicture);
   connect(fit, &FitViewModel::changed, this, [this, fit] { canvas_->SetDrawing(fit->RoiTool()); });
   connect(canvas_, &ImageCanvas::roiDrawn, fit, &FitViewModel::DrawRoi);
+  connect(&age_timer_, &QTimer::timeout, this, &ImagePane::ShowAge);
+  age_timer_.start(1000);
   FillChoice();
 }
 
@@ -46,10 +50,18 @@ void ImagePane::ShowPicture() {
   const QSignalBlocker blocker(choice_);
   choice_->setCurrentIndex(session_->PictureIndex());
   canvas_->SetPicture(picture->image);
-  SetCaption(tr("Scan of %1, picture at %2°")
-                 .arg(session_->ScanTime().toString(QStringLiteral("HH:mm:ss")))
-                 .arg(DegreesFromRadians(picture->motor_angle_rad), 0, 'f', 1));
+  ShowAge();
   ShowTemplates();
+}
+
+void ImagePane::ShowAge() {
+  const CameraFrame* picture = session_->Picture();
+  if (picture == nullptr) return;
+  const qint64 age_s =
+      std::max<qint64>(0, session_->ScanTime().secsTo(QDateTime::currentDateTime()));
+  SetCaption(tr("Picture at %1°, scanned %2 ago")
+                 .arg(DegreesFromRadians(picture->motor_angle_rad), 0, 'f', 1)
+                 .arg(AgeText(std::chrono::seconds(age_s))));
 }
 
 void ImagePane::ShowTemplates() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QTimer>
+
 #include "ui/viewmodels/fit_view_model.h"
 #include "ui/views/image_canvas.h"
 #include "ui/views/pane.h"
@@ -20,11 +22,13 @@ class ImagePane : public Pane {
  private:
   void ShowPicture();
   void FillChoice();
+  void ShowAge();
   void ShowTemplates();
 
   SessionModel* session_;
   ImageCanvas* canvas_;
   QComboBox* choice_;
+  QTimer age_timer_;
 };
 
 }  // namespace foresight

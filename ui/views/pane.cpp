@@ -27,17 +27,21 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
   controls_->setContentsMargins(8, 4, 8, 4);
   controls_->setSpacing(8);
   auto* holder = new QWidget;
-  stack_ = new QStackedLayout(holder);
-  stack_->addWidget(hint_);
-  shown_ = new QWidget;
+  // The canvas lies under the hint from the start, so that OpenGL's second of first steps is over
+  // before the first scan.
+  auto* stack = new QStackedLayout(holder);
+  stack->setStackingMode(QStackedLayout::StackAll);
+  stack->addWidget(hint_);
+  auto* shown = new QWidget;
   colors_ = new ColorBar;
   colors_->hide();
-  auto* row = new QHBoxLayout(shown_);
+  auto* row = new QHBoxLayout(shown);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(0);
   row->addWidget(canvas_, 1);
   row->addWidget(colors_);
-  stack_->addWidget(shown_);
+  stack->addWidget(shown);
+  stack->setCurrentWidget(hint_);
   footer_ = new QVBoxLayout;
 
   auto* layout = new QVBoxLayout(this);
@@ -52,7 +56,7 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
 }
 
 void Pane::ShowCanvas(bool show) {
-  stack_->setCurrentWidget(show ? shown_ : hint_);
+  hint_->setVisible(!show);
 }
 
 void Pane::SetHint(const QString& hint) {

@@ -4,7 +4,6 @@
 
 class QHBoxLayout;
 class QLabel;
-class QStackedLayout;
 class QVBoxLayout;
 
 namespace foresight {
@@ -35,8 +34,6 @@ class Pane : public QWidget {
   QLabel* hint_;
   QLabel* caption_;
   QHBoxLayout* controls_;
-  QStackedLayout* stack_;
-  QWidget* shown_;
   ColorBar* colors_;
   QVBoxLayout* footer_;
 };
