@@ -294,6 +294,7 @@ Status MissionFile::EndScan(std::int64_t scan_id, ScanState state, const std::st
 Status MissionFile::Batch(const std::function<Status()>& body) {
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckWritable());
+  if (impl_->database->InTransaction()) return body();  // a part of the batch around it
   const std::int64_t running_before = impl_->running_scan;
   FORESIGHT_CHECK(impl_->database->Run("BEGIN IMMEDIATE"));
   Status status = body();

@@ -6,8 +6,8 @@
 namespace foresight {
 namespace {
 
-/// A disk this far behind (an hour of lines, two minutes of pictures) will not catch up; the memory
-/// of the machine is worth more then.
+/// A disk this far behind (50 minutes of lines, or 140 pictures) will not catch up; the memory of
+/// the machine is worth more then.
 constexpr std::size_t kMaxWaitingBytes = std::size_t{512} << 20;
 
 template <class... Cases>
