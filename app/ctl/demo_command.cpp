@@ -42,9 +42,8 @@ Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome
   if (!roi)
     return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the picture",
                 world.scene().name);
-  FORESIGHT_TRY(outcome.valve,
-                FitValveInScan({outcome.scan.rig, outcome.registered, &outcome.depth},
-                               FitSource::kDepth, *roi, FitValveOptions(), context));
+  FORESIGHT_TRY(outcome.valve, FitValveInScan({outcome.scan.rig, outcome.registered},
+                                              FitSource::kRaw, *roi, FitValveOptions(), context));
   outcome.error = CompareWithTruth(outcome.valve.best, truth, world);
   return {};
 }

@@ -36,8 +36,8 @@ HtmlReport::Table DepthTable(const DemoOutcome& o) {
   };
   return {"Depth",
           {{"samples in the picture",
-            fmt::format("{} ({:.1f} % of the pixels)", o.depth.samples.samples.size(),
-                        100.0 * o.depth.samples.Density())},
+            fmt::format("{} ({:.1f} % of the pixels where the lidar looked)",
+                        o.depth.samples.samples.size(), 100.0 * LocalDensity(o.depth.samples))},
            {"flying, rejected", text(RejectReason::kFlying)},
            {"isolated, rejected", text(RejectReason::kIsolated)},
            {"flipping, rejected", text(RejectReason::kFlipping)},
@@ -113,7 +113,7 @@ ColorImage WithOverlay(ColorImage picture, const DemoOutcome& o) {
 }  // namespace
 
 HtmlReport ReportOf(const DemoOutcome& o) {
-  const ValueRange range = RangeOf(o.depth.dense, &o.depth.mask, DepthLayer::kDepth);
+  const ValueRange range = DepthRangeOf(o.depth.dense.depth_m, o.depth.mask);
   const std::string span = fmt::format("Blue is {:.2f} m, red {:.2f} m.", range.low, range.high);
   const ColorImage masked = PaintDepth(o.depth.dense, &o.depth.mask, DepthLayer::kDepth, range);
   HtmlReport report;
@@ -134,8 +134,7 @@ HtmlReport ReportOf(const DemoOutcome& o) {
       {"depth.png", "Depth", "Upsampled, nothing masked. " + span,
        PaintDepth(o.depth.dense, nullptr, DepthLayer::kDepth, range)},
       {"confidence.png", "Confidence", "Relative to the largest; yellow is high.",
-       PaintDepth(o.depth.dense, nullptr, DepthLayer::kConfidence,
-                  RangeOf(o.depth.dense, nullptr, DepthLayer::kConfidence))},
+       PaintDepth(o.depth.dense, nullptr, DepthLayer::kConfidence, {0.0, 1.0})},
       {"masked.png", "Masked depth", "Hatched pixels are not to be trusted. " + span, masked},
       {"cloud.png", "Cloud", "The lidar's points from above and aside, with the fitted template.",
        CloudPicture(o)},

@@ -41,7 +41,7 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
                {"image_deg", image_deg},
                {"samples", count},
                {"rejected", count - result.samples.KeptCount()},
-               {"density", result.samples.Density()},
+               {"density", LocalDensity(result.samples)},
                {"sigma_spatial_px", result.dense.sigma_spatial_px},
                {"seconds", result.seconds},
                {"out", arguments.out}});

@@ -37,7 +37,7 @@ Status WriteDepthFiles(const DepthResult& result, const std::filesystem::path& f
 }
 
 void WarnOfLowDensity(const DepthResult& result) {
-  const double density = result.samples.Density();
+  const double density = LocalDensity(result.samples);
   if (density < ScanPrediction::kMinDensity)
     fmt::print(stderr,
                "only {:.2f} % of the pixels are measured; below {:.0f} % the depth map is not to "

@@ -15,7 +15,7 @@ struct FitArguments {
   ScanArguments scan;
   DepthArguments depth;
   std::vector<double> roi;
-  std::string source = "depth";
+  std::string source = "raw";
   std::uint64_t seed = 1;
   bool save = false;
   bool json = false;

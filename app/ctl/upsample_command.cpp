@@ -26,7 +26,7 @@ void PrintSummary(const UpsampleArguments& arguments, const DepthResult& result,
                {"samples", count},
                {"outside", outside},
                {"rejected", count - result.samples.KeptCount()},
-               {"density", result.samples.Density()},
+               {"density", LocalDensity(result.samples)},
                {"sigma_spatial_px", result.dense.sigma_spatial_px},
                {"seconds", result.seconds},
                {"out", arguments.out}});
@@ -43,13 +43,13 @@ Result<ExitCode> Upsample(const UpsampleArguments& arguments, const RunContext& 
   SensorRig rig;
   if (!arguments.rig.empty()) {
     FORESIGHT_TRY(rig, LoadSensorRig(arguments.rig));
-  } else {
-    fmt::print(stderr, "no --rig: Eq. (7) compares depths instead of points\n");
   }
   int outside = 0;
   FORESIGHT_TRY(AlignedSamples samples, ImportSamples(rows, image.width(), image.height(),
                                                       arguments.rig.empty() ? nullptr : &rig.camera,
                                                       arguments.samples, &outside));
+  if (arguments.rig.empty())
+    fmt::print(stderr, "no --rig: Eq. (7) compares depths instead of points\n");
   if (outside > 0)
     fmt::print(stderr, "{}: {} samples outside the picture are left out\n", arguments.samples,
                outside);

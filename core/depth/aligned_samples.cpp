@@ -81,4 +81,11 @@ Result<SampleSpacing> MeasureSpacing(const AlignedSamples& samples) {
   return SampleSpacing{Median(along), Median(between)};
 }
 
+double LocalDensity(const AlignedSamples& samples) {
+  const auto spacing = MeasureSpacing(samples);
+  if (!spacing) return samples.Density();
+  const double area_px = spacing->along_line_px * spacing->between_lines_px;
+  return std::max(samples.Density(), std::min(1.0, 1.0 / std::max(1.0, area_px)));
+}
+
 }  // namespace foresight

@@ -40,6 +40,7 @@ struct AlignedSamples {
   std::vector<AlignedSample> samples;
   std::vector<RejectReason> reasons;  ///< one a sample
 
+  /// Samples per pixel of the whole image.
   double Density() const {
     return width > 0 && height > 0 ? static_cast<double>(samples.size()) / width / height : 0.0;
   }
@@ -60,6 +61,11 @@ struct SampleSpacing {
 };
 /// Fails with kTooFewPoints when there are no neighbours in one of the directions.
 Result<SampleSpacing> MeasureSpacing(const AlignedSamples& samples);
+
+/// Samples per pixel where the lidar looked: a scan need not cover the whole image, and what the
+/// filter needs to know is how far its next sample is. The paper's proportion of measured points,
+/// Fig. 6(a).
+double LocalDensity(const AlignedSamples& samples);
 
 /// Section IV: projects the scan into the image taken at `motor_rad`. Points behind the camera or
 /// outside the image are left out. Fails with kTooFewPoints when none is left. O(points).

@@ -190,7 +190,7 @@ Result<DenseDepth> UpsampleDepth(const AlignedSamples& samples, const ColorImage
   DenseDepth dense;
   dense.sigma_spatial_px = options.sigma_spatial_px > 0.0
                                ? options.sigma_spatial_px
-                               : SpatialSigmaForDensity(samples.Density());
+                               : SpatialSigmaForDensity(LocalDensity(samples));
   const GrayImage gray = ToGray(guide);
   const SparseDepthMap sparse(samples, gray);
   const auto sigma_d = static_cast<float>(options.sigma_depth_m);

@@ -16,7 +16,7 @@ Result<RaySet> RaysOf(const ProcessedScan& scan, FitSource source, const ImageRo
                 "there is no depth map yet; compute it first, or fit to the raw returns");
   const MaskImage& mask = scan.mask != nullptr ? *scan.mask : scan.depth->mask;
   return RaysFromDepth(ApplyMask(scan.depth->dense.depth_m, mask), scan.rig, roi, kDepthStride_px,
-                       kRangeSigma_m, scan.depth->samples.Density());
+                       kRangeSigma_m, LocalDensity(scan.depth->samples));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ bool IsVtk(const std::string& target) {
 
 const std::vector<std::string> kCoreOrder = {"base",    "geometry",   "io",           "sensor",
                                              "objects", "simulation", "registration", "depth",
-                                             "fitting", "evaluation", "mission",      "report"};
+                                             "fitting", "evaluation", "mission", "pictures", "report"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);

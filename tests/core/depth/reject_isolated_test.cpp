@@ -47,6 +47,13 @@ TEST(IsolatedPoints, MeasuresTheSpacingItself) {
   EXPECT_EQ(samples.KeptCount(), samples.samples.size());
 }
 
+TEST(LocalDensity, IsThatOfTheScannedPartOfTheImage) {
+  const auto left_half = [](int u, int) { return u < 100 ? 1.0 : NAN; };
+  const AlignedSamples samples = SamplesOnLattice(200, 120, 4, 12, left_half);
+  EXPECT_NEAR(samples.Density(), 0.5 / 48.0, 0.001);
+  EXPECT_NEAR(LocalDensity(samples), 1.0 / 48.0, 1e-9);
+}
+
 TEST(IsolatedPoints, DoesNotTouchWhatIsAlreadyRejected) {
   AlignedSamples samples = SamplesOnLattice(200, 120, 4, 12, [](int, int) { return 1.0; });
   samples.reasons[7] = RejectReason::kFlying;

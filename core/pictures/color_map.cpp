@@ -1,0 +1,85 @@
+#include "core/pictures/color_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace foresight {
+namespace {
+
+using Polynomial = std::array<double, 6>;
+
+double Evaluate(const Polynomial& p, double x) {
+  return p[0] + x * (p[1] + x * (p[2] + x * (p[3] + x * (p[4] + x * p[5]))));
+}
+
+std::uint8_t Byte(double value) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+}
+
+/// Turbo as the polynomial its authors give for shaders (Google, Apache 2.0).
+Rgb8 Turbo(double x) {
+  static const Polynomial kRed = {0.13572138,   4.61539260,    -42.66032258,
+                                  132.13108234, -152.94239396, 59.28637943};
+  static const Polynomial kGreen = {0.09140261,   2.19418839, 4.84296658,
+                                    -14.18503333, 4.27729857, 2.82956604};
+  static const Polynomial kBlue = {0.10667330,   12.64194608,  -60.58204836,
+                                   110.36276771, -89.90310912, 27.34824973};
+  return {Byte(Evaluate(kRed, x)), Byte(Evaluate(kGreen, x)), Byte(Evaluate(kBlue, x))};
+}
+
+/// Cividis through nine of its published colours, straight lines between them.
+Rgb8 Cividis(double x) {
+  static constexpr std::array<std::array<double, 3>, 9> kColors = {{{0, 34, 78},
+                                                                    {26, 56, 111},
+                                                                    {67, 78, 108},
+                                                                    {98, 101, 111},
+                                                                    {125, 124, 120},
+                                                                    {155, 149, 119},
+                                                                    {188, 175, 111},
+                                                                    {222, 203, 94},
+                                                                    {254, 232, 56}}};
+  const double place = x * 8.0;
+  const auto below = static_cast<std::size_t>(std::min(7.0, std::floor(place)));
+  const double share = place - static_cast<double>(below);
+  const auto mix = [&](std::size_t channel) {
+    return Byte(((1.0 - share) * kColors[below][channel] + share * kColors[below + 1][channel]) /
+                255.0);
+  };
+  return {mix(0), mix(1), mix(2)};
+}
+
+}  // namespace
+
+Rgb8 ColorOf(ColorMap map, double value) {
+  const double x = std::clamp(value, 0.0, 1.0);
+  switch (map) {
+    case ColorMap::kTurbo:
+      return Turbo(x);
+    case ColorMap::kCividis:
+      return Cividis(x);
+    case ColorMap::kGray:
+      break;
+  }
+  const std::uint8_t gray = Byte(0.15 + 0.85 * x);  // black points would vanish on the background
+  return {gray, gray, gray};
+}
+
+ValueRange RobustRange(std::span<const float> values) {
+  const std::size_t stride = std::max<std::size_t>(1, values.size() / 50'000);
+  std::vector<float> finite;
+  for (std::size_t i = 0; i < values.size(); i += stride)
+    if (std::isfinite(values[i])) finite.push_back(values[i]);
+  if (finite.empty()) return {};
+  const auto percentile = [&finite](std::size_t percent) {
+    const auto at =
+        finite.begin() + static_cast<std::ptrdiff_t>(percent * (finite.size() - 1) / 100);
+    std::nth_element(finite.begin(), at, finite.end());
+    return static_cast<double>(*at);
+  };
+  const double low = percentile(1);
+  return {low, std::max(percentile(99), low + 1e-3)};
+}
+
+}  // namespace foresight

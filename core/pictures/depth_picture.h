@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/depth/upsample.h"
+#include "core/pictures/color_map.h"
+
+namespace foresight {
+
+/// What the depth pane shows of a result.
+enum class DepthLayer { kDepth, kConfidence };
+
+/// Paints a depth map, or its confidence relative to the largest, in colours. Masked pixels become
+/// a grey diagonal hatch, never black, so that they cannot be taken for far or near; pixels without
+/// a value are plain dark grey. `mask` may be null: nothing is masked.
+ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer,
+                      const ValueRange& range);
+
+/// The span of the depths that the mask keeps, at least half a metre.
+ValueRange DepthRangeOf(const DepthImage& depth_m, const MaskImage& mask);
+
+}  // namespace foresight

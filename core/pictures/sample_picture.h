@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/depth/aligned_samples.h"
+#include "core/pictures/color_map.h"
+
+namespace foresight {
+
+/// The raw samples where the lidar measured: kept ones coloured by depth (turbo), rejected ones in
+/// the colour of their reason. Dark background.
+ColorImage PaintSamples(const AlignedSamples& samples, const ValueRange& depth_m);
+
+/// The colour that stands for a reason, from the palette of Okabe and Ito.
+Rgb8 ColorOf(RejectReason reason);
+
+}  // namespace foresight

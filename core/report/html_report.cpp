@@ -1,0 +1,71 @@
+#include "core/report/html_report.h"
+
+#include "core/base/atomic_file.h"
+#include "core/io/png.h"
+
+namespace foresight {
+namespace {
+
+constexpr const char* kStyle = R"(
+  body { font: 15px/1.5 "DejaVu Sans", sans-serif; color: #1c1f24; background: #f6f7f8; margin: 2em auto; max-width: 84em; padding: 0 1.5em; }
+  h1 { font-size: 1.6em; } h2 { font-size: 1.15em; margin-top: 2em; }
+  table { border-collapse: collapse; background: #fff; } td { border: 1px solid #d5d9de; padding: .3em .8em; }
+  td:first-child { color: #555c66; }
+  .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(34em, 1fr)); gap: 1.5em; }
+  figure { margin: 0; background: #fff; border: 1px solid #d5d9de; padding: .8em; } img { width: 100%; }
+  figcaption b { display: block; }
+)";
+
+std::string Escape(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  return escaped;
+}
+
+std::string TableHtml(const HtmlReport::Table& table) {
+  std::string html = "<h2>" + Escape(table.title) + "</h2>\n<table>\n";
+  for (const auto& row : table.rows)
+    html += "<tr><td>" + Escape(row.name) + "</td><td>" + Escape(row.value) + "</td></tr>\n";
+  return html + "</table>\n";
+}
+
+std::string PictureHtml(const HtmlReport::Picture& picture) {
+  return fmt::format(
+      "<figure><img src=\"{0}\" alt=\"{1}\"><figcaption><b>{1}</b>{2}</figcaption></figure>\n",
+      Escape(picture.file), Escape(picture.title), Escape(picture.caption));
+}
+
+}  // namespace
+
+Status WriteHtmlReport(const HtmlReport& report, const std::filesystem::path& folder) {
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
+      "charset=\"utf-8\"><title>{0}</title><style>{1}</style></head>\n"
+      "<body><h1>{0}</h1>\n<p>{2}</p>\n",
+      Escape(report.title), kStyle, Escape(report.summary));
+  for (const auto& table : report.tables) html += TableHtml(table);
+  html += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
+  for (const auto& picture : report.pictures) {
+    FORESIGHT_CHECK(WritePng(folder / picture.file, picture.image));
+    html += PictureHtml(picture);
+  }
+  html += "</div>\n</body></html>\n";
+  return WriteFileAtomically(folder / "report.html", html);
+}
+
+}  // namespace foresight

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/image.h"
+#include "core/base/result.h"
+
+namespace foresight {
+
+/// One page with tables and pictures, readable in any browser without a network.
+struct HtmlReport {
+  struct Row {
+    std::string name;
+    std::string value;
+  };
+  struct Table {
+    std::string title;
+    std::vector<Row> rows;
+  };
+  struct Picture {
+    std::string file;  ///< name in the report's folder, ending in .png
+    std::string title;
+    std::string caption;
+    ColorImage image;
+  };
+
+  std::string title;
+  std::string summary;  ///< one or two sentences
+  std::vector<Table> tables;
+  std::vector<Picture> pictures;
+};
+
+/// Writes report.html and the pictures into an existing folder.
+Status WriteHtmlReport(const HtmlReport& report, const std::filesystem::path& folder);
+
+}  // namespace foresight
