@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <QApplication>
-#include <QTimer>
+#include <QDir>
+#include <QFile>
 
 #include "app/workstation/main_window.h"
 #include "app/workstation/unattended.h"
@@ -13,7 +14,7 @@ namespace foresight {
 namespace {
 
 struct Options {
-  std::string scene = "resources/scenes/valve.yaml";
+  std::string scene;  ///< empty: the valve scene that comes with the program
   std::string rig;
   std::string mission;
   std::uint64_t seed = 1;
@@ -40,6 +41,15 @@ int Parse(int argc, char** argv, Options* options) {
   return 0;
 }
 
+/// The scene beside the installed program, else the one in the source tree.
+std::string DefaultScene() {
+  const QDir program(QCoreApplication::applicationDirPath());
+  const QString installed =
+      program.filePath(QStringLiteral("../share/foresight/scenes/valve.yaml"));
+  return QFile::exists(installed) ? installed.toStdString()
+                                  : FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
+}
+
 Result<std::shared_ptr<SensorHead>> MakeHead(const Options& options) {
   SimulatedHeadOptions simulation;
   simulation.world.seed = options.seed;
@@ -48,7 +58,8 @@ Result<std::shared_ptr<SensorHead>> MakeHead(const Options& options) {
     FORESIGHT_TRY(simulation.true_rig, LoadSensorRig(options.rig));
     simulation.believed_rig = simulation.true_rig;
   }
-  FORESIGHT_TRY(std::shared_ptr<SensorHead> head, MakeSimulatedHead(options.scene, simulation));
+  const std::string scene = options.scene.empty() ? DefaultScene() : options.scene;
+  FORESIGHT_TRY(std::shared_ptr<SensorHead> head, MakeSimulatedHead(scene, simulation));
   return head;
 }
 

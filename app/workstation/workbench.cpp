@@ -10,6 +10,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
       mission(&session),
       exporter(&session),
       flow(&head, &session, mode) {
+  head.SetRecorderSource([this] { return mission.Recorder(); });
   QObject::connect(&head, &HeadViewModel::scanEnded, &mission, &MissionViewModel::keepScan);
   QObject::connect(&fit, &FitViewModel::valveFound, &mission, &MissionViewModel::keepValve);
 }

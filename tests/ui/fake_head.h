@@ -29,7 +29,7 @@ class FakeHead : public SensorHead {
     return {};
   }
   void AbortScan() override {
-    if (sink_) sink_->OnScanEnded(ScanState::kAborted, "by the operator");
+    if (sink_ && delivered_) sink_->OnScanEnded(ScanState::kAborted, "by the operator");
     sink_.reset();
     status_.state = HeadState::kReady;
   }
@@ -41,7 +41,9 @@ class FakeHead : public SensorHead {
     header.lines.clear();
     header.frames.clear();
     header.track = {};
+    header.state = ScanState::kRunning;
     sink_->OnScanStarted(header);
+    delivered_ = true;
     sink_->OnMotorSamples(scan.track.samples());
     for (std::size_t i = 0; i < lines; ++i) sink_->OnLine(scan.lines[i]);
     status_.lines = static_cast<int>(lines);
@@ -64,6 +66,7 @@ class FakeHead : public SensorHead {
   ScanPlan plan_;
   std::shared_ptr<ScanSink> sink_;
   bool stopped_ = false;
+  bool delivered_ = false;  ///< the sink was told that the scan started
 };
 
 }  // namespace foresight

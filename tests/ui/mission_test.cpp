@@ -51,6 +51,30 @@ TEST_F(MissionTest, WhatWasSavedOpensAgainAsAReplay) {
   EXPECT_TRUE(session.IsCurrent(session.Valves()[0]));
 }
 
+TEST_F(MissionTest, AScanThatWasRecordedWhileItArrivedIsSavedOnce) {
+  {
+    SessionModel session(SessionMode::kSimulation);
+    MissionViewModel mission(&session);
+    mission.keepScan(scan);
+    mission.SaveAs(path);
+    ASSERT_TRUE(WaitFor([&] { return !mission.Runner()->Busy(); }));
+    Scan second = *scan;
+    second.uuid = NewUuid();
+    const auto recorder = mission.Recorder();
+    ASSERT_NE(recorder, nullptr);
+    Scan header = second;
+    header.lines.clear();
+    recorder->OnScanStarted(header);
+    for (const LidarLine& line : second.lines) recorder->OnLine(line);
+    recorder->OnScanEnded(ScanState::kComplete, "");
+    mission.keepScan(std::make_shared<const Scan>(second));
+    ASSERT_TRUE(WaitFor([&] { return !mission.Runner()->Busy(); }));
+  }
+  const auto file = MissionFile::OpenReadOnly(path.toStdString());
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ((*file)->ListScans()->size(), 2u);
+}
+
 TEST_F(MissionTest, AFileThatIsNoMissionIsReportedAndChangesNothing) {
   SessionModel session(SessionMode::kSimulation);
   MissionViewModel mission(&session);

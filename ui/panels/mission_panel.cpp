@@ -12,7 +12,7 @@ namespace {
 
 QString TextOf(const ScanSummary& scan) {
   const QDateTime start = QDateTime::fromMSecsSinceEpoch(scan.start_utc_ns / 1'000'000);
-  return MissionPanel::tr("%1, %2 lines, %3")
+  return MissionPanel::tr("%1\n%2 lines, %3")
       .arg(start.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")))
       .arg(scan.lines)
       .arg(QString::fromUtf8(ToString(scan.state)));
@@ -24,6 +24,7 @@ MissionPanel::MissionPanel(MissionViewModel* mission, QWidget* parent)
     : QWidget(parent), mission_(mission), path_(new QLabel), scans_(new QListWidget) {
   path_->setWordWrap(true);
   path_->setObjectName(QStringLiteral("faint"));
+  scans_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scans_->setAccessibleName(tr("Scans of the mission"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 12, 12, 12);

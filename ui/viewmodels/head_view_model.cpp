@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/angles.h"
+#include "hardware/head/scan_fanout.h"
 
 namespace foresight {
 namespace {
@@ -104,7 +105,10 @@ void HeadViewModel::PollScan() {
 void HeadViewModel::scan() {
   if (live_) return;
   auto live = std::make_shared<ScanAssembler>();
-  if (const auto started = head_->StartScan(plan_.ToPlan(), live); !started) {
+  std::vector<std::shared_ptr<ScanSink>> sinks = {live};
+  if (auto recorder = recorder_source_ ? recorder_source_() : nullptr) sinks.push_back(recorder);
+  auto fanout = std::make_shared<ScanFanout>(std::move(sinks));
+  if (const auto started = head_->StartScan(plan_.ToPlan(), fanout); !started) {
     Q_EMIT noticed(NoticeOf(tr("Starting the scan"), started.error()));
     return;
   }

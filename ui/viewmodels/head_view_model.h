@@ -4,6 +4,7 @@
 #include <QString>
 #include <QTimer>
 #include <QVector>
+#include <functional>
 #include <memory>
 
 #include "core/sensor/scan_plan.h"
@@ -55,6 +56,11 @@ class HeadViewModel : public QObject {
   /// Whether a scan was started and has not been handed over yet.
   bool Scanning() const { return live_ != nullptr; }
 
+  /// Asked at the start of each scan for a sink that shall also get it; nullptr = none.
+  void SetRecorderSource(std::function<std::shared_ptr<ScanSink>()> source) {
+    recorder_source_ = std::move(source);
+  }
+
   /// Reads the head's status now; otherwise it is read ten times a second.
   void Poll();
 
@@ -79,6 +85,7 @@ class HeadViewModel : public QObject {
   std::shared_ptr<SensorHead> head_;
   HeadStatus status_;
   PlanFields plan_;
+  std::function<std::shared_ptr<ScanSink>()> recorder_source_;
   std::shared_ptr<ScanAssembler> live_;
   int polls_ = 0;
   int lines_shown_ = 0;

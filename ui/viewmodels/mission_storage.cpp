@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "core/fitting/detection_json.h"
 
@@ -32,26 +33,28 @@ Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context
   return file->EndScan(id, scan.state, scan.reason);
 }
 
+Result<std::optional<std::int64_t>> IdOf(const MissionFile& file, const std::string& uuid) {
+  FORESIGHT_TRY(const std::vector<ScanSummary> summaries, file.ListScans());
+  for (const ScanSummary& summary : summaries)
+    if (summary.uuid == uuid) return summary.id;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Status AppendToMission(MissionFile* file, const std::vector<std::shared_ptr<const Scan>>& scans,
                        const std::vector<FoundValve>& valves, const RunContext& context) {
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const double count = static_cast<double>(scans.size());
-    FORESIGHT_CHECK(AppendScan(
-        file, *scans[i],
-        context.Part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)));
+  for (const auto& scan : scans) {
+    FORESIGHT_TRY(const auto id, IdOf(*file, scan->uuid));
+    if (!id) FORESIGHT_CHECK(AppendScan(file, *scan, context));
   }
-  FORESIGHT_TRY(const std::vector<ScanSummary> summaries, file->ListScans());
   for (const FoundValve& valve : valves) {
-    const auto scan =
-        std::find_if(summaries.begin(), summaries.end(),
-                     [&](const ScanSummary& summary) { return summary.uuid == valve.scan_uuid; });
-    if (scan == summaries.end())
+    FORESIGHT_TRY(const auto id, IdOf(*file, valve.scan_uuid));
+    if (!id)
       return Fail(ErrorCode::kInvalidInput, "mission file {}: no scan {} for a valve",
                   file->path().string(), valve.scan_uuid);
     DetectionRecord record;
-    record.scan_id = scan->id;
+    record.scan_id = *id;
     record.kind = kValveKind;
     record.utc_ns = NowUtc_ns();
     record.json = DetectionToJson(valve.detection, valve.rig.robot_from_base);

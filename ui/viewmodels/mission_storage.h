@@ -8,8 +8,8 @@
 
 namespace foresight {
 
-/// Appends whole scans and the valves found in them. A valve whose scan is not in the file is an
-/// error (kInvalidInput).
+/// Appends the scans that the file does not hold yet, and the valves found in them. A valve whose
+/// scan is not in the file is an error (kInvalidInput).
 Status AppendToMission(MissionFile* file, const std::vector<std::shared_ptr<const Scan>>& scans,
                        const std::vector<FoundValve>& valves, const RunContext& context);
 

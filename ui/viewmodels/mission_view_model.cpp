@@ -17,6 +17,11 @@ MissionViewModel::MissionViewModel(SessionModel* session, QObject* parent)
   connect(&runner_, &TaskRunner::changed, this, &MissionViewModel::changed);
 }
 
+std::shared_ptr<ScanSink> MissionViewModel::Recorder() const {
+  if (runner_.Busy()) return nullptr;
+  return recorder_;
+}
+
 QString MissionViewModel::Path() const {
   return file_ ? QString::fromStdString(file_->path().string()) : QString();
 }
@@ -59,8 +64,8 @@ void MissionViewModel::ShowOpened(Result<Opened> opened) {
     session_->Report(NoticeOf(tr("Opening the mission"), opened.error()));
     return;
   }
+  recorder_.reset();
   file_ = opened->file;
-  recording_ = false;
   scans_ = opened->scans;
   scan_index_ = opened->index;
   session_->SetMode(SessionMode::kReplay);
@@ -101,7 +106,7 @@ void MissionViewModel::SaveAs(const QString& path) {
           return;
         }
         file_ = std::move(*file);
-        recording_ = true;
+        recorder_ = std::make_shared<ScanRecorder>(file_);
         scans_.clear();
         scan_index_ = -1;
         Save();
@@ -110,7 +115,7 @@ void MissionViewModel::SaveAs(const QString& path) {
 
 void MissionViewModel::keepScan(const std::shared_ptr<const Scan>& scan) {
   if (scan->lines.empty()) return;
-  if (!recording_) {  // a mission that is shown is never written to
+  if (!recorder_) {  // a mission that is shown is never written to
     file_.reset();
     scans_.clear();
     scan_index_ = -1;
@@ -127,19 +132,24 @@ void MissionViewModel::keepValve(const FoundValve& valve) {
 
 void MissionViewModel::Save() {
   Q_EMIT changed();
-  if (!recording_ || runner_.Busy()) return;  // what comes meanwhile is saved afterwards
+  if (!recorder_ || runner_.Busy()) return;  // what comes meanwhile is saved afterwards
   if (unsaved_scans_.empty() && unsaved_valves_.empty()) return;
   const auto scans = unsaved_scans_;
   const auto valves = unsaved_valves_;
   runner_.Run<bool>(
       tr("Saving the mission"),
-      [file = file_, scans, valves](const RunContext& context) -> Result<bool> {
+      [file = file_, recorder = recorder_, scans,
+       valves](const RunContext& context) -> Result<bool> {
+        // kState: this recorder has not had a scan yet.
+        const auto written = recorder->WaitUntilWritten();
+        if (!written && written.error().code != ErrorCode::kState)
+          return tl::unexpected(written.error());
         FORESIGHT_CHECK(AppendToMission(file.get(), scans, valves, context));
         return true;
       },
       [this, scan_count = scans.size(), valve_count = valves.size()](const Result<bool>& saved) {
         if (!saved) {
-          recording_ = false;  // what was not saved stays in memory for another Save as
+          recorder_.reset();  // what was not saved stays in memory for another Save as
           session_->Report(NoticeOf(tr("Saving the mission"), saved.error()));
           return;
         }

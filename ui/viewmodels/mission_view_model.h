@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mission/mission_file.h"
+#include "hardware/head/scan_recorder.h"
 #include "ui/viewmodels/fit_view_model.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
@@ -28,6 +29,10 @@ class MissionViewModel : public QObject {
   /// How many scans are in memory only.
   int UnsavedScans() const { return static_cast<int>(unsaved_scans_.size()); }
 
+  /// Writes a scan while it arrives, so that a crash loses nothing; nullptr while no file is being
+  /// written, or another scan is on its way into it: then the scan is saved at its end.
+  std::shared_ptr<ScanSink> Recorder() const;
+
   void Open(const QString& path);
   void SaveAs(const QString& path);
 
@@ -49,7 +54,7 @@ class MissionViewModel : public QObject {
   SessionModel* session_;
   TaskRunner runner_;
   std::shared_ptr<MissionFile> file_;
-  bool recording_ = false;  ///< the file is ours to write
+  std::shared_ptr<ScanRecorder> recorder_;  ///< set while the file is ours to write
   std::vector<ScanSummary> scans_;
   int scan_index_ = -1;
   std::vector<std::shared_ptr<const Scan>> unsaved_scans_;

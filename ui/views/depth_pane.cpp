@@ -105,7 +105,7 @@ void DepthPane::Paint() {
   Colors()->Set(shows_depth ? ColorMap::kTurbo : ColorMap::kCividis, range,
                 shows_depth ? tr("depth, m") : tr("of max"));
   Colors()->show();
-  SetCaption(tr("%1 % measured, computed in %2 s")
+  SetCaption(tr("%1 % measured, %2 s")
                  .arg(100.0 * result.samples.Density(), 0, 'f', 1)
                  .arg(result.seconds, 0, 'f', 2));
 }
