@@ -61,6 +61,15 @@ TEST_F(Workstation, TheCloudPaneShowsPointsAfterAScan) {
   EXPECT_GT(ShareOf(CloudPixels(), IsColoured), 0.1);
 }
 
+TEST_F(Workstation, ThePictureIsShownAsAWhole) {
+  const ImageCanvas* canvas = running->window().Image()->Canvas();
+  const ColorImage& picture = running->bench().session.Picture()->image;
+  const QRect visible = canvas->viewport()->rect();
+  EXPECT_TRUE(visible.contains(canvas->WidgetFromPixel({0, 0})));
+  EXPECT_TRUE(visible.contains(canvas->WidgetFromPixel({picture.width(), picture.height()})));
+  EXPECT_LT(2 * canvas->WidgetFromPixel({0, 0}).y(), visible.height() / 2) << "lost in its pane";
+}
+
 TEST_F(Workstation, DraggingARegionOverTheValveInThePictureFindsItAndDrawsItInEveryPane) {
   const double before = TemplateShare(DepthPixels());
   running->bench().fit.setValveTool(true);

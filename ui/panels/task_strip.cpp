@@ -15,7 +15,7 @@ TaskStrip::TaskStrip(const QVector<TaskRunner*>& runners, QWidget* parent)
       bar_(new QProgressBar),
       cancel_(new QPushButton(tr("Cancel"))) {
   bar_->setRange(0, 1000);
-  bar_->setFixedWidth(220);
+  bar_->setFixedSize(220, 10);
   bar_->setTextVisible(false);
   bar_->setAccessibleName(tr("Progress"));
   auto* layout = new QHBoxLayout(this);
@@ -24,6 +24,8 @@ TaskStrip::TaskStrip(const QVector<TaskRunner*>& runners, QWidget* parent)
   layout->addWidget(text_);
   layout->addWidget(bar_);
   layout->addWidget(cancel_);
+  layout->addStretch(1);
+  setFixedHeight(36);  // the same with and without a task, or everything above would jump
   connect(cancel_, &QPushButton::clicked, this, [this] {
     if (TaskRunner* runner = Busy()) runner->cancel();
   });

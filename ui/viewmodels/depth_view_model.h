@@ -32,8 +32,8 @@ class DepthViewModel : public QObject {
   void thresholdChanged(double threshold);
 
  private:
-  struct Outcome;
-  void Accept(Result<Outcome> outcome);
+  void ComputeOn(const std::shared_ptr<const Scan>& scan, int picture);
+  void Accept(Result<DepthResult> depth);
 
   SessionModel* session_;
   DepthOptions options_;

@@ -55,8 +55,8 @@ PredictionText HeadViewModel::Prediction() const {
   text.sigma = tr("%1 px").arg(prediction->sigma_spatial_px, 0, 'f', 1);
   if (prediction->density < ScanPrediction::kMinDensity) {
     const double enough = plan_.speed_deg_s * prediction->density / ScanPrediction::kMinDensity;
-    text.warning = tr("Coverage is under the floor of 2 %: the depth will be coarse. "
-                      "Scan at %1 °/s or slower.")
+    text.warning = tr("Coverage is under the floor of 2\u00a0%: the depth will be coarse. "
+                      "Scan at %1\u00a0°/s or slower.")
                        .arg(enough, 0, 'f', 1);
   }
   return text;

@@ -12,7 +12,7 @@ ScanFlow::ScanFlow(HeadViewModel* head, SessionModel* session, SessionMode mode,
 
 void ScanFlow::Begin() {
   // Nothing of an older scan stays on the screen while a new one runs.
-  session_->SetScan(nullptr);
+  session_->ExpectScan();
   session_->SetMode(mode_);
 }
 
@@ -39,7 +39,10 @@ void ScanFlow::End(const std::shared_ptr<const Scan>& scan) {
                       scan->lines.empty() ? tr("Nothing was measured; scan again.")
                                           : tr("What was measured until then is shown.")});
   }
-  if (!scan->lines.empty()) session_->SetScan(scan);
+  if (scan->lines.empty())
+    session_->GiveUpScan();
+  else
+    session_->SetScan(scan);
 }
 
 }  // namespace foresight

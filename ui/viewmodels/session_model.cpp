@@ -15,6 +15,7 @@ void SessionModel::SetMode(SessionMode mode) {
 
 void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
   scan_ = std::move(scan);
+  expects_scan_ = false;
   cloud_.reset();
   roi_.reset();
   roi_history_.clear();
@@ -23,6 +24,17 @@ void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
   Q_EMIT roiChanged();
   Q_EMIT valvesChanged();  // those of the scan before are no longer current
   SelectPicture(scan_ && !scan_->frames.empty() ? 0 : -1);
+}
+
+void SessionModel::ExpectScan() {
+  SetScan(nullptr);
+  expects_scan_ = true;
+  Q_EMIT scanChanged();
+}
+
+void SessionModel::GiveUpScan() {
+  expects_scan_ = false;
+  Q_EMIT scanChanged();
 }
 
 QDateTime SessionModel::ScanTime() const {

@@ -44,6 +44,11 @@ class SessionModel : public QObject {
   /// A new scan: drops the points, depth and regions of the one before; found objects stay listed.
   void SetScan(std::shared_ptr<const Scan> scan);
   const std::shared_ptr<const Scan>& CurrentScan() const { return scan_; }
+  /// Drops the scan as SetScan(nullptr) does, because a new one is on its way.
+  void ExpectScan();
+  bool ExpectsScan() const { return expects_scan_; }
+  /// The scan that was expected will not come.
+  void GiveUpScan();
   QDateTime ScanTime() const;
 
   void SelectPicture(int index);
@@ -92,6 +97,7 @@ class SessionModel : public QObject {
  private:
   SessionMode mode_;
   std::shared_ptr<const Scan> scan_;
+  bool expects_scan_ = false;
   int picture_ = -1;
   std::shared_ptr<const RegisteredScan> cloud_;
   SensorRig rig_;

@@ -23,6 +23,9 @@ CloudPane::CloudPane(SessionModel* session, QWidget* parent)
       source_(new QComboBox),
       color_(new QComboBox) {
   BuildControls();
+  connect(session_, &SessionModel::scanChanged, this, [this] {
+    SetHint(session_->ExpectsScan() ? tr("Scanning …") : tr("No scan yet: press Scan (Space)"));
+  });
   connect(session_, &SessionModel::cloudChanged, this, &CloudPane::Prepare);
   for (auto signal : {&SessionModel::depthChanged, &SessionModel::maskChanged})
     connect(session_, signal, this, [this] {

@@ -57,10 +57,9 @@ ImageCanvas::ImageCanvas(QWidget* parent) : QGraphicsView(parent) {
 }
 
 void ImageCanvas::SetPicture(const ColorImage& picture) {
+  const bool same_size = picture_->pixmap().size() == QSize(picture.width(), picture.height());
   picture_->setPixmap(QPixmap::fromImage(QImageOf(picture)));
-  const QRectF frame(-0.5, -0.5, picture.width(), picture.height());
-  const bool same_size = scene()->sceneRect() == frame;
-  scene()->setSceneRect(frame);
+  scene()->setSceneRect(-0.5, -0.5, picture.width(), picture.height());
   if (!same_size) ShowAll();
 }
 

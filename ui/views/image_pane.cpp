@@ -18,6 +18,10 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent)
       choice_(new QComboBox) {
   choice_->setAccessibleName(tr("Picture"));
   Controls()->addWidget(choice_);
+  connect(session_, &SessionModel::scanChanged, this, [this] {
+    SetHint(session_->ExpectsScan() ? tr("Scanning: the picture appears at the end")
+                                    : tr("No scan yet: press Scan (Space)"));
+  });
   connect(session_, &SessionModel::scanChanged, this, &ImagePane::FillChoice);
   connect(session_, &SessionModel::pictureChanged, this, &ImagePane::ShowPicture);
   connect(session_, &SessionModel::valvesChanged, this, &ImagePane::ShowTemplates);
