@@ -24,7 +24,9 @@ CloudPane::CloudPane(SessionModel* session, QWidget* parent)
       color_(new QComboBox) {
   BuildControls();
   connect(session_, &SessionModel::scanChanged, this, [this] {
-    SetHint(session_->ExpectsScan() ? tr("Scanning …") : tr("No scan yet: press Scan (Space)"));
+    SetHint(session_->ExpectsScan()   ? tr("Scanning …")
+            : session_->CurrentScan() ? tr("Preparing the cloud …")
+                                      : tr("No scan yet: press Scan (Space)"));
   });
   connect(session_, &SessionModel::cloudChanged, this, &CloudPane::Prepare);
   for (auto signal : {&SessionModel::depthChanged, &SessionModel::maskChanged})

@@ -4,12 +4,21 @@
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/angles.h"
 #include "ui/viewmodels/age_text.h"
 #include "ui/views/templates_in_picture.h"
 
 namespace foresight {
+namespace {
+
+/// Degrees, to the tenth that is shown, so that nothing reads "-0.0".
+double ShownAngle(const CameraFrame& frame) {
+  return std::round(10.0 * DegreesFromRadians(frame.motor_angle_rad)) / 10.0 + 0.0;
+}
+
+}  // namespace
 
 ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent)
     : Pane(new ImageCanvas, tr("No scan yet: press Scan (Space)"), parent),
@@ -40,7 +49,7 @@ void ImagePane::FillChoice() {
   choice_->clear();
   if (session_->CurrentScan())
     for (const CameraFrame& frame : session_->CurrentScan()->frames)
-      choice_->addItem(tr("At %1°").arg(DegreesFromRadians(frame.motor_angle_rad), 0, 'f', 1));
+      choice_->addItem(tr("At %1°").arg(ShownAngle(frame), 0, 'f', 1));
   choice_->setVisible(choice_->count() > 1);
 }
 
@@ -64,7 +73,7 @@ void ImagePane::ShowAge() {
   const qint64 age_s =
       std::max<qint64>(0, session_->ScanTime().secsTo(QDateTime::currentDateTime()));
   SetCaption(tr("Picture at %1°, scanned %2 ago")
-                 .arg(DegreesFromRadians(picture->motor_angle_rad), 0, 'f', 1)
+                 .arg(ShownAngle(*picture), 0, 'f', 1)
                  .arg(AgeText(std::chrono::seconds(age_s))));
 }
 
