@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "tests/ui/synthetic_scan.h"
-#include "ui/render/color_map.h"
-#include "ui/render/depth_picture.h"
+#include "core/pictures/color_map.h"
+#include "core/pictures/depth_picture.h"
 #include "ui/render/point_set.h"
-#include "ui/render/projected_wireframe.h"
+#include "core/pictures/projected_wireframe.h"
 
 namespace foresight {
 namespace {

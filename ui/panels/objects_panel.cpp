@@ -69,7 +69,7 @@ QWidget* ObjectsPanel::BuildFitRow() {
   layout->addWidget(source_);
   connect(fit_button_, &QPushButton::clicked, fit_, &FitViewModel::fit);
   connect(source_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) {
-    fit_->SetSource(index == 0 ? FitViewModel::Source::kLidar : FitViewModel::Source::kDepth);
+    fit_->SetSource(index == 0 ? FitSource::kRaw : FitSource::kDepth);
   });
   return row;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/image.h"
-#include "ui/render/color_map.h"
+#include "core/pictures/color_map.h"
 #include "ui/render/point_set.h"
 
 namespace foresight {

@@ -1,13 +1,6 @@
 #include "ui/viewmodels/fit_view_model.h"
 
 namespace foresight {
-namespace {
-
-constexpr double kRangeSigma_m = 0.010;
-constexpr int kDepthStride_px = 2;
-
-}  // namespace
-
 FitViewModel::FitViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {
   for (auto signal : {&SessionModel::cloudChanged, &SessionModel::depthChanged,
@@ -17,7 +10,7 @@ FitViewModel::FitViewModel(SessionModel* session, QObject* parent)
   connect(&runner_, &TaskRunner::changed, this, &FitViewModel::changed);
 }
 
-void FitViewModel::SetSource(Source source) {
+void FitViewModel::SetSource(FitSource source) {
   source_ = source;
   Q_EMIT changed();
 }
@@ -41,7 +34,7 @@ void FitViewModel::leaveTools() {
 
 bool FitViewModel::CanFit() const {
   const bool has_points =
-      source_ == Source::kLidar ? session_->Cloud() != nullptr : session_->Depth() != nullptr;
+      source_ == FitSource::kRaw ? session_->Cloud() != nullptr : session_->Depth() != nullptr;
   return session_->CurrentScan() && session_->Roi() && has_points && !runner_.Busy();
 }
 
@@ -64,14 +57,8 @@ void FitViewModel::fit() {
   const auto work = [scan = session_->CurrentScan(), cloud = session_->Cloud(),
                      depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Roi(),
                      source = source_](const RunContext& context) -> Result<ValveDetection> {
-    auto rays = source == Source::kLidar
-                    ? RaysFromScan(*cloud, scan->rig, roi, kRangeSigma_m)
-                    : RaysFromDepth(ApplyMask(depth->dense.depth_m, *mask), scan->rig, roi,
-                                    kDepthStride_px, kRangeSigma_m, depth->samples.Density());
-    if (!rays) return tl::unexpected(rays.error());
-    FORESIGHT_TRY(ValveDetection found, FitValve(*rays, FitValveOptions(), context));
-    found.roi = roi;
-    return found;
+    const ProcessedScan processed{scan->rig, *cloud, depth.get(), mask.get()};
+    return FitValveInScan(processed, source, roi, FitValveOptions(), context);
   };
   runner_.Run<ValveDetection>(tr("Fitting the valve"), work,
                               [this, scan = session_->CurrentScan()](

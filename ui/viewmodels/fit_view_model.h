@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <QObject>
 
-#include "core/fitting/fit_valve.h"
+#include "core/fitting/fit_in_scan.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
@@ -14,15 +14,12 @@ class FitViewModel : public QObject {
   Q_OBJECT
 
  public:
-  /// What a fit looks at.
-  enum class Source { kLidar, kDepth };
-
   explicit FitViewModel(SessionModel* session, QObject* parent = nullptr);
 
   bool ValveTool() const { return valve_tool_; }
   bool RoiTool() const { return roi_tool_ || valve_tool_; }
-  Source From() const { return source_; }
-  void SetSource(Source source);
+  FitSource From() const { return source_; }
+  void SetSource(FitSource source);
   bool CanFit() const;
   TaskRunner* Runner() { return &runner_; }
 
@@ -47,7 +44,7 @@ class FitViewModel : public QObject {
 
   SessionModel* session_;
   TaskRunner runner_;
-  Source source_ = Source::kLidar;
+  FitSource source_ = FitSource::kRaw;
   bool valve_tool_ = false;
   bool roi_tool_ = false;
 };

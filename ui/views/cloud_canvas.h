@@ -6,7 +6,7 @@
 #include <vtkSmartPointer.h>
 
 #include "core/objects/valve_model.h"
-#include "ui/render/color_map.h"
+#include "core/pictures/color_map.h"
 #include "ui/render/point_set.h"
 #include "ui/views/orbit_camera.h"
 #include "ui/views/vtk_canvas.h"

@@ -3,7 +3,7 @@
 #include <QString>
 #include <QWidget>
 
-#include "ui/render/color_map.h"
+#include "core/pictures/color_map.h"
 
 namespace foresight {
 

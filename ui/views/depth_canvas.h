@@ -7,7 +7,7 @@
 
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
-#include "ui/render/projected_wireframe.h"
+#include "core/pictures/projected_wireframe.h"
 #include "ui/render/vtk_data.h"
 #include "ui/views/roi_drag.h"
 #include "ui/views/vtk_canvas.h"

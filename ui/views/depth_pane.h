@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/render/depth_picture.h"
+#include "core/pictures/depth_picture.h"
 #include "ui/viewmodels/depth_view_model.h"
 #include "ui/viewmodels/fit_view_model.h"
 #include "ui/views/depth_canvas.h"

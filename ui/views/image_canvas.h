@@ -4,7 +4,7 @@
 
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
-#include "ui/render/projected_wireframe.h"
+#include "core/pictures/projected_wireframe.h"
 #include "ui/views/roi_drag.h"
 
 class QGraphicsPathItem;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/render/projected_wireframe.h"
+#include "core/pictures/projected_wireframe.h"
 #include "ui/viewmodels/session_model.h"
 
 namespace foresight {
