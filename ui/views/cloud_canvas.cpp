@@ -119,9 +119,9 @@ void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const ValueRange&
     MapperOf(actor)->SetScalarRange(range.low, range.high);
   }
   home_.focal = MiddleOf(set);
-  home_.distance_m = std::max(0.5, 1.5 * (home_.focal - set.viewpoint.cast<double>()).norm());
-  home_.azimuth_rad = -0.35;
-  home_.elevation_rad = 0.35;
+  home_.distance_m = std::max(0.5, 2.1 * (home_.focal - set.viewpoint.cast<double>()).norm());
+  home_.azimuth_rad = -0.25;
+  home_.elevation_rad = 0.45;
   if (!moved_) ResetView();
   Redraw();
 }

@@ -106,7 +106,7 @@ void DepthPane::Paint() {
                 shows_depth ? tr("depth, m") : tr("of max"));
   Colors()->show();
   SetCaption(tr("%1 % measured, %2 s")
-                 .arg(100.0 * result.samples.Density(), 0, 'f', 1)
+                 .arg(100.0 * LocalDensity(result.samples), 0, 'f', 1)
                  .arg(result.seconds, 0, 'f', 2));
 }
 
