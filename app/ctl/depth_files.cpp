@@ -1,5 +1,6 @@
 #include "app/ctl/depth_files.h"
 
+#include "core/depth/depth_method.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
 #include "core/sensor/scan_plan.h"
@@ -7,24 +8,33 @@
 namespace foresight {
 
 void AddDepthArguments(CLI::App& command, DepthArguments& arguments) {
+  command.add_option("--method", arguments.method, "Depth method: " + MethodNames())
+      ->capture_default_str();
   command
       .add_option("--threshold", arguments.threshold,
                   "Confidence below this share of the largest is masked")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+      ->check(CLI::Range(0.0, 1.0));
   command
       .add_option("--sigma-spatial", arguments.sigma_spatial_px,
                   "sigma_s in pixels; 0 = from the density")
       ->capture_default_str();
   command.add_option("--iterations", arguments.iterations, "Passes after the first")
-      ->capture_default_str();
+      ->check(CLI::Range(0, 50));
 }
 
-DepthOptions DepthOptionsFrom(const DepthArguments& arguments) {
-  DepthOptions options;
-  options.mask.threshold = arguments.threshold;
+std::string MethodNames() {
+  std::string names;
+  for (const DepthMethodInfo& info : DepthMethods())
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  return names;
+}
+
+Result<DepthOptions> DepthOptionsFrom(const DepthArguments& arguments) {
+  FORESIGHT_TRY(const DepthMethod method, DepthMethodFromName(arguments.method));
+  DepthOptions options = DefaultsOf(method);
+  if (arguments.threshold >= 0.0) options.mask.threshold = arguments.threshold;
   options.upsample.sigma_spatial_px = arguments.sigma_spatial_px;
-  options.upsample.iterations = arguments.iterations;
+  if (arguments.iterations >= 0) options.upsample.iterations = arguments.iterations;
   return options;
 }
 

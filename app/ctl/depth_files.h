@@ -9,13 +9,17 @@ namespace foresight {
 
 /// Command-line options that every command with a depth pipeline has.
 struct DepthArguments {
-  double threshold = 0.35;
+  std::string method = "paper";
+  double threshold = -1.0;  ///< negative = the method's own
   double sigma_spatial_px = 0.0;
-  int iterations = 5;
+  int iterations = -1;  ///< negative = the method's own
 };
 
 void AddDepthArguments(CLI::App& command, DepthArguments& arguments);
-DepthOptions DepthOptionsFrom(const DepthArguments& arguments);
+/// Fails with kInvalidOptions for an unknown method.
+Result<DepthOptions> DepthOptionsFrom(const DepthArguments& arguments);
+/// "paper, jbu, ..."
+std::string MethodNames();
 
 /// Writes depth.pfm (millimetres, NaN = none), confidence.pfm and mask.png into an existing folder.
 Status WriteDepthFiles(const DepthResult& result, const std::filesystem::path& folder);

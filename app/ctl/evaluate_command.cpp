@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "app/ctl/depth_files.h"
 #include "core/evaluation/evaluate_methods.h"
 
 namespace foresight {
@@ -8,7 +9,7 @@ namespace {
 
 struct EvaluateArguments {
   std::vector<std::string> folders;
-  std::string method = "paper";
+  std::vector<std::string> methods = {"paper"};
   std::uint64_t seed = 1;
   int scale = 1;
   bool json = false;
@@ -27,6 +28,8 @@ nlohmann::ordered_json ToJson(const StereoEvaluation& evaluation) {
   json["seconds"] = evaluation.seconds;
   json["samples"] = evaluation.samples;
   json["rejected"] = evaluation.rejected;
+  json["rejection_precision"] = Finite(evaluation.rejection_precision);
+  json["rejection_recall"] = Finite(evaluation.rejection_recall);
   json["without_mask"] = ToJson(evaluation.without_mask);
   return json;
 }
@@ -39,17 +42,33 @@ std::string TableRow(const StereoEvaluation& e) {
       e.without_mask.coverage, e.seconds);
 }
 
+Result<std::vector<DepthMethod>> MethodsFrom(const std::vector<std::string>& names) {
+  std::vector<DepthMethod> methods;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (const DepthMethodInfo& info : DepthMethods()) methods.push_back(info.method);
+      continue;
+    }
+    FORESIGHT_TRY(const DepthMethod method, DepthMethodFromName(name));
+    methods.push_back(method);
+  }
+  return methods;
+}
+
 Result<ExitCode> Evaluate(const EvaluateArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const std::vector<DepthMethod> methods, MethodsFrom(arguments.methods));
   StereoEvaluationOptions options;
-  options.depth = PaperTestbedOptions();
   options.testbed.seed = arguments.seed;
   options.enlarge = arguments.scale;
   std::vector<StereoEvaluation> evaluations;
   for (const std::string& folder : arguments.folders) {
-    fmt::print(stderr, "{}\n", folder);
     FORESIGHT_TRY(const StereoScene scene, LoadStereoScene(folder));
-    FORESIGHT_TRY(const StereoEvaluation evaluation, EvaluateOnScene(scene, options, context));
-    evaluations.push_back(evaluation);
+    for (const DepthMethod method : methods) {
+      fmt::print(stderr, "{}: {}\n", scene.name, InfoOf(method).title);
+      options.depth = TestbedOptionsOf(method);
+      FORESIGHT_TRY(const StereoEvaluation evaluation, EvaluateOnScene(scene, options, context));
+      evaluations.push_back(evaluation);
+    }
   }
   if (arguments.json) {
     auto list = nlohmann::ordered_json::array();
@@ -75,8 +94,8 @@ void AddEvaluateCommand(CLI::App& app, Invocation& invocation) {
       ->add_option("folders", arguments->folders,
                    "Folders in Middlebury 2014 form: calib.txt, im0.png, im1.png, disp0GT.pfm")
       ->required();
-  command->add_option("--method", arguments->method, "Depth method: paper")
-      ->check(CLI::IsMember({"paper"}))
+  command->add_option("--method", arguments->methods, "Depth methods, or all: " + MethodNames())
+      ->delimiter(',')
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "Seed of the sampling noise")
       ->capture_default_str();

@@ -29,6 +29,7 @@ Result<ValveDetection> FitIn(const FitArguments& arguments, const OpenedScan& op
   const ImageRoi roi = ImageRoi::Rectangle(motor_rad, {arguments.roi[0], arguments.roi[1]},
                                            {arguments.roi[2], arguments.roi[3]});
   FORESIGHT_CHECK(roi.Check());
+  FORESIGHT_TRY(const DepthOptions depth_options, DepthOptionsFrom(arguments.depth));
   FitValveOptions options;
   options.seed = arguments.seed;
   FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
@@ -36,9 +37,8 @@ Result<ValveDetection> FitIn(const FitArguments& arguments, const OpenedScan& op
     return FitValveInScan({rig, cloud}, FitSource::kRaw, roi, options, context.Part(0.1, 1.0));
   FORESIGHT_TRY(AlignedSamples samples,
                 AlignToImage(cloud, rig, motor_rad, context.Part(0.1, 0.2)));
-  FORESIGHT_TRY(const DepthResult depth,
-                ComputeDepth(std::move(samples), opened.frame.image,
-                             DepthOptionsFrom(arguments.depth), context.Part(0.2, 0.6)));
+  FORESIGHT_TRY(const DepthResult depth, ComputeDepth(std::move(samples), opened.frame.image,
+                                                      depth_options, context.Part(0.2, 0.6)));
   return FitValveInScan({rig, cloud, &depth}, FitSource::kDepth, roi, options,
                         context.Part(0.6, 1.0));
 }

@@ -14,7 +14,6 @@ struct UpsampleArguments {
   std::string samples;
   std::string rig;
   std::string out = ".";
-  std::string method = "paper";
   DepthArguments depth;
   bool json = false;
 };
@@ -22,7 +21,7 @@ struct UpsampleArguments {
 void PrintSummary(const UpsampleArguments& arguments, const DepthResult& result, int outside) {
   const std::size_t count = result.samples.samples.size();
   if (arguments.json) {
-    PrintJson({{"method", arguments.method},
+    PrintJson({{"method", arguments.depth.method},
                {"samples", count},
                {"outside", outside},
                {"rejected", count - result.samples.KeptCount()},
@@ -38,6 +37,7 @@ void PrintSummary(const UpsampleArguments& arguments, const DepthResult& result,
 }
 
 Result<ExitCode> Upsample(const UpsampleArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const DepthOptions options, DepthOptionsFrom(arguments.depth));
   FORESIGHT_TRY(const ColorImage image, ReadPng(arguments.image));
   FORESIGHT_TRY(const std::vector<CsvSample> rows, ReadCsvSamples(arguments.samples));
   SensorRig rig;
@@ -53,8 +53,8 @@ Result<ExitCode> Upsample(const UpsampleArguments& arguments, const RunContext& 
   if (outside > 0)
     fmt::print(stderr, "{}: {} samples outside the picture are left out\n", arguments.samples,
                outside);
-  FORESIGHT_TRY(const DepthResult result, ComputeDepth(std::move(samples), image,
-                                                       DepthOptionsFrom(arguments.depth), context));
+  FORESIGHT_TRY(const DepthResult result,
+                ComputeDepth(std::move(samples), image, options, context));
   WarnOfLowDensity(result);
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));
@@ -78,9 +78,6 @@ void AddUpsampleCommand(CLI::App& app, Invocation& invocation) {
   command
       ->add_option("-o,--out", arguments->out,
                    "Folder for depth.pfm (mm), confidence.pfm, mask.png")
-      ->capture_default_str();
-  command->add_option("--method", arguments->method, "Depth method: paper")
-      ->check(CLI::IsMember({"paper"}))
       ->capture_default_str();
   AddDepthArguments(*command, arguments->depth);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");

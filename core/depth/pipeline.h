@@ -8,7 +8,14 @@
 
 namespace foresight {
 
+/// How the dense map is made from the samples. depth_method.h has names and defaults.
+enum class DepthMethod {
+  kPaper,           ///< Section IV of the paper
+  kJointBilateral,  ///< [7] Kopf et al. 2007
+};
+
 struct DepthOptions {
+  DepthMethod method = DepthMethod::kPaper;
   FlyingPointOptions flying;
   IsolatedPointOptions isolated;
   FlippingPointOptions flipping;

@@ -28,7 +28,7 @@ void ExpectMaskedResults(const Row& row, int enlarge, int seeds) {
   const auto scene = LoadStereoScene(SceneFolder(row.scene));
   ASSERT_TRUE(scene) << scene.error().message;
   StereoEvaluationOptions options;
-  options.depth = PaperTestbedOptions();
+  options.depth = TestbedOptionsOf(DepthMethod::kPaper);
   options.enlarge = enlarge;
   double a80 = 0.0, a95 = 0.0, coverage = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {

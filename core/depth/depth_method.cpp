@@ -1,0 +1,62 @@
+#include "core/depth/depth_method.h"
+
+#include <array>
+
+namespace foresight {
+namespace {
+
+constexpr std::array<DepthMethodInfo, 2> kMethods = {{
+    {DepthMethod::kPaper, "paper", "Paper (Shim 2016)",
+     "Rejection of flying, isolated and flipping points, joint filter with rolling guidance, "
+     "confidence mask."},
+    {DepthMethod::kJointBilateral, "jbu", "Joint bilateral (Kopf 2007)",
+     "One pass of the joint filter over the raw samples; only pixels out of reach stay empty."},
+}};
+
+/// The methods the paper is compared with take the raw samples.
+DepthOptions WithoutRejection(DepthMethod method) {
+  DepthOptions options;
+  options.method = method;
+  options.flying.rule = FlyingPointOptions::Rule::kOff;
+  options.isolated.enabled = false;
+  options.flipping.enabled = false;
+  options.mask.threshold = 0.0;
+  return options;
+}
+
+}  // namespace
+
+std::span<const DepthMethodInfo> DepthMethods() {
+  return kMethods;
+}
+
+const DepthMethodInfo& InfoOf(DepthMethod method) {
+  for (const DepthMethodInfo& info : kMethods)
+    if (info.method == method) return info;
+  throw ContractViolation("method", "every method has its entry in kMethods", __FILE__, __LINE__);
+}
+
+Result<DepthMethod> DepthMethodFromName(const std::string& name) {
+  std::string names;
+  for (const DepthMethodInfo& info : kMethods) {
+    if (name == info.name) return info.method;
+    names += std::string(names.empty() ? "" : ", ") + info.name;
+  }
+  return Fail(ErrorCode::kInvalidOptions, "depth method '{}' is not known; there are {}", name,
+              names);
+}
+
+DepthOptions DefaultsOf(DepthMethod method) {
+  switch (method) {
+    case DepthMethod::kPaper:
+      return DepthOptions();
+    case DepthMethod::kJointBilateral: {
+      DepthOptions options = WithoutRejection(method);
+      options.upsample.iterations = 0;
+      return options;
+    }
+  }
+  return DepthOptions();
+}
+
+}  // namespace foresight
