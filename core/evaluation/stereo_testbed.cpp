@@ -6,6 +6,12 @@
 #include "core/base/random.h"
 
 namespace foresight {
+namespace {
+
+/// Neighbouring pixels whose disparity differs by more lie on different surfaces.
+constexpr double kOneSurface_px = 1.0;
+
+}  // namespace
 
 Status StereoTestbedOptions::Check() const {
   if (column_step_px < 1 || row_step_px < 1 || column_step_px > 1000 || row_step_px > 1000)
@@ -60,16 +66,26 @@ Result<StereoTrial> MakeStereoTrial(const StereoScene& scene, const StereoTestbe
 DepthImage WarpTruthToRight(const StereoScene& scene) {
   const FloatImage& disparity = scene.left_disparity;
   DepthImage truth(disparity.width(), disparity.height(), std::numeric_limits<float>::quiet_NaN());
+  const auto usable = [&](int x, int y) {
+    return x < disparity.width() && !std::isnan(disparity(x, y)) && scene.left_in_both(x, y) == 255;
+  };
+  const auto put = [&](int x, int y, double disparity_px) {
+    if (x < 0 || x >= truth.width()) return;
+    const auto depth = static_cast<float>(scene.DepthOf(disparity_px));
+    if (!(truth(x, y) <= depth)) truth(x, y) = depth;
+  };
   for (int y = 0; y < disparity.height(); ++y)
     for (int x = 0; x < disparity.width(); ++x) {
-      const float d = disparity(x, y);
-      if (std::isnan(d) || scene.left_in_both(x, y) != 255) continue;
-      const auto to =
-          static_cast<int>(std::lround(static_cast<double>(x) - static_cast<double>(d)));
-      if (to < 0 || to >= truth.width()) continue;
-      const auto depth = static_cast<float>(scene.DepthOf(d));
-      float& known = truth(to, y);
-      if (!(known <= depth)) known = depth;
+      if (!usable(x, y)) continue;
+      const double here = disparity(x, y);
+      const double from = x - here;
+      put(static_cast<int>(std::lround(from)), y, here);
+      if (!usable(x + 1, y)) continue;
+      const double next = disparity(x + 1, y);
+      const double to = x + 1 - next;
+      if (std::abs(next - here) > kOneSurface_px || !(to > from)) continue;
+      for (int u = static_cast<int>(std::ceil(from)); u <= to; ++u)
+        put(u, y, here + (next - here) * (u - from) / (to - from));
     }
   return truth;
 }

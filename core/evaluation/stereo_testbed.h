@@ -27,8 +27,10 @@ struct StereoTrial {
 /// Fails with kTooFewPoints when no sample lands in the right view.
 Result<StereoTrial> MakeStereoTrial(const StereoScene& scene, const StereoTestbedOptions& options);
 
-/// True depth of the right view: the left view's known pixels that both views see, moved to the
-/// nearest pixel; the nearest surface wins. Pixels that nothing lands on are unknown.
+/// True depth of the right view: the surfaces that the left view knows and both views see, moved into the
+/// right one; the nearest surface wins. Between neighbouring left pixels of one surface disparity is
+/// linear, so a surface that the right view sees stretched has no cracks. Pixels that no surface covers
+/// (disocclusions, unknown regions) are NaN.
 DepthImage WarpTruthToRight(const StereoScene& scene);
 
 }  // namespace foresight

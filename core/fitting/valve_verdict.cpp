@@ -19,9 +19,9 @@ constexpr double kTemplateError_m = 0.0045;
 constexpr double kLikely = 0.70;
 constexpr double kConfirmed = 0.95;
 constexpr double kMinHits = 40.0;  // independent measurements on the wheel
-constexpr double kMinDenseHits = 15.0;
 constexpr double kMaxSeeThrough = 0.15;
 constexpr double kAbsurdSeeThrough = 0.25;
+constexpr double kMaxBlockedGaps = 0.4;
 constexpr double kMinMargin_nats = 10.0;
 constexpr double kMaxOffCenter_m = 0.15;
 constexpr double kMaxPhaseSigma_rad = 0.15;
@@ -72,13 +72,19 @@ std::string Objection(const RaySet& rays, const ValveDetection& detection,
                       const FitValveOptions& options) {
   const FitEvidence& evidence = detection.evidence;
   const ValveCandidate& best = detection.best;
+  // The probability is calibrated on lidar returns only, and a filter that erased a wheel leaves
+  // shapes that were never in that population.
+  if (rays.dense) return "fitted to the depth map: fit to the lidar points to confirm it";
   const double hits = evidence.hits * std::min(1.0, rays.samples_per_ray);
-  if (hits < (rays.dense ? kMinDenseHits : kMinHits))
+  if (hits < kMinHits)
     return fmt::format("only {:.0f} measurements lie on the wheel: scan slower or move closer",
                        hits);
   if (evidence.see_through > kMaxSeeThrough)
     return fmt::format("{:.0f} % of the beams went through the wheel",
                        100.0 * evidence.see_through);
+  if (evidence.blocked_gaps > kMaxBlockedGaps)
+    return fmt::format("{:.0f} % of the beams between the spokes did not get through",
+                       100.0 * evidence.blocked_gaps);
   if (evidence.margin_nats < kMinMargin_nats && !detection.rivals.empty())
     return fmt::format("{} and {} spokes fit almost equally well", best.model.spokes,
                        detection.rivals.front().model.spokes);

@@ -15,9 +15,9 @@ void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 ///
 /// The probability is a logistic function of the evidence; its weights are provisional, set on
 /// synthetic views (tests/core/fitting) until they are calibrated on recorded ones. Hard gates
-/// keep what no probability should: a confirmed wheel has enough rays on it, is not seen through,
-/// lies near the region's centre, has spokes, no rival number of spokes close behind, and no
-/// parameter at a bound.
+/// keep what no probability should: a confirmed wheel was fitted to lidar returns, has enough rays
+/// on it, is not seen through, lies near the region's centre, has spokes, no rival number of spokes
+/// close behind, and no parameter at a bound.
 Verdict AssessValve(const RaySet& rays, const ValveDetection& detection,
                     const FitValveOptions& options);
 

@@ -59,6 +59,18 @@ TEST(StereoTestbed, TheNearSurfaceHidesTheFarOneInTheTruth) {
   EXPECT_TRUE(std::isnan(truth(100, 30)));
 }
 
+TEST(StereoTestbed, ASurfaceSeenStretchedHasNoCracksInTheTruth) {
+  StereoScene scene = PlateBeforeWall();
+  // Disparity falls by half a pixel a column: the right view sees the wall 1.5 times as wide.
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 200; ++x)
+      scene.left_disparity(x, y) = 110.0f - 0.5f * static_cast<float>(x);
+  const DepthImage truth = WarpTruthToRight(scene);
+  for (int u = 0; u < 180; ++u) ASSERT_FALSE(std::isnan(truth(u, 30))) << u;
+  // u = x - d = 1.5 x - 110, so at u = 85 the left pixel is 130 and the disparity 45.
+  EXPECT_NEAR(truth(85, 30), 100.0 / (45.0 + 10.0), 1e-5);
+}
+
 TEST(StereoTestbed, NoiseDependsOnTheSeedAlone) {
   StereoTestbedOptions options;
   const auto a = MakeStereoTrial(PlateBeforeWall(), options);

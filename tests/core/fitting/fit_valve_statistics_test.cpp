@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "core/depth/pipeline.h"
-#include "core/fitting/fit_valve.h"
+#include "core/fitting/fit_in_scan.h"
 #include "core/geometry/angles.h"
 #include "core/registration/register_scan.h"
 #include "core/simulation/world.h"
@@ -139,12 +139,9 @@ TEST_F(SimulatedValve, IsFoundInTheRawReturns) {
 Result<ValveDetection> FitDense(const Scan& scan, const RegisteredScan& cloud, const ImageRoi& roi,
                                 const DepthOptions& options) {
   FORESIGHT_TRY(AlignedSamples samples, AlignToImage(cloud, scan.rig, roi.motor_rad, {}));
-  const double density = samples.Density();
   FORESIGHT_TRY(const DepthResult depth,
                 ComputeDepth(std::move(samples), scan.frames.front().image, options, {}));
-  FORESIGHT_TRY(const RaySet rays, RaysFromDepth(ApplyMask(depth.dense.depth_m, depth.mask),
-                                                 scan.rig, roi, 2, kSigma_m, density));
-  return FitValve(rays, {}, {});
+  return FitValveInScan({scan.rig, cloud, &depth}, FitSource::kDepth, roi, {}, {});
 }
 
 TEST_F(SimulatedValve, IsFoundInTheDenseDepthOfAFilterThatSparesThinThings) {
@@ -159,15 +156,15 @@ TEST_F(SimulatedValve, IsFoundInTheDenseDepthOfAFilterThatSparesThinThings) {
   EXPECT_GE(good, 18);
 }
 
-TEST_F(SimulatedValve, IsNotConfirmedWhereTheFilterErasedIt) {
-  // A known limit: Eq. (7) as printed takes a 24 mm tube for flying points, and a sigma_s of 17 px
-  // (35 mm here) blurs what is left; a tenth of the wheel's pixels stays right.
-  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+TEST_F(SimulatedValve, WhatIsConfirmedInThePapersOwnDepthIsRight) {
+  // A known limit: Eq. (7) as printed takes a 24 mm tube for flying points, and little of the wheel
+  // stays in the depth map. The verdict must know which of the fits to believe.
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Seen seen = Look(seed);
     const auto found = FitDense(seen.scan, seen.cloud, seen.roi, DepthOptions());
-    if (found) {
-      EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << found->verdict.reason;
-    }
+    const bool good = GoodEnough(seed, found, seen.truth);
+    const bool confirmed = found && found->verdict.level == VerdictLevel::kConfirmed;
+    EXPECT_TRUE(good || !confirmed) << "seed " << seed;
   }
 }
 
