@@ -29,26 +29,42 @@ Rgb8 Turbo(double x) {
   return {Byte(Evaluate(kRed, x)), Byte(Evaluate(kGreen, x)), Byte(Evaluate(kBlue, x))};
 }
 
-/// Cividis through nine of its published colours, straight lines between them.
-Rgb8 Cividis(double x) {
-  static constexpr std::array<std::array<double, 3>, 9> kColors = {{{0, 34, 78},
-                                                                    {26, 56, 111},
-                                                                    {67, 78, 108},
-                                                                    {98, 101, 111},
-                                                                    {125, 124, 120},
-                                                                    {155, 149, 119},
-                                                                    {188, 175, 111},
-                                                                    {222, 203, 94},
-                                                                    {254, 232, 56}}};
+using NineColors = std::array<std::array<double, 3>, 9>;
+
+constexpr NineColors kViridis = {{{68, 1, 84},
+                                  {71, 44, 122},
+                                  {59, 82, 139},
+                                  {44, 114, 142},
+                                  {33, 145, 140},
+                                  {40, 174, 128},
+                                  {94, 201, 98},
+                                  {173, 220, 48},
+                                  {253, 231, 37}}};
+constexpr NineColors kCividis = {{{0, 34, 78},
+                                  {26, 56, 111},
+                                  {67, 78, 108},
+                                  {98, 101, 111},
+                                  {125, 124, 120},
+                                  {155, 149, 119},
+                                  {188, 175, 111},
+                                  {222, 203, 94},
+                                  {254, 232, 56}}};
+
+/// A map through nine of its published colours, straight lines between them.
+Rgb8 Between(const NineColors& colors, double x) {
   const double place = x * 8.0;
   const auto below = static_cast<std::size_t>(std::min(7.0, std::floor(place)));
   const double share = place - static_cast<double>(below);
   const auto mix = [&](std::size_t channel) {
-    return Byte(((1.0 - share) * kColors[below][channel] + share * kColors[below + 1][channel]) /
+    return Byte(((1.0 - share) * colors[below][channel] + share * colors[below + 1][channel]) /
                 255.0);
   };
   return {mix(0), mix(1), mix(2)};
 }
+
+constexpr std::array<ColorMapInfo, 3> kDepthMaps = {{{ColorMap::kTurbo, "Turbo"},
+                                                     {ColorMap::kViridis, "Viridis"},
+                                                     {ColorMap::kCividis, "Cividis"}}};
 
 }  // namespace
 
@@ -57,13 +73,19 @@ Rgb8 ColorOf(ColorMap map, double value) {
   switch (map) {
     case ColorMap::kTurbo:
       return Turbo(x);
+    case ColorMap::kViridis:
+      return Between(kViridis, x);
     case ColorMap::kCividis:
-      return Cividis(x);
+      return Between(kCividis, x);
     case ColorMap::kGray:
       break;
   }
   const std::uint8_t gray = Byte(0.15 + 0.85 * x);  // black points would vanish on the background
   return {gray, gray, gray};
+}
+
+std::span<const ColorMapInfo> DepthColorMaps() {
+  return kDepthMaps;
 }
 
 ValueRange RobustRange(std::span<const float> values) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "core/base/image.h"
 
 namespace foresight {
@@ -7,11 +9,20 @@ namespace foresight {
 /// Colours for a value in [0, 1]; values outside are clamped.
 enum class ColorMap {
   kTurbo,    ///< depth, range, height: most detail
+  kViridis,  ///< even steps, brighter all the way
   kCividis,  ///< confidence: the same to the colour-blind
   kGray,     ///< intensity
 };
 
 Rgb8 ColorOf(ColorMap map, double value);
+
+/// What people see of a map.
+struct ColorMapInfo {
+  ColorMap map;
+  const char* title;
+};
+/// The maps that suit depth, the default first.
+std::span<const ColorMapInfo> DepthColorMaps();
 
 /// Lowest and highest value that the colours span.
 struct ValueRange {

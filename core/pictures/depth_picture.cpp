@@ -24,31 +24,48 @@ std::array<Rgb8, 256> TableOf(ColorMap map) {
   return table;
 }
 
-}  // namespace
-
-ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer,
-                      const ValueRange& range) {
-  const bool is_depth = layer == DepthLayer::kDepth;
-  const auto table = TableOf(is_depth ? ColorMap::kTurbo : ColorMap::kCividis);
-  const FloatImage& source = is_depth ? dense.depth_m : dense.confidence;
-  const double unit = is_depth || dense.max_confidence <= 0.0f ? 1.0 : dense.max_confidence;
+/// Colours `values` where there is a depth; `range` is in their unit.
+ColorImage Paint(const FloatImage& values, const DepthImage& depth_m, const MaskImage* mask,
+                 ColorMap map, const ValueRange& range) {
+  const auto table = TableOf(map);
   // A million pixels in the GUI thread: one multiplication each.
-  const auto low = static_cast<float>(range.low * unit);
-  const auto scale = static_cast<float>(255.0 / ((range.high - range.low) * unit));
-  ColorImage picture(source.width(), source.height());
-  for (int y = 0; y < source.height(); ++y) {
-    for (int x = 0; x < source.width(); ++x) {
-      if (!std::isfinite(dense.depth_m(x, y))) {
+  const auto low = static_cast<float>(range.low);
+  const auto scale = static_cast<float>(255.0 / (range.high - range.low));
+  ColorImage picture(values.width(), values.height());
+  for (int y = 0; y < values.height(); ++y) {
+    for (int x = 0; x < values.width(); ++x) {
+      if (!std::isfinite(depth_m(x, y))) {
         picture(x, y) = kNothing;
       } else if (mask != nullptr && (*mask)(x, y) == 0) {
         picture(x, y) = Hatch(x, y);
       } else {
-        const float place = std::clamp((source(x, y) - low) * scale, 0.0f, 255.0f);
+        const float place = std::clamp((values(x, y) - low) * scale, 0.0f, 255.0f);
         picture(x, y) = table[static_cast<std::size_t>(place + 0.5f)];
       }
     }
   }
   return picture;
+}
+
+}  // namespace
+
+ColorImage PaintDepth(const DepthImage& depth_m, const MaskImage* mask, ColorMap map,
+                      const ValueRange& range) {
+  return Paint(depth_m, depth_m, mask, map, range);
+}
+
+ColorImage PaintConfidence(const DenseDepth& dense, const MaskImage* mask,
+                           const ValueRange& range) {
+  const double unit =
+      dense.max_confidence <= 0.0f ? 1.0 : static_cast<double>(dense.max_confidence);
+  return Paint(dense.confidence, dense.depth_m, mask, ColorMap::kCividis,
+               {range.low * unit, range.high * unit});
+}
+
+ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer,
+                      const ValueRange& range) {
+  return layer == DepthLayer::kDepth ? PaintDepth(dense.depth_m, mask, ColorMap::kTurbo, range)
+                                     : PaintConfidence(dense, mask, range);
 }
 
 ValueRange DepthRangeOf(const DepthImage& depth_m, const MaskImage& mask) {

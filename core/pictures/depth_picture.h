@@ -8,9 +8,16 @@ namespace foresight {
 /// What the depth pane shows of a result.
 enum class DepthLayer { kDepth, kConfidence };
 
-/// Paints a depth map, or its confidence relative to the largest, in colours. Masked pixels become
-/// a grey diagonal hatch, never black, so that they cannot be taken for far or near; pixels without
-/// a value are plain dark grey. `mask` may be null: nothing is masked.
+/// Paints a depth map in colours. Masked pixels become a grey diagonal hatch, never black, so that
+/// they cannot be taken for far or near; pixels without a value are plain dark grey. `mask` may be
+/// null: nothing is masked.
+ColorImage PaintDepth(const DepthImage& depth_m, const MaskImage* mask, ColorMap map,
+                      const ValueRange& range);
+
+/// The same for the confidence relative to the largest, in cividis.
+ColorImage PaintConfidence(const DenseDepth& dense, const MaskImage* mask, const ValueRange& range);
+
+/// One of the two; depth in turbo.
 ColorImage PaintDepth(const DenseDepth& dense, const MaskImage* mask, DepthLayer layer,
                       const ValueRange& range);
 
