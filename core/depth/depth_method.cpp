@@ -5,12 +5,17 @@
 namespace foresight {
 namespace {
 
-constexpr std::array<DepthMethodInfo, 2> kMethods = {{
+constexpr std::array<DepthMethodInfo, 4> kMethods = {{
     {DepthMethod::kPaper, "paper", "Paper (Shim 2016)",
      "Rejection of flying, isolated and flipping points, joint filter with rolling guidance, "
      "confidence mask."},
     {DepthMethod::kJointBilateral, "jbu", "Joint bilateral (Kopf 2007)",
      "One pass of the joint filter over the raw samples; only pixels out of reach stay empty."},
+    {DepthMethod::kTgv, "tgv", "Total generalized variation (Ferstl 2013)",
+     "Planes that break at edges of the picture, fitted to the raw samples; fills every pixel."},
+    {DepthMethod::kNonlocal, "nonlocal", "Nonlocal means (Park 2011)",
+     "Least squares that ties pixels with similar surroundings, on the raw samples; fills every "
+     "pixel."},
 }};
 
 /// The methods the paper is compared with take the raw samples.
@@ -55,6 +60,9 @@ DepthOptions DefaultsOf(DepthMethod method) {
       options.upsample.iterations = 0;
       return options;
     }
+    case DepthMethod::kTgv:
+    case DepthMethod::kNonlocal:
+      return WithoutRejection(method);
   }
   return DepthOptions();
 }

@@ -3,12 +3,31 @@
 #include <chrono>
 
 namespace foresight {
+namespace {
+
+Result<DenseDepth> Densify(const AlignedSamples& samples, const ColorImage& guide,
+                           const DepthOptions& options, const RunContext& context) {
+  switch (options.method) {
+    case DepthMethod::kPaper:
+    case DepthMethod::kJointBilateral:
+      return UpsampleDepth(samples, guide, options.upsample, context);
+    case DepthMethod::kTgv:
+      return UpsampleTgv(samples, guide, options.tgv, context);
+    case DepthMethod::kNonlocal:
+      return UpsampleNonlocal(samples, guide, options.nonlocal, context);
+  }
+  throw ContractViolation("method", "every method has its case", __FILE__, __LINE__);
+}
+
+}  // namespace
 
 Status DepthOptions::Check() const {
   FORESIGHT_CHECK(flying.Check());
   FORESIGHT_CHECK(isolated.Check());
   FORESIGHT_CHECK(flipping.Check());
   FORESIGHT_CHECK(upsample.Check());
+  FORESIGHT_CHECK(tgv.Check());
+  FORESIGHT_CHECK(nonlocal.Check());
   return mask.Check();
 }
 
@@ -23,8 +42,7 @@ Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide
   FORESIGHT_CHECK(RejectFlipping(samples, options.flipping, context));
 
   DepthResult result;
-  FORESIGHT_TRY(result.dense,
-                UpsampleDepth(samples, guide, options.upsample, context.Part(0.1, 1.0)));
+  FORESIGHT_TRY(result.dense, Densify(samples, guide, options, context.Part(0.1, 1.0)));
   FORESIGHT_TRY(result.mask, MaskLowConfidence(result.dense, options.mask));
   result.samples = std::move(samples);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

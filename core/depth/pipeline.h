@@ -1,9 +1,11 @@
 #pragma once
 
 #include "core/depth/aligned_samples.h"
+#include "core/depth/nonlocal.h"
 #include "core/depth/reject_flipping.h"
 #include "core/depth/reject_flying.h"
 #include "core/depth/reject_isolated.h"
+#include "core/depth/tgv.h"
 #include "core/depth/upsample.h"
 
 namespace foresight {
@@ -12,6 +14,8 @@ namespace foresight {
 enum class DepthMethod {
   kPaper,           ///< Section IV of the paper
   kJointBilateral,  ///< [7] Kopf et al. 2007
+  kTgv,             ///< Ferstl et al. 2013
+  kNonlocal,        ///< Park et al. 2011
 };
 
 struct DepthOptions {
@@ -19,7 +23,9 @@ struct DepthOptions {
   FlyingPointOptions flying;
   IsolatedPointOptions isolated;
   FlippingPointOptions flipping;
-  UpsampleOptions upsample;
+  UpsampleOptions upsample;  ///< of the joint filters
+  TgvOptions tgv;
+  NonlocalOptions nonlocal;
   ConfidenceMaskOptions mask;
 
   Status Check() const;
