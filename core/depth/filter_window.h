@@ -1,69 +1,66 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "core/depth/aligned_samples.h"
+#include "core/base/image.h"
 
 namespace foresight {
 
-/// The kept samples of an image sorted by pixel, so that those of a stretch of one row are
-/// contiguous. A sample counts for the pixel nearest to it, as in the paper's sparse map R; several
-/// may share one.
+struct AlignedSamples;
+
+/// The kept samples of an image, row by row. A sample counts for the pixel nearest to it, as in the
+/// paper's sparse map R; several may share one. Free of Eigen, for the vector kernels' sake.
 class SparseDepthMap {
  public:
-  SparseDepthMap(const AlignedSamples& samples, const GrayImage& guide);
-
-  struct Entry {
-    std::int32_t x = 0;
-    float depth_m = 0.0f;
-    std::int32_t intensity = 0;  ///< of the guide at the sample's pixel
-  };
+  explicit SparseDepthMap(const AlignedSamples& samples);
 
   int width() const { return width_; }
-  int height() const { return height_; }
-  std::size_t size() const { return entries_.size(); }
+  int height() const { return static_cast<int>(first_.size()) - 1; }
+  std::size_t size() const { return depths_m_.size(); }
 
-  /// The samples of row y with left <= x <= right; the range is cut to the image.
-  const Entry* Begin(int y, int left) const {
-    return entries_.data() + first_[Offset(y, left < 0 ? 0 : left)];
-  }
-  const Entry* End(int y, int right) const {
-    return entries_.data() + first_[Offset(y, right >= width_ ? width_ - 1 : right) + 1];
+  /// The samples of the rows top <= y < bottom are those at First(top) <= i < First(bottom).
+  std::int32_t First(int row) const { return first_[static_cast<std::size_t>(row)]; }
+  std::span<const std::int32_t> columns() const { return columns_; }
+  std::span<const std::int32_t> rows() const { return rows_; }
+  std::span<const float> depths_m() const { return depths_m_; }
+
+  /// What an image of the same size holds at each sample's pixel.
+  template <class T>
+  std::vector<float> ValuesAt(const Image<T>& image) const {
+    std::vector<float> values(size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<float>(image(columns_[i], rows_[i]));
+    return values;
   }
 
  private:
-  std::size_t Offset(int y, int x) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
-  }
-
   int width_;
-  int height_;
-  std::vector<std::int32_t> first_;  ///< one a pixel and one behind the last
-  std::vector<Entry> entries_;
+  std::vector<std::int32_t> first_;  ///< one a row and one behind the last
+  std::vector<std::int32_t> columns_;
+  std::vector<std::int32_t> rows_;
+  std::vector<float> depths_m_;
 };
 
-/// Omega and G of Eq. (8): a disc of integer offsets with the Gaussian of their distance.
+/// Omega and G of Eq. (8): a disc of integer offsets with the Gaussian of their distance, in a
+/// table with a margin of zeros, so that a register that sticks out of the disc can be read from
+/// it.
 class SpatialKernel {
  public:
+  static constexpr int kMargin = 16;  ///< the widest register holds 16 floats
+
   SpatialKernel(double sigma_px, double radius_px);
 
   int radius() const { return radius_; }
-  /// Half width of the disc in the row `dy` away from its centre.
-  int HalfWidth(int dy) const { return half_width_[static_cast<std::size_t>(dy + radius_)]; }
-  /// G for an offset inside the disc.
-  float Weight(int dx, int dy) const { return Row(dy)[dx]; }
-  /// G of a row of the disc, indexed by dx in [-HalfWidth, HalfWidth].
-  const float* Row(int dy) const {
-    return weights_.data() +
-           static_cast<std::size_t>(dy + radius_) * static_cast<std::size_t>(2 * radius_ + 1) +
-           static_cast<std::size_t>(radius_);
+  /// G at the offset (dx, dy) is Centre()[dy * stride() + dx], for |dx|, |dy| <= radius + kMargin.
+  const float* Centre() const {
+    return weights_.data() + static_cast<std::ptrdiff_t>(radius_ + kMargin) * (stride() + 1);
   }
+  std::ptrdiff_t stride() const { return 2 * (radius_ + kMargin) + 1; }
 
  private:
   int radius_;
-  std::vector<int> half_width_;
   std::vector<float> weights_;
 };
 

@@ -14,6 +14,7 @@ find_package(ZLIB REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(embree 3 REQUIRED)
+find_package(hwy 1.0.3 CONFIG REQUIRED)
 
 foreach(package VTK OpenNI OpenNI2 libusb Pcap)
   set(CMAKE_DISABLE_FIND_PACKAGE_${package} ON)

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-/// Eq. (8) and (9) written down as plainly as possible, in double precision, product weights: the
+/// Eq. (8) and (9) written down as plainly as possible, in double precision, either weights: the
 /// truth that the fast filter is held against. Quadratic in everything; for small images only.
 inline DenseDepth UpsampleByTheBook(const AlignedSamples& samples, const ColorImage& guide,
                                     const UpsampleOptions& options) {
@@ -39,11 +39,14 @@ inline DenseDepth UpsampleByTheBook(const AlignedSamples& samples, const ColorIm
           const double h = t == 0 ? 1.0
                                   : std::exp(-(depth - r) * (depth - r) /
                                              (2 * options.sigma_depth_m * options.sigma_depth_m));
-          weights += g * k * h;
-          weighted += g * k * h * r;
-          confidence += g * h;
-          any = true;
+          const bool literal = options.weights == UpsampleOptions::Weights::kLiteral;
+          const double without_h = literal && t == 0 ? 0.0 : h;
+          const double w = literal ? std::exp(g + k + without_h) : g * k * h;
+          weights += w;
+          weighted += w * r;
+          confidence += literal ? std::exp(g + without_h) : g * h;
         }
+        any = any || weights > 1e-30;
         if (weights > 1e-30) depth = weighted / weights;
       }
       if (!any) continue;

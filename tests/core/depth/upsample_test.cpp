@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "core/depth/fast_exp.h"
 #include "tests/support/sample_grids.h"
-#include "tests/support/upsample_reference.h"
 
 namespace foresight {
 namespace {
@@ -21,34 +19,6 @@ UpsampleOptions SmallWindow() {
   UpsampleOptions options;
   options.sigma_spatial_px = 8.0;
   return options;
-}
-
-TEST(FastExp, AgreesWithTheStandardLibrary) {
-  for (float x = -86.0f; x <= 0.0f; x += 0.0137f)
-    ASSERT_NEAR(ExpOfNegative(x) / std::exp(x), 1.0f, 4e-7f) << x;
-  EXPECT_EQ(ExpOfNegative(0.0f), 1.0f);
-  EXPECT_LT(ExpOfNegative(-1e30f), 1e-37f);
-}
-
-TEST(UpsampleDepth, IsEquationEight) {
-  Random random(3);
-  ColorImage guide(64, 48);
-  for (auto& pixel : guide.values()) {
-    const auto value = static_cast<std::uint8_t>(random.Index(256));
-    pixel = {value, value, value};
-  }
-  const AlignedSamples samples = SamplesOnLattice(64, 48, 4, 6, [&](int u, int v) {
-    return (u < 30 ? 1.0 : 1.4) + 0.002 * v + 0.01 * random.Normal();
-  });
-  const auto fast = UpsampleDepth(samples, guide, SmallWindow(), {});
-  ASSERT_TRUE(fast);
-  const DenseDepth plain = UpsampleByTheBook(samples, guide, SmallWindow());
-  for (int y = 0; y < 48; ++y)
-    for (int x = 0; x < 64; ++x) {
-      // Single against double precision: 0.02 mm, and a millionth of the confidence.
-      ASSERT_NEAR(fast->depth_m(x, y), plain.depth_m(x, y), 2e-5) << x << ", " << y;
-      ASSERT_NEAR(fast->confidence(x, y), plain.confidence(x, y), 1e-5 * plain.max_confidence);
-    }
 }
 
 TEST(UpsampleDepth, DoesNotBlurAcrossAnEdgeOfTheGuide) {
