@@ -23,6 +23,14 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::RebindToSigned<Floats>;
 using Vector = hn::Vec<Floats>;
 
+constexpr float kLog2E = 1.44269504f;
+/// Below this sum of weights a pass has no opinion and the pixel keeps its depth.
+constexpr float kNoSupport = 1e-30f;
+/// G K is kept this many powers of two too large, so that G K H stays out of the slow denormal
+/// numbers.
+constexpr int kWeightShift = 60;
+constexpr float kWeightScale = static_cast<float>(1LL << kWeightShift);
+
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(Floats()));
 // A tile is the pixels of one register. Two rows of 8 have 18 % fewer samples in reach than one row
 // of 16: fewer lanes compute with a weight of zero.
@@ -56,8 +64,7 @@ HWY_INLINE void StoreTile(Vector v, float* upper_left, std::ptrdiff_t stride) {
 
 #endif
 
-/// 2^(kShift - t) for t >= -100, with a relative error below 2e-7; t above 120 counts as 120. With
-/// kShift > 0, a product of two results stays out of the slow denormal numbers.
+/// 2^(kShift - t) for t >= -60, with a relative error below 2e-7; t above 120 counts as 120.
 template <int kShift = 0>
 HWY_INLINE Vector Exp2OfMinus(Vector t) {
   const Floats f;

@@ -37,13 +37,6 @@ HWY_BEFORE_NAMESPACE();
 namespace foresight {
 namespace HWY_NAMESPACE {
 
-constexpr float kLog2E = 1.44269504f;
-/// Below this sum of weights a pass has no opinion and the pixel keeps its depth.
-constexpr float kNoSupport = 1e-30f;
-/// Weights are kept this many powers of two too large.
-constexpr int kWeightShift = 60;
-constexpr float kWeightScale = static_cast<float>(1LL << kWeightShift);
-
 /// Sums over the samples, a pixel a lane.
 struct Sums {
   Vector weight;      ///< N_p
