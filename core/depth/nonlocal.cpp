@@ -122,6 +122,9 @@ Status NonlocalOptions::Check() const {
   if (!positive(sigma_color))
     return Fail(ErrorCode::kInvalidOptions, "nonlocal: sigma_color {} is not positive",
                 sigma_color);
+  if (!positive(nonlocal_share))
+    return Fail(ErrorCode::kInvalidOptions, "nonlocal: nonlocal_share {} is not positive",
+                nonlocal_share);
   FORESIGHT_CHECK(within(window_radius_px, 2, 20, "window_radius_px"));
   FORESIGHT_CHECK(within(patch_radius_px, 0, 10, "patch_radius_px"));
   FORESIGHT_CHECK(within(similar_pixels, 1, 16, "similar_pixels"));
@@ -138,7 +141,8 @@ Result<DenseDepth> UpsampleNonlocal(const AlignedSamples& samples, const ColorIm
   const auto graph = PixelGraph::Of(guide, options, context.Part(0.0, 0.3));
   if (!graph) return cancelled();
   const RunContext solving = context.Part(0.3, 1.0);
-  NonlocalSolver solver(*graph, image, FillSmoothly(image), options.smoothness, solving);
+  const double smoothness = options.smoothness / (8.0 + options.similar_pixels);
+  NonlocalSolver solver(*graph, image, FillSmoothly(image), smoothness, solving);
   for (int i = 0; i < options.iterations && !solver.Converged(); ++i) {
     solver.Step();
     if (context.Cancelled()) return cancelled();

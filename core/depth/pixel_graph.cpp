@@ -72,6 +72,7 @@ class RowSearch {
         padded_(padded),
         patch_radius_(options.patch_radius_px),
         similar_(static_cast<std::size_t>(options.similar_pixels)),
+        share_(options.nonlocal_share),
         offsets_(SearchOffsets(options.window_radius_px)),
         exponent_(-1.0 / (2.0 * 3.0 * options.sigma_color * options.sigma_color)),
         columns_(static_cast<std::size_t>(width_ + 2 * patch_radius_)),
@@ -96,9 +97,9 @@ class RowSearch {
  private:
   bool Contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
-  PixelGraph::Edge EdgeTo(int x, int y, double squared_difference) const {
-    return {y * width_ + x,
-            static_cast<float>(std::max(kLeastWeight, std::exp(exponent_ * squared_difference)))};
+  PixelGraph::Edge EdgeTo(int x, int y, double squared_difference, double share) const {
+    const double weight = std::max(kLeastWeight, std::exp(exponent_ * squared_difference));
+    return {y * width_ + x, static_cast<float>(share * weight)};
   }
 
   PixelGraph::Edge ToNeighbour(int x, int y, const Offset& offset) const {
@@ -108,7 +109,7 @@ class RowSearch {
       const double d = padded_.Row(c, y)[x] - padded_.Row(c, y + offset.y)[x + offset.x];
       squared += d * d;
     }
-    return EdgeTo(x + offset.x, y + offset.y, squared);
+    return EdgeTo(x + offset.x, y + offset.y, squared, 1.0);
   }
 
   /// Sum of squared differences between the patches around each pixel of the row and around the
@@ -143,8 +144,9 @@ class RowSearch {
     const double pixels = (2.0 * patch_radius_ + 1.0) * (2.0 * patch_radius_ + 1.0);
     for (std::size_t i = 0; i < similar_; ++i) {
       const auto& [cost, o] = best_[i];
-      edges[i] = cost == kOutside ? PixelGraph::Edge{kNobody, 0.0f}
-                                  : EdgeTo(x + offsets_[o].x, y + offsets_[o].y, cost / pixels);
+      edges[i] = cost == kOutside
+                     ? PixelGraph::Edge{kNobody, 0.0f}
+                     : EdgeTo(x + offsets_[o].x, y + offsets_[o].y, cost / pixels, share_);
     }
   }
 
@@ -152,6 +154,7 @@ class RowSearch {
   const PaddedPicture& padded_;
   int patch_radius_;
   std::size_t similar_;
+  double share_;
   std::vector<Offset> offsets_;
   double exponent_;
   std::vector<float> columns_;
