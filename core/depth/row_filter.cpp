@@ -18,6 +18,7 @@
 #ifndef FORESIGHT_CORE_DEPTH_ROW_FILTER_ONCE_
 #define FORESIGHT_CORE_DEPTH_ROW_FILTER_ONCE_
 namespace foresight {
+namespace {
 
 /// What a thread needs to filter rows; kept from one block to the next.
 struct JointFilterScratch {
@@ -30,6 +31,13 @@ struct JointFilterScratch {
   AlignedFloats change;  ///< a register a pass
 };
 
+/// Out of line: gcc otherwise asks for the thread's address again and again inside the kernel.
+HWY_NOINLINE JointFilterScratch& ScratchOfThisThread() {
+  thread_local JointFilterScratch scratch;
+  return scratch;
+}
+
+}  // namespace
 }  // namespace foresight
 #endif
 
@@ -223,7 +231,7 @@ void StoreOutput(PaddedRows& rows, int top, int bottom, const JointFilterOutput&
 template <class Weights>
 void FilterRowsWith(const JointFilter& filter, int top, int bottom, const JointFilterOutput& output,
                     FilterChange& change) {
-  thread_local JointFilterScratch scratch;
+  JointFilterScratch& scratch = ScratchOfThisThread();
   const int width = filter.guide.width();
   const int radius = filter.spatial.radius();
   const auto passes = static_cast<std::size_t>(filter.iterations);

@@ -17,6 +17,7 @@
 #ifndef FORESIGHT_CORE_DEPTH_ROW_FILTER_PLANE_ONCE_
 #define FORESIGHT_CORE_DEPTH_ROW_FILTER_PLANE_ONCE_
 namespace foresight {
+namespace {
 
 /// One sample seen from a tile, in units that keep all numbers near 1.
 struct PlaneSample {
@@ -36,6 +37,13 @@ struct PlaneFilterScratch {
   std::vector<PlaneSample> samples;  ///< of the tile
 };
 
+/// Out of line: gcc otherwise asks for the thread's address again and again inside the kernel.
+HWY_NOINLINE PlaneFilterScratch& ScratchOfThisThread() {
+  thread_local PlaneFilterScratch scratch;
+  return scratch;
+}
+
+}  // namespace
 }  // namespace foresight
 #endif
 
@@ -212,7 +220,7 @@ HWY_INLINE void FilterPlaneTile(const PlaneFilter& filter, PlaneFilterScratch& s
 
 void FilterPlaneRowsHere(const PlaneFilter& filter, int top, int bottom,
                          const PlaneFilterOutput& output) {
-  thread_local PlaneFilterScratch scratch;
+  PlaneFilterScratch& scratch = ScratchOfThisThread();
   const int width = filter.samples.width();
   const int radius = filter.spatial.radius();
   const std::array<FloatImage*, 6> images = {&output.depth_m, &output.sum_gkh, &output.sum_gk,

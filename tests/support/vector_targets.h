@@ -1,9 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include <string>
 #include <vector>
 
 namespace foresight {
@@ -30,16 +28,5 @@ class OnlyVectorTarget {
   OnlyVectorTarget(const OnlyVectorTarget&) = delete;
   OnlyVectorTarget& operator=(const OnlyVectorTarget&) = delete;
 };
-
-/// Runs a test on every instruction set: instantiate with testing::ValuesIn(VectorTargets()) and
-/// VectorTargetName.
-class OnEveryVectorTarget : public testing::TestWithParam<int64_t> {
- private:
-  OnlyVectorTarget only_{GetParam()};
-};
-
-inline std::string VectorTargetName(const testing::TestParamInfo<int64_t>& info) {
-  return hwy::TargetName(info.param);
-}
 
 }  // namespace foresight

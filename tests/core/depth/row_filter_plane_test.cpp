@@ -3,9 +3,9 @@
 
 #include "core/base/random.h"
 #include "core/depth/row_filter.h"
+#include "tests/support/on_every_vector_target.h"
 #include "tests/support/plane_reference.h"
 #include "tests/support/sample_grids.h"
-#include "tests/support/vector_targets.h"
 
 namespace foresight {
 namespace {

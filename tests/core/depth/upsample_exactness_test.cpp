@@ -3,9 +3,9 @@
 
 #include "core/base/random.h"
 #include "core/depth/upsample.h"
+#include "tests/support/on_every_vector_target.h"
 #include "tests/support/sample_grids.h"
 #include "tests/support/upsample_reference.h"
-#include "tests/support/vector_targets.h"
 
 namespace foresight {
 namespace {
