@@ -26,6 +26,10 @@ Actions::Actions(Workbench* bench, QObject* parent) : QObject(parent), bench_(be
   toggle_mask = Add(nullptr, tr("Mask on or off"), Qt::Key_M, tr("Hatch the uncertain depths"));
   toggle_layer =
       Add(nullptr, tr("Depth or confidence"), Qt::Key_C, tr("Change what the depth pane shows"));
+  toggle_rejected = Add(nullptr, tr("Rejected samples"), Qt::Key_H,
+                        tr("Show or hide the lidar samples that were rejected, and why"));
+  reset_layout = Add(nullptr, tr("Reset layout"), QKeySequence(QStringLiteral("Ctrl+Shift+L")),
+                     tr("Put every pane back to its place"));
   shortcuts = Add("help", tr("Shortcuts"), Qt::Key_F1, tr("List all keys"));
   region_tool->setCheckable(true);
   valve_tool->setCheckable(true);
@@ -54,6 +58,9 @@ void Actions::BindToBench() {
   connect(leave_tool, &QAction::triggered, &bench_->fit, &FitViewModel::leaveTools);
   connect(fit, &QAction::triggered, &bench_->fit, &FitViewModel::fit);
   connect(undo_region, &QAction::triggered, &bench_->session, &SessionModel::undoRoi);
+  connect(toggle_mask, &QAction::triggered, &bench_->layers, &LayersViewModel::toggleMask);
+  connect(toggle_layer, &QAction::triggered, &bench_->layers, &LayersViewModel::toggleLayer);
+  connect(toggle_rejected, &QAction::triggered, &bench_->layers, &LayersViewModel::toggleRejected);
   connect(&bench_->head, &HeadViewModel::statusChanged, this, &Actions::Refresh);
   connect(&bench_->fit, &FitViewModel::changed, this, &Actions::Refresh);
 }

@@ -33,6 +33,8 @@ class Actions : public QObject {
   QAction* reset_view;
   QAction* toggle_mask;
   QAction* toggle_layer;
+  QAction* toggle_rejected;
+  QAction* reset_layout;
   QAction* shortcuts;
 
  private:

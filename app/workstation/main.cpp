@@ -2,8 +2,10 @@
 #include <QApplication>
 #include <QDir>
 #include <QFile>
+#include <QSettings>
 
 #include "app/workstation/main_window.h"
+#include "app/workstation/quit_on_signal.h"
 #include "app/workstation/unattended.h"
 #include "core/base/log.h"
 #include "hardware/simulated/simulated_head.h"
@@ -69,6 +71,8 @@ int Run(int argc, char** argv) {
     return outcome < 0 ? 0 : outcome;
   SetUpVtk();
   QApplication application(argc, argv);
+  QApplication::setOrganizationName(QStringLiteral("foresight"));
+  QApplication::setApplicationName(QStringLiteral("workstation"));
   ApplyTheme(&application);
   auto head = MakeHead(options);
   if (!head) {
@@ -76,12 +80,18 @@ int Run(int argc, char** argv) {
     return 1;
   }
   Workbench bench(std::move(*head), SessionMode::kSimulation);
+  const QuitOnSignal quit_on_signal([&bench] { bench.head.StopForGood(); });
   MainWindow window(&bench);
+  QSettings settings;
+  const bool attended = options.unattended.screenshot.empty();
+  if (attended) window.RestoreLayout(settings);  // every picture shows the same layout
   window.show();
   bench.head.home();
   if (!options.mission.empty()) bench.mission.Open(QString::fromStdString(options.mission));
   Unattended unattended(&bench, &window, options.unattended);
-  return QApplication::exec();
+  const int outcome = QApplication::exec();
+  if (attended) window.SaveLayout(&settings);
+  return outcome;
 }
 
 }  // namespace

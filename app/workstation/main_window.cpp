@@ -6,6 +6,7 @@
 #include <QCloseEvent>
 #include <QFileDialog>
 #include <QMenuBar>
+#include <QSettings>
 #include <QSplitter>
 #include <QStatusBar>
 #include <QToolBar>
@@ -25,13 +26,22 @@
 #include "ui/views/image_pane.h"
 
 namespace foresight {
+namespace {
+
+/// Counts up when docks come or go, so that an old layout is not forced on new docks.
+constexpr int kLayoutVersion = 1;
+const QString kLayoutKey = QStringLiteral("layout/docks");
+const QString kGeometryKey = QStringLiteral("layout/window");
+
+}  // namespace
 
 MainWindow::MainWindow(Workbench* bench, QWidget* parent)
     : QMainWindow(parent),
       bench_(bench),
       actions_(new Actions(bench, this)),
-      image_(new ImagePane(&bench->session, &bench->fit)),
-      depth_(new DepthPane(&bench->session, &bench->depth, &bench->fit)),
+      image_(new ImagePane(&bench->session, &bench->fit, &bench->layers)),
+      depth_(new DepthPane(
+          {&bench->session, &bench->depth, &bench->fit, &bench->layers, &bench->compare})),
       cloud_(new CloudPane(&bench->session)),
       notices_(new NoticeStrip) {
   setWindowTitle(tr("Foresight"));
@@ -40,6 +50,22 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
   BuildDocks();
   BindViews();
   resize(1600, 1000);
+  first_layout_ = docks_->saveState(kLayoutVersion);
+}
+
+void MainWindow::SaveLayout(QSettings* settings) const {
+  settings->setValue(kLayoutKey, docks_->saveState(kLayoutVersion));
+  settings->setValue(kGeometryKey, saveGeometry());
+}
+
+void MainWindow::RestoreLayout(const QSettings& settings) {
+  restoreGeometry(settings.value(kGeometryKey).toByteArray());
+  const QByteArray layout = settings.value(kLayoutKey).toByteArray();
+  if (!layout.isEmpty()) docks_->restoreState(layout, kLayoutVersion);
+}
+
+void MainWindow::ResetLayout() {
+  docks_->restoreState(first_layout_, kLayoutVersion);
 }
 
 void MainWindow::BuildBars() {
@@ -54,7 +80,10 @@ void MainWindow::BuildBars() {
   object->addActions({actions_->region_tool, actions_->valve_tool, actions_->leave_tool,
                       actions_->fit, actions_->undo_region});
   view_menu_ = menuBar()->addMenu(tr("&View"));
-  view_menu_->addActions({actions_->reset_view, actions_->toggle_mask, actions_->toggle_layer});
+  view_menu_->addActions({actions_->reset_view, actions_->toggle_mask, actions_->toggle_layer,
+                          actions_->toggle_rejected});
+  view_menu_->addSeparator();
+  view_menu_->addAction(actions_->reset_layout);
   view_menu_->addSeparator();
   menuBar()->addMenu(tr("H&elp"))->addAction(actions_->shortcuts);
 
@@ -69,8 +98,8 @@ void MainWindow::BuildBars() {
       {actions_->region_tool, actions_->valve_tool, actions_->fit, actions_->undo_region});
 
   statusBar()->addPermanentWidget(
-      new TaskStrip({bench_->depth.Runner(), bench_->fit.Runner(), bench_->mission.Runner(),
-                     bench_->exporter.Runner()}),
+      new TaskStrip({bench_->depth.Runner(), bench_->compare.Runner(), bench_->fit.Runner(),
+                     bench_->mission.Runner(), bench_->exporter.Runner()}),
       1);
   statusBar()->setSizeGripEnabled(false);
 }
@@ -89,8 +118,9 @@ void MainWindow::BuildCentre() {
   setCentralWidget(centre);
 }
 
-ads::CDockWidget* MainWindow::Dock(const QString& title, QWidget* content) {
+ads::CDockWidget* MainWindow::Dock(const char* name, const QString& title, QWidget* content) {
   auto* dock = new ads::CDockWidget(title);
+  dock->setObjectName(QString::fromLatin1(name));  // saved layouts know docks by it
   dock->setWidget(content, ads::CDockWidget::ForceNoScrollArea);
   dock->setAccessibleName(title);
   view_menu_->addAction(dock->toggleViewAction());
@@ -98,15 +128,18 @@ ads::CDockWidget* MainWindow::Dock(const QString& title, QWidget* content) {
 }
 
 void MainWindow::BuildDocks() {
-  auto* centre = docks_->addDockWidget(ads::CenterDockWidgetArea, Dock(tr("3D cloud"), cloud_));
-  auto* left = docks_->addDockWidget(ads::LeftDockWidgetArea,
-                                     Dock(tr("Head and scan"), new HeadPanel(&bench_->head)));
-  docks_->addDockWidget(ads::RightDockWidgetArea,
-                        Dock(tr("Objects"), new ObjectsPanel(&bench_->session, &bench_->fit)));
-  auto* top = docks_->addDockWidget(ads::TopDockWidgetArea, Dock(tr("Picture"), image_), centre);
-  docks_->addDockWidget(ads::RightDockWidgetArea, Dock(tr("Depth"), depth_), top);
+  auto* centre =
+      docks_->addDockWidget(ads::CenterDockWidgetArea, Dock("cloud", tr("3D cloud"), cloud_));
+  auto* left = docks_->addDockWidget(
+      ads::LeftDockWidgetArea, Dock("head", tr("Head and scan"), new HeadPanel(&bench_->head)));
+  docks_->addDockWidget(
+      ads::RightDockWidgetArea,
+      Dock("objects", tr("Objects"), new ObjectsPanel(&bench_->session, &bench_->fit)));
+  auto* top =
+      docks_->addDockWidget(ads::TopDockWidgetArea, Dock("picture", tr("Picture"), image_), centre);
+  docks_->addDockWidget(ads::RightDockWidgetArea, Dock("depth", tr("Depth"), depth_), top);
   docks_->addDockWidget(ads::BottomDockWidgetArea,
-                        Dock(tr("Mission"), new MissionPanel(&bench_->mission)), left);
+                        Dock("mission", tr("Mission"), new MissionPanel(&bench_->mission)), left);
   docks_->setSplitterSizes(centre, {430, 470});
   docks_->setSplitterSizes(left, {620, 240});
   docks_->setSplitterSizes(top, {500, 500});
@@ -119,8 +152,7 @@ void MainWindow::BindViews() {
   connect(actions_->reset_view, &QAction::triggered, cloud_->Canvas(), &CloudCanvas::ResetView);
   connect(actions_->reset_view, &QAction::triggered, image_->Canvas(), &ImageCanvas::ShowAll);
   connect(actions_->reset_view, &QAction::triggered, depth_->Canvas(), &DepthCanvas::ShowAll);
-  connect(actions_->toggle_mask, &QAction::triggered, depth_, &DepthPane::ToggleMask);
-  connect(actions_->toggle_layer, &QAction::triggered, depth_, &DepthPane::ToggleLayer);
+  connect(actions_->reset_layout, &QAction::triggered, this, &MainWindow::ResetLayout);
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
   connect(actions_->shortcuts, &QAction::triggered, this,
           [this] { ShowShortcutSheet(actions_->All(), this); });

@@ -9,6 +9,8 @@ class CDockManager;
 class CDockWidget;
 }  // namespace ads
 
+class QSettings;
+
 namespace foresight {
 
 class Actions;
@@ -29,6 +31,12 @@ class MainWindow : public QMainWindow {
   CloudPane* Cloud() { return cloud_; }
   NoticeStrip* Notices() { return notices_; }
 
+  /// Where the panes are and how large the window is; kept from one run to the next.
+  void SaveLayout(QSettings* settings) const;
+  /// A layout of another version of the program is left alone.
+  void RestoreLayout(const QSettings& settings);
+  void ResetLayout();
+
  protected:
   void closeEvent(QCloseEvent* event) override;
 
@@ -36,7 +44,7 @@ class MainWindow : public QMainWindow {
   void BuildBars();
   void BuildCentre();
   void BuildDocks();
-  ads::CDockWidget* Dock(const QString& title, QWidget* content);
+  ads::CDockWidget* Dock(const char* name, const QString& title, QWidget* content);
   void BindViews();
   void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
                   const std::function<void(QString)>& chosen);
@@ -49,6 +57,7 @@ class MainWindow : public QMainWindow {
   NoticeStrip* notices_;
   ads::CDockManager* docks_;
   QMenu* view_menu_;
+  QByteArray first_layout_;
   bool close_was_asked_ = false;
 };
 

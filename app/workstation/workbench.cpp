@@ -6,6 +6,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
     : session(mode),
       head(std::move(sensor_head)),
       depth(&session),
+      compare(&session, &depth),
       fit(&session),
       mission(&session),
       exporter(&session),
@@ -16,8 +17,8 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
 }
 
 bool Workbench::Idle() {
-  return !head.Scanning() && !depth.Runner()->Busy() && !fit.Runner()->Busy() &&
-         !mission.Runner()->Busy() && !exporter.Runner()->Busy();
+  return !head.Scanning() && !depth.Runner()->Busy() && !compare.Runner()->Busy() &&
+         !fit.Runner()->Busy() && !mission.Runner()->Busy() && !exporter.Runner()->Busy();
 }
 
 }  // namespace foresight

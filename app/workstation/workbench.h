@@ -2,10 +2,12 @@
 
 #include <memory>
 
+#include "ui/viewmodels/compare_view_model.h"
 #include "ui/viewmodels/depth_view_model.h"
 #include "ui/viewmodels/export_view_model.h"
 #include "ui/viewmodels/fit_view_model.h"
 #include "ui/viewmodels/head_view_model.h"
+#include "ui/viewmodels/layers_view_model.h"
 #include "ui/viewmodels/mission_view_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/session_model.h"
@@ -19,6 +21,8 @@ struct Workbench {
   SessionModel session;
   HeadViewModel head;
   DepthViewModel depth;
+  LayersViewModel layers;
+  CompareViewModel compare;
   FitViewModel fit;
   MissionViewModel mission;
   ExportViewModel exporter;

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/ui/synthetic_scan.h"
 #include "core/pictures/color_map.h"
 #include "core/pictures/depth_picture.h"
-#include "ui/render/point_set.h"
 #include "core/pictures/projected_wireframe.h"
+#include "tests/ui/synthetic_scan.h"
+#include "ui/render/point_set.h"
 
 namespace foresight {
 namespace {

@@ -42,6 +42,8 @@ QToolBar { border: none; spacing: 4px; padding: 4px 8px; }
 QToolBar QToolButton { padding: 4px 8px; }
 QLabel#emptyState { color: #a4acb6; background: #16191d; font-size: 12pt; padding: 24px; }
 QLabel#caption, QLabel#faint { color: #a4acb6; }
+QLabel#cornerTag { color: #e8ebef; background: rgba(20, 22, 26, 215); border-radius: 4px;
+  padding: 3px 8px; }
 QLabel#sectionTitle { color: #a4acb6; font-weight: bold; }
 QLabel#badge { color: #16181c; font-weight: bold; border-radius: 4px; padding: 2px 10px; }
 QFrame#strip { background: #1c1f24; border-bottom: 1px solid #14161a; }

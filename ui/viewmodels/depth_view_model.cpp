@@ -1,5 +1,7 @@
 #include "ui/viewmodels/depth_view_model.h"
 
+#include "ui/viewmodels/depth_task.h"
+
 namespace foresight {
 
 DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
@@ -10,13 +12,38 @@ DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
 void DepthViewModel::setThreshold(double threshold) {
   if (threshold == options_.mask.threshold) return;
   options_.mask.threshold = threshold;
+  thresholds_[options_.method] = threshold;
   Q_EMIT thresholdChanged(threshold);
+  UpdateMask();
+}
+
+void DepthViewModel::UpdateMask() {
   if (!session_->Depth()) return;
   auto mask = MaskLowConfidence(session_->Depth()->dense, options_.mask);
   if (!mask)
     session_->Report(NoticeOf(tr("Masking"), mask.error()));
-  else
+  else if (*mask != *session_->Mask())
     session_->SetMask(std::make_shared<const MaskImage>(std::move(*mask)));
+}
+
+void DepthViewModel::setMethod(DepthMethod method) {
+  if (method == options_.method) return;
+  const bool keep_iterations = options_.upsample.keep_iterations;
+  options_ = DefaultsOf(method);
+  options_.upsample.keep_iterations = keep_iterations;
+  if (const auto used = thresholds_.find(method); used != thresholds_.end())
+    options_.mask.threshold = used->second;
+  Q_EMIT methodChanged();
+  Q_EMIT thresholdChanged(options_.mask.threshold);
+  compute();
+}
+
+void DepthViewModel::setKeepIterations(bool keep) {
+  if (keep == options_.upsample.keep_iterations) return;
+  options_.upsample.keep_iterations = keep;
+  const auto& depth = session_->Depth();
+  const bool has_passes = depth && !depth->dense.mean_change_m.empty();
+  if (keep && has_passes && depth->dense.iterations.empty()) compute();
 }
 
 void DepthViewModel::compute() {
@@ -48,31 +75,35 @@ void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan, int pict
                       tr("Scan again with a picture angle within the scope.")});
     return;
   }
-  const auto work = [scan, picture, cloud = session_->Cloud(),
-                     options = options_](const RunContext& context) -> Result<DepthResult> {
-    const CameraFrame& frame = scan->frames[static_cast<std::size_t>(picture)];
-    FORESIGHT_TRY(AlignedSamples samples,
-                  AlignToImage(*cloud, scan->rig, frame.motor_angle_rad, context.Part(0.0, 0.1)));
-    return ComputeDepth(std::move(samples), frame.image, options, context.Part(0.1, 1.0));
-  };
   runner_.Run<DepthResult>(
-      tr("Computing depth"), work, [this, scan, picture](Result<DepthResult> depth) {
+      tr("Computing depth"), MakeDepthTask(scan, session_->Cloud(), picture, options_),
+      [this, scan, picture, used = options_](Result<DepthResult> depth) {
         if (scan != session_->CurrentScan() || picture != session_->PictureIndex()) return;
-        Accept(std::move(depth));
+        Accept(used, std::move(depth));
       });
 }
 
-void DepthViewModel::Accept(Result<DepthResult> depth) {
+void DepthViewModel::Accept(const DepthOptions& used, Result<DepthResult> depth) {
   if (!depth) {
     session_->Report(NoticeOf(tr("Computing depth"), depth.error()));
+    ReturnToShown();
     return;
   }
   ++computed_;
+  shown_ = used;
   session_->SetDepth(std::make_shared<const DepthResult>(std::move(*depth)));
-  // The threshold may have moved while the depth was being computed.
-  auto mask = MaskLowConfidence(session_->Depth()->dense, options_.mask);
-  if (mask && *mask != session_->Depth()->mask)
-    session_->SetMask(std::make_shared<const MaskImage>(std::move(*mask)));
+  UpdateMask();  // the threshold may have moved while the depth was being computed
+}
+
+void DepthViewModel::ReturnToShown() {
+  if (!session_->Depth() || options_.method == shown_.method) return;
+  // The old depth stays on the screen: what is chosen must name it.
+  options_ = shown_;
+  if (const auto last = thresholds_.find(options_.method); last != thresholds_.end())
+    options_.mask.threshold = last->second;
+  Q_EMIT methodChanged();
+  Q_EMIT thresholdChanged(options_.mask.threshold);
+  UpdateMask();
 }
 
 }  // namespace foresight

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <QObject>
+#include <map>
 
-#include "core/depth/pipeline.h"
+#include "core/depth/depth_method.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
 namespace foresight {
 
 /// The straight line after a scan: points, alignment to the chosen picture, depth, mask. It starts
-/// by itself when a scan or a picture is chosen. Moving the threshold only redoes the mask.
+/// by itself when a scan or a picture is chosen, and again when the method changes: the old depth
+/// stays until the new one is there, or for good when that is cancelled or fails. Moving the
+/// threshold only redoes the mask.
 class DepthViewModel : public QObject {
   Q_OBJECT
 
@@ -17,7 +20,12 @@ class DepthViewModel : public QObject {
   explicit DepthViewModel(SessionModel* session, QObject* parent = nullptr);
 
   const DepthOptions& Options() const { return options_; }
+  DepthMethod Method() const { return options_.method; }
   double Threshold() const { return options_.mask.threshold; }
+  /// The options that the depth on the screen was made with; those of the mask apart.
+  const DepthOptions& ShownOptions() const { return shown_; }
+  /// Whether the depth on the screen is about to be replaced.
+  bool Recomputing() const { return runner_.Busy() && session_->Depth() != nullptr; }
   TaskRunner* Runner() { return &runner_; }
   /// How often the depth was computed; a mask alone does not count.
   int ComputedCount() const { return computed_; }
@@ -25,18 +33,28 @@ class DepthViewModel : public QObject {
  public Q_SLOTS:
   /// In [0, 1], of the largest confidence in the image.
   void setThreshold(double threshold);
+  /// Computes again with the defaults of the method and the threshold last used with it.
+  void setMethod(foresight::DepthMethod method);
+  /// Keeps every pass of the filter from now on: one map each. Computes again when the depth on the
+  /// screen has none.
+  void setKeepIterations(bool keep);
   /// Computes the depth of the current picture again.
   void compute();
 
  Q_SIGNALS:
   void thresholdChanged(double threshold);
+  void methodChanged();
 
  private:
   void ComputeOn(const std::shared_ptr<const Scan>& scan, int picture);
-  void Accept(Result<DepthResult> depth);
+  void Accept(const DepthOptions& used, Result<DepthResult> depth);
+  void ReturnToShown();
+  void UpdateMask();
 
   SessionModel* session_;
-  DepthOptions options_;
+  DepthOptions options_ = DefaultsOf(DepthMethods().front().method);
+  DepthOptions shown_ = options_;
+  std::map<DepthMethod, double> thresholds_;  ///< last used with each method
   TaskRunner runner_;
   int computed_ = 0;
 };

@@ -118,6 +118,12 @@ void HeadViewModel::scan() {
   Poll();
 }
 
+void HeadViewModel::StopForGood() {
+  if (live_) head_->AbortScan();
+  head_->StopMotor();
+  Poll();
+}
+
 void HeadViewModel::abort() {
   head_->AbortScan();
 }

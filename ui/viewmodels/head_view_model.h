@@ -64,6 +64,9 @@ class HeadViewModel : public QObject {
   /// Reads the head's status now; otherwise it is read ten times a second.
   void Poll();
 
+  /// Before the program ends: ends the running scan and stops the motor.
+  void StopForGood();
+
  public Q_SLOTS:
   void scan();
   void abort();

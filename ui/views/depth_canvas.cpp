@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/render/paint_mark.h"
 #include "ui/render/vtk_data.h"
+#include "ui/render/vtk_marks.h"
 #include "ui/views/overlay_style.h"
 
 namespace foresight {
@@ -28,6 +30,23 @@ vtkSmartPointer<vtkActor> LineActor(Rgb8 color, float width) {
   return actor;
 }
 
+constexpr double kGrip_px = 7.0;       ///< how near to the wipe line counts as on it
+constexpr double kWipeStep = 0.02;     ///< of the width, for an arrow key
+constexpr double kWipeBigStep = 0.10;  ///< the same with Shift
+
+/// Marks with their own colours, or the dark rim below them.
+vtkSmartPointer<vtkActor> MarkActor(bool rim, double z) {
+  vtkSmartPointer<vtkActor> actor = LineActor({0, 0, 0}, 1.0f);
+  actor->GetMapper()->SetScalarVisibility(!rim);
+  actor->GetProperty()->SetOpacity(rim ? 0.7 : 1.0);
+  actor->SetPosition(0.0, 0.0, z);
+  return actor;
+}
+
+void SetData(vtkActor* actor, vtkPolyData* data) {
+  static_cast<vtkPolyDataMapper*>(actor->GetMapper())->SetInputData(data);
+}
+
 void SetLines(vtkActor* actor, const Polylines& lines) {
   static_cast<vtkPolyDataMapper*>(actor->GetMapper())->SetInputData(VtkLinesOf(lines));
 }
@@ -38,6 +57,11 @@ DepthCanvas::DepthCanvas(QWidget* parent)
     : VtkCanvas(parent),
       renderer_(vtkSmartPointer<vtkRenderer>::New()),
       picture_(vtkSmartPointer<vtkImageActor>::New()),
+      wipe_(renderer_),
+      dot_rims_(MarkActor(true, 0.80)),
+      dots_(MarkActor(false, 0.82)),
+      symbol_rims_(MarkActor(true, 0.84)),
+      symbols_(MarkActor(false, 0.86)),
       templates_(LineActor(kTemplateColor, 2.0f)),
       roi_(LineActor(kRoiColor, 2.0f)),
       drag_actor_(LineActor(kRoiColor, 2.0f)) {
@@ -46,10 +70,12 @@ DepthCanvas::DepthCanvas(QWidget* parent)
   renderer_->GetActiveCamera()->ParallelProjectionOn();
   picture_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
   renderer_->AddActor(picture_);
-  for (const auto& actor : {templates_, roi_, drag_actor_}) renderer_->AddActor(actor);
+  for (const auto& actor :
+       {dot_rims_, dots_, symbol_rims_, symbols_, templates_, roi_, drag_actor_})
+    renderer_->AddActor(actor);
   setMinimumSize(160, 120);
   setMouseTracking(true);
-  setFocusPolicy(Qt::ClickFocus);
+  setFocusPolicy(Qt::StrongFocus);  // the wipe line moves by keys alone
   setAccessibleName(tr("Depth map"));
 }
 
@@ -60,6 +86,35 @@ void DepthCanvas::SetPicture(const ColorImage& picture) {
   picture_->GetMapper()->SetInputData(VtkImageOf(picture));
   if (!same_size) shows_all_ = true;
   if (shows_all_) ShowAll();
+  Redraw();
+}
+
+void DepthCanvas::SetSecond(const ColorImage* picture) {
+  wipe_.SetPicture(picture);
+  Redraw();
+}
+
+void DepthCanvas::SetWipe(double share) {
+  wipe_.SetShare(share);
+  Redraw();
+}
+
+void DepthCanvas::SetMarks(std::vector<SampleMark> marks) {
+  marks_ = std::move(marks);
+  const auto dots = VtkDotsOf(marks_, image_height_);
+  for (const auto& actor : {dot_rims_, dots_}) SetData(actor, dots);
+  DrawMarks();
+}
+
+void DepthCanvas::DrawMarks() {
+  marks_scale_ = Scale();
+  const MarkSize size = MarkSizeAt(1.0 / marks_scale_);
+  const auto symbols = VtkSymbolsOf(marks_, image_height_, size.half_px * marks_scale_);
+  for (const auto& actor : {symbol_rims_, symbols_}) SetData(actor, symbols);
+  symbols_->GetProperty()->SetLineWidth(static_cast<float>(size.line_px));
+  symbol_rims_->GetProperty()->SetLineWidth(static_cast<float>(size.rim_px));
+  dots_->GetProperty()->SetPointSize(static_cast<float>(size.line_px + 0.8));
+  dot_rims_->GetProperty()->SetPointSize(static_cast<float>(size.line_px + 2.2));
   Redraw();
 }
 
@@ -110,6 +165,8 @@ void DepthCanvas::PlaceCamera() {
   camera->SetViewUp(0.0, 1.0, 0.0);
   camera->SetParallelScale(half_height_);
   camera->SetClippingRange(1.0, 20.0);
+  // Symbols keep their size on the screen.
+  if (!marks_.empty() && Scale() != marks_scale_) DrawMarks();
 }
 
 double DepthCanvas::Scale() const {
@@ -143,11 +200,7 @@ bool DepthCanvas::event(QEvent* event) {
       OnWheel(*static_cast<QWheelEvent*>(event));
       return true;
     case QEvent::KeyPress:
-      if (static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape && drag_.Active()) {
-        drag_.Cancel();
-        DrawDrag();
-        return true;
-      }
+      if (OnKey(*static_cast<QKeyEvent*>(event))) return true;
       event->ignore();  // VTK's own keys (e, q, w) must not reach an operator
       return false;
     default:
@@ -156,9 +209,40 @@ bool DepthCanvas::event(QEvent* event) {
   return VtkCanvas::event(event);
 }
 
+bool DepthCanvas::OnKey(const QKeyEvent& event) {
+  if (event.key() == Qt::Key_Escape && drag_.Active()) {
+    drag_.Cancel();
+    DrawDrag();
+    return true;
+  }
+  const bool left = event.key() == Qt::Key_Left, right = event.key() == Qt::Key_Right;
+  if (!wipe_.Shown() || !(left || right)) return false;
+  const double step = event.modifiers() & Qt::ShiftModifier ? kWipeBigStep : kWipeStep;
+  Q_EMIT wiped(wipe_.Share() + (right ? step : -step));
+  return true;
+}
+
+bool DepthCanvas::OnWipeLine(const QPointF& position) const {
+  if (!wipe_.Shown()) return false;
+  return std::abs(position.x() - WidgetFromPixel({wipe_.Column(), 0.0}).x()) <= kGrip_px;
+}
+
+void DepthCanvas::WipeTo(const QPointF& position) {
+  Q_EMIT wiped((PixelAt(position).x() + 0.5) / image_width_);
+}
+
+void DepthCanvas::ShowCursor(const QPointF& position) {
+  const Qt::CursorShape shape = wiping_ || OnWipeLine(position) ? Qt::SplitHCursor
+                                : drawing_                      ? Qt::CrossCursor
+                                                                : Qt::OpenHandCursor;
+  if (cursor().shape() != shape) setCursor(shape);
+}
+
 bool DepthCanvas::OnPress(const QMouseEvent& event) {
   setFocus();
-  if (drawing_ && event.button() == Qt::LeftButton) {
+  if (event.button() == Qt::LeftButton && OnWipeLine(event.localPos())) {
+    wiping_ = true;
+  } else if (drawing_ && event.button() == Qt::LeftButton) {
     drag_.Begin(PixelAt(event.localPos()));
   } else {
     panning_ = true;
@@ -168,7 +252,9 @@ bool DepthCanvas::OnPress(const QMouseEvent& event) {
 }
 
 bool DepthCanvas::OnMove(const QMouseEvent& event) {
-  if (drag_.Active()) {
+  if (wiping_) {
+    WipeTo(event.localPos());
+  } else if (drag_.Active()) {
     drag_.Move(PixelAt(event.localPos()));
     DrawDrag();
   } else if (panning_) {
@@ -179,12 +265,13 @@ bool DepthCanvas::OnMove(const QMouseEvent& event) {
     PlaceCamera();
     Redraw();
   }
+  ShowCursor(event.localPos());
   Q_EMIT pixelPointedAt(PixelAt(event.localPos()));
   return true;
 }
 
 bool DepthCanvas::OnRelease(const QMouseEvent& event) {
-  panning_ = false;
+  panning_ = wiping_ = false;
   drag_.Move(PixelAt(event.localPos()));
   if (const auto corners = drag_.End()) {
     DrawDrag();

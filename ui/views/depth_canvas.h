@@ -8,14 +8,17 @@
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
 #include "core/pictures/projected_wireframe.h"
+#include "core/pictures/sample_marks.h"
 #include "ui/render/vtk_data.h"
 #include "ui/views/roi_drag.h"
 #include "ui/views/vtk_canvas.h"
+#include "ui/views/wipe_actors.h"
 
 namespace foresight {
 
 /// A painted depth map in VTK with regions and templates over it. The world is the image:
-/// x = u, y = height - 1 - v. Wheel zooms, dragging pans or, in drawing mode, draws a region.
+/// x = u, y = height - 1 - v. Wheel zooms, dragging pans or, in drawing mode, draws a region. With
+/// a second picture a line parts the two: it is dragged, or moved by the arrow keys.
 class DepthCanvas : public VtkCanvas {
   Q_OBJECT
 
@@ -23,6 +26,10 @@ class DepthCanvas : public VtkCanvas {
   explicit DepthCanvas(QWidget* parent = nullptr);
 
   void SetPicture(const ColorImage& picture);
+  /// Right of the line; of the size of the picture, or nullptr.
+  void SetSecond(const ColorImage* picture);
+  void SetWipe(double share);
+  void SetMarks(std::vector<SampleMark> marks);
   void SetRoi(const std::optional<ImageRoi>& roi);
   void SetTemplates(const PixelLines& lines);
   void SetDrawing(bool drawing);
@@ -33,6 +40,8 @@ class DepthCanvas : public VtkCanvas {
  Q_SIGNALS:
   void roiDrawn(const Eigen::Vector2d& corner_a, const Eigen::Vector2d& corner_b);
   void pixelPointedAt(const Eigen::Vector2d& pixel);
+  /// The operator moves the line there.
+  void wiped(double share);
 
  protected:
   bool event(QEvent* event) override;
@@ -41,6 +50,10 @@ class DepthCanvas : public VtkCanvas {
  private:
   bool OnPress(const QMouseEvent& event);
   bool OnMove(const QMouseEvent& event);
+  bool OnKey(const QKeyEvent& event);
+  bool OnWipeLine(const QPointF& position) const;
+  void WipeTo(const QPointF& position);
+  void ShowCursor(const QPointF& position);
   bool OnRelease(const QMouseEvent& event);
   void OnWheel(const QWheelEvent& event);
   Eigen::Vector2d PixelAt(const QPointF& position) const;
@@ -49,21 +62,30 @@ class DepthCanvas : public VtkCanvas {
   Polylines Outline(const ImageRoi& roi) const;
   void PlaceCamera();
   void DrawDrag();
+  void DrawMarks();
 
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkImageActor> picture_;
+  WipeActors wipe_;
+  std::vector<SampleMark> marks_;
+  vtkSmartPointer<vtkActor> dot_rims_;
+  vtkSmartPointer<vtkActor> dots_;
+  vtkSmartPointer<vtkActor> symbol_rims_;
+  vtkSmartPointer<vtkActor> symbols_;
   vtkSmartPointer<vtkActor> templates_;
   vtkSmartPointer<vtkActor> roi_;
   vtkSmartPointer<vtkActor> drag_actor_;
   RoiDrag drag_;
   QPointF pan_from_;
   bool panning_ = false;
+  bool wiping_ = false;
   bool drawing_ = false;
   bool shows_all_ = true;
   int image_width_ = 1;
   int image_height_ = 1;
   Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< world point in the widget's middle
   double half_height_ = 1.0;                          ///< world units from there to the top
+  double marks_scale_ = 0.0;                          ///< the scale that the symbols are made for
 };
 
 }  // namespace foresight

@@ -1,113 +1,206 @@
 #include "ui/views/depth_pane.h"
 
-#include <QButtonGroup>
-#include <QCheckBox>
+#include <QAbstractItemView>
+#include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSlider>
 #include <QToolButton>
 #include <cmath>
 
+#include "ui/viewmodels/depth_readout.h"
 #include "ui/views/color_bar.h"
+#include "ui/views/compare_menu.h"
+#include "ui/views/iteration_bar.h"
+#include "ui/views/layers_menu.h"
 #include "ui/views/templates_in_picture.h"
 
 namespace foresight {
+namespace {
 
-DepthPane::DepthPane(SessionModel* session, DepthViewModel* depth, FitViewModel* fit,
-                     QWidget* parent)
+QToolButton* MenuButton(const QString& text, QMenu* menu) {
+  auto* button = new QToolButton;
+  button->setText(text);
+  button->setPopupMode(QToolButton::InstantPopup);
+  button->setMenu(menu);
+  menu->setParent(button, menu->windowFlags());
+  menu->setToolTipsVisible(true);
+  return button;
+}
+
+}  // namespace
+
+DepthPane::DepthPane(const DepthModels& models, QWidget* parent)
     : Pane(new DepthCanvas, {}, parent),
-      session_(session),
-      depth_(depth),
-      canvas_(static_cast<DepthCanvas*>(Pane::Canvas())) {
+      session_(models.session),
+      depth_(models.depth),
+      layers_(models.layers),
+      compare_(models.compare),
+      canvas_(static_cast<DepthCanvas*>(Pane::Canvas())),
+      tags_(new CornerTags(canvas_)),
+      iterations_(new IterationBar(session_, depth_, layers_)) {
   BuildControls();
-  BuildThreshold();
-  const auto show_templates = [this] { canvas_->SetTemplates(TemplatesInPicture(*session_)); };
-  connect(session_, &SessionModel::depthChanged, this, [this] {
-    // The span comes from the depth's own mask, so that colours stay put while the threshold moves.
-    if (const auto& depth_result = session_->Depth())
-      depth_range_ = DepthRangeOf(depth_result->dense.depth_m, depth_result->mask);
-    Paint();
-  });
-  connect(session_, &SessionModel::depthChanged, this, show_templates);
-  connect(session_, &SessionModel::maskChanged, this, &DepthPane::Paint);
-  connect(session_, &SessionModel::valvesChanged, this, show_templates);
-  connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
-  connect(depth_, &DepthViewModel::thresholdChanged, this, &DepthPane::ShowThreshold);
-  connect(depth_->Runner(), &TaskRunner::changed, this, &DepthPane::UpdateHint);
+  BuildFooter();
+  Bind();
+  FitViewModel* fit = models.fit;
   connect(fit, &FitViewModel::changed, this, [this, fit] { canvas_->SetDrawing(fit->RoiTool()); });
   connect(canvas_, &DepthCanvas::roiDrawn, fit, &FitViewModel::DrawRoi);
-  connect(canvas_, &DepthCanvas::pixelPointedAt, this, &DepthPane::ShowReadout);
+  ShowMethod();
   ShowThreshold();
-  UpdateHint();
+  ShowState();
 }
 
 void DepthPane::BuildControls() {
-  depth_button_ = new QToolButton;
-  depth_button_->setText(tr("Depth"));
-  confidence_button_ = new QToolButton;
-  confidence_button_->setText(tr("Confidence"));
-  confidence_button_->setToolTip(tr("How well each depth is supported by measurements"));
-  auto* layers = new QButtonGroup(this);
-  for (QToolButton* button : {depth_button_, confidence_button_}) {
-    button->setCheckable(true);
-    layers->addButton(button);
-    Controls()->addWidget(button);
-    connect(button, &QToolButton::clicked, this, &DepthPane::Paint);
+  method_ = new QComboBox;
+  method_->setAccessibleName(tr("Depth method"));
+  method_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  method_->setMinimumContentsLength(14);  // the pane is narrow; its list shows whole titles
+  method_->view()->setMinimumWidth(method_->view()->fontMetrics().averageCharWidth() * 40);
+  for (const DepthMethodInfo& info : DepthMethods()) {
+    method_->addItem(QString::fromUtf8(info.title));
+    method_->setItemData(method_->count() - 1, QString::fromUtf8(info.description),
+                         Qt::ToolTipRole);
   }
-  depth_button_->setChecked(true);
-  mask_box_ = new QCheckBox(tr("Mask"));
-  mask_box_->setChecked(true);
-  mask_box_->setToolTip(tr("Hatch the pixels whose confidence is below the threshold"));
-  Controls()->addWidget(mask_box_);
-  connect(mask_box_, &QCheckBox::toggled, this, &DepthPane::Paint);
+  connect(method_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) {
+    depth_->setMethod(DepthMethods()[static_cast<std::size_t>(index)].method);
+  });
+  compare_button_ = MenuButton(tr("Compare"), new CompareMenu(session_, compare_));
+  compare_button_->setToolTip(tr("Put another picture right of a line you can move"));
+  Controls()->addWidget(method_);
+  Controls()->addWidget(MenuButton(tr("Layers"), new LayersMenu(layers_)));
+  Controls()->addWidget(compare_button_);
 }
 
-void DepthPane::BuildThreshold() {
+void DepthPane::BuildFooter() {
   slider_ = new QSlider(Qt::Horizontal);
   slider_->setRange(0, 100);
   slider_->setAccessibleName(tr("Confidence threshold"));
   threshold_value_ = new QLabel;
   threshold_value_->setMinimumWidth(40);
-  readout_ = new QLabel;
-  readout_->setMinimumWidth(150);
-  readout_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   auto* row = new QHBoxLayout;
-  row->setContentsMargins(8, 4, 8, 4);
+  row->setContentsMargins(8, 4, 8, 0);
   row->setSpacing(8);
   row->addWidget(new QLabel(tr("Threshold")));
   row->addWidget(slider_, 1);
   row->addWidget(threshold_value_);
-  row->addWidget(readout_);
+  readout_ = new QLabel;
+  readout_->setObjectName(QStringLiteral("faint"));
+  readout_->setContentsMargins(8, 0, 8, 4);
+  readout_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  readout_->setFixedHeight(2 * readout_->fontMetrics().lineSpacing() + 6);  // or the pane jumps
+  readout_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  readout_->setWordWrap(true);
+  Footer()->addWidget(iterations_);
   Footer()->addLayout(row);
+  Footer()->addWidget(readout_);
   connect(slider_, &QSlider::valueChanged, this,
           [this](int percent) { depth_->setThreshold(percent / 100.0); });
 }
 
-void DepthPane::ToggleMask() {
-  mask_box_->toggle();
+void DepthPane::Bind() {
+  const auto show_templates = [this] { canvas_->SetTemplates(TemplatesInPicture(*session_)); };
+  connect(session_, &SessionModel::depthChanged, this, &DepthPane::ShowNewDepth);
+  connect(session_, &SessionModel::depthChanged, this, show_templates);
+  connect(session_, &SessionModel::valvesChanged, this, show_templates);
+  connect(session_, &SessionModel::maskChanged, this, &DepthPane::Paint);
+  connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
+  connect(layers_, &LayersViewModel::changed, this, [this] {
+    if (layers_->IterationsOpen()) depth_->setKeepIterations(true);
+    Paint();
+    PaintSecond();
+    ShowMarks();
+  });
+  connect(depth_, &DepthViewModel::thresholdChanged, this, &DepthPane::ShowThreshold);
+  connect(depth_, &DepthViewModel::methodChanged, this, &DepthPane::ShowMethod);
+  connect(depth_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
+  connect(compare_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
+  connect(compare_, &CompareViewModel::changed, this, &DepthPane::PaintSecond);
+  connect(compare_, &CompareViewModel::wipeChanged, canvas_, &DepthCanvas::SetWipe);
+  connect(canvas_, &DepthCanvas::wiped, compare_, &CompareViewModel::setWipe);
+  connect(canvas_, &DepthCanvas::pixelPointedAt, this, &DepthPane::ShowReadout);
 }
 
-void DepthPane::ToggleLayer() {
-  (depth_button_->isChecked() ? confidence_button_ : depth_button_)->click();
+void DepthPane::ShowNewDepth() {
+  // The span comes from the depth's own mask, so that colours stay put while the threshold moves.
+  SetCaption({});
+  if (const auto& result = session_->Depth()) {
+    depth_range_ = DepthRangeOf(result->dense.depth_m, result->mask);
+    const QString density = QString::number(100.0 * LocalDensity(result->samples), 'f', 1);
+    const QString seconds = QString::number(result->seconds, 'f', 2);
+    SetCaption(tr("%1 %, %2 s").arg(density, seconds),
+               tr("%1 % of the pixels were measured; the depth took %2 s").arg(density, seconds));
+  }
+  Paint();
+  PaintSecond();
+  ShowMarks();
+}
+
+ColorImage DepthPane::Painted(const DepthResult& result, const MaskImage* mask) const {
+  const MaskImage* shown = layers_->MaskShown() ? mask : nullptr;
+  if (layers_->Layer() == DepthLayer::kConfidence)
+    return PaintConfidence(result.dense, shown, {0.0, 1.0});
+  return PaintDepth(layers_->DepthOf(result.dense), shown, layers_->DepthColors(), depth_range_);
 }
 
 void DepthPane::Paint() {
   ShowCanvas(session_->Depth() != nullptr);
-  SetCaption({});
   readout_->clear();
+  ShowState();
   if (!session_->Depth()) return;
-  const DepthResult& result = *session_->Depth();
-  const MaskImage* mask = mask_box_->isChecked() ? session_->Mask().get() : nullptr;
-  const bool shows_depth = depth_button_->isChecked();
-  const DepthLayer layer = shows_depth ? DepthLayer::kDepth : DepthLayer::kConfidence;
-  const ValueRange range = shows_depth ? depth_range_ : ValueRange{0.0, 1.0};
-  canvas_->SetPicture(PaintDepth(result.dense, mask, layer, range));
-  Colors()->Set(shows_depth ? ColorMap::kTurbo : ColorMap::kCividis, range,
-                shows_depth ? tr("depth, m") : tr("of max"));
+  canvas_->SetPicture(Painted(*session_->Depth(), session_->Mask().get()));
+  ShowColors();
+}
+
+void DepthPane::PaintSecond() {
+  compare_button_->setText(compare_->With() == CompareViewModel::Kind::kNothing ? tr("Compare")
+                                                                                : tr("Comparing"));
+  ShowState();
+  const CameraFrame* frame = session_->Picture();
+  if (session_->Depth() && frame && compare_->With() == CompareViewModel::Kind::kPicture) {
+    canvas_->SetSecond(&frame->image);
+  } else if (session_->Depth() && compare_->Second()) {
+    const ColorImage second = Painted(*compare_->Second(), compare_->SecondMask().get());
+    canvas_->SetSecond(&second);
+  } else {
+    canvas_->SetSecond(nullptr);
+  }
+}
+
+void DepthPane::ShowMarks() {
+  const DepthResult* result = session_->Depth().get();
+  canvas_->SetMarks(result == nullptr ? std::vector<SampleMark>()
+                                      : MarksOf(result->samples, layers_->Samples(), depth_range_,
+                                                layers_->DepthColors()));
+  tags_->SetLegend(result != nullptr ? &result->samples : nullptr, layers_->Samples());
+}
+
+void DepthPane::ShowColors() {
+  if (layers_->Layer() == DepthLayer::kDepth)
+    Colors()->Set(layers_->DepthColors(), depth_range_, tr("depth, m"));
+  else
+    Colors()->Set(ColorMap::kCividis, {0.0, 1.0}, tr("of max"));
   Colors()->show();
-  SetCaption(tr("%1 % measured, %2 s")
-                 .arg(100.0 * LocalDensity(result.samples), 0, 'f', 1)
-                 .arg(result.seconds, 0, 'f', 2));
+}
+
+void DepthPane::ShowState() {
+  SetHint(depth_->Runner()->Busy() ? tr("Computing depth …")
+                                   : tr("The depth map appears here after a scan"));
+  const auto& result = session_->Depth();
+  const bool compares = result && compare_->With() != CompareViewModel::Kind::kNothing;
+  QStringList left;
+  if (compares) left << QString::fromUtf8(InfoOf(depth_->ShownOptions().method).title);
+  if (depth_->Recomputing()) left << tr("recomputing …");
+  tags_->SetTopLeft(result ? left.join(QStringLiteral(": ")) : QString());
+  tags_->SetTopRight(!compares ? QString()
+                     : compare_->Runner()->Busy()
+                         ? tr("%1: computing …").arg(compare_->SecondTitle())
+                         : compare_->SecondTitle());
+}
+
+void DepthPane::ShowMethod() {
+  for (std::size_t i = 0; i < DepthMethods().size(); ++i)
+    if (DepthMethods()[i].method == depth_->Method()) method_->setCurrentIndex(static_cast<int>(i));
+  method_->setToolTip(QString::fromUtf8(InfoOf(depth_->Method()).description));
 }
 
 void DepthPane::ShowThreshold() {
@@ -115,25 +208,25 @@ void DepthPane::ShowThreshold() {
   threshold_value_->setText(QString::number(depth_->Threshold(), 'f', 2));
 }
 
+QString DepthPane::Readout() const {
+  return readout_->text();
+}
+
 void DepthPane::ShowReadout(const Eigen::Vector2d& pixel) {
   readout_->clear();
   if (!session_->Depth()) return;
-  const DenseDepth& dense = session_->Depth()->dense;
   const int x = static_cast<int>(std::lround(pixel.x()));
   const int y = static_cast<int>(std::lround(pixel.y()));
-  if (!dense.depth_m.Contains(x, y)) return;
-  const float depth = dense.depth_m(x, y);
-  readout_->setText(
-      std::isfinite(depth)
-          ? tr("%1 m at %2, %3").arg(static_cast<double>(depth), 0, 'f', 3).arg(x).arg(y)
-          : tr("no depth at %1, %2").arg(x).arg(y));
-}
-
-void DepthPane::UpdateHint() {
-  if (depth_->Runner()->Busy())
-    SetHint(tr("Computing depth …"));
-  else
-    SetHint(tr("The depth map appears here after a scan"));
+  if (!session_->Depth()->dense.depth_m.Contains(x, y)) return;
+  const bool right_of_line =
+      (pixel.x() + 0.5) / session_->Depth()->samples.width > compare_->Wipe();
+  const bool second = compare_->Second() && right_of_line;
+  const DepthResult& result = second ? *compare_->Second() : *session_->Depth();
+  const DepthOptions& made_with = second ? compare_->SecondOptions() : depth_->ShownOptions();
+  const double threshold = second ? compare_->SecondOptions().mask.threshold : depth_->Threshold();
+  readout_->setText(TextOf(ReadDepth(
+      {result, layers_->DepthOf(result.dense), threshold, made_with.upsample.radius_in_sigmas}, x,
+      y)));
 }
 
 }  // namespace foresight

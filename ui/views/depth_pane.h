@@ -1,46 +1,70 @@
 #pragma once
 
-#include "core/pictures/depth_picture.h"
-#include "ui/viewmodels/depth_view_model.h"
+#include "ui/viewmodels/compare_view_model.h"
 #include "ui/viewmodels/fit_view_model.h"
+#include "ui/viewmodels/layers_view_model.h"
+#include "ui/views/corner_tags.h"
 #include "ui/views/depth_canvas.h"
 #include "ui/views/pane.h"
 
-class QCheckBox;
+class QComboBox;
 class QLabel;
 class QSlider;
 class QToolButton;
 
 namespace foresight {
 
-/// The dense depth or its confidence, with the mask and its threshold.
+class IterationBar;
+
+/// The view-models of the depth pane.
+struct DepthModels {
+  SessionModel* session;
+  DepthViewModel* depth;
+  FitViewModel* fit;
+  LayersViewModel* layers;
+  CompareViewModel* compare;
+};
+
+/// The tool to judge a depth map: the choice of the method, what lies over the map, a second one
+/// beside it, the threshold of the mask, and what is known about the pixel under the cursor.
 class DepthPane : public Pane {
   Q_OBJECT
 
  public:
-  DepthPane(SessionModel* session, DepthViewModel* depth, FitViewModel* fit,
-            QWidget* parent = nullptr);
+  explicit DepthPane(const DepthModels& models, QWidget* parent = nullptr);
 
   DepthCanvas* Canvas() { return canvas_; }
   QSlider* ThresholdSlider() { return slider_; }
-  void ToggleMask();
-  void ToggleLayer();
+  QComboBox* MethodChoice() { return method_; }
+  IterationBar* Iterations() { return iterations_; }
+  /// What is said about the pixel under the cursor.
+  QString Readout() const;
 
  private:
   void BuildControls();
-  void BuildThreshold();
+  void BuildFooter();
+  void Bind();
+  void ShowNewDepth();
   void Paint();
+  ColorImage Painted(const DepthResult& result, const MaskImage* mask) const;
+  void PaintSecond();
+  void ShowMarks();
+  void ShowColors();
+  void ShowState();
+  void ShowMethod();
   void ShowThreshold();
   void ShowReadout(const Eigen::Vector2d& pixel);
-  void UpdateHint();
 
   SessionModel* session_;
   DepthViewModel* depth_;
+  LayersViewModel* layers_;
+  CompareViewModel* compare_;
   DepthCanvas* canvas_;
+  CornerTags* tags_;
   ValueRange depth_range_;
-  QToolButton* depth_button_;
-  QToolButton* confidence_button_;
-  QCheckBox* mask_box_;
+  QComboBox* method_;
+  QToolButton* compare_button_;
+  IterationBar* iterations_;
   QSlider* slider_;
   QLabel* threshold_value_;
   QLabel* readout_;

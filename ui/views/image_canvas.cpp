@@ -6,6 +6,7 @@
 #include <QPainterPath>
 #include <cmath>
 
+#include "ui/render/paint_mark.h"
 #include "ui/render/qimage_of.h"
 #include "ui/views/overlay_style.h"
 
@@ -72,6 +73,25 @@ void ImageCanvas::SetTemplates(const PixelLines& lines) {
   for (const auto& line : lines) path.addPath(PathThrough(line, false));
   templates_->setPath(path);
   templates_shadow_->setPath(path);
+}
+
+void ImageCanvas::SetMarks(std::vector<SampleMark> marks) {
+  marks_ = std::move(marks);
+  viewport()->update();
+}
+
+void ImageCanvas::drawForeground(QPainter* painter, const QRectF&) {
+  if (marks_.empty()) return;
+  const QTransform view_from_scene = painter->worldTransform();
+  const QRect visible = viewport()->rect();
+  const MarkSize size = MarkSizeAt(view_from_scene.m11());
+  painter->save();
+  painter->resetTransform();  // symbols keep their size on the screen
+  for (const SampleMark& mark : marks_) {
+    const QPointF at = view_from_scene.map(QPointF(mark.pixel.x(), mark.pixel.y()));
+    if (visible.contains(at.toPoint())) PaintMark(painter, mark.kind, mark.color, at, size);
+  }
+  painter->restore();
 }
 
 void ImageCanvas::SetDrawing(bool drawing) {

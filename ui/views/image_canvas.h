@@ -5,6 +5,7 @@
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
 #include "core/pictures/projected_wireframe.h"
+#include "core/pictures/sample_marks.h"
 #include "ui/views/roi_drag.h"
 
 class QGraphicsPathItem;
@@ -23,6 +24,7 @@ class ImageCanvas : public QGraphicsView {
   void SetPicture(const ColorImage& picture);
   void SetRoi(const std::optional<ImageRoi>& roi);
   void SetTemplates(const PixelLines& lines);
+  void SetMarks(std::vector<SampleMark> marks);
   void SetDrawing(bool drawing);
   void ShowAll();
   /// Where a pixel of the picture is on this widget.
@@ -39,12 +41,14 @@ class ImageCanvas : public QGraphicsView {
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void drawForeground(QPainter* painter, const QRectF& rect) override;
 
  private:
   Eigen::Vector2d PixelAt(const QPoint& position) const;
   void DrawDrag();
 
   QGraphicsPixmapItem* picture_;
+  std::vector<SampleMark> marks_;
   QGraphicsPathItem* templates_shadow_;
   QGraphicsPathItem* templates_;
   QGraphicsPathItem* roi_;

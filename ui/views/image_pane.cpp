@@ -20,10 +20,13 @@ double ShownAngle(const CameraFrame& frame) {
 
 }  // namespace
 
-ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent)
+ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* layers,
+                     QWidget* parent)
     : Pane(new ImageCanvas, tr("No scan yet: press Scan (Space)"), parent),
       session_(session),
+      layers_(layers),
       canvas_(static_cast<ImageCanvas*>(Pane::Canvas())),
+      tags_(new CornerTags(canvas_)),
       choice_(new QComboBox) {
   choice_->setAccessibleName(tr("Picture"));
   Controls()->addWidget(choice_);
@@ -34,6 +37,8 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent)
   connect(session_, &SessionModel::scanChanged, this, &ImagePane::FillChoice);
   connect(session_, &SessionModel::pictureChanged, this, &ImagePane::ShowPicture);
   connect(session_, &SessionModel::valvesChanged, this, &ImagePane::ShowTemplates);
+  connect(session_, &SessionModel::depthChanged, this, &ImagePane::ShowSamples);
+  connect(layers_, &LayersViewModel::changed, this, &ImagePane::ShowSamples);
   connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
   connect(choice_, QOverload<int>::of(&QComboBox::activated), session_,
           &SessionModel::SelectPicture);
@@ -75,6 +80,17 @@ void ImagePane::ShowAge() {
   SetCaption(tr("Picture at %1°, scanned %2 ago")
                  .arg(ShownAngle(*picture), 0, 'f', 1)
                  .arg(AgeText(std::chrono::seconds(age_s))));
+}
+
+void ImagePane::ShowSamples() {
+  const DepthResult* depth = session_->Depth().get();
+  const SampleLayers& shown = layers_->Samples();
+  std::vector<SampleMark> marks;
+  if (depth != nullptr && shown.ShowsAny())
+    marks = MarksOf(depth->samples, shown, DepthRangeOf(depth->dense.depth_m, depth->mask),
+                    layers_->DepthColors());
+  canvas_->SetMarks(std::move(marks));
+  tags_->SetLegend(depth != nullptr ? &depth->samples : nullptr, shown);
 }
 
 void ImagePane::ShowTemplates() {

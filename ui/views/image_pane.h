@@ -3,6 +3,8 @@
 #include <QTimer>
 
 #include "ui/viewmodels/fit_view_model.h"
+#include "ui/viewmodels/layers_view_model.h"
+#include "ui/views/corner_tags.h"
 #include "ui/views/image_canvas.h"
 #include "ui/views/pane.h"
 
@@ -10,12 +12,13 @@ class QComboBox;
 
 namespace foresight {
 
-/// The camera's picture, with the choice between those of the scan.
+/// The camera's picture, with the choice between those of the scan and the samples over it.
 class ImagePane : public Pane {
   Q_OBJECT
 
  public:
-  ImagePane(SessionModel* session, FitViewModel* fit, QWidget* parent = nullptr);
+  ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* layers,
+            QWidget* parent = nullptr);
 
   ImageCanvas* Canvas() { return canvas_; }
 
@@ -24,9 +27,12 @@ class ImagePane : public Pane {
   void FillChoice();
   void ShowAge();
   void ShowTemplates();
+  void ShowSamples();
 
   SessionModel* session_;
+  LayersViewModel* layers_;
   ImageCanvas* canvas_;
+  CornerTags* tags_;
   QComboBox* choice_;
   QTimer age_timer_;
 };

@@ -63,9 +63,9 @@ void Pane::SetHint(const QString& hint) {
   hint_->setText(hint);
 }
 
-void Pane::SetCaption(const QString& caption) {
+void Pane::SetCaption(const QString& caption, const QString& details) {
   caption_->setText(caption);
-  caption_->setToolTip(caption);
+  caption_->setToolTip(details.isEmpty() ? caption : details);
 }
 
 }  // namespace foresight

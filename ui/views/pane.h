@@ -22,7 +22,8 @@ class Pane : public QWidget {
   QWidget* Canvas() const { return canvas_; }
   void ShowCanvas(bool show);
   void SetHint(const QString& hint);
-  void SetCaption(const QString& caption);
+  /// `details` appear when the mouse rests on it; without them the caption itself does.
+  void SetCaption(const QString& caption, const QString& details = {});
   ColorBar* Colors() { return colors_; }
 
  protected:

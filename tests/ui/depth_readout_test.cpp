@@ -1,0 +1,86 @@
+#include "ui/viewmodels/depth_readout.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace foresight {
+namespace {
+
+/// 40 x 40 pixels at 2 m with the largest confidence 10 and sigma_s = 7 px; one kept sample in the
+/// middle.
+struct ReadoutTest : testing::Test {
+  DepthResult result;
+  double threshold = 0.35;
+
+  ReadoutTest() {
+    result.dense.depth_m = DepthImage(40, 40, 2.0f);
+    result.dense.confidence = FloatImage(40, 40, 10.0f);
+    result.dense.max_confidence = 10.0f;
+    result.dense.sigma_spatial_px = 7.0;
+    AddSample(20.0f, 20.0f, RejectReason::kKept);
+  }
+  void AddSample(float u, float v, RejectReason reason) {
+    AlignedSample sample;
+    sample.u = u;
+    sample.v = v;
+    sample.depth_m = 2.0f;
+    result.samples.samples.push_back(sample);
+    result.samples.reasons.push_back(reason);
+  }
+  void Empty(int x, int y) { result.dense.depth_m(x, y) = std::nanf(""); }
+  DepthReadout Read(int x, int y) const {
+    return ReadDepth({result, result.dense.depth_m, threshold, 3.0}, x, y);
+  }
+};
+
+TEST_F(ReadoutTest, ATrustedPixelHasDepthInMillimetresAndNoReason) {
+  const DepthReadout readout = Read(20, 21);
+  EXPECT_DOUBLE_EQ(readout.depth_mm, 2000.0);
+  EXPECT_FALSE(readout.masked);
+  EXPECT_TRUE(readout.reason.isEmpty());
+  EXPECT_EQ(TextOf(readout).toStdString(), "(20, 21)  2000 mm, confidence 1.00 of the largest");
+}
+
+TEST_F(ReadoutTest, AMaskedPixelSaysHowFarItIsBelowTheThreshold) {
+  result.dense.confidence(5, 20) = 2.1f;
+  const DepthReadout readout = Read(5, 20);
+  EXPECT_TRUE(readout.masked);
+  EXPECT_EQ(TextOf(readout).toStdString(),
+            "(5, 20)  2000 mm, confidence 0.21 of the largest  masked: below the threshold 0.35; "
+            "the nearest sample is 15 px away");
+}
+
+TEST_F(ReadoutTest, WordsAndMaskAgreeExactlyAtTheThreshold) {
+  result.dense.confidence(5, 20) = 3.5f;
+  const auto mask = MaskLowConfidence(result.dense, {.threshold = threshold});
+  EXPECT_EQ(Read(5, 20).masked, (*mask)(5, 20) == 0);
+}
+
+TEST_F(ReadoutTest, AMaskedPixelNamesTheRejectedSampleItLost) {
+  result.dense.confidence(5, 20) = 2.1f;
+  AddSample(7.0f, 20.0f, RejectReason::kFlying);
+  EXPECT_TRUE(Read(5, 20).reason.contains("2 px away, was rejected as flying"))
+      << Read(5, 20).reason.toStdString();
+}
+
+TEST_F(ReadoutTest, AnEmptyPixelOutOfReachSaysHowFarItLooked) {
+  Empty(0, 0);
+  EXPECT_EQ(TextOf(Read(0, 0)).toStdString(), "(0, 0)  empty: no lidar sample within 21 px");
+}
+
+TEST_F(ReadoutTest, AnEmptyPixelNamesTheRejectedSampleThatWouldHaveReachedIt) {
+  Empty(0, 0);
+  AddSample(0.0f, 4.0f, RejectReason::kFlipping);
+  EXPECT_EQ(Read(0, 0).reason.toStdString(),
+            "no kept lidar sample within 21 px; the nearest, 4 px away, was rejected as flipping");
+}
+
+TEST_F(ReadoutTest, AMethodWithoutARadiusOnlySaysWhereTheNearestSampleIs) {
+  result.dense.sigma_spatial_px = 0.0;
+  Empty(20, 0);
+  EXPECT_EQ(Read(20, 0).reason.toStdString(), "no depth; the nearest lidar sample is 20 px away");
+}
+
+}  // namespace
+}  // namespace foresight

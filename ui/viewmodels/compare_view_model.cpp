@@ -1,0 +1,104 @@
+#include "ui/viewmodels/compare_view_model.h"
+
+#include <algorithm>
+
+#include "ui/viewmodels/depth_task.h"
+
+namespace foresight {
+
+CompareViewModel::CompareViewModel(SessionModel* session, DepthViewModel* depth, QObject* parent)
+    : QObject(parent), session_(session), depth_(depth) {
+  connect(session_, &SessionModel::depthChanged, this, &CompareViewModel::FollowDepth);
+}
+
+QString CompareViewModel::SecondTitle() const {
+  switch (kind_) {
+    case Kind::kNothing:
+      return {};
+    case Kind::kPicture:
+      return tr("Camera picture");
+    case Kind::kMethod:
+      return QString::fromUtf8(InfoOf(method_).title);
+    case Kind::kFrozen:
+      break;
+  }
+  return tr("%1, frozen at %2")
+      .arg(QString::fromUtf8(InfoOf(second_options_.method).title))
+      .arg(second_options_.mask.threshold, 0, 'f', 2);
+}
+
+void CompareViewModel::Choose(Kind kind) {
+  runner_.cancel();
+  kind_ = kind;
+  second_.reset();
+  second_mask_.reset();
+}
+
+void CompareViewModel::compareWithNothing() {
+  Choose(Kind::kNothing);
+  Q_EMIT changed();
+}
+
+void CompareViewModel::compareWithPicture() {
+  Choose(Kind::kPicture);
+  Q_EMIT changed();
+}
+
+void CompareViewModel::compareWithFrozen() {
+  if (!session_->Depth()) return;
+  Choose(Kind::kFrozen);
+  second_ = session_->Depth();
+  second_mask_ = session_->Mask();
+  second_options_ = depth_->ShownOptions();
+  second_options_.mask = depth_->Options().mask;
+  Q_EMIT changed();
+}
+
+void CompareViewModel::compareWithMethod(DepthMethod method) {
+  Choose(Kind::kMethod);
+  method_ = method;
+  second_options_ = DefaultsOf(method);
+  Compute();
+  Q_EMIT changed();
+}
+
+void CompareViewModel::setWipe(double share) {
+  share = std::clamp(share, 0.0, 1.0);
+  if (share == wipe_) return;
+  wipe_ = share;
+  Q_EMIT wipeChanged(share);
+}
+
+void CompareViewModel::FollowDepth() {
+  if (session_->Depth()) {
+    if (kind_ == Kind::kMethod && !second_ && !runner_.Busy()) Compute();
+    return;
+  }
+  // Another scan or picture: what was beside the old one no longer belongs here.
+  Choose(kind_ == Kind::kFrozen ? Kind::kNothing : kind_);
+  Q_EMIT changed();
+}
+
+void CompareViewModel::Compute() {
+  if (!session_->Depth()) return;  // the first depth comes first
+  const auto scan = session_->CurrentScan();
+  const int picture = session_->PictureIndex();
+  runner_.Run<DepthResult>(
+      tr("Computing the depth to compare with"),
+      MakeDepthTask(scan, session_->Cloud(), picture, second_options_),
+      [this, scan, picture](Result<DepthResult> depth) {
+        const bool wanted = kind_ == Kind::kMethod && scan == session_->CurrentScan() &&
+                            picture == session_->PictureIndex();
+        if (!wanted) return;
+        if (!depth) {
+          session_->Report(NoticeOf(tr("Computing the depth to compare with"), depth.error()));
+          compareWithNothing();
+          return;
+        }
+        second_ = std::make_shared<const DepthResult>(std::move(*depth));
+        second_mask_ = std::make_shared<const MaskImage>(second_->mask);
+        Q_EMIT changed();
+      });
+}
+
+}  // namespace foresight

@@ -1,0 +1,91 @@
+#include "ui/viewmodels/depth_readout.h"
+
+#include <QCoreApplication>
+#include <cmath>
+#include <limits>
+
+namespace foresight {
+namespace {
+
+QString Tr(const char* text) {
+  return QCoreApplication::translate("DepthReadout", text);
+}
+
+struct Nearest {
+  double distance_px = std::numeric_limits<double>::infinity();
+  RejectReason reason = RejectReason::kKept;
+};
+
+/// The nearest sample; with `only_kept` the nearest one that took part.
+Nearest NearestSample(const AlignedSamples& samples, int x, int y, bool only_kept) {
+  Nearest nearest;
+  for (std::size_t i = 0; i < samples.samples.size(); ++i) {
+    if (only_kept && samples.reasons[i] != RejectReason::kKept) continue;
+    const AlignedSample& s = samples.samples[i];
+    const double distance = std::hypot(static_cast<double>(s.u) - x, static_cast<double>(s.v) - y);
+    if (distance < nearest.distance_px) nearest = {distance, samples.reasons[i]};
+  }
+  return nearest;
+}
+
+QString RejectedText(const Nearest& nearest) {
+  return Tr("the nearest, %1 px away, was rejected as %2")
+      .arg(nearest.distance_px, 0, 'f', 0)
+      .arg(QString::fromUtf8(ToString(nearest.reason)));
+}
+
+QString WhyEmpty(const ReadoutSource& source, int x, int y) {
+  const Nearest any = NearestSample(source.result.samples, x, y, false);
+  const double radius_px = source.radius_in_sigmas * source.result.dense.sigma_spatial_px;
+  if (!(radius_px > 0.0))
+    return Tr("no depth; the nearest lidar sample is %1 px away").arg(any.distance_px, 0, 'f', 0);
+  const QString reach = QString::number(radius_px, 'f', 0);
+  if (any.reason != RejectReason::kKept && any.distance_px <= radius_px)
+    return Tr("no kept lidar sample within %1 px; %2").arg(reach, RejectedText(any));
+  return Tr("no lidar sample within %1 px").arg(reach);
+}
+
+QString WhyMasked(const ReadoutSource& source, const DepthReadout& readout) {
+  QString why = Tr("below the threshold %1").arg(source.threshold, 0, 'f', 2);
+  const Nearest any = NearestSample(source.result.samples, readout.x, readout.y, false);
+  const Nearest kept = NearestSample(source.result.samples, readout.x, readout.y, true);
+  if (any.reason != RejectReason::kKept && any.distance_px < kept.distance_px)
+    why += Tr("; of the samples %1").arg(RejectedText(any));
+  else if (std::isfinite(kept.distance_px))
+    why += Tr("; the nearest sample is %1 px away").arg(kept.distance_px, 0, 'f', 0);
+  return why;
+}
+
+}  // namespace
+
+DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
+  const DenseDepth& dense = source.result.dense;
+  DepthReadout readout;
+  readout.x = x;
+  readout.y = y;
+  readout.depth_mm = 1e3 * static_cast<double>(source.depth_m(x, y));
+  if (std::isnan(readout.depth_mm)) {
+    readout.reason = WhyEmpty(source, x, y);
+    return readout;
+  }
+  // In the mask's own arithmetic, so that the words never contradict the hatch.
+  const float confidence = dense.confidence(x, y);
+  const auto limit = static_cast<float>(source.threshold * dense.max_confidence);
+  if (dense.max_confidence > 0.0f)
+    readout.confidence = static_cast<double>(confidence / dense.max_confidence);
+  readout.masked = !(confidence >= limit);
+  if (readout.masked) readout.reason = WhyMasked(source, readout);
+  return readout;
+}
+
+QString TextOf(const DepthReadout& readout) {
+  const QString at = QStringLiteral("(%1, %2)").arg(readout.x).arg(readout.y);
+  if (std::isnan(readout.depth_mm)) return Tr("%1  empty: %2").arg(at, readout.reason);
+  const QString value = Tr("%1  %2 mm, confidence %3 of the largest")
+                            .arg(at)
+                            .arg(readout.depth_mm, 0, 'f', 0)
+                            .arg(readout.confidence, 0, 'f', 2);
+  return readout.masked ? Tr("%1  masked: %2").arg(value, readout.reason) : value;
+}
+
+}  // namespace foresight

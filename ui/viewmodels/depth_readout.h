@@ -1,0 +1,33 @@
+#pragma once
+
+#include <QString>
+
+#include "core/depth/pipeline.h"
+
+namespace foresight {
+
+/// Which map is asked about, and how it was made.
+struct ReadoutSource {
+  const DepthResult& result;
+  const DepthImage& depth_m;  ///< the map that is shown: the final one or one of the passes
+  double threshold;           ///< below this share of the largest confidence a pixel is masked
+  double radius_in_sigmas;    ///< of the upsampling; tells how far a pixel looks for samples
+};
+
+/// What is known about a pixel of the depth map.
+struct DepthReadout {
+  int x = 0;
+  int y = 0;
+  double depth_mm = 0.0;    ///< NaN = none
+  double confidence = 0.0;  ///< of the largest in the map
+  bool masked = false;      ///< has a depth that is not to be trusted
+  QString reason;           ///< why it is masked or empty, in words; else empty
+};
+
+/// Looks at one pixel, which must lie in the map, and explains it. O(samples).
+DepthReadout ReadDepth(const ReadoutSource& source, int x, int y);
+
+/// The readout in one line: "(412, 233)  1842 mm  confidence 0.21: ...".
+QString TextOf(const DepthReadout& readout);
+
+}  // namespace foresight
