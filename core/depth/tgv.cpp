@@ -9,6 +9,10 @@ namespace foresight {
 namespace {
 
 constexpr int kBandRows = 32;
+/// How much longer the dual's steps are and how much shorter the primal's. Depths within [0, 1]
+/// have small gradients beside the unit ball of the dual: a plane is reached to 3 mm with 10 where
+/// equal steps leave 22 mm after the same 600 of them.
+constexpr float kDualOverPrimal = 10.0f;
 /// Steeper differences of the guide than this have a direction.
 constexpr float kNoGradient = 1e-6f;
 
@@ -89,9 +93,9 @@ class TgvSolver {
   void SetSteps(const SampleImage& samples, float data_weight) {
     // |T_xx| + |T_xy| is at most (1 + sqrt 2) / 2, and T meets u twice and v once.
     constexpr float kRowOfTensor = 1.2072f;
-    dual_step_p_ = 1.0f / (3.0f * kRowOfTensor * smoothness_);
-    dual_step_q_ = 1.0f / (2.0f * straightness_);
-    primal_step_v_ = 1.0f / (kRowOfTensor * smoothness_ + 4.0f * straightness_);
+    dual_step_p_ = kDualOverPrimal / (3.0f * kRowOfTensor * smoothness_);
+    dual_step_q_ = kDualOverPrimal / (2.0f * straightness_);
+    primal_step_v_ = 1.0f / kDualOverPrimal / (kRowOfTensor * smoothness_ + 4.0f * straightness_);
     primal_step_u_ = FloatImage(width_, height_);
     data_step_ = FloatImage(width_, height_);
     target_ = FloatImage(width_, height_);
@@ -106,7 +110,7 @@ class TgvSolver {
         float sum = row_x(x, y) + row_y(x, y);
         if (x > 0) sum += row_x(x - 1, y);
         if (y > 0) sum += row_y(x, y - 1);
-        primal_step_u_(x, y) = 1.0f / (smoothness_ * sum);
+        primal_step_u_(x, y) = 1.0f / kDualOverPrimal / (smoothness_ * sum);
         data_step_(x, y) = primal_step_u_(x, y) * data_weight * samples.count(x, y);
         target_(x, y) = (samples.mean_m(x, y) - near_m_) / range_m_;
       }
