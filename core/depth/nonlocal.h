@@ -5,7 +5,8 @@
 namespace foresight {
 
 /// Park et al., "High quality depth map upsampling for 3D-TOF cameras", ICCV 2011, without their
-/// segmentation and saliency.
+/// segmentation and saliency. The share and sigma_color are not theirs: they were chosen on quarter
+/// size Middlebury scenes.
 struct NonlocalOptions {
   double smoothness = 0.3;      ///< lambda, of the mean over a pixel's connections
   double nonlocal_share = 0.1;  ///< what a similar pixel counts beside a neighbour
