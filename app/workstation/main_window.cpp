@@ -40,8 +40,8 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
       bench_(bench),
       actions_(new Actions(bench, this)),
       image_(new ImagePane(&bench->session, &bench->fit, &bench->layers)),
-      depth_(new DepthPane(
-          {&bench->session, &bench->depth, &bench->fit, &bench->layers, &bench->compare})),
+      depth_(new DepthPane({&bench->session, &bench->depth, &bench->fit, &bench->layers,
+                            &bench->compare, &bench->live})),
       cloud_(new CloudPane(&bench->session)),
       notices_(new NoticeStrip) {
   setWindowTitle(tr("Foresight"));

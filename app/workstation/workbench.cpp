@@ -10,7 +10,8 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
       fit(&session),
       mission(&session),
       exporter(&session),
-      flow(&head, &session, mode) {
+      flow(&head, &session, mode),
+      live(&head, &session) {
   head.SetRecorderSource([this] { return mission.Recorder(); });
   QObject::connect(&head, &HeadViewModel::scanEnded, &mission, &MissionViewModel::keepScan);
   QObject::connect(&fit, &FitViewModel::valveFound, &mission, &MissionViewModel::keepValve);

@@ -8,6 +8,7 @@
 #include "ui/viewmodels/fit_view_model.h"
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/layers_view_model.h"
+#include "ui/viewmodels/live_depth_view_model.h"
 #include "ui/viewmodels/mission_view_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/session_model.h"
@@ -27,6 +28,7 @@ struct Workbench {
   MissionViewModel mission;
   ExportViewModel exporter;
   ScanFlow flow;
+  LiveDepthViewModel live;
 
   /// Nothing runs and the last scan has its depth.
   bool Idle();

@@ -1,56 +1,15 @@
 #include <gtest/gtest.h>
-#include <vtkRenderer.h>
+#include <qtadvanceddocking/DockWidget.h>
 
-#include <QScreen>
+#include <QSettings>
 #include <QSlider>
+#include <QTemporaryDir>
 
 #include "tests/display/mouse.h"
-#include "tests/display/pixels.h"
-#include "tests/display/running_window.h"
-#include "tests/ui/wait_for.h"
-#include "ui/views/cloud_pane.h"
-#include "ui/views/depth_pane.h"
-#include "ui/views/image_pane.h"
-#include "ui/views/overlay_style.h"
+#include "tests/display/workstation_fixture.h"
 
 namespace foresight {
 namespace {
-
-/// One window, scanned once: a scan with its depth takes seconds.
-struct Workstation : testing::Test {
-  static std::unique_ptr<RunningWindow> running;
-  static bool scanned;
-
-  static void SetUpTestSuite() {
-    running = std::make_unique<RunningWindow>();
-    scanned = running->ScanWithTheMouse();
-  }
-  static void TearDownTestSuite() { running.reset(); }
-
-  void SetUp() override { ASSERT_TRUE(scanned) << "the Scan button brought no depth"; }
-  void TearDown() override {
-    if (HasFailure())
-      QGuiApplication::primaryScreen()->grabWindow(0).save(
-          QStringLiteral("failed_%1.png")
-              .arg(testing::UnitTest::GetInstance()->current_test_info()->name()));
-  }
-
-  static QImage DepthPixels() { return running->window().Depth()->Canvas()->grabFramebuffer(); }
-  static QImage CloudPixels() { return running->window().Cloud()->Canvas()->grabFramebuffer(); }
-  static QImage PicturePixels() { return running->window().Image()->Canvas()->grab().toImage(); }
-  static double TemplateShare(const QImage& picture) {
-    return ShareOf(picture, [](const QColor& color) { return IsNear(color, kTemplateColor); });
-  }
-  /// Waits for a fit after a region was drawn; false when it found no valve.
-  static bool WaitForValve(std::size_t count) {
-    const bool found = WaitFor([&] { return running->bench().session.Valves().size() >= count; });
-    running->Settle();
-    return found;
-  }
-};
-
-std::unique_ptr<RunningWindow> Workstation::running;
-bool Workstation::scanned = false;
 
 TEST_F(Workstation, TheDepthPaneIsMostlyColouredAfterAScan) {
   EXPECT_GT(ShareOf(DepthPixels(), IsColoured), 0.5);
@@ -119,6 +78,21 @@ TEST_F(Workstation, TheThresholdAtOneMasksNearlyEverything) {
   slider->setValue(before);
   running->Settle();
   EXPECT_GT(ShareOf(DepthPixels(), IsColoured), 0.5);
+}
+
+TEST_F(Workstation, ALayoutComesBackAsItWasSavedAndCanBeReset) {
+  const QTemporaryDir folder;
+  QSettings settings(folder.filePath("layout.ini"), QSettings::IniFormat);
+  MainWindow& window = running->window();
+  auto* objects = window.findChild<ads::CDockWidget*>(QStringLiteral("objects"));
+  objects->toggleView(false);
+  window.SaveLayout(&settings);
+  window.ResetLayout();
+  EXPECT_FALSE(objects->isClosed());
+  window.RestoreLayout(settings);
+  EXPECT_TRUE(objects->isClosed());
+  window.ResetLayout();
+  running->Settle();
 }
 
 TEST_F(Workstation, TheGuiThreadNeverStallsForLongDuringAScan) {

@@ -7,6 +7,7 @@
 #include "tests/ui/wait_for.h"
 #include "ui/viewmodels/depth_view_model.h"
 #include "ui/viewmodels/fit_view_model.h"
+#include "ui/viewmodels/live_depth_view_model.h"
 #include "ui/viewmodels/scan_flow.h"
 
 namespace foresight {
@@ -169,6 +170,37 @@ TEST_F(ScanFlowTest, NothingOfTheOldScanStaysWhenANewOneBegins) {
   EXPECT_EQ(session.CurrentScan(), nullptr);
   EXPECT_EQ(session.Cloud(), nullptr);
   EXPECT_EQ(session.Depth(), nullptr);
+}
+
+struct LiveDepthTest : ScanFlowTest {
+  LiveDepthViewModel live{&head, &session};
+};
+
+TEST_F(LiveDepthTest, ASecondScanIsPreviewedUnderThePictureOfTheFirst) {
+  PlanFields plan = head.Plan();
+  plan.image_angles_deg = {0.0};
+  head.SetPlan(plan);
+  session.SetScan(SharedScan());
+  head.scan();
+  EXPECT_EQ(live.Depth(), nullptr);
+  fake->Deliver(*SharedScan(), 60);
+  ASSERT_TRUE(WaitFor([&] { return live.Depth() != nullptr; }));
+  EXPECT_EQ(live.Lines(), 60);
+  EXPECT_EQ(session.Depth(), nullptr) << "nothing can be fitted to a preview";
+  fake->Finish(*SharedScan(), ScanState::kComplete);
+  head.Poll();
+  EXPECT_EQ(live.Depth(), nullptr);
+}
+
+TEST_F(LiveDepthTest, APictureOfAnotherAngleIsNotUsed) {
+  PlanFields plan = head.Plan();
+  plan.image_angles_deg = {5.0};
+  head.SetPlan(plan);
+  session.SetScan(SharedScan());
+  head.scan();
+  fake->Deliver(*SharedScan(), 60);
+  ASSERT_TRUE(WaitFor([&] { return session.Cloud() != nullptr; }));
+  EXPECT_FALSE(live.Runner()->Busy());
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ DepthPane::DepthPane(const DepthModels& models, QWidget* parent)
       depth_(models.depth),
       layers_(models.layers),
       compare_(models.compare),
+      live_(models.live),
       canvas_(static_cast<DepthCanvas*>(Pane::Canvas())),
       tags_(new CornerTags(canvas_)),
       iterations_(new IterationBar(session_, depth_, layers_)) {
@@ -113,6 +114,7 @@ void DepthPane::Bind() {
   connect(depth_, &DepthViewModel::thresholdChanged, this, &DepthPane::ShowThreshold);
   connect(depth_, &DepthViewModel::methodChanged, this, &DepthPane::ShowMethod);
   connect(depth_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
+  connect(live_, &LiveDepthViewModel::changed, this, &DepthPane::ShowNewDepth);
   connect(compare_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
   connect(compare_, &CompareViewModel::changed, this, &DepthPane::PaintSecond);
   connect(compare_, &CompareViewModel::wipeChanged, canvas_, &DepthCanvas::SetWipe);
@@ -120,10 +122,14 @@ void DepthPane::Bind() {
   connect(canvas_, &DepthCanvas::pixelPointedAt, this, &DepthPane::ShowReadout);
 }
 
+std::shared_ptr<const DepthResult> DepthPane::Shown() const {
+  return session_->Depth() ? session_->Depth() : live_->Depth();
+}
+
 void DepthPane::ShowNewDepth() {
   // The span comes from the depth's own mask, so that colours stay put while the threshold moves.
   SetCaption({});
-  if (const auto& result = session_->Depth()) {
+  if (const auto result = Shown()) {
     depth_range_ = DepthRangeOf(result->dense.depth_m, result->mask);
     const QString density = QString::number(100.0 * LocalDensity(result->samples), 'f', 1);
     const QString seconds = QString::number(result->seconds, 'f', 2);
@@ -143,11 +149,13 @@ ColorImage DepthPane::Painted(const DepthResult& result, const MaskImage* mask) 
 }
 
 void DepthPane::Paint() {
-  ShowCanvas(session_->Depth() != nullptr);
+  const auto result = Shown();
+  ShowCanvas(result != nullptr);
   readout_->clear();
   ShowState();
-  if (!session_->Depth()) return;
-  canvas_->SetPicture(Painted(*session_->Depth(), session_->Mask().get()));
+  if (!result) return;
+  const MaskImage* mask = session_->Depth() ? session_->Mask().get() : &result->mask;
+  canvas_->SetPicture(Painted(*result, mask));
   ShowColors();
 }
 
@@ -167,11 +175,11 @@ void DepthPane::PaintSecond() {
 }
 
 void DepthPane::ShowMarks() {
-  const DepthResult* result = session_->Depth().get();
+  const auto result = Shown();
   canvas_->SetMarks(result == nullptr ? std::vector<SampleMark>()
                                       : MarksOf(result->samples, layers_->Samples(), depth_range_,
                                                 layers_->DepthColors()));
-  tags_->SetLegend(result != nullptr ? &result->samples : nullptr, layers_->Samples());
+  tags_->SetLegend(result ? &result->samples : nullptr, layers_->Samples());
 }
 
 void DepthPane::ShowColors() {
@@ -185,12 +193,15 @@ void DepthPane::ShowColors() {
 void DepthPane::ShowState() {
   SetHint(depth_->Runner()->Busy() ? tr("Computing depth …")
                                    : tr("The depth map appears here after a scan"));
-  const auto& result = session_->Depth();
-  const bool compares = result && compare_->With() != CompareViewModel::Kind::kNothing;
+  const bool compares = session_->Depth() && compare_->With() != CompareViewModel::Kind::kNothing;
+  const auto title = [](DepthMethod method) { return QString::fromUtf8(InfoOf(method).title); };
   QStringList left;
-  if (compares) left << QString::fromUtf8(InfoOf(depth_->ShownOptions().method).title);
+  if (compares) left << title(depth_->ShownOptions().method);
   if (depth_->Recomputing()) left << tr("recomputing …");
-  tags_->SetTopLeft(result ? left.join(QStringLiteral(": ")) : QString());
+  if (!session_->Depth() && live_->Depth())
+    left << tr("Live") << title(LiveDepthViewModel::Method())
+         << tr("%1 lines over the picture of the scan before").arg(live_->Lines());
+  tags_->SetTopLeft(left.join(QStringLiteral(": ")));
   tags_->SetTopRight(!compares ? QString()
                      : compare_->Runner()->Busy()
                          ? tr("%1: computing …").arg(compare_->SecondTitle())

@@ -3,6 +3,7 @@
 #include "ui/viewmodels/compare_view_model.h"
 #include "ui/viewmodels/fit_view_model.h"
 #include "ui/viewmodels/layers_view_model.h"
+#include "ui/viewmodels/live_depth_view_model.h"
 #include "ui/views/corner_tags.h"
 #include "ui/views/depth_canvas.h"
 #include "ui/views/pane.h"
@@ -23,6 +24,7 @@ struct DepthModels {
   FitViewModel* fit;
   LayersViewModel* layers;
   CompareViewModel* compare;
+  LiveDepthViewModel* live;
 };
 
 /// The tool to judge a depth map: the choice of the method, what lies over the map, a second one
@@ -44,6 +46,8 @@ class DepthPane : public Pane {
   void BuildControls();
   void BuildFooter();
   void Bind();
+  /// The depth on the screen: that of the session, else the preview of a running scan.
+  std::shared_ptr<const DepthResult> Shown() const;
   void ShowNewDepth();
   void Paint();
   ColorImage Painted(const DepthResult& result, const MaskImage* mask) const;
@@ -59,6 +63,7 @@ class DepthPane : public Pane {
   DepthViewModel* depth_;
   LayersViewModel* layers_;
   CompareViewModel* compare_;
+  LiveDepthViewModel* live_;
   DepthCanvas* canvas_;
   CornerTags* tags_;
   ValueRange depth_range_;

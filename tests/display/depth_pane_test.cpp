@@ -1,0 +1,146 @@
+#include <QKeyEvent>
+#include <QSlider>
+#include <cmath>
+
+#include "core/pictures/sample_picture.h"
+#include "tests/display/mouse.h"
+#include "tests/display/workstation_fixture.h"
+
+namespace foresight {
+namespace {
+
+/// The depth pane after a scan, in viridis: no colour of it is near that of a rejected sample.
+struct DepthPaneOnScreen : Workstation {
+  void SetUp() override {
+    Workstation::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    Layers().SetDepthColors(ColorMap::kViridis);
+    running->Settle();
+  }
+  void TearDown() override {
+    Workstation::TearDown();
+    for (const RejectReason kind : kSampleKinds) Layers().ShowSamples(kind, false);
+    Layers().SetDepthColors(ColorMap::kTurbo);
+    Compare().compareWithNothing();
+    Compare().setWipe(0.5);
+  }
+
+  static LayersViewModel& Layers() { return running->bench().layers; }
+  static CompareViewModel& Compare() { return running->bench().compare; }
+  static DepthPane* Pane() { return running->window().Depth(); }
+  static const CameraFrame& Picture() { return *running->bench().session.Picture(); }
+  static double ShareNear(const QImage& picture, Rgb8 color) {
+    return ShareOf(picture, [color](const QColor& seen) { return IsNear(seen, color); });
+  }
+  /// A place at this share of the picture's width, three quarters up: wall without lines over it.
+  static Eigen::Vector2d At(double share) {
+    return {share * Picture().image.width(), 0.3 * Picture().image.height()};
+  }
+  static QColor SeenAt(const Eigen::Vector2d& pixel) {
+    return DepthPixels().pixelColor(Pane()->Canvas()->WidgetFromPixel(pixel));
+  }
+  /// Smoothing on the screen mixes bricks and mortar: twice the usual tolerance would be too loose
+  /// to tell them from viridis, so the mean of a patch is compared.
+  static bool ShowsTheCamera(double share) {
+    constexpr int kHalf_px = 12;
+    Eigen::Vector3d seen = Eigen::Vector3d::Zero(), taken = seen;
+    for (int dy = -kHalf_px; dy <= kHalf_px; dy += 4)
+      for (int dx = -kHalf_px; dx <= kHalf_px; dx += 4) {
+        const Eigen::Vector2d pixel = At(share) + Eigen::Vector2d(dx, dy);
+        const QColor color = SeenAt(pixel);
+        const Rgb8 p = Picture().image(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+        seen += Eigen::Vector3d(color.red(), color.green(), color.blue()) / 49.0;
+        taken += Eigen::Vector3d(p.r, p.g, p.b) / 49.0;
+      }
+    return (seen - taken).norm() < 30.0;
+  }
+  static void Press(int key) {
+    QKeyEvent event(QEvent::KeyPress, key, Qt::ShiftModifier);
+    QApplication::sendEvent(Pane()->Canvas(), &event);
+  }
+};
+
+TEST_F(DepthPaneOnScreen, TheFlyingLayerDrawsInItsColourOverDepthAndPicture) {
+  const Rgb8 color = ColorOf(RejectReason::kFlying);
+  const double in_depth = ShareNear(DepthPixels(), color);
+  const double in_picture = ShareNear(PicturePixels(), color);
+  Layers().ShowSamples(RejectReason::kFlying, true);
+  running->Settle();
+  EXPECT_GT(ShareNear(DepthPixels(), color), in_depth + 0.005);
+  EXPECT_GT(ShareNear(PicturePixels(), color), in_picture + 0.005);
+}
+
+TEST_F(DepthPaneOnScreen, ALayerThatIsSwitchedOffLeavesNothingBehind) {
+  const QImage before = DepthPixels();
+  Layers().ShowSamples(RejectReason::kFlying, true);
+  running->Settle();
+  ASSERT_NE(DepthPixels(), before);
+  Layers().ShowSamples(RejectReason::kFlying, false);
+  running->Settle();
+  EXPECT_EQ(DepthPixels(), before);
+}
+
+TEST_F(DepthPaneOnScreen, TheCameraStandsRightOfTheLineAndTheDepthLeftOfIt) {
+  const QColor depth_left = SeenAt(At(0.4));
+  Compare().compareWithPicture();
+  running->Settle();
+  EXPECT_EQ(SeenAt(At(0.4)), depth_left);
+  EXPECT_FALSE(ShowsTheCamera(0.4));
+  EXPECT_TRUE(ShowsTheCamera(0.6));
+}
+
+TEST_F(DepthPaneOnScreen, TheLineIsDraggedWithTheMouseAndMovedWithTheKeys) {
+  Compare().compareWithPicture();
+  running->Settle();
+  DepthCanvas* canvas = Pane()->Canvas();
+  Drag(canvas, canvas->WidgetFromPixel(At(0.5)), canvas->WidgetFromPixel(At(0.25)));
+  running->Settle();
+  EXPECT_NEAR(Compare().Wipe(), 0.25, 0.01);  // a pixel of the screen is 0.3 % of the width
+  EXPECT_TRUE(ShowsTheCamera(0.4));
+  Press(Qt::Key_Right);
+  Press(Qt::Key_Right);
+  Press(Qt::Key_Right);
+  running->Settle();
+  EXPECT_NEAR(Compare().Wipe(), 0.55, 0.01);
+  EXPECT_FALSE(ShowsTheCamera(0.4));
+}
+
+TEST_F(DepthPaneOnScreen, AnotherMethodFillsWhatTheMaskHides) {
+  // The wheel lies in the middle: all of the map is given to the other method.
+  const auto is_grey = [](const QColor& color) { return color.saturation() < 60; };
+  const double masked = ShareOf(DepthPixels(), is_grey);
+  Compare().setWipe(0.0);
+  Compare().compareWithMethod(DepthMethod::kJointBilateral);
+  ASSERT_TRUE(WaitFor([] { return Compare().Second() != nullptr; }));
+  running->Settle();
+  EXPECT_LT(ShareOf(DepthPixels(), is_grey), masked - 0.005);
+}
+
+/// A pixel in the middle of a masked patch, so that rounding on the screen stays within it.
+std::optional<Eigen::Vector2i> InsideMaskedPatch(const DepthResult& result, const MaskImage& mask) {
+  constexpr int kHalf_px = 3;
+  const auto is_masked = [&](int x, int y) {
+    return std::isfinite(result.dense.depth_m(x, y)) && mask(x, y) == 0;
+  };
+  for (int y = kHalf_px; y + kHalf_px < mask.height(); ++y)
+    for (int x = kHalf_px; x + kHalf_px < mask.width(); ++x) {
+      bool all = true;
+      for (int dy = -kHalf_px; dy <= kHalf_px && all; ++dy)
+        for (int dx = -kHalf_px; dx <= kHalf_px && all; ++dx) all = is_masked(x + dx, y + dy);
+      if (all) return Eigen::Vector2i(x, y);
+    }
+  return std::nullopt;
+}
+
+TEST_F(DepthPaneOnScreen, PointingAtAMaskedPixelSaysWhy) {
+  const SessionModel& session = running->bench().session;
+  const auto pixel = InsideMaskedPatch(*session.Depth(), *session.Mask());
+  ASSERT_TRUE(pixel);
+  SendMouse(Pane()->Canvas(), QEvent::MouseMove,
+            Pane()->Canvas()->WidgetFromPixel(pixel->cast<double>()), Qt::NoButton);
+  EXPECT_TRUE(Pane()->Readout().contains("masked: below the threshold 0.35"))
+      << Pane()->Readout().toStdString();
+}
+
+}  // namespace
+}  // namespace foresight

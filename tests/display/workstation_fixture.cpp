@@ -1,0 +1,23 @@
+#include "tests/display/workstation_fixture.h"
+
+#include <QGuiApplication>
+#include <QScreen>
+
+namespace foresight {
+
+std::unique_ptr<RunningWindow> Workstation::running;
+bool Workstation::scanned = false;
+
+void Workstation::SetUpTestSuite() {
+  running = std::make_unique<RunningWindow>();
+  scanned = running->ScanWithTheMouse();
+}
+
+void Workstation::TearDown() {
+  if (HasFailure())
+    QGuiApplication::primaryScreen()->grabWindow(0).save(
+        QStringLiteral("failed_%1.png")
+            .arg(testing::UnitTest::GetInstance()->current_test_info()->name()));
+}
+
+}  // namespace foresight

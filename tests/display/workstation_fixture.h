@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "tests/display/pixels.h"
+#include "tests/display/running_window.h"
+#include "tests/ui/wait_for.h"
+#include "ui/views/cloud_pane.h"
+#include "ui/views/depth_pane.h"
+#include "ui/views/image_pane.h"
+#include "ui/views/overlay_style.h"
+
+namespace foresight {
+
+/// One window, scanned once for all its tests: a scan with its depth takes seconds.
+struct Workstation : testing::Test {
+  static std::unique_ptr<RunningWindow> running;
+  static bool scanned;
+
+  static void SetUpTestSuite();
+  static void TearDownTestSuite() { running.reset(); }
+
+  void SetUp() override { ASSERT_TRUE(scanned) << "the Scan button brought no depth"; }
+  void TearDown() override;
+
+  static QImage DepthPixels() { return running->window().Depth()->Canvas()->grabFramebuffer(); }
+  static QImage CloudPixels() { return running->window().Cloud()->Canvas()->grabFramebuffer(); }
+  static QImage PicturePixels() { return running->window().Image()->Canvas()->grab().toImage(); }
+  static double TemplateShare(const QImage& picture) {
+    return ShareOf(picture, [](const QColor& color) { return IsNear(color, kTemplateColor); });
+  }
+  /// Waits for a fit after a region was drawn; false when it found no valve.
+  static bool WaitForValve(std::size_t count) {
+    const bool found = WaitFor([&] { return running->bench().session.Valves().size() >= count; });
+    running->Settle();
+    return found;
+  }
+};
+
+}  // namespace foresight
