@@ -16,37 +16,44 @@ struct Cell {
   float farthest_m;                     ///< the largest depth of the corners
 };
 
-/// Where samples are: the indices of those in a pixel are sorted[first[pixel]] .. first[pixel + 1].
-struct PixelBuckets {
-  int width = 0;
-  int height = 0;
+/// Side of a bucket: a cell of the lidar's grid touches a few, a bucket holds about one sample.
+constexpr int kBucketPx = 8;
+
+/// Where samples are: the indices of those in a bucket are sorted[first[bucket]] ..
+/// first[bucket + 1].
+struct Buckets {
+  int columns = 0;
+  int rows = 0;
   std::vector<std::int32_t> first;
   std::vector<std::int32_t> sorted;
+
+  static int Place(float coordinate, int count) {
+    return std::clamp(static_cast<int>((coordinate + 0.5f) / kBucketPx), 0, count - 1);
+  }
+  int Column(float u) const { return Place(u, columns); }
+  int Row(float v) const { return Place(v, rows); }
+  std::size_t Index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
 };
 
-int PixelOf(float coordinate, int size) {
-  return std::clamp(static_cast<int>(std::lround(coordinate)), 0, size - 1);
-}
-
-PixelBuckets SortIntoPixels(const AlignedSamples& samples) {
-  PixelBuckets buckets;
-  buckets.width = samples.width;
-  buckets.height = samples.height;
-  const auto pixel = [&](const AlignedSample& s) {
-    return static_cast<std::size_t>(PixelOf(s.v, samples.height)) *
-               static_cast<std::size_t>(samples.width) +
-           static_cast<std::size_t>(PixelOf(s.u, samples.width));
+Buckets SortIntoBuckets(const AlignedSamples& samples) {
+  Buckets buckets;
+  buckets.columns = (samples.width + kBucketPx - 1) / kBucketPx;
+  buckets.rows = (samples.height + kBucketPx - 1) / kBucketPx;
+  const auto bucket = [&](const AlignedSample& s) {
+    return buckets.Index(buckets.Column(s.u), buckets.Row(s.v));
   };
-  buckets.first.assign(
-      static_cast<std::size_t>(samples.width) * static_cast<std::size_t>(samples.height) + 1, 0);
+  buckets.first.assign(buckets.Index(0, buckets.rows) + 1, 0);
   for (std::size_t i = 0; i < samples.samples.size(); ++i)
-    if (samples.reasons[i] == RejectReason::kKept) ++buckets.first[pixel(samples.samples[i]) + 1];
+    if (samples.reasons[i] == RejectReason::kKept) ++buckets.first[bucket(samples.samples[i]) + 1];
   for (std::size_t p = 1; p < buckets.first.size(); ++p) buckets.first[p] += buckets.first[p - 1];
   buckets.sorted.resize(static_cast<std::size_t>(buckets.first.back()));
   std::vector<std::int32_t> next(buckets.first.begin(), buckets.first.end() - 1);
   for (std::size_t i = 0; i < samples.samples.size(); ++i)
     if (samples.reasons[i] == RejectReason::kKept)
-      buckets.sorted[static_cast<std::size_t>(next[pixel(samples.samples[i])]++)] =
+      buckets.sorted[static_cast<std::size_t>(next[bucket(samples.samples[i])]++)] =
           static_cast<std::int32_t>(i);
   return buckets;
 }
@@ -77,7 +84,7 @@ bool InCell(const AlignedSamples& samples, const Cell& cell, const AlignedSample
 
 /// Calls mark(index) for every sample that lies in the cell and behind it.
 template <class Mark>
-void MarkInvaders(const AlignedSamples& samples, const PixelBuckets& buckets, const Cell& cell,
+void MarkInvaders(const AlignedSamples& samples, const Buckets& buckets, const Cell& cell,
                   double margin_m, const Mark& mark) {
   float left = 1e9f, right = -1e9f, top = 1e9f, bottom = -1e9f;
   for (const std::int32_t corner : cell.corners) {
@@ -88,16 +95,19 @@ void MarkInvaders(const AlignedSamples& samples, const PixelBuckets& buckets, co
     bottom = std::max(bottom, s.v);
   }
   const auto limit = static_cast<float>(cell.farthest_m + margin_m);
-  for (int y = PixelOf(top, buckets.height); y <= PixelOf(bottom, buckets.height); ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(buckets.width);
-    const auto from = static_cast<std::size_t>(
-        buckets.first[row + static_cast<std::size_t>(PixelOf(left, buckets.width))]);
-    const auto to = static_cast<std::size_t>(
-        buckets.first[row + static_cast<std::size_t>(PixelOf(right, buckets.width)) + 1]);
+  const int first_column = buckets.Column(left);
+  const int last_column = buckets.Column(right);
+  const int last_row = buckets.Row(bottom);
+  for (int row = buckets.Row(top); row <= last_row; ++row) {
+    const auto from = static_cast<std::size_t>(buckets.first[buckets.Index(first_column, row)]);
+    const auto to = static_cast<std::size_t>(buckets.first[buckets.Index(last_column, row) + 1]);
     for (std::size_t i = from; i < to; ++i) {
       const std::int32_t index = buckets.sorted[i];
       const AlignedSample& p = samples.samples[static_cast<std::size_t>(index)];
-      if (p.depth_m > limit && InCell(samples, cell, p)) mark(static_cast<std::size_t>(index));
+      // The box first: a cell seen edge-on has no inside, and its edges no end.
+      const bool in_box = p.u >= left && p.u <= right && p.v >= top && p.v <= bottom;
+      if (p.depth_m > limit && in_box && InCell(samples, cell, p))
+        mark(static_cast<std::size_t>(index));
     }
   }
 }
@@ -115,7 +125,7 @@ Status RejectFlipping(AlignedSamples& samples, const FlippingPointOptions& optio
   FORESIGHT_CHECK(options.Check());
   if (!options.enabled || samples.samples.empty()) return {};
   const Image<std::int32_t> grid = GridOf(samples, options.cells_from_kept_only);
-  const PixelBuckets buckets = SortIntoPixels(samples);
+  const Buckets buckets = SortIntoBuckets(samples);
   // Marked first and written afterwards: a cell stands whether or not its corners are rejected.
   // Workers only ever store 1; distinct bytes, so the rows do not disturb each other.
   std::vector<std::atomic<std::uint8_t>> marked(samples.samples.size());

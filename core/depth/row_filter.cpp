@@ -55,6 +55,13 @@ struct Sums {
   HWY_INLINE Sums()
       : weight(hn::Zero(Floats())), offset(hn::Zero(Floats())), confidence(hn::Zero(Floats())) {}
 
+  HWY_INLINE Sums Plus(const Sums& other) const {
+    Sums both;
+    both.weight = hn::Add(weight, other.weight);
+    both.offset = hn::Add(offset, other.offset);
+    both.confidence = hn::Add(confidence, other.confidence);
+    return both;
+  }
   HWY_INLINE void Add(Vector weight_of_sample, Vector offset_of_sample, Vector share) {
     weight = hn::Add(weight, weight_of_sample);
     offset = hn::MulAdd(weight_of_sample, offset_of_sample, offset);
@@ -148,18 +155,26 @@ HWY_INLINE Sums GatherTile(const JointFilter& filter, JointFilterScratch& scratc
   return sums;
 }
 
-/// One pass in which H compares the samples with `last`, the pixels' depth.
+/// One pass in which H compares the samples with `last`, the pixels' depth. Even and odd samples
+/// are summed apart: an addition then need not wait for the one before it.
 template <class Weights>
 HWY_INLINE Sums GuidedPass(const float* HWY_RESTRICT weight, const float* HWY_RESTRICT depth,
                            std::size_t count, Vector last) {
   const Floats f;
-  Sums sums;
-  for (std::size_t i = 0; i < count; ++i)
+  Sums even, odd;
+  const auto add = [&](std::size_t i, Sums& sums) HWY_ATTR {
     // Relative to the last depth: a sum of small numbers keeps its digits.
     Weights::AddGuided(hn::Load(f, weight + 2 * i * kLanes),
                        hn::Load(f, weight + (2 * i + 1) * kLanes),
                        hn::Sub(hn::Set(f, depth[i]), last), sums);
-  return sums;
+  };
+  std::size_t i = 0;
+  for (; i + 1 < count; i += 2) {
+    add(i, even);
+    add(i + 1, odd);
+  }
+  if (i < count) add(i, even);
+  return even.Plus(odd);
 }
 
 /// The step to the weighted mean; lanes without support step nowhere.

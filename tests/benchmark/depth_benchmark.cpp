@@ -97,15 +97,23 @@ void Planes(benchmark::State& state, const Setting& setting, int64_t target, int
 }
 
 /// The stages around the filter, one by one.
-void Rejection(benchmark::State& state) {
+template <class Stage>
+void MeasureRejection(benchmark::State& state, const Stage& stage) {
   const Room room = RoomOf(kPaper);
   for (auto _ : state) {
     AlignedSamples samples = room.samples;
-    if (!RejectFlying(samples, {}) || !RejectIsolated(samples, {}) ||
-        !RejectFlipping(samples, {}, Threads(1)))
-      return state.SkipWithError("a stage failed");
+    if (!stage(samples)) return state.SkipWithError("the stage failed");
     benchmark::DoNotOptimize(samples);
   }
+}
+void Flying(benchmark::State& state) {
+  MeasureRejection(state, [](auto& samples) { return RejectFlying(samples, {}); });
+}
+void Isolated(benchmark::State& state) {
+  MeasureRejection(state, [](auto& samples) { return RejectIsolated(samples, {}); });
+}
+void Flipping(benchmark::State& state) {
+  MeasureRejection(state, [](auto& samples) { return RejectFlipping(samples, {}, Threads(1)); });
 }
 void SortingSamples(benchmark::State& state) {
   const Room room = RoomOf(kPaper);
@@ -125,7 +133,9 @@ void Masking(benchmark::State& state) {
   const auto dense = UpsampleDepth(room.samples, room.guide, options, {});
   for (auto _ : state) benchmark::DoNotOptimize(MaskLowConfidence(*dense, {}));
 }
-BENCHMARK(Rejection)->Unit(benchmark::kMillisecond);
+BENCHMARK(Flying)->Unit(benchmark::kMillisecond);
+BENCHMARK(Isolated)->Unit(benchmark::kMillisecond);
+BENCHMARK(Flipping)->Unit(benchmark::kMillisecond);
 BENCHMARK(SortingSamples)->Unit(benchmark::kMillisecond);
 BENCHMARK(Gray)->Unit(benchmark::kMillisecond);
 BENCHMARK(Masking)->Unit(benchmark::kMillisecond);
