@@ -63,9 +63,10 @@ struct PlaneFilterOutput {
   DepthImage& depth_m;  ///< 1 / a
   FloatImage& sum_gkh;  ///< of the last pass
   FloatImage& sum_gk;
-  FloatImage& sum_gh;   ///< of the last pass
-  FloatImage& slope_x;  ///< b, 1 / (m px)
-  FloatImage& slope_y;  ///< c, 1 / (m px)
+  FloatImage& sum_gh;                     ///< of the last pass
+  FloatImage& slope_x;                    ///< b, 1 / (m px)
+  FloatImage& slope_y;                    ///< c, 1 / (m px)
+  std::span<DepthImage> iterations = {};  ///< depth at the start and after each pass, or empty
 };
 
 /// Filters the rows top <= y < bottom. O(pixels * samples in Omega * passes).

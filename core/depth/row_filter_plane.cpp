@@ -51,6 +51,9 @@ HWY_BEFORE_NAMESPACE();
 namespace foresight {
 namespace HWY_NAMESPACE {
 
+/// Images of PlaneFilterOutput before its iterations.
+constexpr int kPlaneImages = 6;
+
 /// A plane of inverse depths over the tile, a pixel a lane; units of PlaneSample.
 struct Plane {
   Vector a, b, c;
@@ -180,19 +183,27 @@ HWY_INLINE Vector AtPixels(const Plane& plane, float sigma_spatial_px) {
   return hn::MulAdd(plane.b, hn::Load(f, x), hn::MulAdd(plane.c, hn::Load(f, y), plane.a));
 }
 
-HWY_INLINE void StorePlaneTile(const PlaneFilter& filter, PaddedRows& output, int x,
-                               const Plane& plane, const PlaneSums& last, Vector sum_gk,
-                               float reference_m) {
+/// Depth at the tile's pixels, NaN where the plane is behind infinity or not supported.
+HWY_INLINE Vector DepthOf(const PlaneFilter& filter, const Plane& plane, Vector sum_gk,
+                          float reference_m) {
   const Floats f;
   const Vector inverse = hn::Add(AtPixels(plane, filter.sigma_spatial_px), hn::Set(f, 1.0f));
   const auto valid = hn::And(hn::Gt(sum_gk, hn::Set(f, kNoSupport * kWeightScale)),
                              hn::Gt(inverse, hn::Set(f, 1e-6f)));
+  const Vector nan = hn::Set(f, std::numeric_limits<float>::quiet_NaN());
+  return hn::IfThenElse(valid, hn::Div(hn::Set(f, reference_m), inverse), nan);
+}
+
+HWY_INLINE void StorePlaneTile(const PlaneFilter& filter, PaddedRows& output, int x,
+                               const Plane& plane, const PlaneSums& last, Vector sum_gk,
+                               float reference_m) {
+  const Floats f;
+  const Vector depth = DepthOf(filter, plane, sum_gk, reference_m);
+  const auto valid = hn::Eq(depth, depth);
   const Vector unscale = hn::Set(f, 1.0f / kWeightScale);
   const Vector slope = hn::Set(f, 1.0f / (reference_m * filter.sigma_spatial_px));
-  const Vector nan = hn::Set(f, std::numeric_limits<float>::quiet_NaN());
   const std::ptrdiff_t stride = output.stride();
-  StoreTile(hn::IfThenElse(valid, hn::Div(hn::Set(f, reference_m), inverse), nan),
-            output.Row(0, 0) + x, stride);
+  StoreTile(depth, output.Row(0, 0) + x, stride);
   StoreTile(hn::IfThenElseZero(valid, hn::Mul(last.w, unscale)), output.Row(1, 0) + x, stride);
   StoreTile(hn::IfThenElseZero(valid, hn::Mul(sum_gk, unscale)), output.Row(2, 0) + x, stride);
   StoreTile(hn::IfThenElseZero(valid, last.gh), output.Row(3, 0) + x, stride);
@@ -201,20 +212,29 @@ HWY_INLINE void StorePlaneTile(const PlaneFilter& filter, PaddedRows& output, in
 }
 
 HWY_INLINE void FilterPlaneTile(const PlaneFilter& filter, PlaneFilterScratch& scratch, int x,
-                                int y) {
+                                int y, bool keep_iterations) {
   const std::size_t count =
       SelectSamples(scratch.band, x, y, filter.spatial.radius(), scratch.selected.data());
   const float reference_m =
       count > 0 ? filter.samples.depths_m()[static_cast<std::size_t>(scratch.selected[0])] : 1.0f;
   const PlaneStart start = GatherPlaneTile(filter, scratch, x, y, count, reference_m);
   const Vector ridge = hn::Set(Floats(), filter.ridge);
+  const auto keep = [&](const Plane& plane, int t) HWY_ATTR {
+    if (keep_iterations)
+      StoreTile(DepthOf(filter, plane, start.sum_gk, reference_m),
+                scratch.output.Row(kPlaneImages + t, 0) + x, scratch.output.stride());
+  };
   Plane plane = start.plane;
-  for (int t = 1; t < filter.iterations; ++t)
+  keep(plane, 0);
+  for (int t = 1; t < filter.iterations; ++t) {
     plane = Solve(PlanePass<false>(scratch.weight.data(), scratch.samples.data(), count, plane),
                   plane, ridge);
+    keep(plane, t);
+  }
   const PlaneSums last =
       PlanePass<true>(scratch.weight.data(), scratch.samples.data(), count, plane);
   plane = Solve(last, plane, ridge);
+  keep(plane, filter.iterations);
   StorePlaneTile(filter, scratch.output, x, plane, last, start.sum_gk, reference_m);
 }
 
@@ -223,8 +243,9 @@ void FilterPlaneRowsHere(const PlaneFilter& filter, int top, int bottom,
   PlaneFilterScratch& scratch = ScratchOfThisThread();
   const int width = filter.samples.width();
   const int radius = filter.spatial.radius();
-  const std::array<FloatImage*, 6> images = {&output.depth_m, &output.sum_gkh, &output.sum_gk,
-                                             &output.sum_gh,  &output.slope_x, &output.slope_y};
+  std::vector<FloatImage*> images = {&output.depth_m, &output.sum_gkh, &output.sum_gk,
+                                     &output.sum_gh,  &output.slope_x, &output.slope_y};
+  for (DepthImage& iteration : output.iterations) images.push_back(&iteration);
   scratch.band.Load(filter.samples, top - radius, bottom + radius);
   const std::size_t most = scratch.band.size();
   scratch.selected.resize(most + kLanes);
@@ -238,7 +259,8 @@ void FilterPlaneRowsHere(const PlaneFilter& filter, int top, int bottom,
       for (int row = 0; row < rows; ++row)
         std::copy_n(filter.colour[static_cast<std::size_t>(plane)]->row(y + row), width,
                     scratch.input.Row(plane, row));
-    for (int x = 0; x < width; x += kTileColumns) FilterPlaneTile(filter, scratch, x, y);
+    for (int x = 0; x < width; x += kTileColumns)
+      FilterPlaneTile(filter, scratch, x, y, !output.iterations.empty());
     for (std::size_t plane = 0; plane < images.size(); ++plane)
       for (int row = 0; row < rows; ++row)
         std::copy_n(scratch.output.Row(static_cast<int>(plane), row), width,

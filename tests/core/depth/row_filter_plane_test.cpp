@@ -42,7 +42,8 @@ struct Filtered {
   FloatImage depth_m, sum_gkh, sum_gk, sum_gh, slope_x, slope_y;
 };
 
-Filtered Filter(const Problem& problem, const PlaneReferenceOptions& options) {
+Filtered Filter(const Problem& problem, const PlaneReferenceOptions& options,
+                std::span<DepthImage> iterations = {}) {
   const SparseDepthMap sparse(problem.samples);
   const SpatialKernel spatial(options.sigma_spatial_px, options.radius_px);
   PlaneFilter filter{sparse, spatial, {}, {}};
@@ -59,8 +60,8 @@ Filtered Filter(const Problem& problem, const PlaneReferenceOptions& options) {
   filter.iterations = options.iterations;
   const FloatImage empty(sparse.width(), sparse.height(), -1.0f);
   Filtered out{empty, empty, empty, empty, empty, empty};
-  const PlaneFilterOutput output{out.depth_m, out.sum_gkh, out.sum_gk,
-                                 out.sum_gh,  out.slope_x, out.slope_y};
+  const PlaneFilterOutput output{out.depth_m, out.sum_gkh, out.sum_gk, out.sum_gh,
+                                 out.slope_x, out.slope_y, iterations};
   // Two blocks of odd heights: what a block does not own it must not touch.
   FilterPlaneRows(filter, 0, sparse.height() / 2, output);
   FilterPlaneRows(filter, sparse.height() / 2, sparse.height(), output);
@@ -127,6 +128,24 @@ TEST_P(PlaneKernel, HoldsForOnePassAndForMany) {
     options.iterations = iterations;
     ExpectByTheBook(problem, options);
   }
+}
+
+TEST_P(PlaneKernel, HandsOutEachIteration) {
+  const Problem problem = RandomProblem(33, 17);
+  PlaneReferenceOptions options = Window(8.0, 8.0);
+  options.iterations = 3;
+  std::vector<DepthImage> iterations(4, DepthImage(33, 17));
+  const Filtered all = Filter(problem, options, iterations);
+  EXPECT_EQ(iterations[3], all.depth_m);
+  for (options.iterations = 1; options.iterations < 3; ++options.iterations)
+    EXPECT_EQ(iterations[static_cast<std::size_t>(options.iterations)],
+              Filter(problem, options).depth_m);
+  // The start is a sample's own depth.
+  const auto is_start = [&](const AlignedSample& s) {
+    return std::abs(s.depth_m - iterations[0](16, 8)) < 1e-6f;
+  };
+  EXPECT_TRUE(
+      std::any_of(problem.samples.samples.begin(), problem.samples.samples.end(), is_start));
 }
 
 TEST_P(PlaneKernel, FollowsAPlaneExactly) {
