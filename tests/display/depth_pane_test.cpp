@@ -9,11 +9,14 @@
 namespace foresight {
 namespace {
 
-/// The depth pane after a scan, in viridis: no colour of it is near that of a rejected sample.
+/// The depth pane after a scan with the paper's method, in viridis: no colour of it is near that of
+/// a rejected sample.
 struct DepthPaneOnScreen : Workstation {
   void SetUp() override {
     Workstation::SetUp();
-    if (IsSkipped() || HasFatalFailure()) return;
+    if (HasFatalFailure()) return;
+    running->bench().depth.setMethod(DepthMethod::kPaper);
+    ASSERT_TRUE(WaitFor([] { return running->bench().Idle(); }));
     Layers().SetDepthColors(ColorMap::kViridis);
     running->Settle();
   }
@@ -140,6 +143,18 @@ TEST_F(DepthPaneOnScreen, PointingAtAMaskedPixelSaysWhy) {
             Pane()->Canvas()->WidgetFromPixel(pixel->cast<double>()), Qt::NoButton);
   EXPECT_TRUE(Pane()->Readout().contains("masked: below the threshold 0.35"))
       << Pane()->Readout().toStdString();
+}
+
+TEST_F(DepthPaneOnScreen, ASecondScanComesThroughWithEverythingOpen) {
+  Layers().openIterations(true);
+  Layers().toggleRejected();
+  Compare().compareWithPicture();
+  running->Settle();
+  const auto first = running->bench().session.Depth();
+  EXPECT_TRUE(running->ScanWithTheMouse());
+  EXPECT_NE(running->bench().session.Depth(), first);
+  EXPECT_TRUE(ShowsTheCamera(0.6));
+  Layers().openIterations(false);
 }
 
 }  // namespace

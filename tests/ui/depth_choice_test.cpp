@@ -21,6 +21,7 @@ struct DepthChoice : testing::Test {
   CompareViewModel compare{&session, &depth};
 
   void SetUp() override {
+    depth.setMethod(DepthMethod::kPaper);  // whichever is the default
     session.SetScan(SmallScan());
     ASSERT_TRUE(Idle());
     ASSERT_NE(session.Depth(), nullptr);

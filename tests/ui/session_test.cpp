@@ -85,6 +85,20 @@ TEST_F(SessionTest, ANewScanNeverShowsTheDepthOfTheOneBefore) {
   EXPECT_EQ(session.Cloud(), nullptr);
 }
 
+TEST_F(SessionTest, NoSignalOfANewScanLetsTheOldPictureOrDepthBeSeen) {
+  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  int heard = 0;
+  for (auto signal : {&SessionModel::scanChanged, &SessionModel::cloudChanged,
+                      &SessionModel::roiChanged, &SessionModel::valvesChanged})
+    QObject::connect(&session, signal, [&] {
+      ++heard;
+      EXPECT_EQ(session.Picture(), nullptr);
+      EXPECT_EQ(session.Depth(), nullptr);
+    });
+  session.SetScan(nullptr);
+  EXPECT_EQ(heard, 4);
+}
+
 TEST_F(SessionTest, AFailedFitIsReportedAndListedNowhere) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
   fit.setValveTool(true);

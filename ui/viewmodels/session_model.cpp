@@ -16,6 +16,9 @@ void SessionModel::SetMode(SessionMode mode) {
 void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
   scan_ = std::move(scan);
   expects_scan_ = false;
+  picture_ = -1;  // all of it before the first signal: who hears one may ask for anything
+  depth_.reset();
+  mask_.reset();
   cloud_.reset();
   roi_.reset();
   roi_history_.clear();

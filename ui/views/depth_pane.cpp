@@ -199,8 +199,7 @@ void DepthPane::ShowState() {
   if (compares) left << title(depth_->ShownOptions().method);
   if (depth_->Recomputing()) left << tr("recomputing …");
   if (!session_->Depth() && live_->Depth())
-    left << tr("Live") << title(LiveDepthViewModel::Method())
-         << tr("%1 lines over the picture of the scan before").arg(live_->Lines());
+    left << tr("Live") << tr("%1 lines over the last picture").arg(live_->Lines());
   tags_->SetTopLeft(left.join(QStringLiteral(": ")));
   tags_->SetTopRight(!compares ? QString()
                      : compare_->Runner()->Busy()

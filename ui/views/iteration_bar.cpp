@@ -64,7 +64,8 @@ IterationBar::IterationBar(SessionModel* session, DepthViewModel* depth, LayersV
       layers_(layers),
       text_(new QLabel),
       slider_(new QSlider(Qt::Horizontal)),
-      bars_(new ChangeBars) {
+      bars_(new ChangeBars),
+      unit_(new QLabel(tr("mm"))) {
   text_->setMinimumWidth(110);
   slider_->setPageStep(1);
   slider_->setTickPosition(QSlider::TicksBelow);
@@ -75,9 +76,8 @@ IterationBar::IterationBar(SessionModel* session, DepthViewModel* depth, LayersV
   row->addWidget(text_);
   row->addWidget(slider_, 1);
   row->addWidget(bars_);
-  auto* unit = new QLabel(tr("mm"));
-  unit->setObjectName(QStringLiteral("faint"));
-  row->addWidget(unit, 0, Qt::AlignBottom);
+  unit_->setObjectName(QStringLiteral("faint"));
+  row->addWidget(unit_, 0, Qt::AlignBottom);
   connect(slider_, &QSlider::valueChanged, layers_, &LayersViewModel::SetIteration);
   connect(layers_, &LayersViewModel::changed, this, &IterationBar::Refresh);
   connect(session_, &SessionModel::depthChanged, this, &IterationBar::Refresh);
@@ -90,7 +90,9 @@ void IterationBar::Refresh() {
   const auto& depth = session_->Depth();
   const int maps = depth ? static_cast<int>(depth->dense.iterations.size()) : 0;
   slider_->setEnabled(maps > 0);
-  bars_->setVisible(depth && !depth->dense.mean_change_m.empty());
+  const bool has_passes = depth && !depth->dense.mean_change_m.empty();
+  bars_->setVisible(has_passes);
+  unit_->setVisible(has_passes);
   if (!depth || maps == 0) {
     text_->setText(depth_->Runner()->Busy() ? tr("Computing the passes …")
                    : depth                  ? tr("This method has no passes")

@@ -31,6 +31,7 @@ class IterationBar : public QWidget {
   QLabel* text_;
   QSlider* slider_;
   ChangeBars* bars_;
+  QLabel* unit_;
 };
 
 }  // namespace foresight
