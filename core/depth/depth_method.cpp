@@ -5,7 +5,10 @@
 namespace foresight {
 namespace {
 
-constexpr std::array<DepthMethodInfo, 4> kMethods = {{
+constexpr std::array<DepthMethodInfo, 5> kMethods = {{
+    {DepthMethod::kForesight, "foresight", "Foresight",
+     "Local planes guided by colour; keeps what the lidar really saw, with an absolute "
+     "confidence."},
     {DepthMethod::kPaper, "paper", "Paper (Shim 2016)",
      "Rejection of flying, isolated and flipping points, joint filter with rolling guidance, "
      "confidence mask."},
@@ -17,6 +20,19 @@ constexpr std::array<DepthMethodInfo, 4> kMethods = {{
      "Least squares that ties pixels with similar surroundings, on the raw samples; fills every "
      "pixel."},
 }};
+
+/// A flipping sample must lie clearly behind; a flying one between two surfaces, judged by depth,
+/// after the cells were formed from all samples.
+DepthOptions ForesightOptions() {
+  DepthOptions options;
+  options.method = DepthMethod::kForesight;
+  options.flying.rule = FlyingPointOptions::Rule::kOff;
+  options.isolated.enabled = false;
+  options.flipping.margin_m = 0.050;
+  options.flipping.cells_from_kept_only = false;
+  options.mask.threshold = 0.80;
+  return options;
+}
 
 /// The methods the paper is compared with take the raw samples.
 DepthOptions WithoutRejection(DepthMethod method) {
@@ -53,6 +69,8 @@ Result<DepthMethod> DepthMethodFromName(const std::string& name) {
 
 DepthOptions DefaultsOf(DepthMethod method) {
   switch (method) {
+    case DepthMethod::kForesight:
+      return ForesightOptions();
     case DepthMethod::kPaper:
       return DepthOptions();
     case DepthMethod::kJointBilateral: {

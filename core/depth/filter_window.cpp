@@ -2,10 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "core/depth/aligned_samples.h"
 
 namespace foresight {
+namespace {
+
+/// Sorts one row's columns upwards, and its depths along with them.
+void SortByColumn(std::span<std::int32_t> columns, std::span<float> depths_m) {
+  if (std::is_sorted(columns.begin(), columns.end())) return;
+  std::vector<std::pair<std::int32_t, float>> entries;
+  for (std::size_t i = 0; i < columns.size(); ++i) entries.emplace_back(columns[i], depths_m[i]);
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < columns.size(); ++i) std::tie(columns[i], depths_m[i]) = entries[i];
+}
+
+}  // namespace
 
 SparseDepthMap::SparseDepthMap(const AlignedSamples& samples)
     : width_(samples.width), first_(static_cast<std::size_t>(samples.height) + 1, 0) {
@@ -31,6 +46,12 @@ SparseDepthMap::SparseDepthMap(const AlignedSamples& samples)
     columns_[place] = pixel(s.u, samples.width);
     rows_[place] = static_cast<std::int32_t>(row);
     depths_m_[place] = s.depth_m;
+  }
+  for (int row = 0; row < samples.height; ++row) {
+    const auto from = static_cast<std::size_t>(First(row));
+    const std::size_t in_row = static_cast<std::size_t>(First(row + 1)) - from;
+    SortByColumn(std::span(columns_).subspan(from, in_row),
+                 std::span(depths_m_).subspan(from, in_row));
   }
 }
 

@@ -10,8 +10,9 @@ namespace foresight {
 
 struct AlignedSamples;
 
-/// The kept samples of an image, row by row. A sample counts for the pixel nearest to it, as in the
-/// paper's sparse map R; several may share one. Free of Eigen, for the vector kernels' sake.
+/// The kept samples of an image, row by row, from left to right. A sample counts for the pixel
+/// nearest to it, as in the paper's sparse map R; several may share one. Free of Eigen, for the
+/// vector kernels' sake.
 class SparseDepthMap {
  public:
   explicit SparseDepthMap(const AlignedSamples& samples);

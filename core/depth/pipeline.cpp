@@ -8,6 +8,8 @@ namespace {
 Result<DenseDepth> Densify(const AlignedSamples& samples, const ColorImage& guide,
                            const DepthOptions& options, const RunContext& context) {
   switch (options.method) {
+    case DepthMethod::kForesight:
+      return UpsampleLocalPlanes(samples, guide, options.local_plane, context);
     case DepthMethod::kPaper:
     case DepthMethod::kJointBilateral:
       return UpsampleDepth(samples, guide, options.upsample, context);
@@ -26,6 +28,7 @@ Status DepthOptions::Check() const {
   FORESIGHT_CHECK(isolated.Check());
   FORESIGHT_CHECK(flipping.Check());
   FORESIGHT_CHECK(upsample.Check());
+  FORESIGHT_CHECK(local_plane.Check());
   FORESIGHT_CHECK(tgv.Check());
   FORESIGHT_CHECK(nonlocal.Check());
   return mask.Check();

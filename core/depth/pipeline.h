@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/depth/aligned_samples.h"
+#include "core/depth/local_plane.h"
 #include "core/depth/nonlocal.h"
 #include "core/depth/reject_flipping.h"
 #include "core/depth/reject_flying.h"
@@ -12,6 +13,7 @@ namespace foresight {
 
 /// How the dense map is made from the samples. depth_method.h has names and defaults.
 enum class DepthMethod {
+  kForesight,       ///< local planes, rejection with a margin, absolute confidence
   kPaper,           ///< Section IV of the paper
   kJointBilateral,  ///< [7] Kopf et al. 2007
   kTgv,             ///< Ferstl et al. 2013
@@ -24,6 +26,7 @@ struct DepthOptions {
   IsolatedPointOptions isolated;
   FlippingPointOptions flipping;
   UpsampleOptions upsample;  ///< of the joint filters
+  LocalPlaneOptions local_plane;
   TgvOptions tgv;
   NonlocalOptions nonlocal;
   ConfidenceMaskOptions mask;

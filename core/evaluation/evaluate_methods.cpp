@@ -42,6 +42,8 @@ DepthOptions TestbedOptionsOf(DepthMethod method) {
   const StereoTestbedOptions testbed;
   options.isolated.along_line_px = testbed.column_step_px;
   options.isolated.between_lines_px = testbed.row_step_px;
+  options.local_plane.along_line_px = testbed.column_step_px;
+  options.local_plane.between_lines_px = testbed.row_step_px;
   return options;
 }
 

@@ -63,5 +63,39 @@ INSTANTIATE_TEST_SUITE_P(TableF, FullSize,
                          testing::Values(Row{"ArtL", 4.6, 11.6, .90}, Row{"Recycle", 3.5, 6.5, .96},
                                          Row{"Teddy", 3.9, 7.2, .96}));
 
+/// What Foresight's own method must reach over all seven scenes.
+void ExpectForesightReaches(int enlarge, double a80_mm, double a95_mm, double coverage) {
+  double a80 = 0.0, a95 = 0.0, kept = 0.0, invented = 0.0;
+  constexpr const char* kScenes[] = {"ArtL",     "Motorcycle", "Piano", "Pipes",
+                                     "Playroom", "Recycle",    "Teddy"};
+  for (const char* name : kScenes) {
+    if (!std::filesystem::exists(SceneFolder(name)))
+      GTEST_SKIP() << "no " << SceneFolder(name)
+                   << ": set FORESIGHT_TEST_DATA to the folder with the data sets";
+    const auto scene = LoadStereoScene(SceneFolder(name));
+    ASSERT_TRUE(scene) << scene.error().message;
+    StereoEvaluationOptions options;
+    options.depth = TestbedOptionsOf(DepthMethod::kForesight);
+    options.enlarge = enlarge;
+    const auto evaluation = EvaluateOnScene(*scene, options, {});
+    ASSERT_TRUE(evaluation) << evaluation.error().message;
+    a80 += evaluation->with_mask.a80_mm / std::size(kScenes);
+    a95 += evaluation->with_mask.a95_mm / std::size(kScenes);
+    kept += evaluation->with_mask.coverage / std::size(kScenes);
+    invented += evaluation->with_mask.unscored_kept / std::size(kScenes);
+  }
+  EXPECT_LE(a80, a80_mm);
+  EXPECT_LE(a95, a95_mm);
+  EXPECT_GE(kept, coverage);
+  EXPECT_LE(invented, 0.15);
+}
+
+TEST(Foresight, ReachesItsBarsAtQuarterSize) {
+  ExpectForesightReaches(1, 9.5, 28.0, 0.90);
+}
+TEST(Foresight, ReachesItsBarsAtFullSize) {
+  ExpectForesightReaches(4, 4.1, 8.3, 0.95);
+}
+
 }  // namespace
 }  // namespace foresight
