@@ -4,20 +4,22 @@
 
 #include <cmath>
 
+#include "core/depth/depth_method.h"
+
 namespace foresight {
 namespace {
 
-/// 40 x 40 pixels at 2 m with the largest confidence 10 and sigma_s = 7 px; one kept sample in the
-/// middle.
+/// 40 x 40 pixels at 2 m with the largest confidence 10 and a search radius of 21 px; one kept
+/// sample in the middle.
 struct ReadoutTest : testing::Test {
   DepthResult result;
   double threshold = 0.35;
+  double radius_px = 21.0;
 
   ReadoutTest() {
     result.dense.depth_m = DepthImage(40, 40, 2.0f);
     result.dense.confidence = FloatImage(40, 40, 10.0f);
     result.dense.max_confidence = 10.0f;
-    result.dense.sigma_spatial_px = 7.0;
     AddSample(20.0f, 20.0f, RejectReason::kKept);
   }
   void AddSample(float u, float v, RejectReason reason) {
@@ -30,7 +32,7 @@ struct ReadoutTest : testing::Test {
   }
   void Empty(int x, int y) { result.dense.depth_m(x, y) = std::nanf(""); }
   DepthReadout Read(int x, int y) const {
-    return ReadDepth({result, result.dense.depth_m, threshold, 3.0}, x, y);
+    return ReadDepth({result, result.dense.depth_m, threshold, radius_px}, x, y);
   }
 };
 
@@ -77,9 +79,23 @@ TEST_F(ReadoutTest, AnEmptyPixelNamesTheRejectedSampleThatWouldHaveReachedIt) {
 }
 
 TEST_F(ReadoutTest, AMethodWithoutARadiusOnlySaysWhereTheNearestSampleIs) {
-  result.dense.sigma_spatial_px = 0.0;
+  radius_px = 0.0;
   Empty(20, 0);
-  EXPECT_EQ(Read(20, 0).reason.toStdString(), "no depth; the nearest lidar sample is 20 px away");
+  EXPECT_EQ(Read(20, 0).reason.toStdString(), "the nearest lidar sample is 20 px away");
+}
+
+TEST_F(ReadoutTest, AnAbsoluteConfidenceIsNotCalledAShareOfTheLargest) {
+  result.dense.confidence = FloatImage(40, 40, 0.9f);
+  result.dense.max_confidence = 1.0f;
+  EXPECT_EQ(TextOf(Read(20, 21)).toStdString(), "(20, 21)  2000 mm, confidence 0.90");
+}
+
+TEST(SearchRadius, IsThatOfTheJointFilter) {
+  DepthResult result;
+  result.dense.sigma_spatial_px = 7.0;
+  DepthOptions options = DefaultsOf(DepthMethod::kPaper);
+  options.upsample.radius_in_sigmas = 3.0;
+  EXPECT_DOUBLE_EQ(SearchRadius(result, options), 21.0);
 }
 
 }  // namespace

@@ -36,11 +36,12 @@ QString RejectedText(const Nearest& nearest) {
 
 QString WhyEmpty(const ReadoutSource& source, int x, int y) {
   const Nearest any = NearestSample(source.result.samples, x, y, false);
-  const double radius_px = source.radius_in_sigmas * source.result.dense.sigma_spatial_px;
-  if (!(radius_px > 0.0))
-    return Tr("no depth; the nearest lidar sample is %1 px away").arg(any.distance_px, 0, 'f', 0);
-  const QString reach = QString::number(radius_px, 'f', 0);
-  if (any.reason != RejectReason::kKept && any.distance_px <= radius_px)
+  const bool rejected = any.reason != RejectReason::kKept;
+  if (!(source.radius_px > 0.0))
+    return rejected ? Tr("of the lidar samples %1").arg(RejectedText(any))
+                    : Tr("the nearest lidar sample is %1 px away").arg(any.distance_px, 0, 'f', 0);
+  const QString reach = QString::number(source.radius_px, 'f', 0);
+  if (rejected && any.distance_px <= source.radius_px)
     return Tr("no kept lidar sample within %1 px; %2").arg(reach, RejectedText(any));
   return Tr("no lidar sample within %1 px").arg(reach);
 }
@@ -58,6 +59,12 @@ QString WhyMasked(const ReadoutSource& source, const DepthReadout& readout) {
 
 }  // namespace
 
+double SearchRadius(const DepthResult& result, const DepthOptions& made_with) {
+  const bool joint_filter =
+      made_with.method == DepthMethod::kPaper || made_with.method == DepthMethod::kJointBilateral;
+  return joint_filter ? made_with.upsample.radius_in_sigmas * result.dense.sigma_spatial_px : 0.0;
+}
+
 DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
   const DenseDepth& dense = source.result.dense;
   DepthReadout readout;
@@ -73,6 +80,7 @@ DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
   const auto limit = static_cast<float>(source.threshold * dense.max_confidence);
   if (dense.max_confidence > 0.0f)
     readout.confidence = static_cast<double>(confidence / dense.max_confidence);
+  readout.relative = dense.max_confidence != 1.0f;
   readout.masked = !(confidence >= limit);
   if (readout.masked) readout.reason = WhyMasked(source, readout);
   return readout;
@@ -81,7 +89,8 @@ DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
 QString TextOf(const DepthReadout& readout) {
   const QString at = QStringLiteral("(%1, %2)").arg(readout.x).arg(readout.y);
   if (std::isnan(readout.depth_mm)) return Tr("%1  empty: %2").arg(at, readout.reason);
-  const QString value = Tr("%1  %2 mm, confidence %3 of the largest")
+  const QString value = (readout.relative ? Tr("%1  %2 mm, confidence %3 of the largest")
+                                          : Tr("%1  %2 mm, confidence %3"))
                             .arg(at)
                             .arg(readout.depth_mm, 0, 'f', 0)
                             .arg(readout.confidence, 0, 'f', 2);

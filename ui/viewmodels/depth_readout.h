@@ -11,7 +11,7 @@ struct ReadoutSource {
   const DepthResult& result;
   const DepthImage& depth_m;  ///< the map that is shown: the final one or one of the passes
   double threshold;           ///< below this share of the largest confidence a pixel is masked
-  double radius_in_sigmas;    ///< of the upsampling; tells how far a pixel looks for samples
+  double radius_px;           ///< how far a pixel looks for samples; 0 = not known
 };
 
 /// What is known about a pixel of the depth map.
@@ -20,9 +20,13 @@ struct DepthReadout {
   int y = 0;
   double depth_mm = 0.0;    ///< NaN = none
   double confidence = 0.0;  ///< of the largest in the map
+  bool relative = true;     ///< false for a method whose confidence is absolute: its largest is 1
   bool masked = false;      ///< has a depth that is not to be trusted
   QString reason;           ///< why it is masked or empty, in words; else empty
 };
+
+/// Radius of the joint filters; 0 for methods that know no fixed one.
+double SearchRadius(const DepthResult& result, const DepthOptions& made_with);
 
 /// Looks at one pixel, which must lie in the map, and explains it. O(samples).
 DepthReadout ReadDepth(const ReadoutSource& source, int x, int y);

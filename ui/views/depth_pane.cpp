@@ -183,10 +183,11 @@ void DepthPane::ShowMarks() {
 }
 
 void DepthPane::ShowColors() {
+  const bool absolute = Shown()->dense.max_confidence == 1.0f;
   if (layers_->Layer() == DepthLayer::kDepth)
     Colors()->Set(layers_->DepthColors(), depth_range_, tr("depth, m"));
   else
-    Colors()->Set(ColorMap::kCividis, {0.0, 1.0}, tr("of max"));
+    Colors()->Set(ColorMap::kCividis, {0.0, 1.0}, absolute ? tr("confidence") : tr("of max"));
   Colors()->show();
 }
 
@@ -235,8 +236,7 @@ void DepthPane::ShowReadout(const Eigen::Vector2d& pixel) {
   const DepthOptions& made_with = second ? compare_->SecondOptions() : depth_->ShownOptions();
   const double threshold = second ? compare_->SecondOptions().mask.threshold : depth_->Threshold();
   readout_->setText(TextOf(ReadDepth(
-      {result, layers_->DepthOf(result.dense), threshold, made_with.upsample.radius_in_sigmas}, x,
-      y)));
+      {result, layers_->DepthOf(result.dense), threshold, SearchRadius(result, made_with)}, x, y)));
 }
 
 }  // namespace foresight
