@@ -4,6 +4,7 @@
 #include "app/ctl/demo_report.h"
 #include "app/ctl/fly_scan.h"
 #include "app/ctl/save_valve.h"
+#include "core/depth/depth_method.h"
 #include "core/fitting/fit_in_scan.h"
 #include "core/geometry/angles.h"
 
@@ -36,8 +37,8 @@ Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome
   FORESIGHT_TRY(outcome.registered, RegisterScan(outcome.scan, context));
   FORESIGHT_TRY(AlignedSamples samples,
                 AlignToImage(outcome.registered, outcome.scan.rig, motor_rad, context));
-  FORESIGHT_TRY(outcome.depth,
-                ComputeDepth(std::move(samples), frame->image, DepthOptions(), context));
+  FORESIGHT_TRY(outcome.depth, ComputeDepth(std::move(samples), frame->image,
+                                            DefaultsOf(DepthMethod::kForesight), context));
   const auto roi = RegionOfTrueValve(truth, world, motor_rad);
   if (!roi)
     return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the picture",

@@ -9,7 +9,7 @@ namespace foresight {
 
 /// Command-line options that every command with a depth pipeline has.
 struct DepthArguments {
-  std::string method = "paper";
+  std::string method = "foresight";
   double threshold = -1.0;  ///< negative = the method's own
   double sigma_spatial_px = 0.0;
   int iterations = -1;  ///< negative = the method's own

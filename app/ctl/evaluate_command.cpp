@@ -9,7 +9,7 @@ namespace {
 
 struct EvaluateArguments {
   std::vector<std::string> folders;
-  std::vector<std::string> methods = {"paper"};
+  std::vector<std::string> methods = {"foresight", "paper"};
   std::uint64_t seed = 1;
   int scale = 1;
   bool json = false;

@@ -21,8 +21,8 @@ constexpr std::array<DepthMethodInfo, 5> kMethods = {{
      "pixel."},
 }};
 
-/// A flipping sample must lie clearly behind; a flying one between two surfaces, judged by depth,
-/// after the cells were formed from all samples.
+/// A flipping sample must lie clearly behind. Eq. (7) is off: on scenes with mixed pixels it gained
+/// 0.1 mm of A95 and cost coverage; a plane's neighbours vote a floating sample down.
 DepthOptions ForesightOptions() {
   DepthOptions options;
   options.method = DepthMethod::kForesight;
