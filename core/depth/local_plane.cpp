@@ -67,20 +67,6 @@ double NominalWeight(double sigma_px, double radius_in_sigmas, const SampleSpaci
          (spacing.along_line_px * spacing.between_lines_px);
 }
 
-void FillConfidence(const SupportModel& model, const PlaneImages& planes, int top, int bottom,
-                    DenseDepth& dense) {
-  for (int y = top; y < bottom; ++y)
-    for (int x = 0; x < dense.depth_m.width(); ++x) {
-      const float depth_m = dense.depth_m(x, y);
-      dense.confidence(x, y) =
-          std::isnan(depth_m)
-              ? 0.0f
-              : MeasuredSupport(model, x, y,
-                                {1.0f / depth_m, planes.slope_x(x, y), planes.slope_y(x, y)},
-                                planes.sum_gh(x, y));
-    }
-}
-
 double MeanChange(const DepthImage& before, const DepthImage& after) {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -170,7 +156,11 @@ Result<DenseDepth> UpsampleLocalPlanes(const AlignedSamples& samples, const Colo
     FilterPlaneRows(filter, top, bottom,
                     {dense.depth_m, planes.sum_gkh, planes.sum_gk, planes.sum_gh, planes.slope_x,
                      planes.slope_y, dense.iterations});
-    FillConfidence(support, planes, top, bottom, dense);
+    for (int y = top; y < bottom; ++y)
+      MeasureSupport(support, y,
+                     {dense.depth_m.row(y), planes.slope_x.row(y), planes.slope_y.row(y),
+                      planes.sum_gh.row(y)},
+                     dense.confidence.row(y));
     context.Report(static_cast<double>(++blocks_done) / block_count, "upsampling");
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");

@@ -13,16 +13,17 @@ struct SupportModel {
   double nominal_weight;  ///< sum of G that a full neighbourhood would have
 };
 
-/// A pixel's plane of inverse depth, rho = a + b dx + c dy.
-struct PixelPlane {
-  float inverse_depth;
-  float slope_x;
-  float slope_y;
+/// One image row of planes of inverse depth, rho = a + b dx + c dy.
+struct PlaneRow {
+  const float* depth_m;  ///< 1 / a; NaN = no plane
+  const float* slope_x;
+  const float* slope_y;
+  const float* sum_gh;  ///< sum of G H over the filter's window
 };
 
-/// Probability that the lidar saw what this pixel shows, from the samples around it that agree with
-/// its plane. @param sum_gh sum of G H over the filter's window.
-float MeasuredSupport(const SupportModel& model, int x, int y, const PixelPlane& plane,
-                      float sum_gh);
+/// For each pixel of row `y` the probability that the lidar saw what it shows, from the samples
+/// around it that agree with its plane; 0 where there is none. O(samples around the row * samples'
+/// spacing).
+void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence);
 
 }  // namespace foresight
