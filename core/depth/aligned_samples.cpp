@@ -47,6 +47,17 @@ Status AlignedSamples::Check() const {
   return {};
 }
 
+Status CheckUpsamplingInput(const AlignedSamples& samples, const ColorImage& guide) {
+  if (guide.width() != samples.width || guide.height() != samples.height)
+    return Fail(ErrorCode::kInvalidInput,
+                "the picture has {} x {} pixels, but the samples were projected into {} x {}",
+                guide.width(), guide.height(), samples.width, samples.height);
+  if (samples.KeptCount() == 0)
+    return Fail(ErrorCode::kTooFewPoints, "none of {} samples is left to upsample",
+                samples.samples.size());
+  return {};
+}
+
 Image<std::int32_t> GridOf(const AlignedSamples& samples, bool only_kept) {
   Image<std::int32_t> grid(samples.beams, samples.lines, -1);
   for (std::size_t i = 0; i < samples.samples.size(); ++i) {

@@ -50,6 +50,10 @@ struct AlignedSamples {
   Status Check() const;
 };
 
+/// What every method needs: a guide of the samples' image size (else kInvalidInput) and a sample that is
+/// kept (else kTooFewPoints).
+Status CheckUpsamplingInput(const AlignedSamples& samples, const ColorImage& guide);
+
 /// Index into samples for each cell of the lidar's grid, -1 = no sample; (beam, line) = (x, y).
 /// With `only_kept`, rejected samples are left out.
 Image<std::int32_t> GridOf(const AlignedSamples& samples, bool only_kept);

@@ -107,13 +107,7 @@ Result<DenseDepth> UpsampleLocalPlanes(const AlignedSamples& samples, const Colo
                                        const LocalPlaneOptions& options,
                                        const RunContext& context) {
   FORESIGHT_CHECK(options.Check());
-  if (guide.width() != samples.width || guide.height() != samples.height)
-    return Fail(ErrorCode::kInvalidInput,
-                "the picture has {} x {} pixels, but the samples were projected into {} x {}",
-                guide.width(), guide.height(), samples.width, samples.height);
-  if (samples.KeptCount() == 0)
-    return Fail(ErrorCode::kTooFewPoints, "none of {} samples is left to upsample",
-                samples.samples.size());
+  FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide));
   FORESIGHT_TRY(const SampleSpacing spacing, SpacingOf(samples, options));
 
   DenseDepth dense;

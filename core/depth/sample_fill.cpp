@@ -40,13 +40,7 @@ float Interpolate(const DepthImage& coarse, int fine_x, int fine_y) {
 }  // namespace
 
 Result<SampleImage> AverageByPixel(const AlignedSamples& samples, const ColorImage& guide) {
-  if (guide.width() != samples.width || guide.height() != samples.height)
-    return Fail(ErrorCode::kInvalidInput,
-                "the picture has {} x {} pixels, but the samples were projected into {} x {}",
-                guide.width(), guide.height(), samples.width, samples.height);
-  if (samples.KeptCount() == 0)
-    return Fail(ErrorCode::kTooFewPoints, "none of {} samples is left to upsample",
-                samples.samples.size());
+  FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide));
   SampleImage image;
   image.mean_m = DepthImage(guide.width(), guide.height(), 0.0f);
   image.count = FloatImage(guide.width(), guide.height(), 0.0f);

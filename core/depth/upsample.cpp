@@ -53,14 +53,7 @@ Status UpsampleOptions::Check() const {
 Result<DenseDepth> UpsampleDepth(const AlignedSamples& samples, const ColorImage& guide,
                                  const UpsampleOptions& options, const RunContext& context) {
   FORESIGHT_CHECK(options.Check());
-  if (guide.width() != samples.width || guide.height() != samples.height)
-    return Fail(ErrorCode::kInvalidInput,
-                "the picture has {} x {} pixels, but the samples were projected into {} x {}",
-                guide.width(), guide.height(), samples.width, samples.height);
-  const std::size_t kept = samples.KeptCount();
-  if (kept == 0)
-    return Fail(ErrorCode::kTooFewPoints, "none of {} samples is left to upsample",
-                samples.samples.size());
+  FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide));
 
   DenseDepth dense;
   dense.sigma_spatial_px = options.sigma_spatial_px > 0.0
