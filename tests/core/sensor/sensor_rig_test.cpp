@@ -59,6 +59,12 @@ TEST(DefaultSensorRig, ItsLidarSeesItsMiddleBeamAheadOfTheCamera) {
   EXPECT_LT(rig.camera_from_lidar.Rotate(rig.lidar.BeamDirection(700)).x(), 0.0);
 }
 
+TEST(DefaultSensorRig, IsTheExampleThatIsShipped) {
+  const auto shipped = LoadSensorRig(FORESIGHT_SOURCE_DIR "/resources/rigs/default.yaml");
+  ASSERT_TRUE(shipped) << shipped.error().message;
+  EXPECT_EQ(SensorRigToYaml(*shipped), SensorRigToYaml(DefaultSensorRig()));
+}
+
 TEST(DefaultSensorRig, LooksAlongTheRobotsXAxis) {
   const Eigen::Vector3d ahead = DefaultSensorRig().robot_from_base.Rotate(Eigen::Vector3d::UnitZ());
   EXPECT_LT((ahead - Eigen::Vector3d::UnitX()).norm(), 1e-12);
