@@ -64,9 +64,20 @@ void PrintSummary(const ValveDetection& d, const SensorRig& rig) {
                         d.best.model.spokes));
 }
 
+/// There is an answer, and it is no: whoever reads JSON wants it as JSON.
+bool IsNegative(const Error& error) {
+  return error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kNoConvergence;
+}
+
 Result<ExitCode> FitValveCommand(const FitArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const OpenedScan opened, OpenScan(arguments.scan));
-  FORESIGHT_TRY(const ValveDetection detection, FitIn(arguments, opened, context));
+  const auto found = FitIn(arguments, opened, context);
+  if (!found && arguments.json && IsNegative(found.error()))
+    PrintJson({{"kind", "valve"},
+               {"verdict", "UNSURE"},
+               {"probability", 0.0},
+               {"reason", found.error().message}});
+  FORESIGHT_TRY(const ValveDetection detection, found);
   if (arguments.save) FORESIGHT_CHECK(Save(arguments, opened.id, detection, opened.scan.rig));
   if (arguments.json)
     PrintLine(DetectionToJson(detection, opened.scan.rig.robot_from_base));

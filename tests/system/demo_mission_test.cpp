@@ -52,6 +52,21 @@ TEST(DemoMission, ItsMissionFileGivesTheSameFitAgain) {
   EXPECT_EQ(a["kind"], "valve");
 }
 
+TEST(FitCommand, NoValveIsANegativeAnswerNotAnError) {
+  const TemporaryFolder folder;
+  const std::string mission = folder / "mission.foresight";
+  const std::string scene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
+  ASSERT_EQ(RunProgram(FORESIGHTCTL, {"scan", "--scene", scene, "--from", "-10", "--to", "10",
+                                      "--speed", "20", "--out", mission})
+                .exit_code,
+            0);
+  // A patch of bare bricks.
+  const ProgramResult result =
+      RunProgram(FORESIGHTCTL, {"fit", "valve", mission, "--roi", "560,320,700,400", "--json"});
+  EXPECT_EQ(result.exit_code, 1) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
+}
+
 TEST(ScanCommand, ASecondScanIsAddedToTheMission) {
   const TemporaryFolder folder;
   const std::string mission = folder / "mission.foresight";
