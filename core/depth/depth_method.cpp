@@ -29,7 +29,7 @@ DepthOptions ForesightOptions() {
   options.flying.rule = FlyingPointOptions::Rule::kOff;
   options.isolated.enabled = false;
   options.flipping.margin_m = 0.050;
-  options.flipping.cells_from_kept_only = false;
+  options.flipping.cells = FlippingPointOptions::Cells::kFromAllSamples;
   options.mask.threshold = 0.80;
   return options;
 }
@@ -40,7 +40,7 @@ DepthOptions WithoutRejection(DepthMethod method) {
   options.method = method;
   options.flying.rule = FlyingPointOptions::Rule::kOff;
   options.isolated.enabled = false;
-  options.flipping.enabled = false;
+  options.flipping.test = FlippingPointOptions::Test::kOff;
   options.mask.threshold = 0.0;
   return options;
 }

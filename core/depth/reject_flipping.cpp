@@ -4,58 +4,45 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include "core/base/parallel.h"
+#include "core/depth/sample_buckets.h"
 
 namespace foresight {
 namespace {
 
+using Test = FlippingPointOptions::Test;
+using Cells = FlippingPointOptions::Cells;
+
 /// A cell of the lidar's grid, seen from the camera.
 struct Cell {
-  std::array<std::int32_t, 4> corners;  ///< sample indices, in order round the cell
-  float farthest_m;                     ///< the largest depth of the corners
+  std::array<const AlignedSample*, 4> corners;  ///< in order round the cell
+  float nearest_m;                              ///< of the corners
+  float farthest_m;
+  float left, right, top, bottom;
 };
 
-/// Side of a bucket: a cell of the lidar's grid touches a few, a bucket holds about one sample.
-constexpr int kBucketPx = 8;
-
-/// Where samples are: the indices of those in a bucket are sorted[first[bucket]] ..
-/// first[bucket + 1].
-struct Buckets {
-  int columns = 0;
-  int rows = 0;
-  std::vector<std::int32_t> first;
-  std::vector<std::int32_t> sorted;
-
-  static int Place(float coordinate, int count) {
-    return std::clamp(static_cast<int>((coordinate + 0.5f) / kBucketPx), 0, count - 1);
+/// The cell with its first corner at (beam, line); none where a corner was not measured.
+std::optional<Cell> CellAt(const AlignedSamples& samples, const Image<std::int32_t>& grid, int beam,
+                           int line) {
+  const std::array<std::int32_t, 4> corners = {grid(beam, line), grid(beam + 1, line),
+                                               grid(beam + 1, line + 1), grid(beam, line + 1)};
+  if (std::any_of(corners.begin(), corners.end(), [](std::int32_t c) { return c < 0; }))
+    return std::nullopt;
+  const AlignedSample& first = samples.samples[static_cast<std::size_t>(corners[0])];
+  Cell cell{{}, first.depth_m, first.depth_m, first.u, first.u, first.v, first.v};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const AlignedSample& s = samples.samples[static_cast<std::size_t>(corners[i])];
+    cell.corners[i] = &s;
+    cell.nearest_m = std::min(cell.nearest_m, s.depth_m);
+    cell.farthest_m = std::max(cell.farthest_m, s.depth_m);
+    cell.left = std::min(cell.left, s.u);
+    cell.right = std::max(cell.right, s.u);
+    cell.top = std::min(cell.top, s.v);
+    cell.bottom = std::max(cell.bottom, s.v);
   }
-  int Column(float u) const { return Place(u, columns); }
-  int Row(float v) const { return Place(v, rows); }
-  std::size_t Index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
-  }
-};
-
-Buckets SortIntoBuckets(const AlignedSamples& samples) {
-  Buckets buckets;
-  buckets.columns = (samples.width + kBucketPx - 1) / kBucketPx;
-  buckets.rows = (samples.height + kBucketPx - 1) / kBucketPx;
-  const auto bucket = [&](const AlignedSample& s) {
-    return buckets.Index(buckets.Column(s.u), buckets.Row(s.v));
-  };
-  buckets.first.assign(buckets.Index(0, buckets.rows) + 1, 0);
-  for (std::size_t i = 0; i < samples.samples.size(); ++i)
-    if (samples.reasons[i] == RejectReason::kKept) ++buckets.first[bucket(samples.samples[i]) + 1];
-  for (std::size_t p = 1; p < buckets.first.size(); ++p) buckets.first[p] += buckets.first[p - 1];
-  buckets.sorted.resize(static_cast<std::size_t>(buckets.first.back()));
-  std::vector<std::int32_t> next(buckets.first.begin(), buckets.first.end() - 1);
-  for (std::size_t i = 0; i < samples.samples.size(); ++i)
-    if (samples.reasons[i] == RejectReason::kKept)
-      buckets.sorted[static_cast<std::size_t>(next[bucket(samples.samples[i])]++)] =
-          static_cast<std::int32_t>(i);
-  return buckets;
+  return cell;
 }
 
 /// Twice the signed area of a, b, p.
@@ -63,53 +50,97 @@ float Cross(const AlignedSample& a, const AlignedSample& b, const AlignedSample&
   return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
 }
 
-/// Edges count as inside: on rectified images whole rows of samples lie exactly on the cells'
-/// edges.
-bool InTriangle(const AlignedSample& a, const AlignedSample& b, const AlignedSample& c,
-                const AlignedSample& p) {
-  const float ab = Cross(a, b, p);
-  const float bc = Cross(b, c, p);
-  const float ca = Cross(c, a, p);
-  return (ab >= 0.0f && bc >= 0.0f && ca >= 0.0f) || (ab <= 0.0f && bc <= 0.0f && ca <= 0.0f);
-}
+/// A sample's place in a triangle: twice the signed areas opposite to a, b and c.
+struct Areas {
+  float a, b, c;
 
-/// A cell can fold over when it is seen from aside, so it is tested as its two triangles.
-bool InCell(const AlignedSamples& samples, const Cell& cell, const AlignedSample& p) {
-  const auto& s = samples.samples;
-  const auto at = [&](int corner) -> const AlignedSample& {
-    return s[static_cast<std::size_t>(cell.corners[static_cast<std::size_t>(corner)])];
-  };
-  return InTriangle(at(0), at(1), at(2), p) || InTriangle(at(0), at(2), at(3), p);
-}
+  Areas(const AlignedSample& corner_a, const AlignedSample& corner_b, const AlignedSample& corner_c,
+        const AlignedSample& p)
+      : a(Cross(corner_b, corner_c, p)),
+        b(Cross(corner_c, corner_a, p)),
+        c(Cross(corner_a, corner_b, p)) {}
+
+  /// Edges count as inside: on rectified images whole rows of samples lie exactly on the cells'
+  /// edges.
+  bool Inside() const {
+    return (a >= 0.0f && b >= 0.0f && c >= 0.0f) || (a <= 0.0f && b <= 0.0f && c <= 0.0f);
+  }
+};
+
+/// Fig. 4: further than all four corners of the cell that it lies in.
+struct BehindTheCorners {
+  double margin_m;
+
+  bool Applies(const Cell&) const { return true; }
+  double NearestLimit(const Cell& cell) const { return cell.farthest_m + margin_m; }
+  bool InTriangle(const AlignedSample& a, const AlignedSample& b, const AlignedSample& c,
+                  const AlignedSample& p) const {
+    return Areas(a, b, c, p).Inside();
+  }
+};
+
+/// Further than the triangle, where the sample is seen.
+struct BehindTheSurface {
+  double margin_m;
+  double connected_step_m;
+
+  bool Applies(const Cell& cell) const {
+    return cell.farthest_m - cell.nearest_m <= connected_step_m;
+  }
+  double NearestLimit(const Cell& cell) const { return cell.nearest_m + margin_m; }
+  bool InTriangle(const AlignedSample& a, const AlignedSample& b, const AlignedSample& c,
+                  const AlignedSample& p) const {
+    // A corner lies on the surface, and rounding must not put it behind.
+    if (&p == &a || &p == &b || &p == &c) return false;
+    const Areas areas(a, b, c, p);
+    const float whole = areas.a + areas.b + areas.c;
+    // Seen edge-on a triangle hides nothing.
+    if (!areas.Inside() || whole == 0.0f) return false;
+    const double inverse_depth =
+        (areas.a / a.depth_m + areas.b / b.depth_m + areas.c / c.depth_m) / whole;
+    return p.depth_m > 1.0 / inverse_depth + margin_m;
+  }
+};
 
 /// Calls mark(index) for every sample that lies in the cell and behind it.
-template <class Mark>
-void MarkInvaders(const AlignedSamples& samples, const Buckets& buckets, const Cell& cell,
-                  double margin_m, const Mark& mark) {
-  float left = 1e9f, right = -1e9f, top = 1e9f, bottom = -1e9f;
-  for (const std::int32_t corner : cell.corners) {
-    const AlignedSample& s = samples.samples[static_cast<std::size_t>(corner)];
-    left = std::min(left, s.u);
-    right = std::max(right, s.u);
-    top = std::min(top, s.v);
-    bottom = std::max(bottom, s.v);
-  }
-  const auto limit = static_cast<float>(cell.farthest_m + margin_m);
-  const int first_column = buckets.Column(left);
-  const int last_column = buckets.Column(right);
-  const int last_row = buckets.Row(bottom);
-  for (int row = buckets.Row(top); row <= last_row; ++row) {
-    const auto from = static_cast<std::size_t>(buckets.first[buckets.Index(first_column, row)]);
-    const auto to = static_cast<std::size_t>(buckets.first[buckets.Index(last_column, row) + 1]);
-    for (std::size_t i = from; i < to; ++i) {
-      const std::int32_t index = buckets.sorted[i];
-      const AlignedSample& p = samples.samples[static_cast<std::size_t>(index)];
-      // The box first: a cell seen edge-on has no inside, and its edges no end.
-      const bool in_box = p.u >= left && p.u <= right && p.v >= top && p.v <= bottom;
-      if (p.depth_m > limit && in_box && InCell(samples, cell, p))
-        mark(static_cast<std::size_t>(index));
+template <class Hidden, class Mark>
+void MarkInvaders(const AlignedSamples& samples, const SampleBuckets& buckets, const Cell& cell,
+                  const Hidden& hidden, const Mark& mark) {
+  const auto limit = static_cast<float>(hidden.NearestLimit(cell));
+  const auto& [a, b, c, d] = cell.corners;
+  buckets.ForEachNear(cell.left, cell.top, cell.right, cell.bottom, [&](std::size_t index) {
+    const AlignedSample& p = samples.samples[index];
+    // The box first: a cell seen edge-on has no inside, and its edges no end.
+    const bool in_box =
+        p.u >= cell.left && p.u <= cell.right && p.v >= cell.top && p.v <= cell.bottom;
+    if (!(p.depth_m > limit) || !in_box) return;
+    // A cell can fold over when it is seen from aside, so it is tested as its two triangles.
+    if (hidden.InTriangle(*a, *b, *c, p) || hidden.InTriangle(*a, *c, *d, p)) mark(index);
+  });
+}
+
+/// False when cancelled.
+template <class Hidden>
+bool RejectHidden(AlignedSamples& samples, Cells cells, const Hidden& hidden,
+                  const RunContext& context) {
+  const Image<std::int32_t> grid = GridOf(samples, cells == Cells::kFromKeptSamples);
+  const SampleBuckets buckets(samples);
+  // Marked first and written afterwards: a cell stands whether or not its corners are rejected.
+  // Workers only ever store 1; distinct bytes, so the rows do not disturb each other.
+  std::vector<std::atomic<std::uint8_t>> marked(samples.samples.size());
+  const bool finished = ParallelFor(std::max(0, grid.height() - 1), context, [&](int line) {
+    for (int beam = 0; beam + 1 < grid.width(); ++beam) {
+      const std::optional<Cell> cell = CellAt(samples, grid, beam, line);
+      if (cell && hidden.Applies(*cell))
+        MarkInvaders(samples, buckets, *cell, hidden,
+                     [&](std::size_t i) { marked[i].store(1, std::memory_order_relaxed); });
     }
-  }
+  });
+  if (!finished) return false;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (marked[i] != 0 && samples.reasons[i] == RejectReason::kKept)
+      samples.reasons[i] = RejectReason::kFlipping;
+  return true;
 }
 
 }  // namespace
@@ -117,38 +148,22 @@ void MarkInvaders(const AlignedSamples& samples, const Buckets& buckets, const C
 Status FlippingPointOptions::Check() const {
   if (!(margin_m >= 0.0) || !std::isfinite(margin_m))
     return Fail(ErrorCode::kInvalidOptions, "flipping points: margin_m {} is negative", margin_m);
+  if (!(connected_step_m > 0.0) || !std::isfinite(connected_step_m))
+    return Fail(ErrorCode::kInvalidOptions, "flipping points: connected_step_m {} is not positive",
+                connected_step_m);
   return {};
 }
 
 Status RejectFlipping(AlignedSamples& samples, const FlippingPointOptions& options,
                       const RunContext& context) {
   FORESIGHT_CHECK(options.Check());
-  if (!options.enabled || samples.samples.empty()) return {};
-  const Image<std::int32_t> grid = GridOf(samples, options.cells_from_kept_only);
-  const Buckets buckets = SortIntoBuckets(samples);
-  // Marked first and written afterwards: a cell stands whether or not its corners are rejected.
-  // Workers only ever store 1; distinct bytes, so the rows do not disturb each other.
-  std::vector<std::atomic<std::uint8_t>> marked(samples.samples.size());
-  const bool finished = ParallelFor(std::max(0, grid.height() - 1), context, [&](int line) {
-    for (int beam = 0; beam + 1 < grid.width(); ++beam) {
-      const Cell cell{
-          {grid(beam, line), grid(beam + 1, line), grid(beam + 1, line + 1), grid(beam, line + 1)},
-          0.0f};
-      if (std::any_of(cell.corners.begin(), cell.corners.end(),
-                      [](std::int32_t c) { return c < 0; }))
-        continue;
-      Cell measured = cell;
-      for (const std::int32_t corner : cell.corners)
-        measured.farthest_m = std::max(measured.farthest_m,
-                                       samples.samples[static_cast<std::size_t>(corner)].depth_m);
-      MarkInvaders(samples, buckets, measured, options.margin_m,
-                   [&](std::size_t i) { marked[i].store(1, std::memory_order_relaxed); });
-    }
-  });
+  if (options.test == Test::kOff || samples.samples.empty()) return {};
+  const bool finished =
+      options.test == Test::kCells
+          ? RejectHidden(samples, options.cells, BehindTheCorners{options.margin_m}, context)
+          : RejectHidden(samples, options.cells,
+                         BehindTheSurface{options.margin_m, options.connected_step_m}, context);
   if (!finished) return Fail(ErrorCode::kCancelled, "flipping point rejection was cancelled");
-  for (std::size_t i = 0; i < marked.size(); ++i)
-    if (marked[i] != 0 && samples.reasons[i] == RejectReason::kKept)
-      samples.reasons[i] = RejectReason::kFlipping;
   return {};
 }
 
