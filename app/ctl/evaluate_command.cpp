@@ -2,45 +2,22 @@
 
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
+#include "app/ctl/evaluation_report.h"
 #include "core/evaluation/evaluate_methods.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
 
 struct EvaluateArguments {
-  std::vector<std::string> folders;
+  std::vector<std::string> scenes;
   std::vector<std::string> methods = {"foresight", "paper"};
   std::uint64_t seed = 1;
   int scale = 1;
+  double rotation_error_deg = DegreesFromRadians(CalibrationError().rotation_rad);
+  double translation_error_mm = 1000.0 * CalibrationError().translation_m;
   bool json = false;
 };
-
-nlohmann::ordered_json ToJson(const DepthAccuracy& accuracy) {
-  return {{"a80_mm", Finite(accuracy.a80_mm)},
-          {"a95_mm", Finite(accuracy.a95_mm)},
-          {"coverage", accuracy.coverage},
-          {"unscored_kept", accuracy.unscored_kept}};
-}
-
-nlohmann::ordered_json ToJson(const StereoEvaluation& evaluation) {
-  nlohmann::ordered_json json = {{"scene", evaluation.scene}, {"method", evaluation.method}};
-  json.update(ToJson(evaluation.with_mask));
-  json["seconds"] = evaluation.seconds;
-  json["samples"] = evaluation.samples;
-  json["rejected"] = evaluation.rejected;
-  json["rejection_precision"] = Finite(evaluation.rejection_precision);
-  json["rejection_recall"] = Finite(evaluation.rejection_recall);
-  json["without_mask"] = ToJson(evaluation.without_mask);
-  return json;
-}
-
-std::string TableRow(const StereoEvaluation& e) {
-  return fmt::format(
-      "{:<16} {:<10} {:>8.1f} {:>8.1f} {:>6.3f} {:>6.3f}   {:>8.1f} {:>8.1f} {:>6.3f}   {:>7.2f}",
-      e.scene, e.method, e.with_mask.a80_mm, e.with_mask.a95_mm, e.with_mask.coverage,
-      e.with_mask.unscored_kept, e.without_mask.a80_mm, e.without_mask.a95_mm,
-      e.without_mask.coverage, e.seconds);
-}
 
 Result<std::vector<DepthMethod>> MethodsFrom(const std::vector<std::string>& names) {
   std::vector<DepthMethod> methods;
@@ -55,32 +32,55 @@ Result<std::vector<DepthMethod>> MethodsFrom(const std::vector<std::string>& nam
   return methods;
 }
 
-Result<ExitCode> Evaluate(const EvaluateArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(const std::vector<DepthMethod> methods, MethodsFrom(arguments.methods));
+void Announce(const std::string& scene, DepthMethod method) {
+  fmt::print(stderr, "{}: {}\n", scene, InfoOf(method).title);
+}
+
+Status EvaluateStereo(const std::string& folder, const std::vector<DepthMethod>& methods,
+                      const EvaluateArguments& arguments, std::vector<EvaluationRow>& rows,
+                      const RunContext& context) {
+  FORESIGHT_TRY(const StereoScene scene, LoadStereoScene(folder));
   StereoEvaluationOptions options;
   options.testbed.seed = arguments.seed;
   options.enlarge = arguments.scale;
-  std::vector<StereoEvaluation> evaluations;
-  for (const std::string& folder : arguments.folders) {
-    FORESIGHT_TRY(const StereoScene scene, LoadStereoScene(folder));
-    for (const DepthMethod method : methods) {
-      fmt::print(stderr, "{}: {}\n", scene.name, InfoOf(method).title);
-      options.depth = TestbedOptionsOf(method);
-      FORESIGHT_TRY(const StereoEvaluation evaluation, EvaluateOnScene(scene, options, context));
-      evaluations.push_back(evaluation);
-    }
+  for (const DepthMethod method : methods) {
+    Announce(scene.name, method);
+    options.depth = TestbedOptionsOf(method);
+    FORESIGHT_TRY(MethodScore score, EvaluateOnScene(scene, options, context));
+    rows.push_back({std::move(score), std::nullopt});
   }
-  if (arguments.json) {
-    auto list = nlohmann::ordered_json::array();
-    for (const auto& evaluation : evaluations) list.push_back(ToJson(evaluation));
-    PrintJson(list);
-    return ExitCode::kDone;
+  return {};
+}
+
+Status EvaluateSimulated(const std::string& file, const std::vector<DepthMethod>& methods,
+                         const EvaluateArguments& arguments, std::vector<EvaluationRow>& rows,
+                         const RunContext& context) {
+  FORESIGHT_TRY(Scene scene, LoadScene(file));
+  SimulatedTrialOptions options;
+  options.world.seed = arguments.seed;
+  options.calibration_error.rotation_rad = RadiansFromDegrees(arguments.rotation_error_deg);
+  options.calibration_error.translation_m = arguments.translation_error_mm / 1000.0;
+  fmt::print(stderr, "{}: simulated scan\n", scene.name);
+  FORESIGHT_TRY(
+      const SimulatedTrial trial,
+      MakeSimulatedTrial(std::make_shared<const Scene>(std::move(scene)), options, context));
+  for (const DepthMethod method : methods) {
+    Announce(trial.scene, method);
+    FORESIGHT_TRY(MethodScore score, EvaluateOnTrial(trial, DefaultsOf(method), context));
+    rows.push_back({std::move(score), options.calibration_error});
   }
-  PrintLine(fmt::format("{:<27} {:>31}   {:>24}", "", "masked", "not masked"));
-  PrintLine(fmt::format("{:<16} {:<10} {:>8} {:>8} {:>6} {:>6}   {:>8} {:>8} {:>6}   {:>7}",
-                        "scene", "method", "A80 mm", "A95 mm", "cover", "holes", "A80 mm", "A95 mm",
-                        "cover", "seconds"));
-  for (const auto& evaluation : evaluations) PrintLine(TableRow(evaluation));
+  return {};
+}
+
+Result<ExitCode> Evaluate(const EvaluateArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const std::vector<DepthMethod> methods, MethodsFrom(arguments.methods));
+  std::vector<EvaluationRow> rows;
+  for (const std::string& scene : arguments.scenes) {
+    const bool simulated = std::filesystem::path(scene).extension() == ".yaml";
+    FORESIGHT_CHECK(simulated ? EvaluateSimulated(scene, methods, arguments, rows, context)
+                              : EvaluateStereo(scene, methods, arguments, rows, context));
+  }
+  PrintEvaluation(rows, arguments.json);
   return ExitCode::kDone;
 }
 
@@ -89,18 +89,35 @@ Result<ExitCode> Evaluate(const EvaluateArguments& arguments, const RunContext& 
 void AddEvaluateCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* command = app.add_subcommand(
-      "evaluate", "Score depth maps on stereo scenes with ground truth (Section V-A of the paper)");
+      "evaluate",
+      "Score depth maps against ground truth, on stereo scenes (Section V-A of the "
+      "paper) and simulated scans");
   command
-      ->add_option("folders", arguments->folders,
-                   "Folders in Middlebury 2014 form: calib.txt, im0.png, im1.png, disp0GT.pfm")
+      ->add_option("scenes", arguments->scenes,
+                   "Folders in Middlebury 2014 form (calib.txt, im0.png, im1.png, disp0GT.pfm), or "
+                   "scene files (*.yaml) to scan")
       ->required();
   command->add_option("--method", arguments->methods, "Depth methods, or all: " + MethodNames())
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Seed of the sampling noise")
+  command
+      ->add_option("--seed", arguments->seed,
+                   "Seed of the noise, and of the direction of the calibration's error")
       ->capture_default_str();
-  command->add_option("--scale", arguments->scale, "Enlarge the scenes by this whole factor first")
+  command
+      ->add_option("--scale", arguments->scale,
+                   "Enlarge the stereo scenes by this whole factor first")
       ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command
+      ->add_option("--rotation-error-deg", arguments->rotation_error_deg,
+                   "How far the lidar's believed pose is turned from the true one (scene files)")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--translation-error-mm", arguments->translation_error_mm,
+                   "How far the lidar's believed pose is shifted from the true one (scene files)")
+      ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "Print a JSON list, one object a scene and method");
   command->callback([&invocation, arguments] {

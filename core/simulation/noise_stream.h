@@ -14,6 +14,7 @@ enum class NoisePurpose : std::uint64_t {
   kPictureJitter = 4,
   kPictureRow = 5,
   kPixelGain = 6,
+  kCalibrationError = 7,
 };
 
 /// The generator of one purpose, of one line or picture, of one row: whoever draws first, and on

@@ -1,5 +1,6 @@
 #include "core/simulation/world.h"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/simulation/image_sensor.h"
 #include "core/simulation/lidar_simulator.h"
+#include "core/simulation/lidar_view.h"
 #include "core/simulation/motor_simulator.h"
 #include "core/simulation/noise_stream.h"
 #include "core/simulation/picture_renderer.h"
@@ -136,6 +138,31 @@ DepthImage World::TrueDepth(double motor_rad, const RunContext& context) const {
                                    {depth.row(y), static_cast<std::size_t>(camera.width)});
   });
   return finished ? depth : DepthImage();
+}
+
+MaskImage World::SeenByLidar(const DepthImage& true_depth_m, double motor_rad, double from_rad,
+                             double to_rad, const RunContext& context) const {
+  const FisheyeCamera& camera = impl_->rig.camera;
+  FORESIGHT_EXPECTS(true_depth_m.width() == camera.width && true_depth_m.height() == camera.height,
+                    "the true depth is of the head's camera");
+  const LidarView view(impl_->caster, impl_->rig, PlateAngle(from_rad, true),
+                       PlateAngle(to_rad, true));
+  const auto robot_from_camera = impl_->RobotFromCamera(PlateAngle(motor_rad, true));
+  const Eigen::Vector3d nowhere =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  MaskImage mask(camera.width, camera.height);
+  const bool finished = ParallelFor(camera.height, context, [&](int y) {
+    const auto width = static_cast<std::size_t>(camera.width);
+    std::vector<Eigen::Vector3d> points(width, nowhere);
+    for (int x = 0; x < camera.width; ++x)
+      if (const auto in_plane = camera.UnprojectToPlane(Eigen::Vector2d(x, y)))
+        points[static_cast<std::size_t>(x)] =
+            robot_from_camera * (double{true_depth_m(x, y)} * in_plane->homogeneous());
+    const std::span<std::uint8_t> row(mask.row(y), width);
+    view.Seen(points, row);
+    for (std::uint8_t& value : row) value = value != 0 ? 255 : 0;
+  });
+  return finished ? mask : MaskImage();
 }
 
 Rigid<frame::Base, frame::Robot> World::BaseFromRobot() const {

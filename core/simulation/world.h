@@ -52,6 +52,12 @@ class World {
   /// angle on the way up; NaN = nothing there. Empty when the context was cancelled.
   DepthImage TrueDepth(double motor_rad, const RunContext& context) const;
 
+  /// Which pixels of `true_depth_m`, the TrueDepth at `motor_rad`, show what the lidar can see
+  /// while the shaft goes up from `from_rad` to `to_rad`: within its fan and its range, hidden by
+  /// nothing. 255 = can be seen. Empty when the context was cancelled.
+  MaskImage SeenByLidar(const DepthImage& true_depth_m, double motor_rad, double from_rad,
+                        double to_rad, const RunContext& context) const;
+
   /// The true pose of the scene's frame seen from base, to compare fits with.
   Rigid<frame::Base, frame::Robot> BaseFromRobot() const;
 

@@ -1,0 +1,66 @@
+#include "app/ctl/evaluation_report.h"
+
+#include <algorithm>
+
+#include "app/ctl/command.h"
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+nlohmann::ordered_json ToJson(const DepthAccuracy& accuracy) {
+  return {{"a80_mm", Finite(accuracy.a80_mm)},
+          {"a95_mm", Finite(accuracy.a95_mm)},
+          {"coverage", accuracy.coverage},
+          {"unscored_kept", accuracy.unscored_kept}};
+}
+
+nlohmann::ordered_json ToJson(const EvaluationRow& row) {
+  const MethodScore& score = row.score;
+  nlohmann::ordered_json json = {{"scene", score.scene}, {"method", score.method}};
+  json.update(ToJson(score.with_mask));
+  json["seconds"] = score.seconds;
+  json["samples"] = score.samples;
+  json["rejected"] = score.rejected;
+  json["rejection_precision"] = Finite(score.rejection_precision);
+  json["rejection_recall"] = Finite(score.rejection_recall);
+  json["without_mask"] = ToJson(score.without_mask);
+  if (row.calibration_error)
+    json["calibration_error"] = {
+        {"rotation_deg", DegreesFromRadians(row.calibration_error->rotation_rad)},
+        {"translation_mm", 1000.0 * row.calibration_error->translation_m}};
+  return json;
+}
+
+std::string TableRow(const MethodScore& s) {
+  return fmt::format(
+      "{:<16} {:<10} {:>8.1f} {:>8.1f} {:>6.3f} {:>6.3f}   {:>8.1f} {:>8.1f} {:>6.3f}   {:>7.2f}",
+      s.scene, s.method, s.with_mask.a80_mm, s.with_mask.a95_mm, s.with_mask.coverage,
+      s.with_mask.unscored_kept, s.without_mask.a80_mm, s.without_mask.a95_mm,
+      s.without_mask.coverage, s.seconds);
+}
+
+}  // namespace
+
+void PrintEvaluation(const std::vector<EvaluationRow>& rows, bool as_json) {
+  if (as_json) {
+    auto list = nlohmann::ordered_json::array();
+    for (const EvaluationRow& row : rows) list.push_back(ToJson(row));
+    PrintJson(list);
+    return;
+  }
+  PrintLine(fmt::format("{:<27} {:>31}   {:>24}", "", "masked", "not masked"));
+  PrintLine(fmt::format("{:<16} {:<10} {:>8} {:>8} {:>6} {:>6}   {:>8} {:>8} {:>6}   {:>7}",
+                        "scene", "method", "A80 mm", "A95 mm", "cover", "holes", "A80 mm", "A95 mm",
+                        "cover", "seconds"));
+  for (const EvaluationRow& row : rows) PrintLine(TableRow(row.score));
+  const auto simulated = std::find_if(rows.begin(), rows.end(), [](const EvaluationRow& row) {
+    return row.calibration_error.has_value();
+  });
+  if (simulated != rows.end())
+    PrintLine(fmt::format("Simulated scenes: calibration off by {:.2f} deg and {:.1f} mm",
+                          DegreesFromRadians(simulated->calibration_error->rotation_rad),
+                          1000.0 * simulated->calibration_error->translation_m));
+}
+
+}  // namespace foresight
