@@ -15,7 +15,10 @@ Status ConfidenceMaskOptions::Check() const {
 Result<MaskImage> MaskLowConfidence(const DenseDepth& dense, const ConfidenceMaskOptions& options) {
   FORESIGHT_CHECK(options.Check());
   MaskImage mask(dense.depth_m.width(), dense.depth_m.height(), 0);
-  const auto limit = static_cast<float>(options.threshold * dense.max_confidence);
+  const float reference = options.reference == ConfidenceMaskOptions::Reference::kLargest
+                              ? dense.max_confidence
+                              : dense.nominal_confidence;
+  const auto limit = static_cast<float>(options.threshold * reference);
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (!std::isnan(dense.depth_m.values()[i]) && dense.confidence.values()[i] >= limit)
       mask.values()[i] = 255;

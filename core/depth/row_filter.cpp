@@ -69,46 +69,56 @@ struct Sums {
   }
 };
 
-/// G K H. The lists hold G K, scaled, and G.
-struct ProductWeights {
+/// Products: G K H for the weights, G H for the confidence. The lists hold G K, scaled, and G.
+struct ProductTerms {
   static constexpr float kScale = kWeightScale;
 
-  HWY_INLINE static void Prepare(Vector g, Vector k_exponent, Vector& gk, Vector& g_kept) {
-    gk = hn::Mul(g, Exp2OfMinus<kWeightShift>(k_exponent));
-    g_kept = g;
+  HWY_INLINE static Vector ListedWeight(Vector g, Vector k_exponent) {
+    return hn::Mul(g, Exp2OfMinus<kWeightShift>(k_exponent));
   }
-  HWY_INLINE static void AddUnguided(Vector gk, Vector g, Vector offset, Sums& sums) {
-    sums.Add(gk, offset, g);
+  HWY_INLINE static Vector ListedShare(Vector g) { return g; }
+  HWY_INLINE static Vector Unguided(Vector listed) { return listed; }
+  HWY_INLINE static Vector Guided(Vector listed, Vector h) { return hn::Mul(listed, h); }
+};
+
+/// exp(G + K + H) and exp(G + H), as Eq. (8) and (9) print them: each weight lies in [1, e^3],
+/// nothing is ever far away. Kept to show that this is not what produced the paper's tables. The
+/// lists hold the negative exponents of two; 1000 stands for "outside the disc".
+struct LiteralTerms {
+  static constexpr float kScale = 1.0f;
+
+  HWY_INLINE static Vector ListedWeight(Vector g, Vector k_exponent) {
+    return InDisc(g, hn::Add(g, Exp2OfMinus(k_exponent)));
   }
-  HWY_INLINE static void AddGuided(Vector gk, Vector g, Vector offset, Sums& sums) {
-    const Vector h = Exp2OfMinus(hn::Mul(offset, offset));
-    sums.Add(hn::Mul(gk, h), offset, hn::Mul(g, h));
+  HWY_INLINE static Vector ListedShare(Vector g) { return InDisc(g, g); }
+  HWY_INLINE static Vector Unguided(Vector listed) { return Exp2OfMinus(listed); }
+  HWY_INLINE static Vector Guided(Vector listed, Vector h) {
+    return Exp2OfMinus(hn::NegMulAdd(h, hn::Set(Floats(), kLog2E), listed));
+  }
+
+ private:
+  HWY_INLINE static Vector InDisc(Vector g, Vector sum) {
+    const Floats f;
+    return hn::IfThenElse(hn::Eq(g, hn::Zero(f)), hn::Set(f, 1000.0f),
+                          hn::Mul(sum, hn::Set(f, -kLog2E)));
   }
 };
 
-/// exp(G + K + H), as Eq. (8) prints it: each weight lies in [1, e^3], nothing is ever far away.
-/// Kept to show that this is not what produced the paper's tables. The lists hold the negative
-/// exponents of two; 1000 stands for "outside the disc".
-struct LiteralWeights {
-  static constexpr float kScale = 1.0f;
+/// How a pass sums: the form of the weights and that of the confidence are chosen apart.
+template <class Weights, class Shares>
+struct Terms {
+  static constexpr float kNoSupportScaled = kNoSupport * Weights::kScale;
 
-  HWY_INLINE static void Prepare(Vector g, Vector k_exponent, Vector& gk, Vector& g_kept) {
-    const Floats f;
-    const auto outside = hn::Eq(g, hn::Zero(f));
-    const Vector k = Exp2OfMinus(k_exponent);
-    const Vector far = hn::Set(f, 1000.0f);
-    const Vector unit = hn::Set(f, -kLog2E);
-    gk = hn::IfThenElse(outside, far, hn::Mul(hn::Add(g, k), unit));
-    g_kept = hn::IfThenElse(outside, far, hn::Mul(g, unit));
+  HWY_INLINE static void Prepare(Vector g, Vector k_exponent, Vector& weight, Vector& share) {
+    weight = Weights::ListedWeight(g, k_exponent);
+    share = Shares::ListedShare(g);
   }
-  HWY_INLINE static void AddUnguided(Vector gk, Vector g, Vector offset, Sums& sums) {
-    sums.Add(Exp2OfMinus(gk), offset, Exp2OfMinus(g));
+  HWY_INLINE static void AddUnguided(Vector weight, Vector share, Vector offset, Sums& sums) {
+    sums.Add(Weights::Unguided(weight), offset, Shares::Unguided(share));
   }
-  HWY_INLINE static void AddGuided(Vector gk, Vector g, Vector offset, Sums& sums) {
+  HWY_INLINE static void AddGuided(Vector weight, Vector share, Vector offset, Sums& sums) {
     const Vector h = Exp2OfMinus(hn::Mul(offset, offset));
-    const Vector unit = hn::Set(Floats(), kLog2E);
-    sums.Add(Exp2OfMinus(hn::NegMulAdd(h, unit, gk)), offset,
-             Exp2OfMinus(hn::NegMulAdd(h, unit, g)));
+    sums.Add(Weights::Guided(weight, h), offset, Shares::Guided(share, h));
   }
 };
 
@@ -126,7 +136,7 @@ struct DepthUnit {
 };
 
 /// Gathers the samples that reach one tile; on the way the first pass, relative to the reference.
-template <class Weights>
+template <class T>
 HWY_INLINE Sums GatherTile(const JointFilter& filter, JointFilterScratch& scratch, int x, int y,
                            std::size_t count, const DepthUnit& unit) {
   const Floats f;
@@ -145,28 +155,27 @@ HWY_INLINE Sums GatherTile(const JointFilter& filter, JointFilterScratch& scratc
     const auto q = static_cast<std::size_t>(scratch.selected[i]);
     const Vector g = LoadTile(disc - rows[q] * stride - columns[q], stride);
     const Vector difference = hn::Sub(intensity, hn::Set(f, filter.sample_intensity[q]));
-    Vector gk, g_kept;
-    Weights::Prepare(g, hn::Mul(hn::Mul(difference, k_scale), difference), gk, g_kept);
-    hn::Store(gk, f, weight + 2 * i * kLanes);
-    hn::Store(g_kept, f, weight + (2 * i + 1) * kLanes);
+    Vector listed, share;
+    T::Prepare(g, hn::Mul(hn::Mul(difference, k_scale), difference), listed, share);
+    hn::Store(listed, f, weight + 2 * i * kLanes);
+    hn::Store(share, f, weight + (2 * i + 1) * kLanes);
     depth[i] = unit.From(filter.samples.depths_m()[q]);
-    Weights::AddUnguided(gk, g_kept, hn::Set(f, depth[i]), sums);
+    T::AddUnguided(listed, share, hn::Set(f, depth[i]), sums);
   }
   return sums;
 }
 
 /// One pass in which H compares the samples with `last`, the pixels' depth. Even and odd samples
 /// are summed apart: an addition then need not wait for the one before it.
-template <class Weights>
+template <class T>
 HWY_INLINE Sums GuidedPass(const float* HWY_RESTRICT weight, const float* HWY_RESTRICT depth,
                            std::size_t count, Vector last) {
   const Floats f;
   Sums even, odd;
   const auto add = [&](std::size_t i, Sums& sums) HWY_ATTR {
     // Relative to the last depth: a sum of small numbers keeps its digits.
-    Weights::AddGuided(hn::Load(f, weight + 2 * i * kLanes),
-                       hn::Load(f, weight + (2 * i + 1) * kLanes),
-                       hn::Sub(hn::Set(f, depth[i]), last), sums);
+    T::AddGuided(hn::Load(f, weight + 2 * i * kLanes), hn::Load(f, weight + (2 * i + 1) * kLanes),
+                 hn::Sub(hn::Set(f, depth[i]), last), sums);
   };
   std::size_t i = 0;
   for (; i + 1 < count; i += 2) {
@@ -178,14 +187,14 @@ HWY_INLINE Sums GuidedPass(const float* HWY_RESTRICT weight, const float* HWY_RE
 }
 
 /// The step to the weighted mean; lanes without support step nowhere.
-template <class Weights>
+template <class T>
 HWY_INLINE Vector Step(const Sums& sums) {
-  const auto supported = hn::Gt(sums.weight, hn::Set(Floats(), kNoSupport * Weights::kScale));
+  const auto supported = hn::Gt(sums.weight, hn::Set(Floats(), T::kNoSupportScaled));
   return hn::IfThenElseZero(supported, hn::Div(sums.offset, sums.weight));
 }
 
 /// Filters the pixels of one tile into the scratch's output; returns how many have a depth.
-template <class Weights>
+template <class T>
 HWY_INLINE std::int64_t FilterTile(const JointFilter& filter, JointFilterScratch& scratch, int x,
                                    int y, bool keep_iterations) {
   const Floats f;
@@ -198,20 +207,19 @@ HWY_INLINE std::int64_t FilterTile(const JointFilter& filter, JointFilterScratch
       count > 0 ? filter.samples.depths_m()[static_cast<std::size_t>(scratch.selected[0])] : 0.0f,
       std::sqrt(0.5f * kLog2E) / filter.sigma_depth_m};
 
-  const Sums first = GatherTile<Weights>(filter, scratch, x, y, count, unit);
-  const auto supported = hn::Gt(first.weight, hn::Set(f, kNoSupport * Weights::kScale));
+  const Sums first = GatherTile<T>(filter, scratch, x, y, count, unit);
+  const auto supported = hn::Gt(first.weight, hn::Set(f, T::kNoSupportScaled));
   // NaN where there is no support: it stays so through all passes.
   const Vector nan = hn::Set(f, std::numeric_limits<float>::quiet_NaN());
-  Vector depth = hn::IfThenElse(supported, Step<Weights>(first), nan);
-  Vector confidence = first.confidence;
+  Vector depth = hn::IfThenElse(supported, Step<T>(first), nan);
+  Vector confidence = filter.confidence == ConfidencePasses::kAll ? first.confidence : hn::Zero(f);
   if (keep_iterations) StoreTile(unit.ToMetres(depth), output + 2 * plane, stride);
 
   const Vector inside = LoadTile(scratch.input.Row(1, 0) + x, scratch.input.stride());
   const auto counted = hn::And(supported, hn::Gt(inside, hn::Zero(f)));
   for (int t = 0; t < filter.iterations; ++t) {
-    const Sums sums =
-        GuidedPass<Weights>(scratch.weight.data(), scratch.depth.data(), count, depth);
-    const Vector step = Step<Weights>(sums);
+    const Sums sums = GuidedPass<T>(scratch.weight.data(), scratch.depth.data(), count, depth);
+    const Vector step = Step<T>(sums);
     depth = hn::Add(depth, step);
     confidence = hn::Add(confidence, sums.confidence);
     float* change = scratch.change.data() + t * kLanes;
@@ -219,6 +227,10 @@ HWY_INLINE std::int64_t FilterTile(const JointFilter& filter, JointFilterScratch
     hn::Store(hn::Add(hn::Load(f, change), hn::IfThenElseZero(counted, size)), f, change);
     if (keep_iterations) StoreTile(unit.ToMetres(depth), output + (3 + t) * plane, stride);
   }
+  if (filter.confidence == ConfidencePasses::kEveryDepth)
+    confidence = hn::Add(
+        confidence,
+        GuidedPass<T>(scratch.weight.data(), scratch.depth.data(), count, depth).confidence);
   StoreTile(unit.ToMetres(depth), output, stride);
   StoreTile(hn::IfThenElseZero(supported, confidence), output + plane, stride);
   return static_cast<std::int64_t>(hn::CountTrue(f, counted));
@@ -243,7 +255,7 @@ void StoreOutput(PaddedRows& rows, int top, int bottom, const JointFilterOutput&
   }
 }
 
-template <class Weights>
+template <class T>
 void FilterRowsWith(const JointFilter& filter, int top, int bottom, const JointFilterOutput& output,
                     FilterChange& change) {
   JointFilterScratch& scratch = ScratchOfThisThread();
@@ -261,7 +273,7 @@ void FilterRowsWith(const JointFilter& filter, int top, int bottom, const JointF
     const int end = std::min(y + kTileRows, bottom);
     LoadGuide(filter.guide, y, end, scratch.input);
     for (int x = 0; x < width; x += kTileColumns)
-      change.pixels += FilterTile<Weights>(filter, scratch, x, y, !output.iterations.empty());
+      change.pixels += FilterTile<T>(filter, scratch, x, y, !output.iterations.empty());
     StoreOutput(scratch.output, y, end, output);
   }
   for (std::size_t i = 0; i < passes * kLanes; ++i)
@@ -270,10 +282,14 @@ void FilterRowsWith(const JointFilter& filter, int top, int bottom, const JointF
 
 void FilterRowsHere(const JointFilter& filter, int top, int bottom, const JointFilterOutput& output,
                     FilterChange& change) {
-  if (filter.literal_weights)
-    FilterRowsWith<LiteralWeights>(filter, top, bottom, output, change);
-  else
-    FilterRowsWith<ProductWeights>(filter, top, bottom, output, change);
+  using Filter = void (*)(const JointFilter&, int, int, const JointFilterOutput&, FilterChange&);
+  // [literal weights][literal confidence]
+  static constexpr Filter kFilters[2][2] = {{FilterRowsWith<Terms<ProductTerms, ProductTerms>>,
+                                             FilterRowsWith<Terms<ProductTerms, LiteralTerms>>},
+                                            {FilterRowsWith<Terms<LiteralTerms, ProductTerms>>,
+                                             FilterRowsWith<Terms<LiteralTerms, LiteralTerms>>}};
+  kFilters[filter.literal_weights ? 1 : 0][filter.literal_confidence ? 1 : 0](filter, top, bottom,
+                                                                              output, change);
 }
 
 }  // namespace HWY_NAMESPACE

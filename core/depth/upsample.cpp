@@ -27,6 +27,30 @@ std::vector<double> MeanChanges(std::span<const double> sums, std::span<const Fi
   return mean;
 }
 
+bool LiteralConfidence(const UpsampleOptions& options) {
+  return options.confidence_terms.value_or(options.weights) == UpsampleOptions::Weights::kLiteral;
+}
+
+/// The sum of Eq. (9) over a disc full of samples, `density` a pixel, with H = 1. With product
+/// terms that is 2 pi sigma_s^2 (1 - exp(-r^2 / (2 sigma_s^2))) density a pass, up to the disc's
+/// pixels.
+double NominalConfidence(const UpsampleOptions& options, const SpatialKernel& spatial,
+                         double density) {
+  const bool literal = LiteralConfidence(options);
+  const bool unguided = options.confidence_passes == ConfidencePasses::kAll;
+  const int guided =
+      options.iterations + (options.confidence_passes == ConfidencePasses::kEveryDepth ? 1 : 0);
+  double sum = 0.0;
+  for (int dy = -spatial.radius(); dy <= spatial.radius(); ++dy)
+    for (int dx = -spatial.radius(); dx <= spatial.radius(); ++dx) {
+      const double g = static_cast<double>(spatial.Centre()[dy * spatial.stride() + dx]);
+      if (g == 0.0) continue;
+      sum += (unguided ? (literal ? std::exp(g) : g) : 0.0) +
+             guided * (literal ? std::exp(g + 1.0) : g);
+    }
+  return density * sum;
+}
+
 }  // namespace
 
 Status UpsampleOptions::Check() const {
@@ -47,6 +71,9 @@ Status UpsampleOptions::Check() const {
   if (iterations < 0 || iterations > 50)
     return Fail(ErrorCode::kInvalidOptions, "upsampling: iterations {} is not in [0, 50]",
                 iterations);
+  if (iterations == 0 && confidence_passes == ConfidencePasses::kGuided)
+    return Fail(ErrorCode::kInvalidOptions,
+                "upsampling: confidence_passes of guided passes alone, but iterations is 0");
   return {};
 }
 
@@ -56,9 +83,9 @@ Result<DenseDepth> UpsampleDepth(const AlignedSamples& samples, const ColorImage
   FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide));
 
   DenseDepth dense;
-  dense.sigma_spatial_px = options.sigma_spatial_px > 0.0
-                               ? options.sigma_spatial_px
-                               : SpatialSigmaForDensity(LocalDensity(samples));
+  const double density = LocalDensity(samples);
+  dense.sigma_spatial_px =
+      options.sigma_spatial_px > 0.0 ? options.sigma_spatial_px : SpatialSigmaForDensity(density);
   const GrayImage gray = ToGray(guide);
   const SparseDepthMap sparse(samples);
   const SpatialKernel spatial(dense.sigma_spatial_px,
@@ -71,7 +98,10 @@ Result<DenseDepth> UpsampleDepth(const AlignedSamples& samples, const ColorImage
                            static_cast<float>(options.sigma_intensity),
                            static_cast<float>(options.sigma_depth_m),
                            options.iterations,
-                           options.weights == UpsampleOptions::Weights::kLiteral};
+                           options.weights == UpsampleOptions::Weights::kLiteral,
+                           LiteralConfidence(options),
+                           options.confidence_passes};
+  dense.nominal_confidence = static_cast<float>(NominalConfidence(options, spatial, density));
 
   const auto passes = static_cast<std::size_t>(options.iterations);
   dense.depth_m = DepthImage(guide.width(), guide.height());

@@ -23,7 +23,9 @@ inline DenseDepth UpsampleByTheBook(const AlignedSamples& samples, const ColorIm
     for (int x = 0; x < guide.width(); ++x) {
       double depth = 0.0, confidence = 0.0;
       bool any = false;
-      for (int t = 0; t <= options.iterations; ++t) {
+      const bool every_depth = options.confidence_passes == ConfidencePasses::kEveryDepth;
+      for (int t = 0; t <= options.iterations + (every_depth ? 1 : 0); ++t) {
+        const bool counts = t > 0 || options.confidence_passes == ConfidencePasses::kAll;
         double weights = 0.0, weighted = 0.0;
         for (std::size_t i = 0; i < samples.samples.size(); ++i) {
           if (samples.reasons[i] != RejectReason::kKept) continue;
@@ -44,8 +46,11 @@ inline DenseDepth UpsampleByTheBook(const AlignedSamples& samples, const ColorIm
           const double w = literal ? std::exp(g + k + without_h) : g * k * h;
           weights += w;
           weighted += w * r;
-          confidence += literal ? std::exp(g + without_h) : g * h;
+          const bool literal_sum = options.confidence_terms.value_or(options.weights) ==
+                                   UpsampleOptions::Weights::kLiteral;
+          if (counts) confidence += literal_sum ? std::exp(g + (t == 0 ? 0.0 : h)) : g * h;
         }
+        if (t > options.iterations) continue;  // a pass for the confidence alone
         any = any || weights > 1e-30;
         if (weights > 1e-30) depth = weighted / weights;
       }

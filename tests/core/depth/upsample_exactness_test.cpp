@@ -150,6 +150,26 @@ TEST_P(UpsampleExactness, LiteralWeightsAreEquationEightAsPrinted) {
   }
 }
 
+TEST_P(UpsampleExactness, EveryReadingOfEquationNineIsItsSum) {
+  using Weights = UpsampleOptions::Weights;
+  const Problem problem = RandomProblem(33, 19, 4, 6);
+  for (const Weights weights : {Weights::kProduct, Weights::kLiteral})
+    for (const Weights terms : {Weights::kProduct, Weights::kLiteral})
+      for (const ConfidencePasses passes :
+           {ConfidencePasses::kAll, ConfidencePasses::kEveryDepth, ConfidencePasses::kGuided}) {
+        SCOPED_TRACE(testing::Message()
+                     << "weights " << static_cast<int>(weights) << ", terms "
+                     << static_cast<int>(terms) << ", passes " << static_cast<int>(passes));
+        UpsampleOptions options = Window(8.0);
+        options.weights = weights;
+        options.confidence_terms = terms;
+        options.confidence_passes = passes;
+        ExpectByTheBook(problem, options);
+        options.iterations = 1;
+        ExpectByTheBook(problem, options);
+      }
+}
+
 INSTANTIATE_TEST_SUITE_P(, UpsampleExactness, testing::ValuesIn(VectorTargets()), VectorTargetName);
 
 }  // namespace

@@ -130,5 +130,68 @@ TEST(ConfidenceMask, KeepsTheShareOfTheLargestConfidence) {
   EXPECT_TRUE(std::isnan(ApplyMask(dense.depth_m, *mask)(2, 0)));
 }
 
+TEST(ConfidenceMask, AgainstTheNominalWeightOneDenseSpotDecidesNothing) {
+  DenseDepth dense;
+  dense.depth_m = DepthImage(3, 1, 1.0f);
+  dense.confidence = FloatImage(3, 1);
+  dense.confidence(0, 0) = 100.0f;
+  dense.confidence(1, 0) = 9.0f;
+  dense.confidence(2, 0) = 3.0f;
+  dense.max_confidence = 100.0f;
+  dense.nominal_confidence = 10.0f;
+  EXPECT_EQ((*MaskLowConfidence(dense, {}))(1, 0), 0);
+  ConfidenceMaskOptions options;
+  options.reference = ConfidenceMaskOptions::Reference::kNominal;
+  const MaskImage mask = *MaskLowConfidence(dense, options);
+  EXPECT_EQ(mask(0, 0), 255);
+  EXPECT_EQ(mask(1, 0), 255);
+  EXPECT_EQ(mask(2, 0), 0);
+}
+
+TEST(NominalConfidence, IsTheIntegralOfTheGaussianOverTheDiscTimesTheDensityAndThePasses) {
+  const ColorImage guide(240, 120, {128, 128, 128});
+  const AlignedSamples samples = SamplesOnLattice(240, 120, 4, 12, [](int, int) { return 1.0; });
+  UpsampleOptions options;
+  options.sigma_spatial_px = 20.0;
+  options.radius_in_sigmas = 1.5;
+  const double disc = 2.0 * 3.14159265 * 400.0 * (1.0 - std::exp(-0.5 * 1.5 * 1.5)) / 48.0;
+  // The disc is made of whole pixels: 1 %.
+  EXPECT_NEAR(UpsampleDepth(samples, guide, options, {})->nominal_confidence, 6.0 * disc,
+              0.06 * disc);
+  options.confidence_passes = ConfidencePasses::kGuided;
+  EXPECT_NEAR(UpsampleDepth(samples, guide, options, {})->nominal_confidence, 5.0 * disc,
+              0.05 * disc);
+}
+
+TEST(NominalConfidence, IsWhatAFlatWallReachesInEveryReading) {
+  using Weights = UpsampleOptions::Weights;
+  const ColorImage guide(240, 120, {128, 128, 128});
+  const AlignedSamples samples = SamplesOnLattice(240, 120, 4, 6, [](int, int) { return 1.0; });
+  for (const Weights terms : {Weights::kProduct, Weights::kLiteral})
+    for (const ConfidencePasses passes :
+         {ConfidencePasses::kAll, ConfidencePasses::kEveryDepth, ConfidencePasses::kGuided}) {
+      UpsampleOptions options;
+      options.sigma_spatial_px = 20.0;
+      options.confidence_terms = terms;
+      options.confidence_passes = passes;
+      const auto dense = UpsampleDepth(samples, guide, options, {});
+      // The mean over one period of the lattice; a single pixel may see a row of samples more.
+      double mean = 0.0;
+      for (int y = 60; y < 66; ++y)
+        for (int x = 120; x < 124; ++x) mean += static_cast<double>(dense->confidence(x, y)) / 24.0;
+      EXPECT_NEAR(mean / dense->nominal_confidence, 1.0, 0.01);
+    }
+}
+
+TEST(UpsampleDepth, RefusesAConfidenceOfPassesThatThereAreNot) {
+  const AlignedSamples samples = SamplesOnLattice(120, 60, 4, 6, [](int, int) { return 1.0; });
+  UpsampleOptions options = SmallWindow();
+  options.iterations = 0;
+  options.confidence_passes = ConfidencePasses::kGuided;
+  const auto dense = UpsampleDepth(samples, ColorImage(120, 60), options, {});
+  ASSERT_FALSE(dense);
+  EXPECT_NE(dense.error().message.find("confidence_passes"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace foresight
