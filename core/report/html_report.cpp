@@ -1,6 +1,7 @@
 #include "core/report/html_report.h"
 
 #include "core/base/atomic_file.h"
+#include "core/base/markup.h"
 #include "core/io/png.h"
 
 namespace foresight {
@@ -16,38 +17,18 @@ constexpr const char* kStyle = R"(
   figcaption b { display: block; }
 )";
 
-std::string Escape(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  return escaped;
-}
-
 std::string TableHtml(const HtmlReport::Table& table) {
-  std::string html = "<h2>" + Escape(table.title) + "</h2>\n<table>\n";
+  std::string html = "<h2>" + EscapeMarkup(table.title) + "</h2>\n<table>\n";
   for (const auto& row : table.rows)
-    html += "<tr><td>" + Escape(row.name) + "</td><td>" + Escape(row.value) + "</td></tr>\n";
+    html += "<tr><td>" + EscapeMarkup(row.name) + "</td><td>" + EscapeMarkup(row.value) +
+            "</td></tr>\n";
   return html + "</table>\n";
 }
 
 std::string PictureHtml(const HtmlReport::Picture& picture) {
   return fmt::format(
       "<figure><img src=\"{0}\" alt=\"{1}\"><figcaption><b>{1}</b>{2}</figcaption></figure>\n",
-      Escape(picture.file), Escape(picture.title), Escape(picture.caption));
+      EscapeMarkup(picture.file), EscapeMarkup(picture.title), EscapeMarkup(picture.caption));
 }
 
 }  // namespace
@@ -57,7 +38,7 @@ Status WriteHtmlReport(const HtmlReport& report, const std::filesystem::path& fo
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
       "charset=\"utf-8\"><title>{0}</title><style>{1}</style></head>\n"
       "<body><h1>{0}</h1>\n<p>{2}</p>\n",
-      Escape(report.title), kStyle, Escape(report.summary));
+      EscapeMarkup(report.title), kStyle, EscapeMarkup(report.summary));
   for (const auto& table : report.tables) html += TableHtml(table);
   html += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
   for (const auto& picture : report.pictures) {
