@@ -1,5 +1,7 @@
 #include "core/evaluation/evaluate_methods.h"
 
+#include "core/evaluation/enlarge_scene.h"
+
 namespace foresight {
 namespace {
 
@@ -19,18 +21,28 @@ DepthOptions TestbedOptionsOf(DepthMethod method) {
   return options;
 }
 
-Result<MethodScore> EvaluateOnScene(const StereoScene& scene,
-                                    const StereoEvaluationOptions& options,
-                                    const RunContext& context) {
+Result<StereoRun> RunOnScene(const StereoScene& scene, const StereoEvaluationOptions& options,
+                             const RunContext& context) {
   if (options.enlarge < 1 || options.enlarge > 16)
     return Fail(ErrorCode::kInvalidOptions, "evaluation: scale {} is not in [1, 16]",
                 options.enlarge);
-  const StereoScene sized = EnlargeScene(scene, options.enlarge);
-  FORESIGHT_TRY(StereoTrial trial, MakeStereoTrial(sized, options.testbed));
-  FORESIGHT_TRY(const DepthResult result,
-                ComputeDepth(std::move(trial.samples), sized.right, options.depth, context));
+  StereoRun run;
+  run.scene = EnlargeScene(scene, options.enlarge);
+  FORESIGHT_TRY(StereoTrial trial, MakeStereoTrial(run.scene, options.testbed));
+  run.truth_m = std::move(trial.truth_m);
+  FORESIGHT_TRY(run.result,
+                ComputeDepth(std::move(trial.samples), run.scene.right, options.depth, context));
   const int stride = options.enlarge > 1 ? kStrideOfEnlarged : 1;
-  return ScoreMethod(scene.name, options.depth.method, result, trial.truth_m, stride);
+  FORESIGHT_TRY(run.score,
+                ScoreMethod(scene.name, options.depth.method, run.result, run.truth_m, stride));
+  return run;
+}
+
+Result<MethodScore> EvaluateOnScene(const StereoScene& scene,
+                                    const StereoEvaluationOptions& options,
+                                    const RunContext& context) {
+  FORESIGHT_TRY(StereoRun run, RunOnScene(scene, options, context));
+  return std::move(run.score);
 }
 
 }  // namespace foresight

@@ -16,8 +16,20 @@ struct StereoEvaluationOptions {
 /// uses where the method has one, and the testbed's own sampling steps.
 DepthOptions TestbedOptionsOf(DepthMethod method);
 
+/// A score with all that it was computed from: for pictures.
+struct StereoRun {
+  MethodScore score;
+  StereoScene scene;  ///< enlarged where that was asked for
+  DepthImage truth_m;
+  DepthResult result;
+};
+
 /// Runs the depth pipeline on a scene and scores it. Enlarged scenes are scored on every fifth row
 /// and column, a number without common factor with the sampling steps.
+Result<StereoRun> RunOnScene(const StereoScene& scene, const StereoEvaluationOptions& options,
+                             const RunContext& context);
+
+/// The same, the score alone.
 Result<MethodScore> EvaluateOnScene(const StereoScene& scene,
                                     const StereoEvaluationOptions& options,
                                     const RunContext& context);

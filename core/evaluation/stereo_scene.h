@@ -9,12 +9,13 @@
 namespace foresight {
 
 /// A scene in the form of the Middlebury stereo data sets of 2014: two rectified views and the
-/// disparity of the left one. depth = baseline focal / (disparity + offset).
+/// disparity of the left one, sometimes of both. depth = baseline focal / (disparity + offset).
 struct StereoScene {
   std::string name;
-  ColorImage right;           ///< the guidance image of the testbed
-  FloatImage left_disparity;  ///< pixels; NaN = unknown
-  MaskImage left_in_both;     ///< 255 = the pixel is also seen by the right view
+  ColorImage right;            ///< the guidance image of the testbed
+  FloatImage left_disparity;   ///< pixels; NaN = unknown
+  FloatImage right_disparity;  ///< same, of the right view; empty where the data set has none
+  MaskImage left_in_both;      ///< 255 = the pixel is also seen by the right view
   double baseline_m = 0.0;
   double focal_px = 0.0;
   double left_cx = 0.0;  ///< principal points, pixels
@@ -30,13 +31,10 @@ struct StereoScene {
   }
 };
 
-/// Reads calib.txt, im1.png, disp0GT.pfm and, where there is one, mask0nocc.png of a folder.
-/// im0.png must be there and of the same size, as the data set promises. Fails with kIo or
-/// kBadData.
+/// Reads a folder of either form of the data set (docs/formats.md): calib.txt, im0.png, im1.png,
+/// the left view's disparity (disp0GT.pfm or disp0.pfm) and, where they are there, the right view's
+/// (disp1GT.pfm or disp1.pfm) and mask0nocc.png. All of one size, that of calib.txt where it names
+/// one. Fails with kIo where a file is missing, or kBadData.
 Result<StereoScene> LoadStereoScene(const std::filesystem::path& folder);
-
-/// The same scene at `factor` times the size: disparity interpolated on surfaces (bilinear where
-/// the four neighbours are one surface, the nearest one elsewhere), image bicubic.
-StereoScene EnlargeScene(const StereoScene& scene, int factor);
 
 }  // namespace foresight

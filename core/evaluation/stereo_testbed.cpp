@@ -59,8 +59,16 @@ Result<StereoTrial> MakeStereoTrial(const StereoScene& scene, const StereoTestbe
   if (out.samples.empty())
     return Fail(ErrorCode::kTooFewPoints, "{}: no sample lands in the right view", scene.name);
   out.reasons.assign(out.samples.size(), RejectReason::kKept);
-  trial.truth_m = WarpTruthToRight(scene);
+  trial.truth_m = TruthOfRight(scene);
   return trial;
+}
+
+DepthImage TruthOfRight(const StereoScene& scene) {
+  if (scene.right_disparity.empty()) return WarpTruthToRight(scene);
+  DepthImage truth = scene.right_disparity;
+  for (float& value : truth.values())
+    value = static_cast<float>(scene.DepthOf(static_cast<double>(value)));
+  return truth;
 }
 
 DepthImage WarpTruthToRight(const StereoScene& scene) {

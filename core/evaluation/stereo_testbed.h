@@ -27,10 +27,14 @@ struct StereoTrial {
 /// Fails with kTooFewPoints when no sample lands in the right view.
 Result<StereoTrial> MakeStereoTrial(const StereoScene& scene, const StereoTestbedOptions& options);
 
-/// True depth of the right view: the surfaces that the left view knows and both views see, moved into the
-/// right one; the nearest surface wins. Between neighbouring left pixels of one surface disparity is
-/// linear, so a surface that the right view sees stretched has no cracks. Pixels that no surface covers
-/// (disocclusions, unknown regions) are NaN.
+/// True depth of the right view, NaN = unknown: from its own disparity where the data set has one,
+/// what only the right view sees included; else WarpTruthToRight.
+DepthImage TruthOfRight(const StereoScene& scene);
+
+/// True depth of the right view as far as the left one tells: the surfaces that the left view knows
+/// and both views see, moved into the right one; the nearest surface wins. Between neighbouring
+/// left pixels of one surface disparity is linear, so a surface that the right view sees stretched
+/// has no cracks. Pixels that no surface covers (disocclusions, unknown regions) are NaN.
 DepthImage WarpTruthToRight(const StereoScene& scene);
 
 }  // namespace foresight

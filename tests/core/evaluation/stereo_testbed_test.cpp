@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "core/base/atomic_file.h"
-#include "tests/support/temporary_folder.h"
+#include "core/evaluation/enlarge_scene.h"
 
 namespace foresight {
 namespace {
@@ -90,14 +89,23 @@ TEST(EnlargeScene, KeepsDepthAndDoesNotBridgeSurfaces) {
     ASSERT_TRUE(disparity == 40.0f || disparity == 120.0f) << disparity;
 }
 
-TEST(LoadStereoScene, NamesWhatIsMissing) {
-  const TemporaryFolder folder;
-  ASSERT_TRUE(WriteFileAtomically(folder / "calib.txt",
-                                  "cam0=[500 0 100; 0 500 30; 0 0 1]\ndoffs=0\nbaseline=100\n"));
-  const auto scene = LoadStereoScene(folder.path());
-  ASSERT_FALSE(scene);
-  EXPECT_EQ(scene.error().code, ErrorCode::kBadData);
-  EXPECT_NE(scene.error().message.find("'cam1' is missing"), std::string::npos);
+TEST(StereoTestbed, TheRightViewsOwnTruthIsTakenAsItIs) {
+  StereoScene scene = PlateBeforeWall();
+  scene.right_disparity = FloatImage(200, 60, 15.0f);
+  scene.right_disparity(5, 5) = NAN;
+  const auto trial = MakeStereoTrial(scene, Exact());
+  ASSERT_TRUE(trial);
+  // The disocclusion beside the plate, which the left view cannot know.
+  EXPECT_NEAR(trial->truth_m(100, 30), 100.0 / 25.0, 1e-6);
+  EXPECT_TRUE(std::isnan(trial->truth_m(5, 5)));
+}
+
+TEST(EnlargeScene, EnlargesBothViewsAlike) {
+  StereoScene scene = PlateBeforeWall();
+  EXPECT_TRUE(EnlargeScene(scene, 4).right_disparity.empty());
+  scene.right_disparity = FloatImage(200, 60, 15.0f);
+  const StereoScene large = EnlargeScene(scene, 4);
+  EXPECT_NEAR(TruthOfRight(large)(799, 239), 100.0 / 25.0, 1e-6);
 }
 
 }  // namespace
