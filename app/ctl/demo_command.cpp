@@ -33,13 +33,10 @@ Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome
   const CameraFrame* frame = NearestFrame(outcome.scan, DemoPlan().image_angles_rad.front());
   if (frame == nullptr) return Fail(ErrorCode::kDevice, "the scan came home without a picture");
   outcome.frame = *frame;
-  const double motor_rad = frame->motor_angle_rad;
   FORESIGHT_TRY(outcome.registered, RegisterScan(outcome.scan, context));
-  FORESIGHT_TRY(AlignedSamples samples,
-                AlignToImage(outcome.registered, outcome.scan.rig, motor_rad, context));
-  FORESIGHT_TRY(outcome.depth, ComputeDepth(std::move(samples), frame->image,
-                                            DefaultsOf(DepthMethod::kForesight), context));
-  const auto roi = RegionOfTrueValve(truth, world, motor_rad);
+  FORESIGHT_TRY(outcome.depth, ComputeDepthInFrame(outcome.registered, outcome.scan.rig, *frame,
+                                                   DefaultsOf(DepthMethod::kForesight), context));
+  const auto roi = RegionOfTrueValve(truth, world, frame->motor_angle_rad);
   if (!roi)
     return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the picture",
                 world.scene().name);

@@ -22,11 +22,9 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
   FORESIGHT_TRY(const DepthOptions options, DepthOptionsFrom(arguments.depth));
   FORESIGHT_TRY(const OpenedScan opened, OpenScan(arguments.scan));
   FORESIGHT_TRY(const RegisteredScan registered, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
-  FORESIGHT_TRY(AlignedSamples samples,
-                AlignToImage(registered, opened.scan.rig, opened.frame.motor_angle_rad,
-                             context.Part(0.1, 0.2)));
-  FORESIGHT_TRY(const DepthResult result, ComputeDepth(std::move(samples), opened.frame.image,
-                                                       options, context.Part(0.2, 1.0)));
+  FORESIGHT_TRY(const DepthResult result,
+                ComputeDepthInFrame(registered, opened.scan.rig, opened.frame, options,
+                                    context.Part(0.1, 1.0)));
   WarnOfLowDensity(result);
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));

@@ -35,10 +35,9 @@ Result<ValveDetection> FitIn(const FitArguments& arguments, const OpenedScan& op
   FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
   if (arguments.source == "raw")
     return FitValveInScan({rig, cloud}, FitSource::kRaw, roi, options, context.Part(0.1, 1.0));
-  FORESIGHT_TRY(AlignedSamples samples,
-                AlignToImage(cloud, rig, motor_rad, context.Part(0.1, 0.2)));
-  FORESIGHT_TRY(const DepthResult depth, ComputeDepth(std::move(samples), opened.frame.image,
-                                                      depth_options, context.Part(0.2, 0.6)));
+  FORESIGHT_TRY(
+      const DepthResult depth,
+      ComputeDepthInFrame(cloud, rig, opened.frame, depth_options, context.Part(0.1, 0.6)));
   return FitValveInScan({rig, cloud, &depth}, FitSource::kDepth, roi, options,
                         context.Part(0.6, 1.0));
 }

@@ -52,4 +52,12 @@ Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide
   return result;
 }
 
+Result<DepthResult> ComputeDepthInFrame(const RegisteredScan& scan, const SensorRig& rig,
+                                        const CameraFrame& frame, const DepthOptions& options,
+                                        const RunContext& context) {
+  FORESIGHT_TRY(AlignedSamples samples,
+                AlignToImage(scan, rig, frame.motor_angle_rad, context.Part(0.0, 0.1)));
+  return ComputeDepth(std::move(samples), frame.image, options, context.Part(0.1, 1.0));
+}
+
 }  // namespace foresight

@@ -8,6 +8,7 @@
 #include "core/depth/reject_isolated.h"
 #include "core/depth/tgv.h"
 #include "core/depth/upsample.h"
+#include "core/sensor/camera_frame.h"
 
 namespace foresight {
 
@@ -46,5 +47,11 @@ struct DepthResult {
 /// else.
 Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide,
                                  const DepthOptions& options, const RunContext& context);
+
+/// The depth map of one of the head's pictures: AlignToImage at the picture's own angle, then
+/// ComputeDepth. Fails as these do.
+Result<DepthResult> ComputeDepthInFrame(const RegisteredScan& scan, const SensorRig& rig,
+                                        const CameraFrame& frame, const DepthOptions& options,
+                                        const RunContext& context);
 
 }  // namespace foresight

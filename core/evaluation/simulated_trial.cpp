@@ -95,11 +95,8 @@ Result<SimulatedTrial> MakeSimulatedTrial(std::shared_ptr<const Scene> scene,
 
 Result<MethodScore> EvaluateOnTrial(const SimulatedTrial& trial, const DepthOptions& options,
                                     const RunContext& context) {
-  FORESIGHT_TRY(
-      AlignedSamples samples,
-      AlignToImage(trial.cloud, trial.rig, trial.frame.motor_angle_rad, context.Part(0.0, 0.1)));
-  FORESIGHT_TRY(const DepthResult result, ComputeDepth(std::move(samples), trial.frame.image,
-                                                       options, context.Part(0.1, 1.0)));
+  FORESIGHT_TRY(const DepthResult result,
+                ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame, options, context));
   return ScoreMethod(trial.scene, options.method, result, trial.truth_m, 1);
 }
 

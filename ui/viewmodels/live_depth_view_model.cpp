@@ -27,11 +27,9 @@ void LiveDepthViewModel::Grow() {
   since_last_.start();
   const auto work = [cloud = session_->Cloud(), rig = session_->Rig(),
                      seen = last_scan_](const RunContext& context) -> Result<DepthResult> {
-    const CameraFrame& frame = seen->frames.front();
     RunContext modest = context;
     modest.threads = 1;  // recording the sweep comes first
-    FORESIGHT_TRY(AlignedSamples samples, AlignToImage(*cloud, rig, frame.motor_angle_rad, modest));
-    return ComputeDepth(std::move(samples), frame.image, DefaultsOf(Method()), modest);
+    return ComputeDepthInFrame(*cloud, rig, seen->frames.front(), DefaultsOf(Method()), modest);
   };
   runner_.Run<DepthResult>(tr("Previewing the depth"), work,
                            [this, lines = session_->Cloud()->lines](Result<DepthResult> depth) {
