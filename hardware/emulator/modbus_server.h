@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "hardware/emulator/modbus_frame.h"
+#include "hardware/net/tcp_listener.h"
+
+namespace foresight {
+
+/// Serves registers over Modbus TCP, a thread for each of at most kMostClients clients. The bank is
+/// asked from all of them and must be safe for that; it outlives the server.
+class ModbusServer {
+ public:
+  static constexpr std::size_t kMostClients = 4;
+
+  /// On a numeric address; port 0 takes a free one. Fails with kDevice.
+  static Result<std::unique_ptr<ModbusServer>> Start(const TcpAddress& address, RegisterBank& bank);
+  ~ModbusServer();
+
+  const TcpAddress& address() const { return address_; }
+  /// A silent server takes connections and requests, and loses the requests.
+  void SetSilent(bool silent) { silent_ = silent; }
+  /// Ends all connections as a crash would.
+  void ResetConnections();
+
+ private:
+  struct Client {
+    TcpSocket socket;
+    WakeUp wake;
+    std::atomic<bool> finished{false};
+    std::jthread thread;  ///< last: ends before what it uses
+  };
+
+  ModbusServer(TcpListener listener, RegisterBank& bank);
+  void AcceptClients(const std::stop_token& stop);
+  void Serve(Client& client, const std::stop_token& stop);
+  bool AnswerAll(Client& client, std::vector<std::uint8_t>& received);
+
+  TcpListener listener_;
+  const TcpAddress address_;
+  RegisterBank& bank_;
+  std::atomic<bool> silent_{false};
+  WakeUp wake_;
+  std::mutex mutex_;
+  std::list<Client> clients_;
+  std::jthread thread_;  ///< last: starts when everything else is there
+};
+
+}  // namespace foresight
