@@ -15,6 +15,8 @@ find_package(CLI11 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(hwy 1.0.3 CONFIG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(modbus REQUIRED QUIET IMPORTED_TARGET libmodbus)
 
 foreach(package VTK OpenNI OpenNI2 libusb Pcap)
   set(CMAKE_DISABLE_FIND_PACKAGE_${package} ON)

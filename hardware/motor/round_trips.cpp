@@ -1,0 +1,32 @@
+#include "hardware/motor/round_trips.h"
+
+#include <algorithm>
+
+namespace foresight {
+
+void RoundTrips::Add(double sent_s, double answered_s) {
+  sent_s_[count_ % kKept] = sent_s;
+  duration_s_[count_ % kKept] = answered_s - sent_s;
+  ++count_;
+}
+
+double RoundTrips::Median_s() const {
+  if (count_ == 0) return 0.0;
+  std::array<double, kKept> sorted = duration_s_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(size()));
+  return *middle;
+}
+
+void RoundTrips::Describe(MotorHealth& health) const {
+  if (count_ == 0) return;
+  health.round_trip_median_s = Median_s();
+  health.round_trip_max_s = *std::max_element(
+      duration_s_.begin(), duration_s_.begin() + static_cast<std::ptrdiff_t>(size()));
+  const double newest_s = sent_s_[(count_ - 1) % kKept];
+  const double oldest_s = sent_s_[(count_ - size()) % kKept];
+  if (newest_s > oldest_s)
+    health.poll_rate_hz = static_cast<double>(size() - 1) / (newest_s - oldest_s);
+}
+
+}  // namespace foresight
