@@ -39,7 +39,8 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
                {"image_deg", image_deg},
                {"samples", count},
                {"rejected", count - result.samples.KeptCount()},
-               {"density", LocalDensity(result.samples)},
+               {"density", result.density},
+               {"below_density_floor", result.BelowDensityFloor()},
                {"sigma_spatial_px", result.dense.sigma_spatial_px},
                {"seconds", result.seconds},
                {"out", arguments.out}});

@@ -47,6 +47,7 @@ Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide
   DepthResult result;
   FORESIGHT_TRY(result.dense, Densify(samples, guide, options, context.Part(0.1, 1.0)));
   FORESIGHT_TRY(result.mask, MaskLowConfidence(result.dense, options.mask));
+  result.density = LocalDensity(samples);
   result.samples = std::move(samples);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -9,6 +9,7 @@
 #include "core/depth/tgv.h"
 #include "core/depth/upsample.h"
 #include "core/sensor/camera_frame.h"
+#include "core/sensor/scan_plan.h"
 
 namespace foresight {
 
@@ -40,7 +41,11 @@ struct DepthResult {
   AlignedSamples samples;  ///< with the reason of each rejection
   DenseDepth dense;
   MaskImage mask;
+  double density = 0.0;  ///< LocalDensity of the samples
   double seconds = 0.0;
+
+  /// Fewer samples than the paper wants: there is a depth map, but it is not to be trusted.
+  bool BelowDensityFloor() const { return density < ScanPrediction::kMinDensity; }
 };
 
 /// Section IV from the aligned samples to the mask; calls the stages in their order and nothing
