@@ -1,7 +1,10 @@
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
+#include "app/ctl/evaluate_pictures.h"
 #include "app/ctl/evaluation_report.h"
 #include "core/evaluation/evaluate_methods.h"
 #include "core/geometry/angles.h"
@@ -16,6 +19,7 @@ struct EvaluateArguments {
   int scale = 1;
   double rotation_error_deg = DegreesFromRadians(CalibrationError().rotation_rad);
   double translation_error_mm = 1000.0 * CalibrationError().translation_m;
+  std::string out;  ///< empty = no pictures
   bool json = false;
 };
 
@@ -36,9 +40,22 @@ void Announce(const std::string& scene, DepthMethod method) {
   fmt::print(stderr, "{}: {}\n", scene, InfoOf(method).title);
 }
 
+RayOfPixel RayOfRightView(const StereoScene& scene) {
+  return [&scene](const Eigen::Vector2d& pixel) -> Eigen::Vector2d {
+    return (pixel - Eigen::Vector2d(scene.right_cx, scene.cy)) / scene.focal_px;
+  };
+}
+
+RayOfPixel RayOfCamera(const FisheyeCamera& camera) {
+  return [&camera](const Eigen::Vector2d& pixel) {
+    return camera.UnprojectToPlane(pixel).value_or(
+        Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  };
+}
+
 Status EvaluateStereo(const std::string& folder, const std::vector<DepthMethod>& methods,
-                      const EvaluateArguments& arguments, std::vector<EvaluationRow>& rows,
-                      const RunContext& context) {
+                      const EvaluateArguments& arguments, EvaluationPictures* pictures,
+                      std::vector<EvaluationRow>& rows, const RunContext& context) {
   FORESIGHT_TRY(const StereoScene scene, LoadStereoScene(folder));
   StereoEvaluationOptions options;
   options.testbed.seed = arguments.seed;
@@ -46,15 +63,18 @@ Status EvaluateStereo(const std::string& folder, const std::vector<DepthMethod>&
   for (const DepthMethod method : methods) {
     Announce(scene.name, method);
     options.depth = TestbedOptionsOf(method);
-    FORESIGHT_TRY(MethodScore score, EvaluateOnScene(scene, options, context));
-    rows.push_back({std::move(score), std::nullopt});
+    FORESIGHT_TRY(const StereoRun run, RunOnScene(scene, options, context));
+    if (pictures != nullptr)
+      FORESIGHT_CHECK(pictures->Add({run.depth.score, run.depth.result, run.scene.right,
+                                     run.truth_m, RayOfRightView(run.scene)}));
+    rows.push_back({run.depth.score, std::nullopt});
   }
   return {};
 }
 
 Status EvaluateSimulated(const std::string& file, const std::vector<DepthMethod>& methods,
-                         const EvaluateArguments& arguments, std::vector<EvaluationRow>& rows,
-                         const RunContext& context) {
+                         const EvaluateArguments& arguments, EvaluationPictures* pictures,
+                         std::vector<EvaluationRow>& rows, const RunContext& context) {
   FORESIGHT_TRY(Scene scene, LoadScene(file));
   SimulatedTrialOptions options;
   options.world.seed = arguments.seed;
@@ -66,20 +86,31 @@ Status EvaluateSimulated(const std::string& file, const std::vector<DepthMethod>
       MakeSimulatedTrial(std::make_shared<const Scene>(std::move(scene)), options, context));
   for (const DepthMethod method : methods) {
     Announce(trial.scene, method);
-    FORESIGHT_TRY(MethodScore score, EvaluateOnTrial(trial, DefaultsOf(method), context));
-    rows.push_back({std::move(score), options.calibration_error});
+    FORESIGHT_TRY(const ScoredDepth depth, RunOnTrial(trial, DefaultsOf(method), context));
+    if (pictures != nullptr)
+      FORESIGHT_CHECK(pictures->Add({depth.score, depth.result, trial.frame.image, trial.truth_m,
+                                     RayOfCamera(trial.rig.camera)}));
+    rows.push_back({depth.score, options.calibration_error});
   }
   return {};
 }
 
 Result<ExitCode> Evaluate(const EvaluateArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const std::vector<DepthMethod> methods, MethodsFrom(arguments.methods));
+  std::optional<EvaluationPictures> pictures;
+  if (!arguments.out.empty()) {
+    FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
+    pictures.emplace(arguments.out);
+  }
+  EvaluationPictures* const pictures_or_none = pictures ? &*pictures : nullptr;
   std::vector<EvaluationRow> rows;
   for (const std::string& scene : arguments.scenes) {
     const bool simulated = std::filesystem::path(scene).extension() == ".yaml";
-    FORESIGHT_CHECK(simulated ? EvaluateSimulated(scene, methods, arguments, rows, context)
-                              : EvaluateStereo(scene, methods, arguments, rows, context));
+    FORESIGHT_CHECK(
+        simulated ? EvaluateSimulated(scene, methods, arguments, pictures_or_none, rows, context)
+                  : EvaluateStereo(scene, methods, arguments, pictures_or_none, rows, context));
   }
+  if (pictures) FORESIGHT_CHECK(pictures->WritePage());
   PrintEvaluation(rows, arguments.json);
   return ExitCode::kDone;
 }
@@ -94,7 +125,8 @@ void AddEvaluateCommand(CLI::App& app, Invocation& invocation) {
       "paper) and simulated scans");
   command
       ->add_option("scenes", arguments->scenes,
-                   "Folders in Middlebury 2014 form (calib.txt, im0.png, im1.png, disp0GT.pfm), or "
+                   "Folders in Middlebury 2014 form (calib.txt, im0.png, im1.png, disp0GT.pfm or "
+                   "disp0.pfm), or "
                    "scene files (*.yaml) to scan")
       ->required();
   command->add_option("--method", arguments->methods, "Depth methods, or all: " + MethodNames())
@@ -119,6 +151,9 @@ void AddEvaluateCommand(CLI::App& app, Invocation& invocation) {
                    "How far the lidar's believed pose is shifted from the true one (scene files)")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  command->add_option("-o,--out", arguments->out,
+                      "Folder for pictures of depth, error, samples and a view from aside, and "
+                      "index.html with all of them");
   command->add_flag("--json", arguments->json, "Print a JSON list, one object a scene and method");
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) { return Evaluate(*arguments, context); };

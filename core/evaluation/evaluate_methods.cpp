@@ -30,11 +30,11 @@ Result<StereoRun> RunOnScene(const StereoScene& scene, const StereoEvaluationOpt
   run.scene = EnlargeScene(scene, options.enlarge);
   FORESIGHT_TRY(StereoTrial trial, MakeStereoTrial(run.scene, options.testbed));
   run.truth_m = std::move(trial.truth_m);
-  FORESIGHT_TRY(run.result,
+  FORESIGHT_TRY(run.depth.result,
                 ComputeDepth(std::move(trial.samples), run.scene.right, options.depth, context));
   const int stride = options.enlarge > 1 ? kStrideOfEnlarged : 1;
-  FORESIGHT_TRY(run.score,
-                ScoreMethod(scene.name, options.depth.method, run.result, run.truth_m, stride));
+  FORESIGHT_TRY(run.depth.score, ScoreMethod(scene.name, options.depth.method, run.depth.result,
+                                             run.truth_m, stride));
   return run;
 }
 
@@ -42,7 +42,7 @@ Result<MethodScore> EvaluateOnScene(const StereoScene& scene,
                                     const StereoEvaluationOptions& options,
                                     const RunContext& context) {
   FORESIGHT_TRY(StereoRun run, RunOnScene(scene, options, context));
-  return std::move(run.score);
+  return std::move(run.depth.score);
 }
 
 }  // namespace foresight

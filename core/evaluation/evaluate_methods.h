@@ -16,12 +16,11 @@ struct StereoEvaluationOptions {
 /// uses where the method has one, and the testbed's own sampling steps.
 DepthOptions TestbedOptionsOf(DepthMethod method);
 
-/// A score with all that it was computed from: for pictures.
+/// A scored depth map with what it was computed from: for pictures.
 struct StereoRun {
-  MethodScore score;
   StereoScene scene;  ///< enlarged where that was asked for
   DepthImage truth_m;
-  DepthResult result;
+  ScoredDepth depth;
 };
 
 /// Runs the depth pipeline on a scene and scores it. Enlarged scenes are scored on every fifth row

@@ -21,6 +21,12 @@ struct MethodScore {
   double seconds = 0.0;           ///< of the depth pipeline, without loading and scoring
 };
 
+/// A score with the result that it is of: for pictures.
+struct ScoredDepth {
+  MethodScore score;
+  DepthResult result;
+};
+
 /// Scores what a method made of the scene called `scene`. A sample counts as an outlier when it is
 /// more than 50 mm and more than 1 % off the truth of its pixel.
 /// @param truth_m NaN = not scored; @param stride as in ScoreDepth. Fails as ScoreDepth does.

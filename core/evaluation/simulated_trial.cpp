@@ -93,11 +93,20 @@ Result<SimulatedTrial> MakeSimulatedTrial(std::shared_ptr<const Scene> scene,
   return trial;
 }
 
+Result<ScoredDepth> RunOnTrial(const SimulatedTrial& trial, const DepthOptions& options,
+                               const RunContext& context) {
+  ScoredDepth scored;
+  FORESIGHT_TRY(scored.result,
+                ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame, options, context));
+  FORESIGHT_TRY(scored.score,
+                ScoreMethod(trial.scene, options.method, scored.result, trial.truth_m, 1));
+  return scored;
+}
+
 Result<MethodScore> EvaluateOnTrial(const SimulatedTrial& trial, const DepthOptions& options,
                                     const RunContext& context) {
-  FORESIGHT_TRY(const DepthResult result,
-                ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame, options, context));
-  return ScoreMethod(trial.scene, options.method, result, trial.truth_m, 1);
+  FORESIGHT_TRY(ScoredDepth scored, RunOnTrial(trial, options, context));
+  return std::move(scored.score);
 }
 
 }  // namespace foresight

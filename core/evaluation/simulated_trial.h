@@ -54,6 +54,10 @@ Result<SimulatedTrial> MakeSimulatedTrial(std::shared_ptr<const Scene> scene,
 
 /// Runs the depth pipeline on a trial and scores every pixel. What the calibration's error moves is
 /// part of the score.
+Result<ScoredDepth> RunOnTrial(const SimulatedTrial& trial, const DepthOptions& options,
+                               const RunContext& context);
+
+/// The same, the score alone.
 Result<MethodScore> EvaluateOnTrial(const SimulatedTrial& trial, const DepthOptions& options,
                                     const RunContext& context);
 
