@@ -13,6 +13,10 @@ constexpr double kTrackMargin_s = 0.1;
 
 /// The shaft's angle at a time; 0 s is at the start of the scope.
 struct ConstantSpeed {
+  explicit ConstantSpeed(const ScanPlan& plan)
+      : from_rad(plan.from_rad),
+        speed_rad_s(std::copysign(plan.speed_rad_s, plan.to_rad - plan.from_rad)) {}
+
   double from_rad;
   double speed_rad_s;  ///< signed
 
@@ -33,14 +37,11 @@ MotorTrack EncoderTrack(const World& world, const ConstantSpeed& shaft, double d
 
 }  // namespace
 
-Result<Scan> SimulateScan(const World& world, const ScanPlan& plan, const RunContext& context) {
+Result<Scan> SimulateSweep(const World& world, const ScanPlan& plan, const RunContext& context) {
   FORESIGHT_CHECK(plan.Check());
-  const ConstantSpeed shaft{plan.from_rad,
-                            std::copysign(plan.speed_rad_s, plan.to_rad - plan.from_rad)};
-  const auto motor_rad_at = [&](double time_s) { return shaft.At(time_s); };
+  const ConstantSpeed shaft(plan);
   const double duration_s = shaft.TimeOf(plan.to_rad);
   const double period_s = world.true_rig().lidar.period_s;
-
   Scan scan;
   scan.uuid = NewUuid();
   scan.source = fmt::format("simulated: {}, seed {}", world.scene().name, world.options().seed);
@@ -50,20 +51,28 @@ Result<Scan> SimulateScan(const World& world, const ScanPlan& plan, const RunCon
   scan.rig.angle_correction = world.CalibratedCorrection();
   scan.track = EncoderTrack(world, shaft, duration_s);
   scan.lines.resize(static_cast<std::size_t>(std::ceil(duration_s / period_s)));
-  const bool finished =
-      ParallelFor(static_cast<int>(scan.lines.size()), context.Part(0.0, 0.5), [&](int i) {
-        scan.lines[static_cast<std::size_t>(i)] = world.MeasureLine(i, i * period_s, motor_rad_at);
-      });
-  for (std::size_t i = 0; finished && i < plan.image_angles_rad.size(); ++i) {
+  const bool finished = ParallelFor(static_cast<int>(scan.lines.size()), context, [&](int i) {
+    scan.lines[static_cast<std::size_t>(i)] =
+        world.MeasureLine(i, i * period_s, [&](double time_s) { return shaft.At(time_s); });
+  });
+  if (!finished) return Fail(ErrorCode::kCancelled, "the simulated sweep was cancelled");
+  scan.state = ScanState::kComplete;
+  return scan;
+}
+
+Result<Scan> SimulateScan(const World& world, const ScanPlan& plan, const RunContext& context) {
+  FORESIGHT_TRY(Scan scan, SimulateSweep(world, plan, context.Part(0.0, 0.5)));
+  const ConstantSpeed shaft(plan);
+  for (std::size_t i = 0; i < plan.image_angles_rad.size(); ++i) {
     const double time_s = shaft.TimeOf(plan.image_angles_rad[i]);
-    CameraFrame frame = world.TakePicture(static_cast<std::int64_t>(i), time_s, plan.exposure_s,
-                                          plan.gain_db, motor_rad_at, context.Part(0.5, 1.0));
+    CameraFrame frame = world.TakePicture(
+        static_cast<std::int64_t>(i), time_s, plan.exposure_s, plan.gain_db,
+        [&](double at_s) { return shaft.At(at_s); }, context.Part(0.5, 1.0));
+    if (frame.image.empty()) return Fail(ErrorCode::kCancelled, "the simulated scan was cancelled");
     frame.motor_angle_rad = scan.track.AngleAt(time_s);
     frame.target_angle_rad = plan.image_angles_rad[i];
     scan.frames.push_back(std::move(frame));
   }
-  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the simulated scan was cancelled");
-  scan.state = ScanState::kComplete;
   return scan;
 }
 
