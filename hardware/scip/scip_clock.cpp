@@ -10,7 +10,9 @@ namespace {
 constexpr double kTick_s = 1e-3;  // of the stamps
 /// Lines that the straight line goes through, and among which the earliest arrival is sought: 2 s.
 constexpr std::size_t kWindow = 80;
-/// Lines after which the least delay is known.
+/// Lines after which the straight line is good to a tenth of a tick, and delays mean something.
+constexpr std::size_t kSettledLines = 40;
+/// Delays among which the least is the connection's.
 constexpr std::size_t kBaselineLines = 40;
 /// Weight of the known period against the stamps: (0.29 ms of rounding / 0.1 ms)^2.
 constexpr double kPeriodWeight = 8.0;
@@ -77,7 +79,8 @@ ScipClock::LineTime ScipClock::Place(std::uint32_t stamp_ms, double arrival_s) {
   if (stamps_.size() > kWindow) stamps_.pop_front();
 
   const double smoothed_s = SmoothedStamp();
-  FollowDrift(arrival_s - (smoothed_s + offset_s_), smoothed_s);
+  if (stamps_.size() >= kSettledLines)
+    FollowDrift(arrival_s - (smoothed_s + offset_s_), smoothed_s);
   line.time_s = smoothed_s + offset_s();
   return line;
 }

@@ -75,9 +75,9 @@ bool IsVtk(const std::string& target) {
   return StartsWithAny(target, {"vtk", "QVTK"});
 }
 
-const std::vector<std::string> kCoreOrder = {"base",    "geometry",   "io",           "sensor",
-                                             "objects", "simulation", "registration", "depth",
-                                             "fitting", "evaluation", "mission", "pictures", "report"};
+const std::vector<std::string> kCoreOrder = {
+    "base",  "geometry", "io",         "sensor",  "objects",  "simulation", "registration",
+    "depth", "fitting",  "evaluation", "mission", "pictures", "report"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);
@@ -150,6 +150,57 @@ TEST(IncludeRules, TheHeadKnowsNoConcreteDevice) {
     return StartsWithAny(include.target, {"hardware/api/", "hardware/head/", "core/"})
                ? ""
                : "drivers are composed in app";
+  });
+}
+
+/// Files of a protocol that only turn messages into bytes and back: driver and emulator share them.
+bool IsCodec(const std::string& target) {
+  return StartsWithAny(target, {"hardware/scip/scip_codec", "hardware/scip/scip_encoding",
+                                "hardware/scip/scip_parser", "hardware/scip/scip_request",
+                                "hardware/scip/scip_status", "hardware/motor/cia402"});
+}
+
+TEST(IncludeRules, DriversKnowTheirInterfacesAndTheSensorsValuesOnly) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    if (!StartsWithAny(include.file, {"hardware/scip/", "hardware/motor/"})) return "";
+    if (!IsOurs(include.target)) return "";
+    return StartsWithAny(include.target,
+                         {FolderOf(include.file) + "/", "hardware/net/", "hardware/api/",
+                          "core/base/", "core/geometry/", "core/sensor/"})
+               ? ""
+               : "a driver works without the rest of the project";
+  });
+}
+
+TEST(IncludeRules, CodecsOfTheLidarKnowNoSockets) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    if (!IsCodec(include.file) || !StartsWith(include.file, "hardware/scip/")) return "";
+    return !IsOurs(include.target) || IsCodec(include.target) ||
+                   StartsWith(include.target, "core/base/")
+               ? ""
+               : "bytes and messages, nothing else";
+  });
+}
+
+TEST(IncludeRules, EmulatorsKnowNoDrivers) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    if (!StartsWith(include.file, "hardware/emulator/") || !IsOurs(include.target)) return "";
+    if (StartsWithAny(include.target, {"hardware/scip/", "hardware/motor/", "hardware/gige/"}))
+      return IsCodec(include.target) ? "" : "a driver would be tested against itself";
+    return StartsWithAny(include.target, {"hardware/emulator/", "hardware/net/", "hardware/api/",
+                                          "hardware/simulated/simulated_clock.h",
+                                          "hardware/simulated/simulated_shaft.h",
+                                          "hardware/simulated/motion_profile.h", "core/"})
+               ? ""
+               : "an emulator is a codec before a simulated world";
+  });
+}
+
+TEST(IncludeRules, SocketsKnowNoDevices) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    if (!StartsWith(include.file, "hardware/net/") || !IsOurs(include.target)) return "";
+    return StartsWithAny(include.target, {"hardware/net/", "core/base/"}) ? ""
+                                                                          : "devices use sockets";
   });
 }
 

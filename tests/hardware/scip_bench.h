@@ -27,7 +27,9 @@ inline bool Eventually(const std::function<bool()>& condition) {
 /// An emulated lidar on a turning shaft, and a driver connected to it over loopback.
 struct ScipBench {
   explicit ScipBench(const LidarFaults& faults = {},
-                     const std::function<void(ScipLidarOptions&)>& change = {}) {
+                     const std::function<void(ScipLidarOptions&)>& change = {},
+                     std::shared_ptr<const World> seen = TinyWorld())
+      : world(std::move(seen)) {
     ScipEmulatorOptions emulated;
     emulated.faults = faults;
     emulator = ScipEmulator::Start(world, clock, shaft, emulated).value();
@@ -68,7 +70,7 @@ struct ScipBench {
                               [this](double time_s) { return shaft->At(time_s).angle_rad; });
   }
 
-  std::shared_ptr<const World> world = TinyWorld();
+  std::shared_ptr<const World> world;
   std::shared_ptr<SimulatedClock> clock =
       std::make_shared<SimulatedClock>(SimulationSpeed::kRealTime);
   std::shared_ptr<SimulatedShaft> shaft = std::make_shared<SimulatedShaft>(0.0);

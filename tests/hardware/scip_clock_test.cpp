@@ -49,7 +49,7 @@ struct Errors {
   double unevenness_s = 0.0;  ///< rms of the change from line to line
 };
 
-/// Errors of the stamps of `lines` lines, from the 40th on.
+/// Errors of the stamps of `lines` lines, once they have settled: from the 40th on.
 Errors Follow(ScipClock& clock, Device& device, double begin_s, int lines, double period_s) {
   Errors errors;
   double last_error_s = 0.0;
