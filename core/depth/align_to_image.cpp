@@ -21,7 +21,7 @@ Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig&
       if (!scan.Valid(line, beam)) continue;
       const Eigen::Vector3d in_base = scan.points[scan.Index(line, beam)].cast<double>();
       const Eigen::Vector3d point = camera_from_base * in_base;
-      if (!(point.z() > 0.0)) continue;
+      if (!AlignedSamples::IsDepth(static_cast<float>(point.z()))) continue;
       const auto pixel = rig.camera.Project(point);
       if (!pixel || !rig.camera.InImage(*pixel)) continue;
       AlignedSample sample;

@@ -37,6 +37,7 @@ Status AlignedSamples::Check() const {
                   s.u, s.v, s.depth_m, what);
     };
     if (!(s.depth_m > 0.0f) || !std::isfinite(s.depth_m)) return fail("the depth is not positive");
+    if (!IsDepth(s.depth_m)) return fail("no lidar measures such a depth");
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);
     if (!(s.u >= -0.5f && s.v >= -0.5f && s.u < w - 0.5f && s.v < h - 0.5f))

@@ -24,15 +24,21 @@ const char* ToString(RejectReason reason);
 struct AlignedSample {
   float u = 0.0f;  ///< pixels; (0, 0) is the centre of the first pixel
   float v = 0.0f;
-  float depth_m = 0.0f;  ///< along the camera's z axis, > 0
+  float depth_m = 0.0f;  ///< along the camera's z axis
   std::int32_t line = 0;
   std::int32_t beam = 0;
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< in camera, metres; z = depth_m
 };
 
 /// Lidar measurements in one image, each knowing its place on the lidar's grid. Only samples with
-/// 0 <= line < lines, 0 <= beam < beams, inside the image and with a positive depth are in here.
+/// 0 <= line < lines, 0 <= beam < beams, inside the image and with a depth in [kNearest_m,
+/// kFarthest_m] are in here.
 struct AlignedSamples {
+  /// Wider than any lidar measures; squares of depths and of inverse depths still fit into a float.
+  static constexpr float kNearest_m = 1e-3f;
+  static constexpr float kFarthest_m = 1e4f;
+  static bool IsDepth(float depth_m) { return depth_m >= kNearest_m && depth_m <= kFarthest_m; }
+
   int width = 0;  ///< of the image, pixels
   int height = 0;
   int lines = 0;  ///< of the lidar grid
@@ -50,8 +56,8 @@ struct AlignedSamples {
   Status Check() const;
 };
 
-/// What every method needs: a guide of the samples' image size (else kInvalidInput) and a sample that is
-/// kept (else kTooFewPoints).
+/// What every method needs: a guide of the samples' image size (else kInvalidInput) and a sample
+/// that is kept (else kTooFewPoints).
 Status CheckUpsamplingInput(const AlignedSamples& samples, const ColorImage& guide);
 
 /// Index into samples for each cell of the lidar's grid, -1 = no sample; (beam, line) = (x, y).
