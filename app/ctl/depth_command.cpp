@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "app/ctl/change_chart.h"
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
 #include "app/ctl/open_scan.h"
@@ -28,6 +29,7 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
   WarnOfLowDensity(result);
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));
+  FORESIGHT_CHECK(WriteChangeChart(result.dense, arguments.out));
   const std::filesystem::path folder(arguments.out);
   FORESIGHT_CHECK(WritePng(folder / "image.png", opened.frame.image));
   FORESIGHT_CHECK(WriteCsvSamples(folder / "samples.csv", ExportSamples(result.samples)));
@@ -42,6 +44,7 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
                {"density", result.density},
                {"below_density_floor", result.BelowDensityFloor()},
                {"sigma_spatial_px", result.dense.sigma_spatial_px},
+               {"mean_change_mm", ChangeJson(result.dense)},
                {"seconds", result.seconds},
                {"out", arguments.out}});
   else

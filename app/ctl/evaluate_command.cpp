@@ -46,10 +46,13 @@ RayOfPixel RayOfRightView(const StereoScene& scene) {
   };
 }
 
+/// Of the picture's middle: a fisheye's far sides, metres away, would leave little room for it.
 RayOfPixel RayOfCamera(const FisheyeCamera& camera) {
-  return [&camera](const Eigen::Vector2d& pixel) {
-    return camera.UnprojectToPlane(pixel).value_or(
-        Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  constexpr double kLargestTangent = 1.2;
+  return [&camera](const Eigen::Vector2d& pixel) -> Eigen::Vector2d {
+    const auto ray = camera.UnprojectToPlane(pixel);
+    if (ray && ray->norm() <= kLargestTangent) return *ray;
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   };
 }
 

@@ -8,6 +8,7 @@
 #include "core/io/png.h"
 #include "core/pictures/depth_picture.h"
 #include "core/pictures/error_picture.h"
+#include "core/pictures/sample_marks.h"
 #include "core/pictures/sample_picture.h"
 
 namespace foresight {
@@ -80,14 +81,13 @@ PictureLegend DepthLegend(const std::string& line, const ValueRange& range) {
   return legend;
 }
 
-PictureLegend SamplesLegend(const MethodScore& score, const AlignedSamples& samples,
-                            const ValueRange& range) {
-  PictureLegend legend = DepthLegend(
-      fmt::format("{}, {}: {} samples", score.scene, score.method, score.samples), range);
-  for (const RejectReason reason :
-       {RejectReason::kFlying, RejectReason::kIsolated, RejectReason::kFlipping}) {
+PictureLegend SamplesLegend(const MethodScore& score, const AlignedSamples& samples) {
+  PictureLegend legend;
+  legend.lines = {fmt::format("{}, {}: {} samples", score.scene, score.method, score.samples)};
+  for (const RejectReason reason : kSampleKinds) {
     const auto count = std::count(samples.reasons.begin(), samples.reasons.end(), reason);
-    legend.swatches.push_back({ColorOf(reason), fmt::format("{} {}", ToString(reason), count)});
+    legend.swatches.push_back({reason == RejectReason::kKept ? kKeptSample : ColorOf(reason),
+                               fmt::format("{} {}", ToString(reason), count)});
   }
   return legend;
 }
@@ -177,8 +177,7 @@ Status EvaluationPictures::AddMethod(const EvaluatedDepth& evaluated, const Scen
   const ColorImage error =
       WithLegend(PaintError(depth_m, &mask, frame.truth_m, kErrorScale_m), error_legend);
   const ColorImage view = PaintCloud(frame.Points(depth_m, &mask, evaluated.ray), frame.view);
-  const ColorImage sparse = WithLegend(PaintSamples(samples, frame.depth_range),
-                                       SamplesLegend(score, samples, frame.depth_range));
+  const ColorImage sparse = WithLegend(PaintRejections(samples), SamplesLegend(score, samples));
 
   ComparisonPage::Column column{TitleOf(score), scores, {}};
   column.pictures.resize(4);

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "app/ctl/change_chart.h"
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
 #include "core/depth/imported_samples.h"
@@ -28,6 +29,7 @@ void PrintSummary(const UpsampleArguments& arguments, const DepthResult& result,
                {"density", result.density},
                {"below_density_floor", result.BelowDensityFloor()},
                {"sigma_spatial_px", result.dense.sigma_spatial_px},
+               {"mean_change_mm", ChangeJson(result.dense)},
                {"seconds", result.seconds},
                {"out", arguments.out}});
     return;
@@ -59,6 +61,7 @@ Result<ExitCode> Upsample(const UpsampleArguments& arguments, const RunContext& 
   WarnOfLowDensity(result);
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));
+  FORESIGHT_CHECK(WriteChangeChart(result.dense, arguments.out));
   PrintSummary(arguments, result, outside);
   return ExitCode::kDone;
 }

@@ -43,12 +43,12 @@ class Strip {
   }
 
   void AddBar(const PictureLegend::Bar& bar) {
-    const std::string unit = (bar.open_end ? "or more " : "") + bar.unit;
+    const std::string unit = bar.unit + (bar.open_end ? " or more" : "");
     const int right = Right() - TextWidth(unit) - 10;
     const int width = right - kMargin_px;
     for (int x = 0; x < width; ++x)
       for (int y = 0; y < kBar_px; ++y)
-        image_(kMargin_px + x, y_ + y) = ColorOf(bar.map, (x + 0.5) / width);
+        image_(kMargin_px + x, y_ + y) = ColorOf(bar.map, static_cast<double>(x) / (width - 1));
     Write(unit, right + 10, y_ + kBar_px - 2);
     const Ticks ticks =
         LinearTicks(bar.range.low, bar.range.high, std::max(1, width / kTickDistance_px));

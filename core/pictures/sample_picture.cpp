@@ -3,6 +3,20 @@
 #include <cmath>
 
 namespace foresight {
+namespace {
+
+constexpr Rgb8 kBackground = {24, 26, 30};
+
+/// A square from the sample's pixel + `from` to its pixel + 1.
+void PaintDot(ColorImage& picture, const AlignedSample& sample, int from, Rgb8 color) {
+  const auto x = static_cast<int>(std::lround(sample.u));
+  const auto y = static_cast<int>(std::lround(sample.v));
+  for (int dy = from; dy <= 1; ++dy)
+    for (int dx = from; dx <= 1; ++dx)
+      if (picture.Contains(x + dx, y + dy)) picture(x + dx, y + dy) = color;
+}
+
+}  // namespace
 
 Rgb8 ColorOf(RejectReason reason) {
   switch (reason) {
@@ -19,19 +33,25 @@ Rgb8 ColorOf(RejectReason reason) {
 }
 
 ColorImage PaintSamples(const AlignedSamples& samples, const ValueRange& depth_m) {
-  ColorImage picture(samples.width, samples.height, {24, 26, 30});
+  ColorImage picture(samples.width, samples.height, kBackground);
   for (std::size_t i = 0; i < samples.samples.size(); ++i) {
     const AlignedSample& s = samples.samples[i];
     const bool kept = samples.reasons[i] == RejectReason::kKept;
-    const Rgb8 color =
-        kept ? ColorOf(ColorMap::kTurbo, depth_m.Fraction(static_cast<double>(s.depth_m)))
-             : ColorOf(samples.reasons[i]);
-    const auto x = static_cast<int>(std::lround(s.u));
-    const auto y = static_cast<int>(std::lround(s.v));
-    for (int dy = 0; dy <= 1; ++dy)
-      for (int dx = 0; dx <= 1; ++dx)
-        if (picture.Contains(x + dx, y + dy)) picture(x + dx, y + dy) = color;
+    PaintDot(picture, s, 0,
+             kept ? ColorOf(ColorMap::kTurbo, depth_m.Fraction(static_cast<double>(s.depth_m)))
+                  : ColorOf(samples.reasons[i]));
   }
+  return picture;
+}
+
+ColorImage PaintRejections(const AlignedSamples& samples) {
+  ColorImage picture(samples.width, samples.height, kBackground);
+  for (std::size_t i = 0; i < samples.samples.size(); ++i)
+    if (samples.reasons[i] == RejectReason::kKept)
+      PaintDot(picture, samples.samples[i], 0, kKeptSample);
+  for (std::size_t i = 0; i < samples.samples.size(); ++i)
+    if (samples.reasons[i] != RejectReason::kKept)
+      PaintDot(picture, samples.samples[i], -1, ColorOf(samples.reasons[i]));
   return picture;
 }
 

@@ -9,6 +9,13 @@ namespace foresight {
 /// the colour of their reason. Dark background.
 ColorImage PaintSamples(const AlignedSamples& samples, const ValueRange& depth_m);
 
+/// Where samples were rejected: kept ones dim grey, rejected ones larger, in front, in the colour
+/// of their reason. Dark background.
+ColorImage PaintRejections(const AlignedSamples& samples);
+
+/// The colour of a kept sample in PaintRejections.
+inline constexpr Rgb8 kKeptSample = {104, 110, 118};
+
 /// The colour that stands for a reason, from the palette of Okabe and Ito.
 Rgb8 ColorOf(RejectReason reason);
 
