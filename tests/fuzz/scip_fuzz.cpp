@@ -2,20 +2,16 @@
 // decodes to the same.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "hardware/emulator/scip_device.h"
 #include "hardware/scip/scip_codec.h"
 #include "hardware/scip/scip_parser.h"
+#include "tests/fuzz/require.h"
 
 namespace {
 
 using namespace foresight;
-
-void Demand(bool condition) {
-  if (!condition) std::abort();
-}
 
 void DecodeReplies(std::string_view bytes, std::size_t split) {
   ScipParser parser;
@@ -29,7 +25,7 @@ void DecodeReplies(std::string_view bytes, std::size_t split) {
     ScipParser again;
     again.Push(EncodeScipScan(*scan));
     const auto copy = again.Take();
-    Demand(copy && DecodeScipScan(*copy) == *scan);
+    Require(copy && DecodeScipScan(*copy) == *scan, "encoding a scan loses nothing");
   }
 }
 
@@ -47,7 +43,7 @@ void AnswerRequests(std::string_view bytes) {
     line.range_mm.assign(61, 1000);
     line.intensity.assign(61, 100);
     static_cast<void>(device.Answer(*request, now_s, [&] { return line; }));
-    if (device.Streaming()) Demand(!device.StreamScan(line).empty());
+    if (device.Streaming()) Require(!device.StreamScan(line).empty(), "a stream has scans");
   }
 }
 
