@@ -193,9 +193,10 @@ void ModbusMotor::FinishTask() {
 
 /// The motor stops and the operator has to come.
 void ModbusMotor::StopAfter(const std::string& message) {
-  LogError("{}: {}", name_, message);
   {
     const std::lock_guard lock(mutex_);
+    // What goes wrong with every poll stands in the log once.
+    if (!fault_ || fault_->message != message) LogError("{}: {}", name_, message);
     fault_ = Fault{message, false};
     homed_ = false;
     posted_.reset();

@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "core/base/random.h"
+
 namespace foresight::modbus {
 namespace {
 
@@ -114,6 +116,27 @@ TEST(ModbusFrame, WritesNothingWhenOneRegisterIsNotThere) {
   const Bytes request = {0, 1, 0, 0, 0, 0x0B, 1, 0x10, 0x17, 0x83, 0, 2, 4, 0, 7, 0, 7};
   EXPECT_EQ(Answer(request, bank)[7], 0x90);
   EXPECT_EQ(bank.values[6019], 0);
+}
+
+TEST(ModbusFrame, AnswersAnyDamagedRequestWithAFrameOfItsOwn) {
+  TwoBlocks bank;
+  Random random(11);
+  const Bytes functions = {0x03, 0x04, 0x06, 0x10, 0x17, 0x2B, 0x00, 0xFF};
+  for (int i = 0; i < 20000; ++i) {
+    Bytes request(static_cast<std::size_t>(8 + random.Index(250)));
+    for (std::uint8_t& byte : request) byte = static_cast<std::uint8_t>(random.Index(256));
+    request[2] = request[3] = request[4] = 0;
+    request[5] = static_cast<std::uint8_t>(request.size() - 6);
+    request[7] = functions[static_cast<std::size_t>(random.Index(8))];
+    // Half of them reach registers that are there.
+    if (request.size() > 9 && random.Index(2) == 0) {
+      request[8] = 0x17;
+      request[9] = 0x70;
+    }
+    const Bytes answer = Answer(request, bank);
+    ASSERT_EQ(FrameLength(answer), answer.size()) << "request " << i;
+    ASSERT_EQ(answer[7] & 0x7F, request[7] & 0x7F) << "request " << i;
+  }
 }
 
 TEST(ModbusFrame, TellsTheLengthOnceTheHeaderIsThere) {
