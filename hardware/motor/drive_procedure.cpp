@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 namespace foresight {
 
@@ -180,12 +181,15 @@ DriveProcedure MoveProcedure(const MoveProfile& profile, WordOrder order) {
 }
 
 DriveProcedure StopProcedure(double timeout_s) {
-  return DriveProcedure({{"come to rest", timeout_s, false,
-                          [](DriveWrites& writes) { Control(writes, cia402::control::kQuickStop); },
-                          [](const TxImage& drive, DriveWrites&) {
-                            return Result<bool>(drive.state() != DriveState::kOperationEnabled &&
-                                                std::abs(drive.velocity) <= kRestSpeed);
-                          }}});
+  // Slow once may be the end of the ramp; slow in the next poll, too, is rest.
+  const auto rests = [slow_before = false](const TxImage& drive, DriveWrites&) mutable {
+    const bool slow =
+        drive.state() != DriveState::kOperationEnabled && std::abs(drive.velocity) <= kRestSpeed;
+    return Result<bool>(slow && std::exchange(slow_before, slow));
+  };
+  return DriveProcedure(
+      {{"come to rest", timeout_s, false,
+        [](DriveWrites& writes) { Control(writes, cia402::control::kQuickStop); }, rests}});
 }
 
 }  // namespace foresight
