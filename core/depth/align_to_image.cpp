@@ -15,6 +15,7 @@ Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig&
   aligned.height = rig.camera.height;
   aligned.lines = scan.lines;
   aligned.beams = scan.beams;
+  aligned.rays = RaysOf(rig.camera);
   for (int line = 0; line < scan.lines; ++line) {
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "alignment was cancelled");
     for (int beam = 0; beam < scan.beams; ++beam) {

@@ -29,6 +29,10 @@ Status AlignedSamples::Check() const {
   if (reasons.size() != samples.size())
     return Fail(ErrorCode::kInvalidInput, "samples: {} reasons for {} samples", reasons.size(),
                 samples.size());
+  if (rays &&
+      (rays->x.width() != width || rays->x.height() != height || !rays->x.SameSize(rays->y)))
+    return Fail(ErrorCode::kInvalidInput, "samples in {} x {} pixels, but rays of {} x {}", width,
+                height, rays->x.width(), rays->x.height());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const AlignedSample& s = samples[i];
     const auto fail = [&](const char* what) {

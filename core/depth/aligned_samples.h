@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/base/image.h"
 #include "core/base/result.h"
+#include "core/depth/ray_field.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/sensor_rig.h"
 
@@ -45,6 +47,8 @@ struct AlignedSamples {
   int beams = 0;
   std::vector<AlignedSample> samples;
   std::vector<RejectReason> reasons;  ///< one a sample
+  /// Where the image's pixels look; null = a pinhole, or not known: pixels are taken for rays.
+  std::shared_ptr<const RayField> rays;
 
   /// Samples per pixel of the whole image.
   double Density() const {

@@ -85,19 +85,20 @@ HWY_INLINE Vector Exp2OfMinus(Vector t) {
   return hn::BitCast(f, hn::Add(hn::BitCast(i, p), exponent));
 }
 
-/// Writes the indices of the samples not farther than the disc's radius from any pixel of the tile
-/// at (x, y), in the band's order. `selected` has room for the band's size and a register.
-HWY_INLINE std::size_t SelectSamples(const SampleBand& band, int x, int y, int radius,
-                                     std::int32_t* HWY_RESTRICT selected) {
+/// Writes the indices of the samples not farther than the disc's radius from any pixel of the
+/// rectangle at (x, y), in the band's order. `selected` has room for the band's size and a
+/// register.
+HWY_INLINE std::size_t SelectSamples(const SampleBand& band, int x, int y, int columns, int rows,
+                                     int radius, std::int32_t* HWY_RESTRICT selected) {
   const Floats f;
   const Ints i;
   const Vector left = hn::Set(f, static_cast<float>(x));
-  const Vector right = hn::Set(f, static_cast<float>(x + kTileColumns - 1));
+  const Vector right = hn::Set(f, static_cast<float>(x + columns - 1));
   const Vector top = hn::Set(f, static_cast<float>(y));
-  const Vector bottom = hn::Set(f, static_cast<float>(y + kTileRows - 1));
+  const Vector bottom = hn::Set(f, static_cast<float>(y + rows - 1));
   // Up to the next whole radius: samples beyond the disc find a weight of zero.
   const Vector reach2 = hn::Set(f, static_cast<float>((radius + 1) * (radius + 1)));
-  const std::size_t end = band.First(x + kTileColumns + radius);
+  const std::size_t end = band.First(x + columns + radius);
   std::size_t count = 0;
   for (std::size_t at = band.First(x - radius); at < end; at += kLanes) {
     const Vector sx = hn::LoadU(f, band.x() + at);
@@ -112,6 +113,12 @@ HWY_INLINE std::size_t SelectSamples(const SampleBand& band, int x, int y, int r
     count += hn::CountTrue(i, in_reach);
   }
   return count;
+}
+
+/// Those that reach the tile at (x, y).
+HWY_INLINE std::size_t SelectSamples(const SampleBand& band, int x, int y, int radius,
+                                     std::int32_t* HWY_RESTRICT selected) {
+  return SelectSamples(band, x, y, kTileColumns, kTileRows, radius, selected);
 }
 
 }  // namespace HWY_NAMESPACE

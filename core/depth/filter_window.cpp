@@ -2,25 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "core/depth/aligned_samples.h"
 
 namespace foresight {
-namespace {
-
-/// Sorts one row's columns upwards, and its depths along with them.
-void SortByColumn(std::span<std::int32_t> columns, std::span<float> depths_m) {
-  if (std::is_sorted(columns.begin(), columns.end())) return;
-  std::vector<std::pair<std::int32_t, float>> entries;
-  for (std::size_t i = 0; i < columns.size(); ++i) entries.emplace_back(columns[i], depths_m[i]);
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (std::size_t i = 0; i < columns.size(); ++i) std::tie(columns[i], depths_m[i]) = entries[i];
-}
-
-}  // namespace
 
 SparseDepthMap::SparseDepthMap(const AlignedSamples& samples)
     : width_(samples.width), first_(static_cast<std::size_t>(samples.height) + 1, 0) {
@@ -34,24 +19,30 @@ SparseDepthMap::SparseDepthMap(const AlignedSamples& samples)
     if (samples.reasons[i] == RejectReason::kKept) ++first_[row_of(samples.samples[i]) + 1];
   for (std::size_t y = 1; y < first_.size(); ++y) first_[y] += first_[y - 1];
   const auto count = static_cast<std::size_t>(first_.back());
-  columns_.resize(count);
-  rows_.resize(count);
-  depths_m_.resize(count);
+  sources_.resize(count);
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t i = 0; i < samples.samples.size(); ++i) {
     if (samples.reasons[i] != RejectReason::kKept) continue;
-    const AlignedSample& s = samples.samples[i];
-    const std::size_t row = row_of(s);
-    const auto place = static_cast<std::size_t>(next[row]++);
-    columns_[place] = pixel(s.u, samples.width);
-    rows_[place] = static_cast<std::int32_t>(row);
-    depths_m_[place] = s.depth_m;
+    const std::size_t row = row_of(samples.samples[i]);
+    sources_[static_cast<std::size_t>(next[row]++)] = static_cast<std::int32_t>(i);
   }
+  const auto column_of = [&](std::int32_t source) {
+    return pixel(samples.samples[static_cast<std::size_t>(source)].u, samples.width);
+  };
   for (int row = 0; row < samples.height; ++row) {
-    const auto from = static_cast<std::size_t>(First(row));
-    const std::size_t in_row = static_cast<std::size_t>(First(row + 1)) - from;
-    SortByColumn(std::span(columns_).subspan(from, in_row),
-                 std::span(depths_m_).subspan(from, in_row));
+    const auto in_row =
+        std::span(sources_).subspan(static_cast<std::size_t>(First(row)),
+                                    static_cast<std::size_t>(First(row + 1) - First(row)));
+    const auto left_of = [&](std::int32_t a, std::int32_t b) {
+      return column_of(a) < column_of(b);
+    };
+    if (!std::is_sorted(in_row.begin(), in_row.end(), left_of))
+      std::stable_sort(in_row.begin(), in_row.end(), left_of);
+    rows_.insert(rows_.end(), in_row.size(), row);
+  }
+  for (const std::int32_t source : sources_) {
+    columns_.push_back(column_of(source));
+    depths_m_.push_back(samples.samples[static_cast<std::size_t>(source)].depth_m);
   }
 }
 

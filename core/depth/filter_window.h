@@ -26,6 +26,8 @@ class SparseDepthMap {
   std::span<const std::int32_t> columns() const { return columns_; }
   std::span<const std::int32_t> rows() const { return rows_; }
   std::span<const float> depths_m() const { return depths_m_; }
+  /// Index of each into AlignedSamples::samples.
+  std::span<const std::int32_t> sources() const { return sources_; }
 
   /// What an image of the same size holds at each sample's pixel.
   template <class T>
@@ -42,6 +44,7 @@ class SparseDepthMap {
   std::vector<std::int32_t> columns_;
   std::vector<std::int32_t> rows_;
   std::vector<float> depths_m_;
+  std::vector<std::int32_t> sources_;
 };
 
 /// Omega and G of Eq. (8): a disc of integer offsets with the Gaussian of their distance, in a

@@ -6,13 +6,15 @@
 namespace foresight {
 namespace {
 
-/// Logistic regression of "this pixel has a truth" over seven Middlebury scenes at quarter and full
-/// size; leaving one scene out gives the same masks. docs/evaluation.md.
-constexpr float kBias = 2.46f;
-constexpr float kPerCell = -3.58f;      ///< distance of the nearest supporter, in cells
-constexpr float kPerWeight2 = 5.34f;    ///< squared share of the nominal weight
-constexpr float kOneSidedRow = -0.86f;  ///< no supporter within reach to the left or to the right
-constexpr float kOneSidedColumn = -0.23f;
+/// Logistic regression over seven Middlebury scenes at quarter and full size, see
+/// docs/evaluation.md.
+constexpr float kBias = 0.46f;
+constexpr float kPerCell = -3.25f;      ///< distance of the nearest supporter, in cells
+constexpr float kPerWeight2 = 4.32f;    ///< squared share of the nominal weight
+constexpr float kOneSidedRow = -0.87f;  ///< no supporter within reach to the left or to the right
+constexpr float kOneSidedColumn = -0.07f;
+constexpr float kPerAgreement = 1.29f;  ///< share of the weight of the pixel's colour
+constexpr float kInsideCell = 1.18f;
 constexpr float kReachCells = 1.25f;
 constexpr float kFarthestCells = 1.5f;
 constexpr float kFullestWeight = 1.2f;
@@ -43,24 +45,30 @@ SupporterTable TableFor(int half_width, int dy, float du, float dv) {
 
 /// Supporters found so far for each pixel of a row.
 struct RowSupport {
-  std::vector<float> inverse_depth;  ///< NaN = no plane
-  std::vector<float> nearest;        ///< cells
+  std::vector<float> at_origin;  ///< inverse depth of the plane at x = y = 0; NaN = no plane
+  std::vector<float> nearest;    ///< cells
   std::vector<std::int32_t> sides;
 
-  void Reset(const float* depth_m, int width) {
-    inverse_depth.resize(static_cast<std::size_t>(width));
-    for (std::size_t x = 0; x < inverse_depth.size(); ++x) inverse_depth[x] = 1.0f / depth_m[x];
-    nearest.assign(inverse_depth.size(), kFarthestCells);
-    sides.assign(inverse_depth.size(), 0);
+  void Reset(const PlaneRow& planes, int y, int width) {
+    at_origin.resize(static_cast<std::size_t>(width));
+    for (int x = 0; x < width; ++x) {
+      const float ray_x = planes.ray_x != nullptr ? planes.ray_x[x] : static_cast<float>(x);
+      const float ray_y = planes.ray_y != nullptr ? planes.ray_y[x] : static_cast<float>(y);
+      at_origin[static_cast<std::size_t>(x)] =
+          1.0f / planes.depth_m[x] - planes.slope_x[x] * ray_x - planes.slope_y[x] * ray_y;
+    }
+    nearest.assign(at_origin.size(), kFarthestCells);
+    sides.assign(at_origin.size(), 0);
   }
 };
 
-float Confidence(float nearest, std::int32_t sides, float weight) {
+float Confidence(float nearest, std::int32_t sides, float weight, float agreement, bool inside) {
   const float one_sided = ((sides & kLeft) != 0 && (sides & kRight) != 0 ? 0.0f : kOneSidedRow) +
                           ((sides & kAbove) != 0 && (sides & kBelow) != 0 ? 0.0f : kOneSidedColumn);
   const float full = std::min(kFullestWeight, weight);
-  return 1.0f /
-         (1.0f + std::exp(-(kBias + kPerCell * nearest + kPerWeight2 * full * full + one_sided)));
+  const float score = kBias + kPerCell * nearest + kPerWeight2 * full * full + one_sided +
+                      kPerAgreement * agreement + (inside ? kInsideCell : 0.0f);
+  return 1.0f / (1.0f + std::exp(-score));
 }
 
 }  // namespace
@@ -73,24 +81,24 @@ void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, fl
   const int half_height = static_cast<int>(std::ceil(kFarthestCells * dv));
   const int width = model.samples.width();
   thread_local RowSupport support;
-  support.Reset(planes.depth_m, width);
+  support.Reset(planes, y, width);
   for (int dy = std::max(-half_height, -y);
        dy <= std::min(half_height, model.samples.height() - 1 - y); ++dy) {
     if (model.samples.First(y + dy) == model.samples.First(y + dy + 1)) continue;
     const SupporterTable table = TableFor(half_width, dy, du, dv);
-    const auto down = static_cast<float>(dy);
     for (std::int32_t i = model.samples.First(y + dy); i < model.samples.First(y + dy + 1); ++i) {
       const int column = model.samples.columns()[static_cast<std::size_t>(i)];
       const float depth_m = model.samples.depths_m()[static_cast<std::size_t>(i)];
+      const float place_x = model.places[static_cast<std::size_t>(i)].x;
+      const float place_y = model.places[static_cast<std::size_t>(i)].y;
       const int from = std::max(0, column - half_width);
       const int to = std::min(width - 1, column + half_width);
       const float* cells = table.cells.data() + (half_width - column);
       const std::int32_t* sides = table.sides.data() + (half_width - column);
       // Neighbouring pixels side by side: the compiler turns this loop into vector instructions.
       for (int x = from; x <= to; ++x) {
-        const float predicted = support.inverse_depth[static_cast<std::size_t>(x)] +
-                                planes.slope_x[x] * static_cast<float>(column - x) +
-                                planes.slope_y[x] * down;
+        const float predicted = support.at_origin[static_cast<std::size_t>(x)] +
+                                planes.slope_x[x] * place_x + planes.slope_y[x] * place_y;
         // |R - 1 / rho| <= agreement, times rho; false for a NaN and behind infinity.
         const bool agrees = std::abs(depth_m * predicted - 1.0f) <= agreement * predicted;
         float& nearest = support.nearest[static_cast<std::size_t>(x)];
@@ -104,7 +112,8 @@ void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, fl
     confidence[x] = std::isnan(planes.depth_m[x])
                         ? 0.0f
                         : Confidence(support.nearest[i], support.sides[i],
-                                     planes.sum_gh[x] / static_cast<float>(model.nominal_weight));
+                                     planes.sum_gh[x] / static_cast<float>(model.nominal_weight),
+                                     planes.sum_gkh[x] / planes.sum_gk[x], planes.inside[x] != 0);
   }
 }
 

@@ -47,39 +47,4 @@ struct FilterChange {
 void FilterRows(const JointFilter& filter, int top, int bottom, const JointFilterOutput& output,
                 FilterChange& change);
 
-/// The filter's first-order relative: fits rho = a + b dx + c dy to the samples' inverse depths, dx
-/// and dy in pixels from the pixel. A plane in space is exactly that in a pinhole image.
-///   G as above; K = exp(-|colour - colour of the sample|^2 / (2 sigma_c^2));
-///   H = exp(-e^2 / (2 sigma_d^2)), e = (rho_q - rho(q)) R_q / rho(q): metres to the plane along z.
-/// Starts level at the sample with the largest G K (the leftmost, then the topmost of equals), then
-/// makes `iterations` weighted least squares with weights G K H and `ridge` sigma_s^2 sum(G K H) on
-/// b and c.
-struct PlaneFilter {
-  const SparseDepthMap& samples;
-  const SpatialKernel& spatial;
-  std::array<const FloatImage*, 3> colour;              ///< of the samples' size; CIELAB, say
-  std::array<std::span<const float>, 3> sample_colour;  ///< samples.ValuesAt of each
-  float sigma_spatial_px = 20.0f;
-  float sigma_colour = 25.0f;
-  float sigma_depth_m = 0.030f;
-  float ridge = 0.02f;
-  int iterations = 5;  ///< >= 1
-};
-
-/// Images of the filter's size; only the filtered rows are written. Where no sample has weight, or
-/// the plane lies behind infinity, the depth is NaN and all else 0.
-struct PlaneFilterOutput {
-  DepthImage& depth_m;  ///< 1 / a
-  FloatImage& sum_gkh;  ///< of the last pass
-  FloatImage& sum_gk;
-  FloatImage& sum_gh;                     ///< of the last pass
-  FloatImage& slope_x;                    ///< b, 1 / (m px)
-  FloatImage& slope_y;                    ///< c, 1 / (m px)
-  std::span<DepthImage> iterations = {};  ///< depth at the start and after each pass, or empty
-};
-
-/// Filters the rows top <= y < bottom. O(pixels * samples in Omega * passes).
-void FilterPlaneRows(const PlaneFilter& filter, int top, int bottom,
-                     const PlaneFilterOutput& output);
-
 }  // namespace foresight

@@ -7,7 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/depth/pipeline.h"
-#include "core/depth/row_filter.h"
+#include "tests/benchmark/plane_input.h"
 #include "tests/benchmark/room.h"
 #include "tests/support/vector_targets.h"
 
@@ -72,28 +72,21 @@ void Pipeline(benchmark::State& state, const Setting& setting, int64_t target, i
   ReportWeights(state, 6.0 * CountPairs(room.samples, setting.sigma_px));
 }
 
-/// The first-order kernel with five passes and a colour guide.
+/// The first-order kernel with a start and five passes, colour guide and planes of the samples.
 void Planes(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
   const OnlyVectorTarget only(target);
-  const Room room = RoomOf(setting);
-  FloatImage plane(setting.width, setting.height);
-  for (std::size_t i = 0; i < plane.size(); ++i)
-    plane.values()[i] = static_cast<float>(room.guide.values()[i].g);
-  const SparseDepthMap sparse(room.samples);
-  const SpatialKernel spatial(setting.sigma_px, setting.sigma_px);
-  const std::vector<float> at_samples = sparse.ValuesAt(plane);
-  PlaneFilter filter{
-      sparse, spatial, {&plane, &plane, &plane}, {at_samples, at_samples, at_samples}};
-  filter.sigma_spatial_px = static_cast<float>(setting.sigma_px);
-  FloatImage depth_m = plane, sum_gkh = plane, sum_gk = plane, sum_gh = plane, slope_x = plane,
-             slope_y = plane;
-  const PlaneFilterOutput output{depth_m, sum_gkh, sum_gk, sum_gh, slope_x, slope_y};
+  PlaneInput input(RoomOf(setting), setting.sigma_px);
+  input.FitPlanes(Threads(threads));
   const int blocks = (setting.height + 7) / 8;
   for (auto _ : state)
     ParallelFor(blocks, Threads(threads), [&](int block) {
-      FilterPlaneRows(filter, 8 * block, std::min(8 * block + 8, setting.height), output);
+      FloatImage depth_m(setting.width, 8), sum_gkh = depth_m, sum_gk = depth_m, sum_gh = depth_m,
+                                            slope_x = depth_m, slope_y = depth_m;
+      FilterPlaneRows(input.filter(5), 8 * block, std::min(8 * block + 8, setting.height),
+                      {depth_m, sum_gkh, sum_gk, sum_gh, slope_x, slope_y});
+      benchmark::DoNotOptimize(depth_m.data());
     });
-  ReportWeights(state, 6.0 * CountPairs(room.samples, setting.sigma_px));
+  ReportWeights(state, 6.0 * CountPairs(input.samples(), setting.sigma_px));
 }
 
 /// The stages around the filter, one by one.

@@ -95,10 +95,10 @@ TEST(LocalPlanes, HandOutTheirPassesWhenAsked) {
   const auto plain = UpsampleLocalPlanes(samples, Grey(160, 120), options, {});
   options.keep_iterations = true;
   const auto kept = UpsampleLocalPlanes(samples, Grey(160, 120), options, {});
-  ASSERT_EQ(kept->iterations.size(), 4u);
-  ASSERT_EQ(kept->mean_change_m.size(), 3u);
+  ASSERT_EQ(kept->iterations.size(), 3u);
+  ASSERT_EQ(kept->mean_change_m.size(), 2u);
   EXPECT_EQ(kept->depth_m, plain->depth_m);
-  EXPECT_LT(kept->mean_change_m[2], kept->mean_change_m[0]);
+  EXPECT_LT(kept->mean_change_m[1], kept->mean_change_m[0]);
 }
 
 TEST(LocalPlanes, DoNotDependOnTheNumberOfThreads) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/base/image.h"
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+
+namespace foresight {
+
+/// A picture in CIELAB, L in [0, 100].
+struct LabImage {
+  FloatImage channels[3];
+};
+
+/// Converts from sRGB. Fails with kCancelled. O(pixels).
+Result<LabImage> ToLab(const ColorImage& picture, const RunContext& context);
+
+}  // namespace foresight
