@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -81,6 +82,26 @@ std::optional<UdpSocket::Datagram> UdpSocket::Receive(std::span<std::uint8_t> bu
       ::recvfrom(fd_, buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
   if (n < 0) return std::nullopt;
   return Datagram{{ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)}, static_cast<std::size_t>(n)};
+}
+
+Result<std::string> LocalAddressTowards(const std::string& peer) {
+  sockaddr_in name{};
+  name.sin_family = AF_INET;
+  name.sin_port = htons(1);  // any but 0
+  if (::inet_pton(AF_INET, peer.c_str(), &name.sin_addr) != 1)
+    return Fail(ErrorCode::kDevice, "{}: is no IPv4 address", peer);
+  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  socklen_t size = sizeof name;
+  // Connecting a UDP socket sends nothing; it looks up the route.
+  const bool found = fd >= 0 &&
+                     ::connect(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) == 0 &&
+                     ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size) == 0;
+  const int error = errno;
+  if (fd >= 0) ::close(fd);
+  if (!found) return Fail(ErrorCode::kDevice, "{}: no way there: {}", peer, Words(error));
+  std::array<char, INET_ADDRSTRLEN> text{};
+  ::inet_ntop(AF_INET, &name.sin_addr, text.data(), text.size());
+  return std::string(text.data());
 }
 
 }  // namespace foresight

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/base/result.h"
 #include "hardware/net/tcp_address.h"
@@ -54,5 +55,8 @@ class UdpSocket {
   TcpAddress address_;
   std::uint32_t ip_ = 0;
 };
+
+/// This computer's address on the way to a numeric IPv4 address. Sends nothing. Fails with kDevice.
+Result<std::string> LocalAddressTowards(const std::string& peer);
 
 }  // namespace foresight

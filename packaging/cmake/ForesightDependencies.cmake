@@ -17,6 +17,7 @@ find_package(embree 3 REQUIRED)
 find_package(hwy 1.0.3 CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(modbus REQUIRED QUIET IMPORTED_TARGET libmodbus)
+pkg_check_modules(aravis REQUIRED QUIET IMPORTED_TARGET aravis-0.8)
 
 foreach(package VTK OpenNI OpenNI2 libusb Pcap)
   set(CMAKE_DISABLE_FIND_PACKAGE_${package} ON)

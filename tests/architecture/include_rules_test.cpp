@@ -162,13 +162,26 @@ bool IsCodec(const std::string& target) {
 
 TEST(IncludeRules, DriversKnowTheirInterfacesAndTheSensorsValuesOnly) {
   ExpectNoBreach([](const Include& include) -> std::string {
-    if (!StartsWithAny(include.file, {"hardware/scip/", "hardware/motor/"})) return "";
+    if (!StartsWithAny(include.file, {"hardware/scip/", "hardware/motor/", "hardware/gige/"}))
+      return "";
     if (!IsOurs(include.target)) return "";
     return StartsWithAny(include.target,
                          {FolderOf(include.file) + "/", "hardware/net/", "hardware/api/",
                           "core/base/", "core/geometry/", "core/sensor/"})
                ? ""
                : "a driver works without the rest of the project";
+  });
+}
+
+TEST(IncludeRules, AravisIsKnownInOnePlace) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    const std::string handle = "hardware/gige/aravis_handle.h";
+    if (include.target == handle)
+      return include.header || FolderOf(include.file) != "hardware/gige"
+                 ? "belongs into a driver's .cpp"
+                 : "";
+    const bool aravis = StartsWithAny(include.target, {"arv", "glib", "gio/"});
+    return aravis && include.file != handle ? "goes through aravis_handle.h" : "";
   });
 }
 
