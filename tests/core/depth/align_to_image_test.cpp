@@ -30,6 +30,14 @@ TEST(AlignToImage, EverySampleProjectsToItsPixel) {
   }
 }
 
+TEST(AlignToImage, HandsOutTheCamerasRays) {
+  const Scan scan = SweptPlane({Eigen::Vector3d(0, 0.3, 1).normalized(), 1.5}, -20, 20, 80);
+  const auto registered = RegisterScan(scan, {});
+  const auto aligned = AlignToImage(*registered, scan.rig, 0.0, {});
+  ASSERT_TRUE(aligned);
+  EXPECT_EQ(aligned->rays, RaysOf(scan.rig.camera));
+}
+
 TEST(AlignToImage, ThePictureLooksUpWithThePlate) {
   const Scan scan = SweptPlane({Eigen::Vector3d::UnitZ(), 2.0}, -20, 20, 40);
   const auto registered = RegisterScan(scan, {});
