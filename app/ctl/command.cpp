@@ -1,7 +1,6 @@
 #include "app/ctl/command.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace foresight {
@@ -13,15 +12,6 @@ Status MakeOutputFolder(const std::string& folder) {
     return Fail(ErrorCode::kIo, "{}: cannot make the folder: {}", folder,
                 error ? error.message() : "a file of that name is in the way");
   return {};
-}
-
-void PrintJson(const nlohmann::ordered_json& json) {
-  PrintLine(json.dump(2));
-}
-
-void PrintLine(const std::string& line) {
-  std::fputs((line + "\n").c_str(), stdout);
-  std::fflush(stdout);
 }
 
 nlohmann::ordered_json Finite(double value) {

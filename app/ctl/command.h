@@ -2,21 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/base/result.h"
+#include "app/common/exit_code.h"
+#include "app/common/output.h"
 #include "core/base/run_context.h"
 
 namespace foresight {
-
-/// What a program tells its caller by its exit code.
-enum class ExitCode : int {
-  kDone = 0,      ///< done, with a positive result where there is one
-  kNegative = 1,  ///< done, but: no object, bad quality
-  kUsage = 2,     ///< the command line makes no sense
-  kBadData = 3,   ///< a file or a device failed
-};
 
 /// The one subcommand that the command line chose, ready to run.
 using Invocation = std::function<Result<ExitCode>(const RunContext&)>;
@@ -29,13 +21,10 @@ void AddEvaluateCommand(CLI::App& app, Invocation& invocation);
 void AddUpsampleCommand(CLI::App& app, Invocation& invocation);
 void AddRenderCommand(CLI::App& app, Invocation& invocation);
 void AddDemoCommand(CLI::App& app, Invocation& invocation);
+void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 
 /// Creates the folder for results. Fails with kIo.
 Status MakeOutputFolder(const std::string& folder);
-
-/// Results go to standard output, all of it in one piece.
-void PrintJson(const nlohmann::ordered_json& json);
-void PrintLine(const std::string& line);
 
 /// A number for JSON: null where it is not finite.
 nlohmann::ordered_json Finite(double value);

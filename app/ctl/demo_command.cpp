@@ -1,8 +1,9 @@
 #include <memory>
 
+#include "app/common/fly_scan.h"
+#include "app/common/simulated_site.h"
 #include "app/ctl/command.h"
 #include "app/ctl/demo_report.h"
-#include "app/ctl/fly_scan.h"
 #include "app/ctl/save_valve.h"
 #include "core/depth/depth_method.h"
 #include "core/fitting/fit_in_scan.h"
@@ -80,11 +81,11 @@ Result<ExitCode> Demo(const DemoArguments& arguments, const RunContext& context)
   outcome.mission_file = (std::filesystem::path(arguments.out) / "mission.foresight").string();
   fmt::print(stderr, "scanning {}\n", site.world->scene().name);
   FORESIGHT_TRY(const auto mission, OpenOrCreateMission(outcome.mission_file));
-  FORESIGHT_TRY(const std::int64_t id, FlyScan(*site.head, DemoPlan(), mission, context));
-  FORESIGHT_TRY(outcome.scan, mission->LoadScan(id));
+  FORESIGHT_TRY(const FlownScan flown, FlyScan(*site.head, DemoPlan(), mission, context));
+  FORESIGHT_TRY(outcome.scan, mission->LoadScan(flown.id));
   fmt::print(stderr, "computing depth and fitting the valve\n");
   FORESIGHT_CHECK(Process(*site.world, site.world->scene().valves.front(), outcome, context));
-  FORESIGHT_CHECK(SaveValve(*mission, id, outcome.valve, outcome.scan.rig));
+  FORESIGHT_CHECK(SaveValve(*mission, flown.id, outcome.valve, outcome.scan.rig));
   FORESIGHT_CHECK(mission->Close());
   FORESIGHT_CHECK(WriteHtmlReport(ReportOf(outcome), arguments.out));
   PrintOutcome(arguments, outcome);

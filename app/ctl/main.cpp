@@ -1,47 +1,13 @@
 // foresightctl: everything the workstation can do, without a window.
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <stop_token>
-#include <thread>
 
+#include "app/common/interrupt_watcher.h"
 #include "app/ctl/command.h"
 
 namespace foresight {
 namespace {
-
-std::atomic<bool> g_interrupted{false};
-
-/// Ctrl-C asks the running command to stop; it ends tidily and leaves nothing half written.
-class InterruptWatcher {
- public:
-  explicit InterruptWatcher(std::stop_source& source) {
-    std::signal(SIGINT, [](int) { g_interrupted = true; });
-    std::signal(SIGTERM, [](int) { g_interrupted = true; });
-    thread_ = std::jthread([&source](std::stop_token ended) {
-      while (!ended.stop_requested()) {
-        if (g_interrupted) source.request_stop();
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      }
-    });
-  }
-
- private:
-  std::jthread thread_;
-};
-
-ExitCode ExitCodeFor(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::kInvalidOptions:
-      return ExitCode::kUsage;
-    case ErrorCode::kTooFewPoints:
-    case ErrorCode::kNoConvergence:
-      return ExitCode::kNegative;
-    default:
-      return ExitCode::kBadData;
-  }
-}
 
 int Main(int argc, char** argv) {
   CLI::App app{"foresightctl: scan, depth, fits and evaluation without the workstation"};
@@ -55,6 +21,7 @@ int Main(int argc, char** argv) {
   AddEvaluateCommand(app, invocation);
   AddRenderCommand(app, invocation);
   AddDemoCommand(app, invocation);
+  AddEmulateCommand(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

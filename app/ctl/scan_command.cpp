@@ -1,30 +1,35 @@
 #include <memory>
+#include <optional>
 
+#include "app/common/record_scan.h"
+#include "app/common/simulated_site.h"
 #include "app/ctl/command.h"
-#include "app/ctl/fly_scan.h"
 #include "core/geometry/angles.h"
+#include "hardware/assembly/real_head.h"
 
 namespace foresight {
 namespace {
 
 struct ScanCommandArguments {
   SimulationArguments simulation;
+  std::string head_config;  ///< of a real head, in place of the simulation
   double from_deg = -30.0;
   double to_deg = 30.0;
   double speed_deg_s = 10.0;
   std::vector<double> image_deg;
-  double exposure_ms = 4.0;
+  std::optional<double> exposure_ms;  ///< not given: the head's
   std::string out;
   bool predict = false;
   bool json = false;
 };
 
-ScanPlan PlanFrom(const ScanCommandArguments& arguments) {
+ScanPlan PlanFrom(const ScanCommandArguments& arguments, const CameraSettings& usual) {
   ScanPlan plan;
   plan.from_rad = RadiansFromDegrees(arguments.from_deg);
   plan.to_rad = RadiansFromDegrees(arguments.to_deg);
   plan.speed_rad_s = RadiansFromDegrees(arguments.speed_deg_s);
-  plan.exposure_s = 1e-3 * arguments.exposure_ms;
+  plan.exposure_s = arguments.exposure_ms ? 1e-3 * *arguments.exposure_ms : usual.exposure_s;
+  plan.gain_db = usual.gain_db;
   plan.image_angles_rad.clear();
   for (const double angle : arguments.image_deg)
     plan.image_angles_rad.push_back(RadiansFromDegrees(angle));
@@ -43,14 +48,6 @@ nlohmann::ordered_json ToJson(const ScanPrediction& prediction) {
           {"bytes", prediction.bytes}};
 }
 
-std::string ToText(const ScanPrediction& p) {
-  return fmt::format(
-      "{:.1f} s, {} lines, {:.1f} % of the pixels measured, sigma_s {:.1f} px, blur {:.2f} px, "
-      "{:.1f} MB",
-      p.duration_s, p.lines, 100.0 * p.density, p.sigma_spatial_px, p.blur_px,
-      1e-6 * static_cast<double>(p.bytes));
-}
-
 Result<ExitCode> Predict(const ScanCommandArguments& arguments, const ScanPlan& plan) {
   SensorRig rig = DefaultSensorRig();
   if (!arguments.simulation.rig.empty()) {
@@ -64,48 +61,30 @@ Result<ExitCode> Predict(const ScanCommandArguments& arguments, const ScanPlan& 
   return prediction.density < ScanPrediction::kMinDensity ? ExitCode::kNegative : ExitCode::kDone;
 }
 
-void PrintScan(const ScanCommandArguments& arguments, const ScanSummary& scan) {
-  if (arguments.json)
-    PrintJson({{"mission", arguments.out},
-               {"scan", scan.id},
-               {"uuid", scan.uuid},
-               {"source", scan.source},
-               {"state", ToString(scan.state)},
-               {"reason", scan.reason},
-               {"lines", scan.lines},
-               {"frames", scan.frames}});
-  else
-    PrintLine(fmt::format("{}: scan {} {}, {} lines, {} pictures{}{}", arguments.out, scan.id,
-                          ToString(scan.state), scan.lines, scan.frames,
-                          scan.reason.empty() ? "" : ": ", scan.reason));
-}
-
 Result<ExitCode> ScanSite(const ScanCommandArguments& arguments, const RunContext& context) {
-  const ScanPlan plan = PlanFrom(arguments);
-  FORESIGHT_CHECK(plan.Check());
-  if (arguments.predict) return Predict(arguments, plan);
-  FORESIGHT_TRY(const SimulatedSite site, SetUpSite(arguments.simulation));
-  FORESIGHT_TRY(const auto prediction, PredictScan(plan, site.head->Rig()));
-  fmt::print(stderr, "{}: {}\n", site.head->Describe(), ToText(prediction));
-  FORESIGHT_TRY(const auto mission, OpenOrCreateMission(arguments.out));
-  FORESIGHT_TRY(const std::int64_t id, FlyScan(*site.head, plan, mission, context));
-  FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
-  FORESIGHT_CHECK(mission->Close());
-  for (const ScanSummary& scan : scans) {
-    if (scan.id != id) continue;
-    PrintScan(arguments, scan);
-    return scan.state == ScanState::kComplete ? ExitCode::kDone : ExitCode::kNegative;
+  FORESIGHT_CHECK(PlanFrom(arguments, {}).Check());
+  if (arguments.predict) return Predict(arguments, PlanFrom(arguments, {}));
+  if (!arguments.head_config.empty()) {
+    FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(arguments.head_config));
+    const auto head = MakeRealHead(config);
+    return RecordScan(*head, PlanFrom(arguments, config.exposure), arguments.out, arguments.json,
+                      context);
   }
-  return Fail(ErrorCode::kBadData, "{}: scan {} is missing after it was recorded", arguments.out,
-              id);
+  FORESIGHT_TRY(const SimulatedSite site, SetUpSite(arguments.simulation));
+  return RecordScan(*site.head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
 }
 
 }  // namespace
 
 void AddScanCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<ScanCommandArguments>();
-  CLI::App* command = app.add_subcommand("scan", "Fly a scan with a simulated head and record it");
+  CLI::App* command =
+      app.add_subcommand("scan", "Fly a scan with a simulated or a real head and record it");
   command->add_option("--scene", arguments->simulation.scene, "Scene file (YAML)");
+  command
+      ->add_option("--head-config", arguments->head_config,
+                   "A real head and its devices (YAML), in place of a scene")
+      ->excludes("--scene");
   command->add_option("--rig", arguments->simulation.rig,
                       "The head as it is (YAML); default: the built-in one");
   command->add_option("--seed", arguments->simulation.seed, "Seed of all noise")
@@ -122,15 +101,15 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
       ->add_option("--images", arguments->image_deg,
                    "Angles of pictures in degrees; default: the middle")
       ->delimiter(',');
-  command->add_option("--exposure", arguments->exposure_ms, "Exposure in milliseconds")
-      ->capture_default_str();
+  command->add_option("--exposure", arguments->exposure_ms,
+                      "Exposure in milliseconds; default: the head's");
   command->add_option("-o,--out", arguments->out,
                       "Mission file; a scan is added to one that exists");
   command->add_flag("--predict", arguments->predict, "Only say what the plan would cost and give");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->callback([&invocation, arguments] {
-    if (!arguments->predict && arguments->simulation.scene.empty())
-      throw CLI::RequiredError("--scene");
+    const bool no_head = arguments->simulation.scene.empty() && arguments->head_config.empty();
+    if (!arguments->predict && no_head) throw CLI::RequiredError("--scene or --head-config");
     if (!arguments->predict && arguments->out.empty()) throw CLI::RequiredError("--out");
     invocation = [arguments](const RunContext& context) { return ScanSite(*arguments, context); };
   });

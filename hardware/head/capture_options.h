@@ -15,7 +15,8 @@ struct CaptureOptions {
   double settle_s = 0.06;                          ///< constant speed before and after the scope
   double travel_speed_rad_s = 0.5235987755982988;  ///< to the start of a sweep, 30 deg/s
   double homing_timeout_s = 60.0;
-  double lidar_timeout_s = 0.5;    ///< 20 lines of silence
+  /// A driver asks a silent lidar again after 0.25 s, and anew on a new connection after 0.75 s.
+  double lidar_timeout_s = 1.5;
   double camera_timeout_s = 10.0;  ///< since the last frame; a simulated picture takes a second
 
   Status Check() const;

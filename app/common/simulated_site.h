@@ -3,8 +3,6 @@
 #include <memory>
 #include <string>
 
-#include "core/base/run_context.h"
-#include "core/mission/mission_file.h"
 #include "core/simulation/world.h"
 #include "hardware/api/sensor_head.h"
 
@@ -24,13 +22,5 @@ struct SimulatedSite {
   std::unique_ptr<SensorHead> head;
 };
 Result<SimulatedSite> SetUpSite(const SimulationArguments& arguments);
-
-/// Homes the head, flies the plan and records it. Progress goes to standard error. Returns the
-/// number of the scan in the mission; a cancelled scan is aborted and kept.
-Result<std::int64_t> FlyScan(SensorHead& head, const ScanPlan& plan,
-                             std::shared_ptr<MissionFile> mission, const RunContext& context);
-
-/// Opens the mission file for more, or makes it.
-Result<std::shared_ptr<MissionFile>> OpenOrCreateMission(const std::string& path);
 
 }  // namespace foresight

@@ -1,4 +1,6 @@
-#include "app/ctl/fly_scan.h"
+#include "app/common/fly_scan.h"
+
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -6,7 +8,6 @@
 #include <thread>
 
 #include "hardware/head/scan_recorder.h"
-#include "hardware/simulated/simulated_head.h"
 
 namespace foresight {
 namespace {
@@ -37,36 +38,33 @@ Status HomeAndWait(SensorHead& head, const RunContext& context) {
   return {};
 }
 
-}  // namespace
-
-Result<SimulatedSite> SetUpSite(const SimulationArguments& arguments) {
-  FORESIGHT_TRY(Scene scene, LoadScene(arguments.scene));
-  SimulatedHeadOptions options;
-  if (!arguments.rig.empty()) {
-    FORESIGHT_TRY(options.true_rig, LoadSensorRig(arguments.rig));
-  }
-  options.world.seed = arguments.seed;
-  options.speed =
-      arguments.real_time ? SimulationSpeed::kRealTime : SimulationSpeed::kAsFastAsPossible;
-  const auto shared = std::make_shared<const Scene>(std::move(scene));
-  SimulatedSite site;
-  site.world = std::make_shared<const World>(shared, options.true_rig, options.world);
-  options.believed_rig = options.true_rig;
-  options.believed_rig.angle_correction = site.world->CalibratedCorrection();
-  FORESIGHT_TRY(site.head, MakeSimulatedHead(shared, options));
-  return site;
+/// User and system time of this process.
+double CpuSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-Result<std::int64_t> FlyScan(SensorHead& head, const ScanPlan& plan,
-                             std::shared_ptr<MissionFile> mission, const RunContext& context) {
+}  // namespace
+
+Result<FlownScan> FlyScan(SensorHead& head, const ScanPlan& plan,
+                          std::shared_ptr<MissionFile> mission, const RunContext& context) {
   FORESIGHT_CHECK(plan.Check());
   FORESIGHT_CHECK(HomeAndWait(head, context));
   const auto recorder = std::make_shared<ScanRecorder>(std::move(mission));
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu_before_s = CpuSeconds();
   FORESIGHT_CHECK(head.StartScan(plan, recorder));
   const HeadStatus status = WaitWhile(head, {HeadState::kSweeping, HeadState::kStopping}, context);
-  FORESIGHT_TRY(const std::int64_t id, recorder->WaitUntilWritten());
+  FlownScan flown;
+  flown.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  flown.cpu_share = (CpuSeconds() - cpu_before_s) / flown.seconds;
+  FORESIGHT_TRY(flown.id, recorder->WaitUntilWritten());
   if (status.state == HeadState::kFault) return Fail(ErrorCode::kDevice, "{}", status.message);
-  return id;
+  return flown;
 }
 
 Result<std::shared_ptr<MissionFile>> OpenOrCreateMission(const std::string& path) {

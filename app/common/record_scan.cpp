@@ -1,0 +1,55 @@
+#include "app/common/record_scan.h"
+
+#include "app/common/fly_scan.h"
+#include "app/common/output.h"
+
+namespace foresight {
+namespace {
+
+void PrintScan(const std::string& mission_file, const ScanSummary& scan, const FlownScan& flown,
+               bool json) {
+  if (json)
+    PrintJson({{"mission", mission_file},
+               {"scan", scan.id},
+               {"uuid", scan.uuid},
+               {"source", scan.source},
+               {"state", ToString(scan.state)},
+               {"reason", scan.reason},
+               {"lines", scan.lines},
+               {"frames", scan.frames},
+               {"seconds", flown.seconds},
+               {"cpu_share", flown.cpu_share}});
+  else
+    PrintLine(fmt::format("{}: scan {} {}, {} lines, {} pictures{}{}", mission_file, scan.id,
+                          ToString(scan.state), scan.lines, scan.frames,
+                          scan.reason.empty() ? "" : ": ", scan.reason));
+}
+
+}  // namespace
+
+std::string ToText(const ScanPrediction& p) {
+  return fmt::format(
+      "{:.1f} s, {} lines, {:.1f} % of the pixels measured, sigma_s {:.1f} px, blur {:.2f} px, "
+      "{:.1f} MB",
+      p.duration_s, p.lines, 100.0 * p.density, p.sigma_spatial_px, p.blur_px,
+      1e-6 * static_cast<double>(p.bytes));
+}
+
+Result<ExitCode> RecordScan(SensorHead& head, const ScanPlan& plan, const std::string& mission_file,
+                            bool json, const RunContext& context) {
+  FORESIGHT_TRY(const auto prediction, PredictScan(plan, head.Rig()));
+  fmt::print(stderr, "{}: {}\n", head.Describe(), ToText(prediction));
+  FORESIGHT_TRY(const auto mission, OpenOrCreateMission(mission_file));
+  FORESIGHT_TRY(const FlownScan flown, FlyScan(head, plan, mission, context));
+  FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
+  FORESIGHT_CHECK(mission->Close());
+  for (const ScanSummary& scan : scans) {
+    if (scan.id != flown.id) continue;
+    PrintScan(mission_file, scan, flown, json);
+    return scan.state == ScanState::kComplete ? ExitCode::kDone : ExitCode::kNegative;
+  }
+  return Fail(ErrorCode::kBadData, "{}: scan {} is missing after it was recorded", mission_file,
+              flown.id);
+}
+
+}  // namespace foresight

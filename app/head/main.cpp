@@ -1,0 +1,96 @@
+// foresight-head: the program on the robot. It owns the head's devices and flies scans into mission
+// files.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <memory>
+
+#include "app/common/emulation.h"
+#include "app/common/interrupt_watcher.h"
+#include "app/common/record_scan.h"
+#include "core/base/atomic_file.h"
+#include "core/mission/plan_json.h"
+#include "hardware/assembly/real_head.h"
+
+namespace foresight {
+namespace {
+
+struct Arguments {
+  std::string head_config;
+  EmulationArguments emulation;
+  std::string plan;
+  std::string out;
+  bool json = false;
+};
+
+/// The devices that are emulated here, if any, and the head on them, through the sockets.
+struct Site {
+  std::unique_ptr<EmulatedSite> emulated;
+  std::unique_ptr<SensorHead> head;  ///< last: goes first
+};
+
+Result<Site> SetUp(const Arguments& arguments) {
+  Site site;
+  if (!arguments.emulation.scene.empty()) {
+    FORESIGHT_TRY(site.emulated, StartEmulation(arguments.emulation));
+    site.head = MakeRealHead(ConfigFor(*site.emulated));
+    return site;
+  }
+  FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(arguments.head_config));
+  site.head = MakeRealHead(config);
+  return site;
+}
+
+Result<ExitCode> Run(const Arguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const std::string json, ReadFile(arguments.plan));
+  FORESIGHT_TRY(const ScanPlan plan, PlanFromJson(json, arguments.plan));
+  FORESIGHT_CHECK(plan.Check());
+  FORESIGHT_TRY(const Site site, SetUp(arguments));
+  return RecordScan(*site.head, plan, arguments.out, arguments.json, context);
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app{"foresight-head: drives a head's lidar, motor and camera"};
+  Arguments arguments;
+  CLI::Option* config =
+      app.add_option("--head-config", arguments.head_config, "The head and its devices (YAML)");
+  CLI::Option* emulate =
+      app.add_option("--emulate", arguments.emulation.scene,
+                     "Scene file (YAML): emulate the devices in this process, on real sockets");
+  config->excludes(emulate);
+  AddEmulationOptions(app, arguments.emulation);
+  app.add_option("--scan", arguments.plan, "Scan plan (JSON) to fly")->required();
+  app.add_option("-o,--out", arguments.out, "Mission file; a scan is added to one that exists")
+      ->required();
+  app.add_flag("--json", arguments.json, "Print the result as JSON");
+  app.set_version_flag("--version", "foresight-head " FORESIGHT_VERSION);
+  try {
+    app.parse(argc, argv);
+    if (config->empty() && emulate->empty()) throw CLI::RequiredError("--head-config or --emulate");
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_help = error.get_exit_code() == 0;
+    if (asked_for_help) return app.exit(error);
+    fmt::print(stderr, "foresight-head: {} (--help shows how)\n", error.what());
+    return static_cast<int>(ExitCode::kUsage);
+  }
+
+  std::stop_source stop;
+  const InterruptWatcher watcher(stop);
+  RunContext context;
+  context.stop = stop.get_token();
+  const auto result = Run(arguments, context);
+  if (result) return static_cast<int>(*result);
+  fmt::print(stderr, "foresight-head: {}\n", result.error().message);
+  return static_cast<int>(ExitCodeFor(result.error().code));
+}
+
+}  // namespace
+}  // namespace foresight
+
+int main(int argc, char** argv) {
+  try {
+    return foresight::Main(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "foresight-head: internal error: {}\n", error.what());
+    return static_cast<int>(foresight::ExitCode::kBadData);
+  }
+}
