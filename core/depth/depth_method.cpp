@@ -30,7 +30,7 @@ DepthOptions ForesightOptions() {
   options.isolated.enabled = false;
   options.flipping.margin_m = 0.050;
   options.flipping.cells = FlippingPointOptions::Cells::kFromAllSamples;
-  options.mask.threshold = 0.625;
+  options.mask.threshold = 0.61;
   return options;
 }
 

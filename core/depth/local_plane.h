@@ -12,8 +12,8 @@ namespace foresight {
 struct LocalPlaneOptions {
   double sigma_spatial_px = 0.0;  ///< 0 = 0.6 of the paper's sigma_s for the density, 12 px at 2 %
   double radius_in_sigmas = 2.0;  ///< Omega
-  double sigma_color = 14.0;      ///< CIELAB units
-  double sigma_depth_m = 0.022;   ///< of the distance to the plane
+  double sigma_color = 12.0;      ///< CIELAB units
+  double sigma_depth_m = 0.018;   ///< of the distance to the plane
   double ridge = 0.02;            ///< on the slopes, of sigma_s^2
   int iterations = 2;             ///< passes of each pixel, after its start
   bool keep_iterations = false;

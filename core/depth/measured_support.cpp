@@ -8,13 +8,13 @@ namespace {
 
 /// Logistic regression over seven Middlebury scenes at quarter and full size, see
 /// docs/evaluation.md.
-constexpr float kBias = 0.46f;
-constexpr float kPerCell = -3.25f;      ///< distance of the nearest supporter, in cells
-constexpr float kPerWeight2 = 4.32f;    ///< squared share of the nominal weight
+constexpr float kBias = 0.81f;
+constexpr float kPerCell = -3.22f;      ///< distance of the nearest supporter, in cells
+constexpr float kPerWeight2 = 4.89f;    ///< squared share of the nominal weight
 constexpr float kOneSidedRow = -0.87f;  ///< no supporter within reach to the left or to the right
-constexpr float kOneSidedColumn = -0.07f;
-constexpr float kPerAgreement = 1.29f;  ///< share of the weight of the pixel's colour
-constexpr float kInsideCell = 1.18f;
+constexpr float kOneSidedColumn = -0.09f;
+constexpr float kPerAgreement = 0.90f;  ///< share of the weight of the pixel's colour
+constexpr float kInsideCell = 1.17f;
 constexpr float kReachCells = 1.25f;
 constexpr float kFarthestCells = 1.5f;
 constexpr float kFullestWeight = 1.2f;

@@ -81,7 +81,10 @@ HWY_INLINE PlaneStart GatherPlaneTile(const PlaneFilter& filter, PlaneFilterScra
     const auto better = hn::Gt(trust, best);
     const float slope_x = plane.slope_x * slope_scale;
     const float slope_y = plane.slope_y * slope_scale;
-    const float at_origin = sample.inverse_depth - slope_x * sample.x - slope_y * sample.y;
+    // Halfway between the noisy sample and the plane that smooths over it.
+    const float smooth = plane.inverse_depth * origin.depth_m - 1.0f;
+    const float at_origin =
+        0.5f * (sample.inverse_depth + smooth) - slope_x * sample.x - slope_y * sample.y;
     start.a = hn::IfThenElse(better, hn::Set(f, at_origin), start.a);
     start.b = hn::IfThenElse(better, hn::Set(f, slope_x), start.b);
     start.c = hn::IfThenElse(better, hn::Set(f, slope_y), start.c);
