@@ -143,10 +143,7 @@ CameraDevice::Orders CameraDevice::TakeOrders() {
 
 AckStatus CameraDevice::WriteRegister(std::uint32_t address, std::uint32_t value,
                                       const UdpPeer& from, double now_s) {
-  if (address == at::kControlPrivilege) {
-    last_heard_s_ = now_s;
-    return WriteControl(value, from);
-  }
+  if (address == at::kControlPrivilege) return WriteControl(value, from, now_s);
   if (!MayWrite(from)) return AckStatus::kAccessDenied;
   const AckStatus written = registers_.Write(address, value);
   if (written == AckStatus::kSuccess) Follow(address, value, now_s);
@@ -157,7 +154,7 @@ AckStatus CameraDevice::WriteDouble(std::uint32_t address, double value, const U
   return MayWrite(from) ? registers_.WriteDouble(address, value) : AckStatus::kAccessDenied;
 }
 
-AckStatus CameraDevice::WriteControl(std::uint32_t value, const UdpPeer& from) {
+AckStatus CameraDevice::WriteControl(std::uint32_t value, const UdpPeer& from, double now_s) {
   if (controller_ && *controller_ != from) return AckStatus::kAccessDenied;
   const AckStatus written = registers_.Write(at::kControlPrivilege, value);
   if (written != AckStatus::kSuccess) return written;
@@ -165,6 +162,7 @@ AckStatus CameraDevice::WriteControl(std::uint32_t value, const UdpPeer& from) {
     ReleaseControl();
   } else {
     controller_ = from;
+    last_heard_s_ = now_s;
   }
   return written;
 }

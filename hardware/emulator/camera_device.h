@@ -76,7 +76,7 @@ class CameraDevice {
   gvcp::AckStatus WriteRegister(std::uint32_t address, std::uint32_t value, const UdpPeer& from,
                                 double now_s);
   gvcp::AckStatus WriteDouble(std::uint32_t address, double value, const UdpPeer& from);
-  gvcp::AckStatus WriteControl(std::uint32_t value, const UdpPeer& from);
+  gvcp::AckStatus WriteControl(std::uint32_t value, const UdpPeer& from, double now_s);
   void Follow(std::uint32_t address, std::uint32_t value, double now_s);
   void RefreshReadings(double now_s);
   void SetAcquiring(bool acquiring);

@@ -242,12 +242,16 @@ void CameraEmulator::Deliver(const Job& job, const std::stop_token& stop) {
 
 void CameraEmulator::SendFrame(const GvspFrame& frame, const CameraStreamSetup& setup,
                                const std::stop_token& stop) {
-  const double start_s = clock_->Now();
-  const double packet_s =
-      static_cast<double>(setup.packet_bytes) / kLinkBytes_s + setup.packet_delay_s;
+  const double burst_s =
+      kBurst * (static_cast<double>(setup.packet_bytes) / kLinkBytes_s + setup.packet_delay_s);
+  double next_burst_s = clock_->Now();
   const std::uint32_t count = frame.PacketCount();
   for (std::uint32_t number = 0; number < count && !stop.stop_requested(); ++number) {
-    if (number % kBurst == 0) clock_->WaitUntil(start_s + number * packet_s);
+    if (number % kBurst == 0) {
+      clock_->WaitUntil(next_burst_s);
+      // Who came late does not hurry: a link has its rate.
+      next_burst_s = clock_->Now() + burst_s;
+    }
     SendPacket(frame, number, setup.to, 0);
   }
 }

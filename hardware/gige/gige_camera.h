@@ -28,8 +28,8 @@ class GigeCamera final : public Camera {
   /// `clock` runs in real time. Throws ContractViolation when the options do not pass their
   /// Check().
   GigeCamera(const GigeCameraOptions& options, std::shared_ptr<const SensorClock> clock);
-  /// Returns at once when the camera is well; waits up to 8 s for Aravis when it is gone. Stop what
-  /// moves before.
+  /// Returns at once when the camera is well. When it is gone, Aravis asks it five times in
+  /// vain, 2.5 s each: up to 13 s. Stop what moves before.
   ~GigeCamera() override;
 
   std::string Describe() const override { return name_; }

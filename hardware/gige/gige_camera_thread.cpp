@@ -96,7 +96,7 @@ void GigeCamera::DropSession(const std::string& why) {
     applied_status_ = FailWith(why);
     changed_.notify_all();
   }
-  session_.reset();  // takes up to 5 s; nobody waits for it
+  session_.reset();  // takes up to 10 s; nobody waits for it
 }
 
 void GigeCamera::Attend(const std::stop_token& stop) {
@@ -105,8 +105,9 @@ void GigeCamera::Attend(const std::stop_token& stop) {
   ApplyWish();
   SendTriggers();
   TakePictures();
-  ProbeIfSuspect();
-  KeepHouse();
+  // Every further question to a camera that is silent would take seconds.
+  if (session_->answering()) ProbeIfSuspect();
+  if (session_->answering()) KeepHouse();
   if (!session_->answering()) DropSession("does not answer");
 }
 

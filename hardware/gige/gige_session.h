@@ -19,7 +19,7 @@ namespace foresight {
 /// Configured for software triggers and acquiring from the beginning.
 ///
 /// Every call to a camera that is gone blocks for 2.5 s (Aravis asks five times), opening too, and
-/// the destructor for up to 5 s: belongs to a thread that nobody waits for. Errors are kDevice and
+/// the destructor for up to 10 s: belongs to a thread that nobody waits for. Errors are kDevice and
 /// say what was asked for; answering() tells a silent camera from one that refuses.
 class GigeSession {
  public:
