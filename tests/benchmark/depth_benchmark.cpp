@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/base/parallel.h"
-#include "core/depth/pipeline.h"
+#include "core/depth/depth_method.h"
+#include "tests/benchmark/accuracy.h"
 #include "tests/benchmark/plane_input.h"
-#include "tests/benchmark/room.h"
 #include "tests/support/vector_targets.h"
 
 namespace foresight {
@@ -55,8 +55,8 @@ void ReportWeights(benchmark::State& state, double weights) {
       weights, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Everything from aligned samples to the mask.
-void Pipeline(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
+/// The paper's method, everything from aligned samples to the mask.
+void Paper(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
   const OnlyVectorTarget only(target);
   const Room room = RoomOf(setting);
   DepthOptions options;
@@ -72,21 +72,87 @@ void Pipeline(benchmark::State& state, const Setting& setting, int64_t target, i
   ReportWeights(state, 6.0 * CountPairs(room.samples, setting.sigma_px));
 }
 
-/// The first-order kernel with a start and five passes, colour guide and planes of the samples.
+/// Foresight's own method, everything from aligned samples to the mask, with errors of what it
+/// keeps.
+void RunForesight(benchmark::State& state, const Setting& setting, int64_t target, int threads,
+                  const DepthOptions& options) {
+  const OnlyVectorTarget only(target);
+  const Room room = RoomOf(setting);
+  Result<DepthResult> result = Fail(ErrorCode::kCancelled, "not run");
+  for (auto _ : state) {
+    result = ComputeDepth(room.samples, room.guide, options, Threads(threads));
+    if (!result) return state.SkipWithError(result.error().message.c_str());
+  }
+  ReportAccuracy(state, result->dense.depth_m, result->mask);
+}
+
+/// At the setting that the paper's figure is quoted for.
+void Foresight(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
+  DepthOptions options = DefaultsOf(DepthMethod::kForesight);
+  options.local_plane.sigma_spatial_px = setting.sigma_px;
+  options.local_plane.radius_in_sigmas = 1.0;
+  options.local_plane.iterations = 5;
+  RunForesight(state, setting, target, threads, options);
+}
+void ForesightDefaults(benchmark::State& state, const Setting& setting, int64_t target,
+                       int threads) {
+  RunForesight(state, setting, target, threads, DefaultsOf(DepthMethod::kForesight));
+}
+
+/// Its stages one by one, with a disc of radius sigma_s. First the planes of the samples: eight
+/// candidates, four passes.
+void SamplePlanes(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
+  const OnlyVectorTarget only(target);
+  PlaneInput input(RoomOf(setting), setting.sigma_px);
+  for (auto _ : state) {
+    input.FitPlanes(Threads(threads));
+    benchmark::DoNotOptimize(input.planes().data());
+  }
+}
+
+void Cells(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
+  const OnlyVectorTarget only(target);
+  PlaneInput input(RoomOf(setting), setting.sigma_px);
+  input.FitPlanes(Threads(threads));
+  for (auto _ : state) benchmark::DoNotOptimize(input.InsideCells(Threads(threads)));
+}
+
+/// The pixels' planes: a start and five passes.
 void Planes(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
   const OnlyVectorTarget only(target);
   PlaneInput input(RoomOf(setting), setting.sigma_px);
   input.FitPlanes(Threads(threads));
-  const int blocks = (setting.height + 7) / 8;
-  for (auto _ : state)
-    ParallelFor(blocks, Threads(threads), [&](int block) {
-      FloatImage depth_m(setting.width, 8), sum_gkh = depth_m, sum_gk = depth_m, sum_gh = depth_m,
-                                            slope_x = depth_m, slope_y = depth_m;
-      FilterPlaneRows(input.filter(5), 8 * block, std::min(8 * block + 8, setting.height),
-                      {depth_m, sum_gkh, sum_gk, sum_gh, slope_x, slope_y});
-      benchmark::DoNotOptimize(depth_m.data());
+  for (auto _ : state) {
+    input.ForEachBlock(Threads(threads), [&](int top, int bottom) {
+      PlaneBlock block(setting.width);
+      FilterPlaneRows(input.filter(5), top, bottom, block.Output());
+      benchmark::DoNotOptimize(block.depth_m.data());
     });
+  }
   ReportWeights(state, 6.0 * CountPairs(input.samples(), setting.sigma_px));
+}
+
+/// The confidence of planes that are there already.
+void Support(benchmark::State& state, const Setting& setting, int64_t target, int threads) {
+  const OnlyVectorTarget only(target);
+  PlaneInput input(RoomOf(setting), setting.sigma_px);
+  input.FitPlanes(Threads(threads));
+  const MaskImage inside = *input.InsideCells(Threads(threads));
+  std::vector<PlaneBlock> blocks;
+  for (int top = 0; top < setting.height; top += PlaneInput::kBlockRows) {
+    blocks.emplace_back(setting.width);
+    FilterPlaneRows(input.filter(5), top, std::min(top + PlaneInput::kBlockRows, setting.height),
+                    blocks.back().Output());
+  }
+  FloatImage confidence(setting.width, setting.height);
+  for (auto _ : state) {
+    input.ForEachBlock(Threads(threads), [&](int top, int bottom) {
+      const PlaneBlock& block = blocks[static_cast<std::size_t>(top / PlaneInput::kBlockRows)];
+      for (int y = top; y < bottom; ++y)
+        MeasureSupport(input.Support(), y, block.Row(y - top, inside.row(y)), confidence.row(y));
+    });
+    benchmark::DoNotOptimize(confidence.data());
+  }
 }
 
 /// The stages around the filter, one by one.
@@ -146,8 +212,13 @@ void Register(const char* what, Measured measured, const Setting& setting, int64
 
 /// One and two threads at the paper's setting on every instruction set; the others on the best.
 const bool registered = [] {
-  for (const auto& [what, measured] : {std::pair<const char*, Measured>{"Paper", &Pipeline},
-                                       std::pair<const char*, Measured>{"Planes", &Planes}}) {
+  for (const auto& [what, measured] : {std::pair<const char*, Measured>{"Paper", &Paper},
+                                       {"Foresight", &Foresight},
+                                       {"ForesightDefaults", &ForesightDefaults},
+                                       {"Planes", &Planes},
+                                       {"SamplePlanes", &SamplePlanes},
+                                       {"Cells", &Cells},
+                                       {"Support", &Support}}) {
     for (const int64_t target : VectorTargets())
       for (const int threads : {1, 2}) Register(what, measured, kPaper, target, threads);
     for (const Setting& setting : {kDense, kCamera})

@@ -3,20 +3,42 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/depth/plane_filter.h"
-#include "core/depth/sample_planes.h"
+#include "core/depth/connected_cells.h"
+#include "core/depth/measured_support.h"
 #include "tests/benchmark/room.h"
 
 namespace foresight {
 
+/// What the plane filter hands out for a block of rows.
+struct PlaneBlock {
+  FloatImage depth_m, sum_gkh, sum_gk, sum_gh, slope_x, slope_y;
+
+  explicit PlaneBlock(int width)
+      : depth_m(width, 8),
+        sum_gkh(depth_m),
+        sum_gk(depth_m),
+        sum_gh(depth_m),
+        slope_x(depth_m),
+        slope_y(depth_m) {}
+  PlaneFilterOutput Output() { return {depth_m, sum_gkh, sum_gk, sum_gh, slope_x, slope_y}; }
+  PlaneRow Row(int row, const std::uint8_t* inside) const {
+    return {depth_m.row(row), slope_x.row(row), slope_y.row(row),
+            sum_gkh.row(row), sum_gk.row(row),  sum_gh.row(row),
+            nullptr,          nullptr,          inside};
+  }
+};
+
 /// What the plane filter's stages need, made once from a room: its disc has a radius of sigma_s.
 class PlaneInput {
  public:
+  static constexpr int kBlockRows = 8;
+
   PlaneInput(Room room, double sigma_px)
       : room_(std::move(room)),
         sparse_(room_.samples),
         spatial_(sigma_px, sigma_px),
         sigma_px_(static_cast<float>(sigma_px)),
+        spacing_(*MeasureSpacing(room_.samples)),
         guide_(room_.guide.width(), room_.guide.height()),
         planes_(LevelPlanes(sparse_, room_.samples)),
         slopes_(SlopesOnGrid(sparse_, room_.samples, planes_)) {
@@ -42,12 +64,31 @@ class PlaneInput {
     return filter;
   }
 
+  /// Calls body(top, bottom) for each block of rows.
+  template <class Body>
+  void ForEachBlock(const RunContext& context, const Body& body) const {
+    ParallelFor((sparse_.height() + kBlockRows - 1) / kBlockRows, context, [&](int block) {
+      body(block * kBlockRows, std::min((block + 1) * kBlockRows, sparse_.height()));
+    });
+  }
+
   /// The samples' planes, from all candidates with four passes.
   void FitPlanes(const RunContext& context) {
-    ParallelFor((sparse_.height() + 7) / 8, context, [&](int block) {
-      FitSamplePlanes(filter(4), slopes_, 8 * block, std::min(8 * block + 8, sparse_.height()),
-                      planes_);
+    ForEachBlock(context, [&](int top, int bottom) {
+      FitSamplePlanes(filter(4), slopes_, top, bottom, planes_);
     });
+  }
+  Result<MaskImage> InsideCells(const RunContext& context) const {
+    return InsideConnectedCells(sparse_, room_.samples, planes_, spacing_, 0.050, context);
+  }
+  SupportModel Support() const {
+    const double weight = 4.0 * sigma_px_ * sigma_px_;
+    return {sparse_,
+            planes_,
+            spacing_.along_line_px,
+            spacing_.between_lines_px,
+            0.040,
+            weight / (spacing_.along_line_px * spacing_.between_lines_px)};
   }
 
  private:
@@ -55,6 +96,7 @@ class PlaneInput {
   SparseDepthMap sparse_;
   SpatialKernel spatial_;
   float sigma_px_;
+  SampleSpacing spacing_;
   FloatImage guide_;
   std::vector<float> at_samples_;
   std::vector<SamplePlane> planes_;
