@@ -4,19 +4,18 @@
 
 namespace foresight {
 
-Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig& rig,
-                                    double motor_rad, const RunContext& context) {
+Status AlignMoreLines(const RegisteredScan& scan, int first_line, const SensorRig& rig,
+                      double motor_rad, AlignedSamples& aligned, const RunContext& context) {
   FORESIGHT_CHECK(rig.Check());
   if (!std::isfinite(motor_rad))
     return Fail(ErrorCode::kInvalidInput, "alignment: the picture has no motor angle");
   const Rigid<frame::Camera, frame::Base> camera_from_base = rig.CameraFromBase(motor_rad);
-  AlignedSamples aligned;
   aligned.width = rig.camera.width;
   aligned.height = rig.camera.height;
   aligned.lines = scan.lines;
   aligned.beams = scan.beams;
   aligned.rays = RaysOf(rig.camera);
-  for (int line = 0; line < scan.lines; ++line) {
+  for (int line = first_line; line < scan.lines; ++line) {
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "alignment was cancelled");
     for (int beam = 0; beam < scan.beams; ++beam) {
       if (!scan.Valid(line, beam)) continue;
@@ -36,12 +35,19 @@ Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig&
     }
     context.Report(static_cast<double>(line + 1) / scan.lines, "projecting into the picture");
   }
+  aligned.reasons.resize(aligned.samples.size(), RejectReason::kKept);
+  return {};
+}
+
+Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig& rig,
+                                    double motor_rad, const RunContext& context) {
+  AlignedSamples aligned;
+  FORESIGHT_CHECK(AlignMoreLines(scan, 0, rig, motor_rad, aligned, context));
   if (aligned.samples.empty())
     return Fail(
         ErrorCode::kTooFewPoints,
         "no lidar return lies in the picture taken at {:.1f} deg; scan a scope that covers it",
         motor_rad * 57.29577951308232);
-  aligned.reasons.assign(aligned.samples.size(), RejectReason::kKept);
   return aligned;
 }
 

@@ -86,4 +86,10 @@ double LocalDensity(const AlignedSamples& samples);
 Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig& rig,
                                     double motor_rad, const RunContext& context);
 
+/// The same for a scan that grows: adds the returns of the lines from `first_line` on to samples
+/// that AlignToImage, or this, made of the lines before them, or to empty ones. Nothing in the
+/// picture is no failure here. O(points of these lines).
+Status AlignMoreLines(const RegisteredScan& scan, int first_line, const SensorRig& rig,
+                      double motor_rad, AlignedSamples& aligned, const RunContext& context);
+
 }  // namespace foresight

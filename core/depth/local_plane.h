@@ -23,6 +23,9 @@ struct LocalPlaneOptions {
   Status Check() const;
 };
 
+/// sigma_s where the options leave it to the density: planes need a smaller window than averages.
+double LocalPlaneSigmaForDensity(double density);
+
 /// Upsamples with local planes. The confidence is the probability that a pixel's depth is right,
 /// within 50 mm or 1 %, absolute, in [0, 1] (max_confidence = 1); 0 without a depth. It knows how
 /// many samples agree with the pixel's plane against what the spacing promises and against those

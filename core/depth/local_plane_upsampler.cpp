@@ -91,21 +91,6 @@ RowSet RowsThatDiffer(const MaskImage& before, const MaskImage& now) {
   return rows;
 }
 
-/// From level planes to those of the surroundings, for the samples of some rows.
-Status FindSamplePlanes(PlaneFilter filter, const std::vector<SlopeCandidates>& slopes,
-                        const RowSet& rows, std::vector<SamplePlane>& planes,
-                        const RunContext& context) {
-  filter.iterations = kSamplePasses;
-  const std::vector<int> blocks = rows.Blocks(kBlockRows);
-  const int height = rows.height();
-  const bool finished = ParallelFor(static_cast<int>(blocks.size()), context, [&](int i) {
-    const int top = blocks[static_cast<std::size_t>(i)] * kBlockRows;
-    FitSamplePlanes(filter, slopes, top, std::min(top + kBlockRows, height), planes);
-  });
-  if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
-  return {};
-}
-
 /// The rows of one block: depth, then confidence.
 void FilterBlock(const PlaneFilter& filter, const SupportModel& support, const MaskImage& inside,
                  int top, DenseDepth& dense) {
@@ -130,98 +115,126 @@ void FilterBlock(const PlaneFilter& filter, const SupportModel& support, const M
   }
 }
 
-Status FilterPixels(const PlaneFilter& filter, const SupportModel& support, const MaskImage& inside,
-                    const std::vector<int>& blocks, DenseDepth& dense, const RunContext& context) {
-  const int count = static_cast<int>(blocks.size());
-  std::atomic<int> blocks_done{0};
-  const bool finished = ParallelFor(count, context, [&](int i) {
-    FilterBlock(filter, support, inside, blocks[static_cast<std::size_t>(i)] * kBlockRows, dense);
-    context.Report(static_cast<double>(++blocks_done) / count, "upsampling");
+}  // namespace
+
+bool LocalPlaneUpsampler::Made::SameWindow(const Made& other) const {
+  return sigma_px == other.sigma_px && spacing.along_line_px == other.spacing.along_line_px &&
+         spacing.between_lines_px == other.spacing.between_lines_px &&
+         samples.samples.rays == other.samples.samples.rays;
+}
+
+Status LocalPlaneUpsampler::Update(const AlignedSamples& samples, const RunContext& context) {
+  // A failure on the way leaves nothing behind.
+  const std::optional<Made> last = std::exchange(made_, std::nullopt);
+  FORESIGHT_CHECK(options_.Check());
+  FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide_));
+  if (lab_.channels[0].empty()) {
+    FORESIGHT_TRY(lab_, ToLab(guide_, context));
+  }
+  FORESIGHT_TRY(Made now, Describe(samples));
+  const Made* before = last && last->SameWindow(now) ? &*last : nullptr;
+  const SampleChange change =
+      before ? CompareSamples(before->samples, now.samples) : EverythingNew(now.samples);
+  FORESIGHT_CHECK(FindPlanes(before, change, now, context));
+  FORESIGHT_TRY(now.inside, InsideConnectedCells(now.samples.map, samples, now.planes, now.spacing,
+                                                 kOneSurface_m, context));
+  if (!before) BeginAnew(now.sigma_px);
+  FORESIGHT_CHECK(FilterPixels(before, change, now, context));
+  made_ = std::move(now);
+  return {};
+}
+
+Result<LocalPlaneUpsampler::Made> LocalPlaneUpsampler::Describe(
+    const AlignedSamples& samples) const {
+  FORESIGHT_TRY(const SampleSpacing spacing, SpacingOf(samples, options_));
+  const double sigma_px = options_.sigma_spatial_px > 0.0
+                              ? options_.sigma_spatial_px
+                              : LocalPlaneSigmaForDensity(LocalDensity(samples));
+  Made made{MappedSamples(samples), spacing, sigma_px,
+            SpatialKernel(sigma_px, options_.radius_in_sigmas * sigma_px)};
+  for (std::size_t c = 0; c < made.sample_lab.size(); ++c)
+    made.sample_lab[c] = made.samples.map.ValuesAt(lab_.channels[c]);
+  made.planes = LevelPlanes(made.samples.map, samples);
+  made.slopes = SlopesOnGrid(made.samples.map, samples, made.planes);
+  return made;
+}
+
+PlaneFilter LocalPlaneUpsampler::FilterOf(const Made& made) const {
+  PlaneFilter filter{made.samples.map,
+                     made.planes,
+                     made.spatial,
+                     {&lab_.channels[0], &lab_.channels[1], &lab_.channels[2]},
+                     {made.sample_lab[0], made.sample_lab[1], made.sample_lab[2]}};
+  if (const auto& rays = made.samples.samples.rays) filter.ray = {&rays->x, &rays->y};
+  filter.sigma_spatial_px = static_cast<float>(made.sigma_px);
+  filter.sigma_colour = static_cast<float>(options_.sigma_color);
+  filter.sigma_depth_m = static_cast<float>(options_.sigma_depth_m);
+  filter.ridge = static_cast<float>(options_.ridge);
+  filter.iterations = options_.iterations;
+  return filter;
+}
+
+/// From level planes to those of each sample's surroundings.
+Status LocalPlaneUpsampler::FindPlanes(const Made* before, const SampleChange& change, Made& now,
+                                       const RunContext& context) const {
+  const SparseDepthMap& map = now.samples.map;
+  RowSet rows = change.rows.GrownBy(now.spatial.radius());
+  if (before) {
+    rows |= RowsThatDiffer(map, change, before->slopes, now.slopes);
+    for (std::size_t q = 0; q < map.size(); ++q)
+      if (change.before[q] >= 0)
+        now.planes[q] = before->planes[static_cast<std::size_t>(change.before[q])];
+  }
+  PlaneFilter filter = FilterOf(now);
+  filter.iterations = kSamplePasses;
+  const std::vector<int> blocks = rows.Blocks(kBlockRows);
+  const bool finished = ParallelFor(static_cast<int>(blocks.size()), context, [&](int i) {
+    const int top = blocks[static_cast<std::size_t>(i)] * kBlockRows;
+    FitSamplePlanes(filter, now.slopes, top, std::min(top + kBlockRows, map.height()), now.planes);
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
   return {};
 }
 
-}  // namespace
-
-bool LocalPlaneUpsampler::MayKeep(const Made& before, const Made& now) const {
-  return before.sigma_px == now.sigma_px &&
-         before.spacing.along_line_px == now.spacing.along_line_px &&
-         before.spacing.between_lines_px == now.spacing.between_lines_px &&
-         before.samples.samples.rays == now.samples.samples.rays;
+void LocalPlaneUpsampler::BeginAnew(double sigma_px) {
+  dense_ = DenseDepth();
+  dense_.sigma_spatial_px = sigma_px;
+  dense_.depth_m = DepthImage(guide_.width(), guide_.height());
+  dense_.confidence = dense_.depth_m;
+  dense_.max_confidence = 1.0f;
+  if (options_.keep_iterations)
+    dense_.iterations.assign(static_cast<std::size_t>(options_.iterations) + 1, dense_.depth_m);
 }
 
-Status LocalPlaneUpsampler::Update(const AlignedSamples& samples, const RunContext& context) {
-  std::optional<Made> before = std::exchange(made_, std::nullopt);
-  FORESIGHT_CHECK(options_.Check());
-  FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide_));
-  FORESIGHT_TRY(const SampleSpacing spacing, SpacingOf(samples, options_));
-  if (lab_.channels[0].empty()) {
-    FORESIGHT_TRY(lab_, ToLab(guide_, context));
-  }
-  const double sigma_px = options_.sigma_spatial_px > 0.0
-                              ? options_.sigma_spatial_px
-                              : LocalPlaneSigmaForDensity(LocalDensity(samples));
-  Made now{MappedSamples(samples), spacing, sigma_px, {}, {}, {}};
-  if (before && !MayKeep(*before, now)) before.reset();
+Status LocalPlaneUpsampler::FilterPixels(const Made* before, const SampleChange& change,
+                                         const Made& now, const RunContext& context) {
   const SparseDepthMap& map = now.samples.map;
-  const SampleChange change =
-      before ? CompareSamples(before->samples, now.samples) : EverythingNew(now.samples);
-
-  const SpatialKernel spatial(sigma_px, options_.radius_in_sigmas * sigma_px);
-  const std::vector<float> sample_lab[] = {map.ValuesAt(lab_.channels[0]),
-                                           map.ValuesAt(lab_.channels[1]),
-                                           map.ValuesAt(lab_.channels[2])};
-  now.planes = LevelPlanes(map, samples);
-  now.slopes = SlopesOnGrid(map, samples, now.planes);
-  PlaneFilter filter{map,
-                     now.planes,
-                     spatial,
-                     {&lab_.channels[0], &lab_.channels[1], &lab_.channels[2]},
-                     {sample_lab[0], sample_lab[1], sample_lab[2]}};
-  if (samples.rays) filter.ray = {&samples.rays->x, &samples.rays->y};
-  filter.sigma_spatial_px = static_cast<float>(sigma_px);
-  filter.sigma_colour = static_cast<float>(options_.sigma_color);
-  filter.sigma_depth_m = static_cast<float>(options_.sigma_depth_m);
-  filter.ridge = static_cast<float>(options_.ridge);
-  filter.iterations = options_.iterations;
-
-  RowSet refit = change.rows.GrownBy(spatial.radius());
-  if (before) {
-    refit |= RowsThatDiffer(map, change, before->slopes, now.slopes);
-    for (std::size_t q = 0; q < map.size(); ++q)
-      if (change.before[q] >= 0)
-        now.planes[q] = before->planes[static_cast<std::size_t>(change.before[q])];
-  }
-  FORESIGHT_CHECK(FindSamplePlanes(filter, now.slopes, refit, now.planes, context));
-  FORESIGHT_TRY(now.inside, InsideConnectedCells(map, samples, now.planes, spacing, kOneSurface_m,
-                                                 context));
+  const PlaneFilter filter = FilterOf(now);
   const SupportModel support{map,
                              now.planes,
-                             spacing.along_line_px,
-                             spacing.between_lines_px,
+                             now.spacing.along_line_px,
+                             now.spacing.between_lines_px,
                              kAgreementSigmas * options_.sigma_depth_m,
-                             NominalWeight(sigma_px, options_.radius_in_sigmas, spacing)};
-  RowSet filtered = change.rows.GrownBy(std::max(spatial.radius(), SupportReach(support)));
+                             NominalWeight(now.sigma_px, options_.radius_in_sigmas, now.spacing)};
+  const int radius = now.spatial.radius();
+  RowSet rows = change.rows.GrownBy(std::max(radius, SupportReach(support)));
   if (before) {
-    filtered |= RowsThatDiffer(map, change, before->planes, now.planes).GrownBy(spatial.radius());
-    filtered |= RowsThatDiffer(before->inside, now.inside);
-  } else {
-    dense_ = DenseDepth();
-    dense_.sigma_spatial_px = sigma_px;
-    dense_.depth_m = DepthImage(guide_.width(), guide_.height());
-    dense_.confidence = dense_.depth_m;
-    dense_.max_confidence = 1.0f;
-    if (options_.keep_iterations)
-      dense_.iterations.assign(static_cast<std::size_t>(options_.iterations) + 1, dense_.depth_m);
+    rows |= RowsThatDiffer(map, change, before->planes, now.planes).GrownBy(radius);
+    rows |= RowsThatDiffer(before->inside, now.inside);
   }
-  const std::vector<int> blocks = filtered.Blocks(kBlockRows);
-  FORESIGHT_CHECK(FilterPixels(filter, support, now.inside, blocks, dense_, context));
-  filtered_rows_ = std::min(guide_.height(), static_cast<int>(blocks.size()) * kBlockRows);
+  const std::vector<int> blocks = rows.Blocks(kBlockRows);
+  const int count = static_cast<int>(blocks.size());
+  std::atomic<int> blocks_done{0};
+  const bool finished = ParallelFor(count, context, [&](int i) {
+    FilterBlock(filter, support, now.inside, blocks[static_cast<std::size_t>(i)] * kBlockRows,
+                dense_);
+    context.Report(static_cast<double>(++blocks_done) / count, "upsampling");
+  });
+  if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
+  filtered_rows_ = std::min(guide_.height(), count * kBlockRows);
   dense_.mean_change_m.clear();
   for (std::size_t t = 1; t < dense_.iterations.size(); ++t)
     dense_.mean_change_m.push_back(MeanChange(dense_.iterations[t - 1], dense_.iterations[t]));
-  made_ = std::move(now);
   return {};
 }
 

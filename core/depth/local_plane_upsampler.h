@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/depth/changed_samples.h"
@@ -29,12 +31,18 @@ class LocalPlaneUpsampler {
   LocalPlaneUpsampler(const ColorImage& guide, const LocalPlaneOptions& options)
       : guide_(guide), options_(options) {}
 
-  /// Fails as UpsampleDepth does; all is done again after a failure. O(samples in all), and O(pixels
+  /// Fails as UpsampleDepth does; all is done again after a failure. O(samples in all), and
+  /// O(pixels
   /// * samples in Omega * passes) of the rows that are filtered.
   Status Update(const AlignedSamples& samples, const RunContext& context);
 
   /// Of the last Update, where that succeeded.
   const DenseDepth& dense() const { return dense_; }
+  /// The same, to keep; the next Update does all again.
+  DenseDepth TakeDense() {
+    made_.reset();
+    return std::move(dense_);
+  }
   /// How many rows the last Update filtered.
   int filtered_rows() const { return filtered_rows_; }
 
@@ -44,12 +52,22 @@ class LocalPlaneUpsampler {
     MappedSamples samples;
     SampleSpacing spacing;
     double sigma_px;
-    std::vector<SlopeCandidates> slopes;
-    std::vector<SamplePlane> planes;
-    MaskImage inside;  ///< connected cells
+    SpatialKernel spatial;
+    std::array<std::vector<float>, 3> sample_lab = {};
+    std::vector<SlopeCandidates> slopes = {};
+    std::vector<SamplePlane> planes = {};
+    MaskImage inside = {};  ///< connected cells
+
+    bool SameWindow(const Made& other) const;
   };
 
-  bool MayKeep(const Made& before, const Made& now) const;
+  Result<Made> Describe(const AlignedSamples& samples) const;
+  PlaneFilter FilterOf(const Made& made) const;
+  Status FindPlanes(const Made* before, const SampleChange& change, Made& now,
+                    const RunContext& context) const;
+  void BeginAnew(double sigma_px);
+  Status FilterPixels(const Made* before, const SampleChange& change, const Made& now,
+                      const RunContext& context);
 
   const ColorImage& guide_;
   LocalPlaneOptions options_;

@@ -73,12 +73,17 @@ float Confidence(float nearest, std::int32_t sides, float weight, float agreemen
 
 }  // namespace
 
+int SupportReach(const SupportModel& model) {
+  const auto dv = static_cast<float>(model.between_lines_px);
+  return static_cast<int>(std::ceil(kFarthestCells * dv));
+}
+
 void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence) {
   const auto du = static_cast<float>(model.along_line_px);
   const auto dv = static_cast<float>(model.between_lines_px);
   const auto agreement = static_cast<float>(model.agreement_m);
   const int half_width = static_cast<int>(std::ceil(kFarthestCells * du));
-  const int half_height = static_cast<int>(std::ceil(kFarthestCells * dv));
+  const int half_height = SupportReach(model);
   const int width = model.samples.width();
   thread_local RowSupport support;
   support.Reset(planes, y, width);

@@ -37,4 +37,7 @@ struct PlaneRow {
 /// one surface. O(samples around the row * samples' spacing).
 void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence);
 
+/// How many rows away MeasureSupport still looks at samples.
+int SupportReach(const SupportModel& model);
+
 }  // namespace foresight

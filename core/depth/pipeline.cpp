@@ -34,15 +34,20 @@ Status DepthOptions::Check() const {
   return mask.Check();
 }
 
+Status RejectOutliers(AlignedSamples& samples, const DepthOptions& options,
+                      const RunContext& context) {
+  context.Report(0.0, "rejecting outliers");
+  FORESIGHT_CHECK(RejectFlying(samples, options.flying));
+  FORESIGHT_CHECK(RejectIsolated(samples, options.isolated));
+  return RejectFlipping(samples, options.flipping, context);
+}
+
 Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide,
                                  const DepthOptions& options, const RunContext& context) {
   const auto start = std::chrono::steady_clock::now();
   FORESIGHT_CHECK(options.Check());
   FORESIGHT_CHECK(samples.Check());
-  context.Report(0.0, "rejecting outliers");
-  FORESIGHT_CHECK(RejectFlying(samples, options.flying));
-  FORESIGHT_CHECK(RejectIsolated(samples, options.isolated));
-  FORESIGHT_CHECK(RejectFlipping(samples, options.flipping, context));
+  FORESIGHT_CHECK(RejectOutliers(samples, options, context));
 
   DepthResult result;
   FORESIGHT_TRY(result.dense, Densify(samples, guide, options, context.Part(0.1, 1.0)));

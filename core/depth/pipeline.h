@@ -48,6 +48,11 @@ struct DepthResult {
   bool BelowDensityFloor() const { return density < ScanPrediction::kMinDensity; }
 };
 
+/// The three rejections in their order; samples that are rejected already stay so. Fails as they
+/// do.
+Status RejectOutliers(AlignedSamples& samples, const DepthOptions& options,
+                      const RunContext& context);
+
 /// Section IV from the aligned samples to the mask; calls the stages in their order and nothing
 /// else.
 Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide,
