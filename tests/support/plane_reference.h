@@ -123,7 +123,8 @@ inline PlaneFit FitPlaneByTheBook(const PlaneProblem& problem, const PlaneRefere
     if (!(trust > best)) continue;
     best = trust;
     const Eigen::Vector2d slope(n.plane.slope_x, n.plane.slope_y);
-    plane << 1.0 / n.depth_m - slope.dot(n.at.tail<2>()), slope;
+    const double there = 0.5 * (1.0 / n.depth_m + n.plane.inverse_depth);
+    plane << there - slope.dot(n.at.tail<2>()), slope;
   }
   return FitByTheBook(neighbours, options, plane);
 }

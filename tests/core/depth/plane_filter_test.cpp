@@ -122,6 +122,8 @@ TEST_P(PlaneKernel, StartsAtTheBestSupportedSample) {
   for (FloatImage& channel : problem.colour) channel = FloatImage(9, 1, 50.0f);
   StartAnywhere(problem, Rays::kPixels, 0.0, 0.0);
   const auto start_at_2 = [&](float left_support, float right_support) {
+    problem.planes[0].inverse_depth = 1.0f;
+    problem.planes[1].inverse_depth = 0.5f;
     problem.planes[0].support = left_support;
     problem.planes[1].support = right_support;
     return Filter(problem, Window(3.0, 3.0), 6).iterations[0](2, 0);
@@ -167,12 +169,15 @@ TEST_P(PlaneKernel, HandsOutEachIteration) {
   for (options.iterations = 1; options.iterations < 3; ++options.iterations)
     EXPECT_EQ(all.iterations[static_cast<std::size_t>(options.iterations)],
               Filter(problem, options).depth_m);
-  // The start is the plane of one of the samples.
-  const auto is_start = [&](const SamplePlane& s) {
-    const double inverse = s.inverse_depth + s.slope_x * (16 - s.x) + s.slope_y * (8 - s.y);
-    return std::abs(1.0 / inverse - all.iterations[0](16, 8)) < 1e-6;
-  };
-  EXPECT_EQ(std::count_if(problem.planes.begin(), problem.planes.end(), is_start), 1);
+  // The start is the plane of one of the samples, moved halfway to the sample.
+  int starts = 0;
+  for (std::size_t i = 0; i < problem.planes.size(); ++i) {
+    const SamplePlane& s = problem.planes[i];
+    const double there = 0.5 * (s.inverse_depth + 1.0 / problem.samples.samples[i].depth_m);
+    const double here = there + s.slope_x * (16 - s.x) + s.slope_y * (8 - s.y);
+    starts += std::abs(1.0 / here - all.iterations[0](16, 8)) < 1e-6 ? 1 : 0;
+  }
+  EXPECT_EQ(starts, 1);
 }
 
 TEST_P(PlaneKernel, FollowsAPlaneExactly) {

@@ -30,8 +30,8 @@ inline std::shared_ptr<const RayField> CurvedRays(int width, int height) {
   return rays;
 }
 
-/// The samples' planes: at their exact places, with slopes near `slope_x` and `slope_y` (1/m and
-/// pixel) and any support.
+/// The samples' planes: at their exact places, near their depths, with slopes near `slope_x` and
+/// `slope_y` (1/m and pixel) and any support.
 inline void StartAnywhere(PlaneProblem& problem, Rays rays, double slope_x, double slope_y) {
   Random random(11);
   const int width = problem.samples.width;
@@ -44,7 +44,7 @@ inline void StartAnywhere(PlaneProblem& problem, Rays rays, double slope_x, doub
     plane.x = static_cast<float>(place.x());
     plane.y = static_cast<float>(place.y());
     plane.unit = rays == Rays::kCurved ? kCurvedUnit : 1.0f;
-    plane.inverse_depth = 1.0f / s.depth_m;
+    plane.inverse_depth = static_cast<float>((1.0 + 0.005 * random.Normal()) / s.depth_m);
     plane.slope_x = static_cast<float>((slope_x + 0.001 * random.Normal()) / plane.unit);
     plane.slope_y = static_cast<float>((slope_y + 0.001 * random.Normal()) / plane.unit);
     plane.support = static_cast<float>(random.Uniform(0.1, 1.0));
