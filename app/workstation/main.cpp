@@ -8,6 +8,7 @@
 #include "app/workstation/quit_on_signal.h"
 #include "app/workstation/unattended.h"
 #include "core/base/log.h"
+#include "hardware/assembly/real_head.h"
 #include "hardware/simulated/simulated_head.h"
 #include "ui/panels/theme.h"
 #include "ui/views/vtk_setup.h"
@@ -16,7 +17,8 @@ namespace foresight {
 namespace {
 
 struct Options {
-  std::string scene;  ///< empty: the valve scene that comes with the program
+  std::string scene;        ///< empty: the valve scene that comes with the program
+  std::string head_config;  ///< of a real head, in place of the scene
   std::string rig;
   std::string mission;
   std::uint64_t seed = 1;
@@ -27,6 +29,9 @@ struct Options {
 int Parse(int argc, char** argv, Options* options) {
   CLI::App app{"Foresight, the workstation for a rotating lidar-camera head"};
   app.add_option("--scene", options->scene, "Scene file that the simulated head looks at");
+  app.add_option("--head-config", options->head_config,
+                 "A real head and its devices (YAML), in place of the simulated one")
+      ->excludes("--scene");
   app.add_option("--rig", options->rig, "Calibration file of the simulated head");
   app.add_option("--seed", options->seed, "Seed of the simulated noise");
   app.add_flag("--fast", options->fast, "Let the simulated head's time run as fast as it can");
@@ -52,7 +57,17 @@ std::string DefaultScene() {
                                   : FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
 }
 
-Result<std::shared_ptr<SensorHead>> MakeHead(const Options& options) {
+struct Head {
+  std::shared_ptr<SensorHead> head;
+  SessionMode mode = SessionMode::kSimulation;
+};
+
+Result<Head> MakeHead(const Options& options) {
+  if (!options.head_config.empty()) {
+    FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(options.head_config));
+    return Head{MakeRealHead(config),
+                config.simulated ? SessionMode::kSimulation : SessionMode::kLive};
+  }
   SimulatedHeadOptions simulation;
   simulation.world.seed = options.seed;
   simulation.speed = options.fast ? SimulationSpeed::kAsFastAsPossible : SimulationSpeed::kRealTime;
@@ -62,7 +77,7 @@ Result<std::shared_ptr<SensorHead>> MakeHead(const Options& options) {
   }
   const std::string scene = options.scene.empty() ? DefaultScene() : options.scene;
   FORESIGHT_TRY(std::shared_ptr<SensorHead> head, MakeSimulatedHead(scene, simulation));
-  return head;
+  return Head{std::move(head), SessionMode::kSimulation};
 }
 
 int Run(int argc, char** argv) {
@@ -79,14 +94,16 @@ int Run(int argc, char** argv) {
     LogError("{}", head.error().message);
     return 1;
   }
-  Workbench bench(std::move(*head), SessionMode::kSimulation);
+  const SessionMode mode = head->mode;
+  Workbench bench(std::move(head->head), mode);
   const QuitOnSignal quit_on_signal([&bench] { bench.head.StopForGood(); });
   MainWindow window(&bench);
   QSettings settings;
   const bool attended = options.unattended.screenshot.empty();
   if (attended) window.RestoreLayout(settings);  // every picture shows the same layout
   window.show();
-  bench.head.home();
+  // A real motor turns when the operator says so.
+  if (mode == SessionMode::kSimulation || options.unattended.scan) bench.head.home();
   if (!options.mission.empty()) bench.mission.Open(QString::fromStdString(options.mission));
   Unattended unattended(&bench, &window, options.unattended);
   const int outcome = QApplication::exec();

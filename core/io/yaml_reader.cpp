@@ -1,5 +1,6 @@
 #include "core/io/yaml_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace foresight {
@@ -113,7 +114,7 @@ void YamlMap::Fault(const std::string& what) const {
 }
 
 void YamlMap::Fault(const YAML::Node& at, const std::string& what) const {
-  const int line = at.IsDefined() ? at.Mark().line + 1 : 1;
+  const int line = at.IsDefined() ? std::max(1, at.Mark().line + 1) : 1;  // an empty file has none
   throw YamlFault(source_ + ":" + std::to_string(line) + ": " + what);
 }
 

@@ -54,13 +54,9 @@ Result<std::unique_ptr<EmulatedSite>> EmulatedSite::Start(std::shared_ptr<const 
   return site;
 }
 
-double EmulatedSite::MotorAngle(double time_s) const {
-  return shaft_->At(time_s).angle_rad - motor_->zero_rad();
-}
-
 LidarLine EmulatedSite::MeasureTurn(std::int64_t turn) const {
   return world_->MeasureLine(turn, static_cast<double>(turn) * world_->true_rig().lidar.period_s,
-                             [this](double time_s) { return shaft_->At(time_s).angle_rad; });
+                             [this](double time_s) { return ShaftAngle(time_s); });
 }
 
 SensorRig EmulatedSite::CalibratedRig() const {

@@ -41,8 +41,8 @@ class EmulatedSite {
   const std::shared_ptr<SimulatedClock>& clock() const { return clock_; }
 
   // The truth.
-  /// The shaft's angle at a time of the site's clock, from the motor's zero.
-  double MotorAngle(double time_s) const;
+  /// The shaft's angle at a time of the site's clock; the home switch lies at 0.
+  double ShaftAngle(double time_s) const { return shaft_->At(time_s).angle_rad; }
   bool MotorTurns() const { return shaft_->MovingAt(clock_->Now()); }
   /// What a lidar without a wire would measure in the mirror's turn `turn`, counted from the
   /// clock's 0: the same ranges, intensities and stamp.

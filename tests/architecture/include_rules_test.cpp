@@ -217,6 +217,22 @@ TEST(IncludeRules, SocketsKnowNoDevices) {
   });
 }
 
+TEST(IncludeRules, AnAssembledHeadKnowsNoEmulators) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    if (!StartsWith(include.file, "hardware/assembly/")) return "";
+    return StartsWithAny(include.target, {"hardware/emulator/", "hardware/simulated/"})
+               ? "a real head runs without a simulation"
+               : "";
+  });
+}
+
+TEST(IncludeRules, OnlyAppsKnowAssembledHeads) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    if (StartsWithAny(include.file, {"app/", "hardware/assembly/"})) return "";
+    return StartsWith(include.target, "hardware/assembly/") ? "composing is the apps' affair" : "";
+  });
+}
+
 TEST(IncludeRules, HardwareKnowsNoUserInterface) {
   ExpectNoBreach([](const Include& include) -> std::string {
     if (!StartsWith(include.file, "hardware/")) return "";
@@ -266,11 +282,11 @@ TEST(IncludeRules, NobodyIncludesAnApp) {
   });
 }
 
-TEST(IncludeRules, CtlNeedsNoGui) {
+TEST(IncludeRules, ProgramsWithoutAWindowNeedNoGui) {
   ExpectNoBreach([](const Include& include) -> std::string {
-    if (!StartsWith(include.file, "app/ctl/")) return "";
+    if (!StartsWithAny(include.file, {"app/common/", "app/ctl/", "app/head/"})) return "";
     return IsQt(include.target) || IsVtk(include.target) || StartsWith(include.target, "ui/")
-               ? "foresightctl runs without Qt"
+               ? "runs without Qt"
                : "";
   });
 }

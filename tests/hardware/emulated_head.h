@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "hardware/assembly/real_head.h"
+#include "hardware/emulator/emulated_site.h"
+#include "tests/hardware/tiny_head.h"
+
+namespace foresight {
+
+/// A head on the real drivers before an emulated site, over the sockets of this machine. Head and
+/// site share a clock, so stamps can be compared with the truth.
+struct EmulatedHead {
+  explicit EmulatedHead(const std::string& scene_file)
+      : EmulatedHead(std::make_shared<const Scene>(LoadScene(scene_file).value()), {}) {}
+  EmulatedHead(std::shared_ptr<const Scene> scene, const EmulatedSiteOptions& options) {
+    auto started = EmulatedSite::Start(std::move(scene), options);
+    if (!started) throw std::runtime_error(started.error().message);
+    site = std::move(*started);
+    config.rig = site->CalibratedRig();
+    config.lidar.address = site->lidar().address();
+    config.lidar.last_step = config.rig.lidar.beams - 1;
+    config.motor.host = site->motor().address().host;
+    config.motor.port = site->motor().address().port;
+    config.camera.address = site->camera().address();
+    config.camera.frame_timeout_s = 10.0;  // the picture is rendered, on a busy machine
+    head = std::make_unique<CaptureHead>(MakeDrivers(config, site->clock()), config.rig,
+                                         config.capture);
+  }
+
+  /// The state is reached before `seconds` are over.
+  bool WaitFor(HeadState state, double seconds = 30.0) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (head->Status().state != state) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
+  bool Home() const { return head->Home() && WaitFor(HeadState::kReady); }
+
+  /// Homes and flies; at its tenth line `action` is called. nullptr when the scan did not even
+  /// begin.
+  std::shared_ptr<const Scan> Fly(const ScanPlan& plan, const std::function<void()>& action = {}) {
+    const auto assembler = std::make_shared<ScanAssembler>();
+    const auto watch = std::make_shared<ScanWatch>();
+    watch->action = action;
+    const auto sinks =
+        std::make_shared<ScanFanout>(std::vector<std::shared_ptr<ScanSink>>{assembler, watch});
+    if (!Home() || !head->StartScan(plan, sinks) || !watch->WaitForEnd()) return nullptr;
+    while (head->Status().state == HeadState::kSweeping ||
+           head->Status().state == HeadState::kStopping)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return assembler->Snapshot();
+  }
+
+  /// The turn of the mirror that a line was measured in.
+  static std::int64_t TurnOf(const LidarLine& line) {
+    return std::llround(line.time_s / LidarModel().period_s);
+  }
+
+  std::unique_ptr<EmulatedSite> site;
+  HeadConfig config;
+  std::unique_ptr<CaptureHead> head;  ///< last: goes first
+};
+
+}  // namespace foresight

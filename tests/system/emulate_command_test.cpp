@@ -1,0 +1,48 @@
+// foresightctl emulate in one process, a head in another.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/running_program.h"
+
+namespace foresight {
+namespace {
+
+const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
+
+TEST(EmulateCommand, AScanThroughTheNetworkOfTwoProcesses) {
+  const TemporaryFolder folder;
+  const std::string config = folder / "head.yaml";
+  RunningProgram devices(FORESIGHTCTL, {"emulate", kRoom, "--head-config", config, "--json"});
+  // Printed last, so that it says: they listen.
+  ASSERT_TRUE(WaitUntil([&] { return devices.Output().find('}') != std::string::npos; }));
+  const auto addresses = nlohmann::json::parse(devices.Output());
+  EXPECT_THAT(addresses["lidar"].get<std::string>(), testing::StartsWith("127.0.0.1:"));
+  const ProgramResult scan =
+      RunProgram(FORESIGHTCTL, {"scan", "--head-config", config, "--from", "-3", "--to", "3",
+                                "--out", folder / "mission.foresight", "--json"});
+  EXPECT_EQ(scan.exit_code, 0) << scan.errors;
+  EXPECT_EQ(nlohmann::json::parse(scan.output)["state"], "complete");
+  devices.Signal(SIGINT);
+  EXPECT_EQ(devices.Wait().exit_code, 0);
+}
+
+TEST(EmulateCommand, EndsByItselfWhenAsked) {
+  const ProgramResult result = RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--seconds", "0.05"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, testing::StartsWith("lidar 127.0.0.1:"));
+}
+
+TEST(EmulateCommand, RefusesBadAddressesAndFaultPlans) {
+  const TemporaryFolder folder;
+  const std::string faults = folder / "faults.yaml";
+  std::ofstream(faults) << "foresight_faults: 1\nlidar: {stall_share: 2}\n";
+  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--lidar", "127.0.0.1:x"}).exit_code, 2);
+  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--lidar", "8.8.8.8:1"}).exit_code, 3);
+  const ProgramResult bad = RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--faults", faults});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.errors, testing::HasSubstr("faults.yaml:2"));
+}
+
+}  // namespace
+}  // namespace foresight
