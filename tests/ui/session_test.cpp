@@ -206,6 +206,26 @@ TEST_F(LiveDepthTest, ASecondScanIsPreviewedUnderThePictureOfTheFirst) {
   EXPECT_EQ(live.Depth(), nullptr);
 }
 
+TEST_F(LiveDepthTest, GrowsWithTheLinesAndEqualsTheWholeComputation) {
+  PlanFields plan = head.Plan();
+  plan.image_angles_deg = {0.0};
+  head.SetPlan(plan);
+  session.SetScan(SharedScan());
+  head.scan();
+  fake->Deliver(*SharedScan(), 60);
+  ASSERT_TRUE(WaitFor([&] { return live.Depth() != nullptr; }));
+  fake->Deliver(*SharedScan(), 100);
+  ASSERT_TRUE(WaitFor([&] { return live.Lines() == 100; }));
+  const auto options =
+      FixedForPlan(DefaultsOf(LiveDepthViewModel::Method()), head.Plan().ToPlan(), session.Rig());
+  ASSERT_TRUE(options);
+  const auto whole =
+      ComputeDepthInFrame(*session.Cloud(), session.Rig(), SharedScan()->frames[0], *options, {});
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(live.Depth()->mask, whole->mask);
+  EXPECT_EQ(live.Depth()->dense.confidence, whole->dense.confidence);
+}
+
 TEST_F(LiveDepthTest, APictureOfAnotherAngleIsNotUsed) {
   PlanFields plan = head.Plan();
   plan.image_angles_deg = {5.0};

@@ -1,11 +1,6 @@
 #include "ui/viewmodels/live_depth_view_model.h"
 
 namespace foresight {
-namespace {
-
-constexpr qint64 kInterval_ms = 1000;
-
-}  // namespace
 
 LiveDepthViewModel::LiveDepthViewModel(HeadViewModel* head, SessionModel* session, QObject* parent)
     : QObject(parent), head_(head), session_(session) {
@@ -21,29 +16,35 @@ void LiveDepthViewModel::RememberScan() {
 }
 
 void LiveDepthViewModel::Grow() {
-  const bool due = !since_last_.isValid() || since_last_.elapsed() >= kInterval_ms;
-  if (!head_->Scanning() || !session_->Cloud() || !last_scan_ || runner_.Busy() || !due) return;
+  if (!head_->Scanning() || !session_->Cloud() || !last_scan_ || runner_.Busy()) return;
   if (last_scan_->plan.image_angles_rad != head_->Plan().ToPlan().image_angles_rad) return;
-  since_last_.start();
-  const auto work = [cloud = session_->Cloud(), rig = session_->Rig(),
-                     seen = last_scan_](const RunContext& context) -> Result<DepthResult> {
+  if (!live_) Begin();
+  if (!live_) return;
+  const auto work = [cloud = session_->Cloud(), live = live_](const RunContext& context) {
     RunContext modest = context;
     modest.threads = 1;  // recording the sweep comes first
-    return ComputeDepthInFrame(*cloud, rig, seen->frames.front(), DefaultsOf(Method()), modest);
+    return live->Update(*cloud, modest);
   };
-  runner_.Run<DepthResult>(tr("Previewing the depth"), work,
-                           [this, lines = session_->Cloud()->lines](Result<DepthResult> depth) {
-                             // Too few points yet, or the scan has ended meanwhile.
-                             if (!depth || !head_->Scanning()) return;
-                             depth_ = std::make_shared<const DepthResult>(std::move(*depth));
-                             lines_ = lines;
-                             Q_EMIT changed();
-                           });
+  runner_.Run<DepthResult>(
+      tr("Previewing the depth"), work,
+      [this, live = live_, lines = session_->Cloud()->lines](Result<DepthResult> depth) {
+        // Too few points yet, or the scan has ended meanwhile.
+        if (!depth || live != live_) return;
+        depth_ = std::make_shared<const DepthResult>(std::move(*depth));
+        lines_ = lines;
+        Q_EMIT changed();
+      });
+}
+
+void LiveDepthViewModel::Begin() {
+  const auto options = FixedForPlan(DefaultsOf(Method()), head_->Plan().ToPlan(), session_->Rig());
+  if (options)  // a plan that cannot be flown has no preview
+    live_ = std::make_shared<LiveDepth>(session_->Rig(), last_scan_->frames.front(), *options);
 }
 
 void LiveDepthViewModel::Clear() {
   runner_.cancel();
-  since_last_.invalidate();
+  live_.reset();  // a task that still runs holds on to its own
   if (!depth_) return;
   depth_.reset();
   Q_EMIT changed();

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <QElapsedTimer>
-
+#include "core/depth/live_depth.h"
 #include "ui/viewmodels/depth_view_model.h"
 #include "ui/viewmodels/head_view_model.h"
 
 namespace foresight {
 
 /// A preview of the depth while the head sweeps: the lines so far under the picture of the scan
-/// before, where that was planned at the same angles. One thread, about once a second, and nothing
-/// waits for it; gone when the scan ends.
+/// before, where that was planned at the same angles. Only what new lines can change is computed
+/// again, with lengths fixed by the plan. One thread, at most once each time that the points grow,
+/// and nothing waits for it; gone when the scan ends.
 class LiveDepthViewModel : public QObject {
   Q_OBJECT
 
@@ -29,13 +29,14 @@ class LiveDepthViewModel : public QObject {
  private:
   void RememberScan();
   void Grow();
+  void Begin();
   void Clear();
 
   HeadViewModel* head_;
   SessionModel* session_;
   TaskRunner runner_;
-  QElapsedTimer since_last_;
   std::shared_ptr<const Scan> last_scan_;  ///< with a picture
+  std::shared_ptr<LiveDepth> live_;        ///< of the running scan; one task at a time uses it
   std::shared_ptr<const DepthResult> depth_;
   int lines_ = 0;
 };
