@@ -1,6 +1,7 @@
 // The thread of a GigeCamera: the only one that asks the camera.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/base/log.h"
@@ -47,11 +48,15 @@ void GigeCamera::OpenSession(const std::stop_token& stop) {
     session_ = std::move(*opened);
     return;
   }
-  std::unique_lock lock(mutex_);
-  if (health_.last_error != begun.error().message)
-    LogWarning("{}: {}", name_, begun.error().message);
-  health_.last_error = begun.error().message;
+  opened = tl::unexpected(begun.error());  // gives control back before the next attempt
   backoff_s_ = std::clamp(2.0 * backoff_s_, options_.first_backoff_s, options_.last_backoff_s);
+  std::string before;
+  {
+    const std::lock_guard lock(mutex_);
+    before = std::exchange(health_.last_error, begun.error().message);
+  }
+  if (before != begun.error().message) LogWarning("{}: {}", name_, begun.error().message);
+  std::unique_lock lock(mutex_);
   changed_.wait_for(lock, stop, std::chrono::duration<double>(backoff_s_), [] { return false; });
 }
 
