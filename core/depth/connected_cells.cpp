@@ -46,6 +46,8 @@ class Surface {
     return Connected(corners[0], corners[1]) && Connected(corners[1], corners[2]) &&
            Connected(corners[2], corners[0]);
   }
+  /// No triangle that holds spans more rows.
+  int highest_px() const { return highest_px_; }
   Pixel At(std::int32_t corner) const {
     const auto c = static_cast<std::size_t>(corner);
     return {map_.columns()[c], map_.rows()[c]};
@@ -102,9 +104,27 @@ Result<MaskImage> InsideConnectedCells(const SparseDepthMap& map, const AlignedS
                                        std::span<const SamplePlane> planes,
                                        const SampleSpacing& spacing, double tolerance_m,
                                        const RunContext& context) {
+  MaskImage inside(map.width(), map.height(), 0);
+  FORESIGHT_CHECK(UpdateConnectedCells(map, samples, planes, spacing, tolerance_m,
+                                       RowSet(map.height(), true), inside, context));
+  return inside;
+}
+
+Status UpdateConnectedCells(const SparseDepthMap& map, const AlignedSamples& samples,
+                            std::span<const SamplePlane> planes, const SampleSpacing& spacing,
+                            double tolerance_m, const RowSet& changed, MaskImage& inside,
+                            const RunContext& context) {
   const Image<std::int32_t> grid = MapGrid(map, samples);
   const Surface surface(map, planes, spacing, tolerance_m);
-  MaskImage inside(map.width(), map.height(), 0);
+  const RowSet cleared = changed.GrownBy(surface.highest_px());
+  const RowSet near = cleared.GrownBy(surface.highest_px());
+  for (int y = 0; y < inside.height(); ++y)
+    if (cleared.Contains(y)) std::fill_n(inside.row(y), inside.width(), std::uint8_t{0});
+  // Triangles that reach out of the cleared rows did not change: there they set what is set.
+  const auto touches = [&](const Triangle& corners) {
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](std::int32_t c) { return c >= 0 && near.Contains(surface.At(c).y); });
+  };
   const bool finished = ParallelFor(std::max(0, grid.height() - 1), context, [&](int line) {
     for (int beam = 0; beam + 1 < grid.width(); ++beam) {
       const std::array<std::int32_t, 4> cell{grid(beam, line), grid(beam + 1, line),
@@ -113,13 +133,13 @@ Result<MaskImage> InsideConnectedCells(const SparseDepthMap& map, const AlignedS
       for (std::size_t left_out = 0; left_out < 4; ++left_out) {
         const Triangle corners{cell[(left_out + 1) % 4], cell[(left_out + 2) % 4],
                                cell[(left_out + 3) % 4]};
-        if (surface.Holds(corners))
+        if (touches(corners) && surface.Holds(corners))
           Fill(inside, {surface.At(corners[0]), surface.At(corners[1]), surface.At(corners[2])});
       }
     }
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
-  return inside;
+  return {};
 }
 
 }  // namespace foresight

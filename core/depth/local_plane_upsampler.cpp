@@ -136,8 +136,7 @@ Status LocalPlaneUpsampler::Update(const AlignedSamples& samples, const RunConte
   const SampleChange change =
       before ? CompareSamples(before->samples, now.samples) : EverythingNew(now.samples);
   FORESIGHT_CHECK(FindPlanes(before, change, now, context));
-  FORESIGHT_TRY(now.inside, InsideConnectedCells(now.samples.map, samples, now.planes, now.spacing,
-                                                 kOneSurface_m, context));
+  FORESIGHT_CHECK(FindCells(before, change, now, context));
   if (!before) BeginAnew(now.sigma_px);
   FORESIGHT_CHECK(FilterPixels(before, change, now, context));
   made_ = std::move(now);
@@ -194,6 +193,20 @@ Status LocalPlaneUpsampler::FindPlanes(const Made* before, const SampleChange& c
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
   return {};
+}
+
+Status LocalPlaneUpsampler::FindCells(const Made* before, const SampleChange& change, Made& now,
+                                      const RunContext& context) const {
+  const SparseDepthMap& map = now.samples.map;
+  RowSet rows = change.rows;
+  if (before) {
+    now.inside = before->inside;
+    rows |= RowsThatDiffer(map, change, before->planes, now.planes);
+  } else {
+    now.inside = MaskImage(map.width(), map.height(), 0);
+  }
+  return UpdateConnectedCells(map, now.samples.samples, now.planes, now.spacing, kOneSurface_m,
+                              rows, now.inside, context);
 }
 
 void LocalPlaneUpsampler::BeginAnew(double sigma_px) {

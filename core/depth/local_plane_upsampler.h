@@ -22,7 +22,8 @@ namespace foresight {
 ///   a pixel's plane       its disc: samples within R that changed or whose plane changed
 ///   a pixel's confidence  as well the samples within reach of MeasureSupport, and the connected
 ///                         cells that it lies in
-/// Slopes and cells are made anew each time, being cheap, and compared. Rows are filtered again in
+/// A cell changes with its corners and their planes, within three spacings. Slopes are made anew
+/// each time, being cheap, and compared. Rows are filtered again in
 /// whole blocks of eight. An automatic sigma_s or spacing follows the measured density: where that
 /// changes, all is done again; fix both to gain anything.
 class LocalPlaneUpsampler {
@@ -65,6 +66,8 @@ class LocalPlaneUpsampler {
   PlaneFilter FilterOf(const Made& made) const;
   Status FindPlanes(const Made* before, const SampleChange& change, Made& now,
                     const RunContext& context) const;
+  Status FindCells(const Made* before, const SampleChange& change, Made& now,
+                   const RunContext& context) const;
   void BeginAnew(double sigma_px);
   Status FilterPixels(const Made* before, const SampleChange& change, const Made& now,
                       const RunContext& context);

@@ -1,10 +1,14 @@
 #include "core/depth/sample_buckets.h"
 
+#include <cmath>
+
 namespace foresight {
 
 SampleBuckets::SampleBuckets(const AlignedSamples& samples)
-    : columns_((samples.width + kBucketPx - 1) / kBucketPx),
-      rows_((samples.height + kBucketPx - 1) / kBucketPx),
+    : side_px_(std::clamp(static_cast<int>(std::sqrt(1.0 / std::max(1e-6, samples.Density()))), 2,
+                          kWidest_px)),
+      columns_((samples.width + side_px_ - 1) / side_px_),
+      rows_((samples.height + side_px_ - 1) / side_px_),
       first_(Index(0, rows_) + 1, 0) {
   const auto bucket = [&](const AlignedSample& s) {
     return Index(Place(s.u, columns_), Place(s.v, rows_));

@@ -30,17 +30,19 @@ class SampleBuckets {
   }
 
  private:
-  /// Side of a bucket: a cell of the lidar's grid touches a few, a bucket holds about one sample.
-  static constexpr int kBucketPx = 8;
+  /// The widest side of a bucket, for sparse samples.
+  static constexpr int kWidest_px = 8;
 
-  static int Place(float coordinate, int count) {
-    return std::clamp(static_cast<int>((coordinate + 0.5f) / kBucketPx), 0, count - 1);
+  int Place(float coordinate, int count) const {
+    return std::clamp(static_cast<int>((coordinate + 0.5f) / static_cast<float>(side_px_)), 0,
+                      count - 1);
   }
   std::size_t Index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
 
+  int side_px_;  ///< a cell of the lidar's grid touches a few, a bucket holds about one sample
   int columns_;
   int rows_;
   std::vector<std::int32_t> first_;   ///< a bucket's are sorted_[first_[b]] .. first_[b + 1]
