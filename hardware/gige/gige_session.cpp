@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <limits>
+#include <mutex>
 
 #include "hardware/gige/aravis_handle.h"
 #include "hardware/gige/pixel_formats.h"
@@ -82,7 +83,12 @@ Status GigeSession::Impl::OpenDevice() {
   const ArvHandle<GInetAddress> here(g_inet_address_new_from_string(local.c_str()));
   const ArvHandle<GInetAddress> there(g_inet_address_new_from_string(options.address.c_str()));
   ArvFailure failure;
-  device.reset(arv_gv_device_new(here.get(), there.get(), failure.out()));
+  {
+    // Aravis fills tables of the process, without a lock, when it reads a camera's XML.
+    static std::mutex reading;
+    const std::lock_guard lock(reading);
+    device.reset(arv_gv_device_new(here.get(), there.get(), failure.out()));
+  }
   FORESIGHT_CHECK(Judge(failure, "cannot open"));
   if (!device) return Fail(ErrorCode::kDevice, "cannot open");
   // Open nonetheless: Aravis leaves a device readable that somebody else controls.
