@@ -107,7 +107,7 @@ template <class Hidden, class Mark>
 void MarkInvaders(const AlignedSamples& samples, const SampleBuckets& buckets, const Cell& cell,
                   const Hidden& hidden, const Mark& mark) {
   const auto limit = static_cast<float>(hidden.NearestLimit(cell));
-  const auto& [a, b, c, d] = cell.corners;
+  const auto& corners = cell.corners;
   buckets.ForEachNear(cell.left, cell.top, cell.right, cell.bottom, [&](std::size_t index) {
     const AlignedSample& p = samples.samples[index];
     // The box first: a cell seen edge-on has no inside, and its edges no end.
@@ -115,7 +115,9 @@ void MarkInvaders(const AlignedSamples& samples, const SampleBuckets& buckets, c
         p.u >= cell.left && p.u <= cell.right && p.v >= cell.top && p.v <= cell.bottom;
     if (!(p.depth_m > limit) || !in_box) return;
     // A cell can fold over when it is seen from aside, so it is tested as its two triangles.
-    if (hidden.InTriangle(*a, *b, *c, p) || hidden.InTriangle(*a, *c, *d, p)) mark(index);
+    if (hidden.InTriangle(*corners[0], *corners[1], *corners[2], p) ||
+        hidden.InTriangle(*corners[0], *corners[2], *corners[3], p))
+      mark(index);
   });
 }
 
