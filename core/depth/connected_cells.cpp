@@ -117,13 +117,13 @@ Status UpdateConnectedCells(const SparseDepthMap& map, const AlignedSamples& sam
   const Image<std::int32_t> grid = MapGrid(map, samples);
   const Surface surface(map, planes, spacing, tolerance_m);
   const RowSet cleared = changed.GrownBy(surface.highest_px());
-  const RowSet near = cleared.GrownBy(surface.highest_px());
   for (int y = 0; y < inside.height(); ++y)
     if (cleared.Contains(y)) std::fill_n(inside.row(y), inside.width(), std::uint8_t{0});
-  // Triangles that reach out of the cleared rows did not change: there they set what is set.
+  // Each stretch of cleared rows is higher than a triangle: what touches it has a corner in it.
+  // Triangles that reach out of it did not change: there they set what is set.
   const auto touches = [&](const Triangle& corners) {
     return std::any_of(corners.begin(), corners.end(),
-                       [&](std::int32_t c) { return c >= 0 && near.Contains(surface.At(c).y); });
+                       [&](std::int32_t c) { return c >= 0 && cleared.Contains(surface.At(c).y); });
   };
   const bool finished = ParallelFor(std::max(0, grid.height() - 1), context, [&](int line) {
     for (int beam = 0; beam + 1 < grid.width(); ++beam) {

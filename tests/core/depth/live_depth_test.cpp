@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <span>
 
 #include "core/depth/depth_method.h"
 #include "tests/support/growing_scan.h"
+#include "tests/support/sample_grids.h"
 
 namespace foresight {
 namespace {
@@ -154,6 +156,33 @@ TEST(LiveDepth, SaysThatNothingIsInThePictureYet) {
   const auto depth = live.Update(testing::RegisteredAfter(scan, 2), {});
   ASSERT_FALSE(depth);
   EXPECT_EQ(depth.error().code, ErrorCode::kTooFewPoints);
+}
+
+TEST(LocalPlaneUpsampler, KnowsThatALineDecidesSlopesFartherAwayThanTheWindow) {
+  // The window's radius is 26 px. Between the fourth and the fifth line are 52 px, as where a near
+  // thing ends: the fifth reaches the fourth one's planes over the lidar's grid alone.
+  AlignedSamples all = SamplesOnLattice(400, 200, 4, 12, [](int u, int v) {
+    return v >= 120 ? NAN : 1.5 + 0.004 * v + 0.08 * std::sin(0.31 * u) * std::sin(0.9 * v + u);
+  });
+  for (AlignedSample& s : all.samples)
+    if (s.line >= 4) s.v += 40.0f;
+  const ColorImage guide(400, 200, {90, 90, 90});
+  LocalPlaneOptions options;
+  options.sigma_spatial_px = 13.0;
+  options.along_line_px = 4.0;
+  options.between_lines_px = 12.0;
+  LocalPlaneUpsampler upsampler(guide, options);
+  for (int lines = 2; lines <= 10; ++lines) {
+    AlignedSamples samples = all;
+    std::erase_if(samples.samples, [&](const AlignedSample& s) { return s.line >= lines; });
+    samples.reasons.resize(samples.samples.size());
+    ASSERT_TRUE(upsampler.Update(samples, {}));
+    const auto whole = UpsampleLocalPlanes(samples, guide, options, {});
+    ASSERT_TRUE(whole);
+    EXPECT_TRUE(SameBits(upsampler.dense().depth_m.values(), whole->depth_m.values())) << lines;
+    EXPECT_TRUE(SameBits(upsampler.dense().confidence.values(), whole->confidence.values()))
+        << lines;
+  }
 }
 
 TEST(FixedForPlan, TakesTheLengthsFromThePredictionAndKeepsGivenOnes) {
