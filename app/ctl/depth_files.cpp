@@ -185,6 +185,7 @@ Result<DepthOptions> DepthOptionsFrom(const DepthArguments& arguments) {
   FORESIGHT_CHECK(ChooseFilter(arguments, options));
   Override(options.mask.threshold, arguments.threshold);
   Override(options.mask.reference, arguments.mask_reference);
+  options.local_plane.keep_iterations = true;  // for the change of each pass, Fig. 6(b)
   FORESIGHT_CHECK(options.Check());
   return options;
 }
