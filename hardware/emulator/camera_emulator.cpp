@@ -86,6 +86,12 @@ void CameraEmulator::InjectSlowFrames(int frames, double seconds) {
   injections_.slow_s = seconds;
 }
 
+void CameraEmulator::ClearFaults() {
+  const std::lock_guard lock(mutex_);
+  injections_ = {};
+  injections_.loss_share = faults_.packet_loss_share;
+}
+
 std::vector<CameraEmulator::Taken> CameraEmulator::taken() const {
   const std::lock_guard lock(mutex_);
   return taken_;

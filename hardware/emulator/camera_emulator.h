@@ -52,6 +52,9 @@ class CameraEmulator {
   /// The next pictures leave late.
   void InjectSlowFrames(int frames, double seconds);
 
+  /// Ends all that was injected.
+  void ClearFaults();
+
   /// A picture as it truly was taken.
   struct Taken {
     std::int64_t seq = 0;   ///< of World::TakePicture

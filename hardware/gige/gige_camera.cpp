@@ -62,9 +62,11 @@ Status GigeCamera::Configure(const CameraSettings& settings) {
   const std::int64_t number = ++wish_.number;
   changed_.notify_all();
   if (!changed_.wait_for(lock, Microseconds(options_.configure_timeout_s),
-                         [&] { return applied_ >= number; }))
+                         [&] { return applied_ >= number; })) {
+    suspect_ = probe_due_ = true;  // Connect waits until it is known what the camera is up to
     return FailWith(fmt::format("did not take its settings within {:.0f} ms",
                                 1e3 * options_.configure_timeout_s));
+  }
   return applied_status_;
 }
 

@@ -177,7 +177,10 @@ CaptureSweep::Step CaptureSweep::ReceiveLine(double longest_wait_s) {
   }
   const Result<bool> moving = devices_.motor->Moving();
   if (!moving) return DeviceFailed(moving.error().message);
-  if (*moving) {
+  // Behind a silent lidar the motor may well have arrived: the lines to come will tell, or its
+  // own time-out.
+  const bool lidar_silent = Now() - last_line_s_ > kLateLines_s;
+  if (*moving || lidar_silent) {
     stopped_since_s_.reset();
   } else if (!stopped_since_s_) {
     stopped_since_s_ = Now();

@@ -15,7 +15,8 @@ namespace foresight {
 struct EmulatedHead {
   explicit EmulatedHead(const std::string& scene_file)
       : EmulatedHead(std::make_shared<const Scene>(LoadScene(scene_file).value()), {}) {}
-  EmulatedHead(std::shared_ptr<const Scene> scene, const EmulatedSiteOptions& options) {
+  EmulatedHead(std::shared_ptr<const Scene> scene, const EmulatedSiteOptions& options,
+               const std::function<void(HeadConfig&)>& change = {}) {
     auto started = EmulatedSite::Start(std::move(scene), options);
     if (!started) throw std::runtime_error(started.error().message);
     site = std::move(*started);
@@ -26,6 +27,7 @@ struct EmulatedHead {
     config.motor.port = site->motor().address().port;
     config.camera.address = site->camera().address();
     config.camera.frame_timeout_s = 10.0;  // the picture is rendered, on a busy machine
+    if (change) change(config);
     head = std::make_unique<CaptureHead>(MakeDrivers(config, site->clock()), config.rig,
                                          config.capture);
   }

@@ -1,0 +1,252 @@
+#include "tests/hardware/fault_cell.h"
+
+#include <regex>
+
+#include "tests/hardware/emulated_head.h"
+
+namespace foresight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPatience_s = 40.0;
+/// From "nothing goes on any more" to a shaft at rest: the drive's watchdog and its ramp.
+constexpr double kRest_s = 3.0;
+
+HeadFault OfMotor(MotorFault::Kind kind, double lasts_s) {
+  return {"motor", ToString(kind),
+          [kind, lasts_s](EmulatedSite& site) {
+            site.motor().Inject({kind, 0.0, lasts_s});
+          },
+          lasts_s, [](EmulatedSite& site) { site.motor().ClearFaults(); }};
+}
+
+HeadFault OfLidar(const std::string& name, const std::function<void(ScipEmulator&)>& begin,
+                  double lasts_s) {
+  return {"lidar", name, [begin](EmulatedSite& site) { begin(site.lidar()); }, lasts_s, {}};
+}
+
+HeadFault OfCamera(const std::string& name, const std::function<void(CameraEmulator&)>& begin,
+                   double lasts_s) {
+  return {"camera", name, [begin](EmulatedSite& site) { begin(site.camera()); }, lasts_s,
+          [](EmulatedSite& site) { site.camera().ClearFaults(); }};
+}
+
+/// A camera and a fan small enough that several heads fit one machine.
+EmulatedSiteOptions SmallSite() {
+  EmulatedSiteOptions options;
+  options.true_rig = TinyRig();
+  return options;
+}
+
+/// 3 s at 10 deg/s, a picture in the last third.
+ScanPlan Plan() {
+  ScanPlan plan;
+  plan.from_rad = RadiansFromDegrees(-10.0);
+  plan.to_rad = RadiansFromDegrees(20.0);
+  plan.image_angles_rad = {RadiansFromDegrees(12.0)};
+  return plan;
+}
+
+/// One head's way through one fault.
+class Cell {
+ public:
+  Cell(const HeadFault& fault, HeadPhase phase)
+      : fault_(fault),
+        phase_(phase),
+        bench_(std::make_shared<const Scene>(TinyWorld()->scene()), SmallSite(), HastyConfig) {}
+
+  FaultOutcome Run() {
+    MeetTheFault();
+    JudgeOutcome();
+    Recover();
+    return std::move(outcome_);
+  }
+
+ private:
+  static void HastyConfig(HeadConfig& config) {
+    config.motor.homing_edge_rad_s = RadiansFromDegrees(4.0);
+    config.motor.homing_timeout_s = 10.0;
+    config.camera.frame_timeout_s = 1.0;
+    config.camera.connect_timeout_s = 20.0;
+  }
+
+  void Violation(const std::string& what) { outcome_.violations.push_back(what); }
+  HeadState State() const { return bench_.head->Status().state; }
+
+  bool WaitFor(const std::function<bool()>& condition, double seconds = kPatience_s) const {
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    while (!condition()) {
+      if (Clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    return true;
+  }
+  bool Idle() const {
+    const HeadState state = State();
+    return state == HeadState::kReady || state == HeadState::kFault ||
+           state == HeadState::kDisconnected;
+  }
+
+  void BeginFault() {
+    fault_.begin(*bench_.site);
+    over_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                  std::chrono::duration<double>(fault_.lasts_s));
+  }
+
+  void MeetTheFault() {
+    if (phase_ == HeadPhase::kConnecting || phase_ == HeadPhase::kHoming) {
+      if (!bench_.head->Home()) return Violation("the head refused to home");
+      if (phase_ == HeadPhase::kHoming)
+        WaitFor([this] { return bench_.site->MotorTurns() || Idle(); });
+      BeginFault();
+      if (!WaitFor([this] { return Idle(); })) return Violation("homing never ended");
+      if (State() == HeadState::kReady) Scan();
+      return;
+    }
+    if (!bench_.Home()) return Violation("no homing before the fault");
+    if (phase_ == HeadPhase::kReady) {
+      BeginFault();
+      WaitFor([this] { return State() == HeadState::kFault; }, 1.0);
+      if (State() == HeadState::kReady) Scan();
+      return;
+    }
+    Scan();
+  }
+
+  /// Flies the plan; begins the fault on the way where that is the phase.
+  void Scan() {
+    const auto watch = std::make_shared<ScanWatch>();
+    if (phase_ == HeadPhase::kSweeping) watch->action = [this] { BeginFault(); };
+    assembler_ = std::make_shared<ScanAssembler>();
+    const auto sinks =
+        std::make_shared<ScanFanout>(std::vector<std::shared_ptr<ScanSink>>{assembler_, watch});
+    if (const Status started = bench_.head->StartScan(Plan(), sinks); !started) {
+      assembler_.reset();
+      refused_ = started.error().message;
+      return;
+    }
+    if (phase_ == HeadPhase::kStopping &&
+        WaitFor([this] { return State() == HeadState::kStopping || Idle(); }))
+      BeginFault();
+    if (!watch->WaitForEnd()) return Violation("the scan never ended");
+    if (!WaitFor([this] { return Idle(); })) Violation("the head never came to rest");
+  }
+
+  void JudgeOutcome() {
+    const HeadStatus status = bench_.head->Status();
+    if (!WaitFor([this] { return !bench_.site->MotorTurns(); }, kRest_s))
+      Violation("the motor still turns");
+    if (assembler_) JudgeScan(*assembler_->Snapshot());
+    if (status.state == HeadState::kFault) {
+      if (status.message.find('\n') != std::string::npos || status.message.empty())
+        Violation("the message is no sentence: " + status.message);
+      if (status.message.rfind(fault_.device, 0) != 0)
+        Violation("the message names another device: " + status.message);
+      outcome_.summary += (assembler_ ? "; " : "") + std::string("fault: ") +
+                          Short(status.message.substr(0, status.message.find(';')));
+    } else if (!assembler_) {
+      outcome_.summary = "no scan: " + Short(refused_.empty() ? status.message : refused_);
+    }
+  }
+
+  void JudgeScan(const foresight::Scan& scan) {
+    const int lost = bench_.head->Status().lost_lines;
+    outcome_.summary =
+        fmt::format("scan {}{}{}", ToString(scan.state), lost > 0 ? ", lines lost" : "",
+                    scan.frames.empty() ? ", no picture" : "");
+    if (scan.state == ScanState::kRunning) Violation("the scan is not marked");
+    if (scan.state == ScanState::kInterrupted && scan.reason.empty())
+      Violation("the scan does not say why it was interrupted");
+    const bool swept = phase_ == HeadPhase::kSweeping || phase_ == HeadPhase::kStopping;
+    if (swept && scan.lines.size() < 10) Violation("lines from before the fault are missing");
+    if (scan.state == ScanState::kComplete &&
+        static_cast<int>(scan.lines.size()) + lost < 118)  // 120 were asked for
+      Violation(
+          fmt::format("{} lines and {} lost ones make no complete scan", scan.lines.size(), lost));
+  }
+
+  /// The same head, the same emulators, as soon as the fault is over.
+  void Recover() {
+    std::this_thread::sleep_until(over_at_);
+    if (fault_.heal) fault_.heal(*bench_.site);
+    const auto scan = bench_.Fly(Plan());
+    if (!scan) return Violation("did not recover: " + bench_.head->Status().message);
+    if (scan->state != ScanState::kComplete) Violation("did not recover: " + scan->reason);
+    if (scan->frames.size() != 1) Violation("no picture after the recovery");
+    if (bench_.head->Status().lost_lines != 0) Violation("lines are lost after the recovery");
+  }
+
+  /// Without addresses, which differ from run to run.
+  static std::string Short(const std::string& message) {
+    static const std::regex kAddress(R"( \d+\.\d+\.\d+\.\d+(:\d+)?)");
+    static const std::regex kIdentity(R"( \([^)]*E0000001\))");
+    static const std::regex kNumber(R"(\d+ ms)");
+    std::string text = std::regex_replace(message, kAddress, "");
+    text = std::regex_replace(text, kIdentity, "");
+    return std::regex_replace(text, kNumber, "... ms");
+  }
+
+  const HeadFault& fault_;
+  const HeadPhase phase_;
+  EmulatedHead bench_;
+  std::shared_ptr<ScanAssembler> assembler_;
+  std::string refused_;
+  Clock::time_point over_at_ = Clock::now();
+  FaultOutcome outcome_;
+};
+
+}  // namespace
+
+const char* ToString(HeadPhase phase) {
+  switch (phase) {
+    case HeadPhase::kConnecting:
+      return "connecting";
+    case HeadPhase::kHoming:
+      return "homing";
+    case HeadPhase::kReady:
+      return "ready";
+    case HeadPhase::kSweeping:
+      return "sweeping";
+    case HeadPhase::kStopping:
+      return "stopping";
+  }
+  return "unknown";
+}
+
+const std::vector<HeadFault>& HeadFaults() {
+  static const std::vector<HeadFault> kFaults = {
+      OfLidar(
+          "corrupt sums", [](auto& lidar) { lidar.InjectCorruptScans(5); }, 0.0),
+      OfLidar(
+          "short stall", [](auto& lidar) { lidar.InjectStall(0.5); }, 0.5),
+      OfLidar(
+          "long stall", [](auto& lidar) { lidar.InjectStall(4.0); }, 4.0),
+      OfLidar(
+          "silence", [](auto& lidar) { lidar.InjectSilence(4.0); }, 4.0),
+      OfLidar(
+          "reset", [](auto& lidar) { lidar.InjectReset(); }, 0.0),
+      OfLidar(
+          "abnormal state", [](auto& lidar) { lidar.InjectAbnormalState(); }, 0.0),
+      OfMotor(MotorFault::Kind::kBlockedShaft, 1.0),
+      OfMotor(MotorFault::Kind::kLostHomeSwitch, 6.0),
+      OfMotor(MotorFault::Kind::kDeadLink, 2.0),
+      OfMotor(MotorFault::Kind::kStaleStatus, 2.0),
+      OfMotor(MotorFault::Kind::kTcpReset, 0.0),
+      OfCamera(
+          "packet loss 5 %", [](auto& camera) { camera.InjectPacketLoss(0.05); }, 0.0),
+      OfCamera(
+          "vanished", [](auto& camera) { camera.InjectVanish(4.0); }, 4.0),
+      OfCamera(
+          "ignored trigger", [](auto& camera) { camera.InjectIgnoredTriggers(1); }, 0.0),
+      OfCamera(
+          "slow picture", [](auto& camera) { camera.InjectSlowFrames(1, 3.0); }, 3.0),
+  };
+  return kFaults;
+}
+
+FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase) {
+  return Cell(fault, phase).Run();
+}
+
+}  // namespace foresight
