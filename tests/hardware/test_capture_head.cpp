@@ -227,7 +227,7 @@ TEST(CaptureHead, ASilentLidarStopsTheMotor) {
     return answer;
   };
   const auto scan = tiny.Run(TinyPlan());
-  ExpectFault(tiny, scan, "test lidar: no line for 5");
+  ExpectFault(tiny, scan, "test lidar: no line for 15");
 }
 
 TEST(CaptureHead, AMotorFaultEndsTheScan) {
