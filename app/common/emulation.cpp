@@ -2,17 +2,17 @@
 
 namespace foresight {
 
-void AddEmulationOptions(CLI::App& command, EmulationArguments& arguments) {
-  command.add_option("--rig", arguments.rig, "The head as it is (YAML); default: the built-in one");
-  command.add_option("--seed", arguments.seed, "Seed of all noise and faults")
-      ->capture_default_str();
-  command.add_option("--lidar", arguments.lidar,
-                     "Where the lidar listens, ADDR:PORT; default: a free port");
-  command.add_option("--motor", arguments.motor,
-                     "Where the motor listens, ADDR:PORT; default: a free port");
-  command.add_option("--camera", arguments.camera,
-                     "Where the camera listens, ADDR; default: a free address of 127.0.0.0/8");
-  command.add_option("--faults", arguments.faults, "What goes wrong (YAML); default: nothing");
+void AddEmulationOptions(CLI::App& command, CLI::Option* scene, EmulationArguments& arguments) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->needs(scene);
+  };
+  add("--rig", arguments.rig, "The head as it is (YAML); default: the built-in one");
+  add("--seed", arguments.seed, "Seed of all noise and faults")->capture_default_str();
+  add("--lidar", arguments.lidar, "Where the lidar listens, ADDR:PORT; default: a free port");
+  add("--motor", arguments.motor, "Where the motor listens, ADDR:PORT; default: a free port");
+  add("--camera", arguments.camera,
+      "Where the camera listens, ADDR; default: a free address of 127.0.0.0/8");
+  add("--faults", arguments.faults, "What goes wrong (YAML); default: nothing");
 }
 
 Result<std::unique_ptr<EmulatedSite>> StartEmulation(const EmulationArguments& arguments) {

@@ -20,8 +20,8 @@ struct EmulationArguments {
   std::string faults;  ///< file of a fault plan; empty = none
 };
 
-/// Adds the options for everything but the scene.
-void AddEmulationOptions(CLI::App& command, EmulationArguments& arguments);
+/// Adds the options for everything but the scene; they make sense only with `scene`.
+void AddEmulationOptions(CLI::App& command, CLI::Option* scene, EmulationArguments& arguments);
 
 Result<std::unique_ptr<EmulatedSite>> StartEmulation(const EmulationArguments& arguments);
 

@@ -53,8 +53,9 @@ void AddEmulateCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<EmulateArguments>();
   CLI::App* command = app.add_subcommand(
       "emulate", "Play lidar, motor and camera of a head on this computer's network");
-  command->add_option("scene", arguments->emulation.scene, "Scene file (YAML)")->required();
-  AddEmulationOptions(*command, arguments->emulation);
+  CLI::Option* scene =
+      command->add_option("scene", arguments->emulation.scene, "Scene file (YAML)")->required();
+  AddEmulationOptions(*command, scene, arguments->emulation);
   command->add_option("--head-config", arguments->head_config,
                       "Write a head's configuration that points at the emulated devices");
   command->add_option("--seconds", arguments->seconds, "End after so long; default: when stopped")

@@ -81,16 +81,19 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
       app.add_subcommand("scan", "Fly a scan with a simulated or a real head and record it");
   command->add_option("--scene", arguments->simulation.scene, "Scene file (YAML)");
-  command
-      ->add_option("--head-config", arguments->head_config,
-                   "A real head and its devices (YAML), in place of a scene")
-      ->excludes("--scene");
   command->add_option("--rig", arguments->simulation.rig,
                       "The head as it is (YAML); default: the built-in one");
   command->add_option("--seed", arguments->simulation.seed, "Seed of all noise")
       ->capture_default_str();
   command->add_flag("--real-time", arguments->simulation.real_time,
                     "Let the sweep take its real time");
+  command
+      ->add_option("--head-config", arguments->head_config,
+                   "A real head and its devices (YAML), in place of a scene")
+      ->excludes("--scene")
+      ->excludes("--rig")
+      ->excludes("--seed")
+      ->excludes("--real-time");
   command
       ->add_option("--from", arguments->from_deg, "Begin of the scope in degrees, up is positive")
       ->capture_default_str();

@@ -57,7 +57,7 @@ int Main(int argc, char** argv) {
       app.add_option("--emulate", arguments.emulation.scene,
                      "Scene file (YAML): emulate the devices in this process, on real sockets");
   config->excludes(emulate);
-  AddEmulationOptions(app, arguments.emulation);
+  AddEmulationOptions(app, emulate, arguments.emulation);
   app.add_option("--scan", arguments.plan, "Scan plan (JSON) to fly")->required();
   app.add_option("-o,--out", arguments.out, "Mission file; a scan is added to one that exists")
       ->required();

@@ -29,12 +29,15 @@ struct Options {
 int Parse(int argc, char** argv, Options* options) {
   CLI::App app{"Foresight, the workstation for a rotating lidar-camera head"};
   app.add_option("--scene", options->scene, "Scene file that the simulated head looks at");
-  app.add_option("--head-config", options->head_config,
-                 "A real head and its devices (YAML), in place of the simulated one")
-      ->excludes("--scene");
   app.add_option("--rig", options->rig, "Calibration file of the simulated head");
   app.add_option("--seed", options->seed, "Seed of the simulated noise");
   app.add_flag("--fast", options->fast, "Let the simulated head's time run as fast as it can");
+  app.add_option("--head-config", options->head_config,
+                 "A real head and its devices (YAML), in place of the simulated one")
+      ->excludes("--scene")
+      ->excludes("--rig")
+      ->excludes("--seed")
+      ->excludes("--fast");
   app.add_option("--open", options->mission, "Mission file to show");
   app.add_flag("--scan", options->unattended.scan, "Start a scan as soon as the head is ready");
   app.add_option("--screenshot", options->unattended.screenshot,

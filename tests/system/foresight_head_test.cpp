@@ -136,6 +136,7 @@ TEST_F(ForesightHead, SaysWhatIsWrongWithItsArguments) {
   };
   EXPECT_EQ(run({"--scan", plan}).exit_code, 2);
   EXPECT_EQ(run({"--scan", plan, "--emulate", kRoom, "--head-config", config_}).exit_code, 2);
+  EXPECT_EQ(run({"--scan", plan, "--head-config", config_, "--seed", "2"}).exit_code, 2);
   ASSERT_TRUE(WriteFileAtomically(config_, "foresight_head: 1\nlidar: {adress: 10.0.0.1}\n"));
   const ProgramResult bad = run({"--scan", plan, "--head-config", config_});
   EXPECT_EQ(bad.exit_code, 3);
