@@ -10,6 +10,21 @@
 namespace foresight {
 namespace {
 
+/// A lens that bends, and sees nothing in a corner.
+std::shared_ptr<const RayField> CurvedRays(int width, int height) {
+  auto rays = std::make_shared<RayField>();
+  rays->x = FloatImage(width, height);
+  rays->y = rays->x;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float stretch = 1.0f + 0.02f * static_cast<float>(x * x + y * y);
+      rays->x(x, y) = 0.01f * stretch * static_cast<float>(x);
+      rays->y(x, y) = 0.01f * stretch * static_cast<float>(y);
+    }
+  rays->x(width - 1, height - 1) = rays->y(width - 1, height - 1) = NAN;
+  return rays;
+}
+
 AlignedSamples SamplesFrom(FuzzedDataProvider& data, int width, int height) {
   AlignedSamples samples;
   samples.width = width;
@@ -36,6 +51,7 @@ AlignedSamples SamplesFrom(FuzzedDataProvider& data, int width, int height) {
     samples.samples.push_back(s);
   }
   samples.reasons.assign(samples.samples.size(), RejectReason::kKept);
+  if (data.ConsumeBool()) samples.rays = CurvedRays(width, height);
   return samples;
 }
 
@@ -51,7 +67,7 @@ ColorImage GuideFrom(FuzzedDataProvider& data, int width, int height) {
 
 template <class T>
 T Choose(FuzzedDataProvider& data, std::initializer_list<T> values) {
-  return data.PickValueInArray(values);
+  return values.begin()[data.ConsumeIntegralInRange<std::size_t>(0, values.size() - 1)];
 }
 
 DepthOptions OptionsFrom(FuzzedDataProvider& data) {
