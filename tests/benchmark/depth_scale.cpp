@@ -86,11 +86,12 @@ Status Measure(std::span<const Setting> settings, LineChart chart, const Absciss
 Status Run(const std::filesystem::path& folder) {
   const ChartAxis time{"time, two threads", "ms", false, true};
   FORESIGHT_CHECK(Measure(
-      kSizes, {"Time against pixels at a density of 2.1 %", {"pixels", "Mpx", false, true}, time},
+      kSizes,
+      {"Time against pixels at a density of 2.1 %", {"pixels", "Mpx", false, true}, time, {}},
       [](const Setting& s) { return s.Megapixels(); }, folder / "time-by-pixels.svg"));
   return Measure(
       kDensities,
-      {"Time against density, 1288 x 964 pixels", {"measured pixels", "%", false, true}, time},
+      {"Time against density, 1288 x 964 pixels", {"measured pixels", "%", false, true}, time, {}},
       [](const Setting& s) { return s.DensityPercent(); }, folder / "time-by-density.svg");
 }
 
