@@ -87,16 +87,44 @@ Stage SayAndSee(unsigned word, std::uint16_t mask, std::uint16_t bits, const cha
 constexpr std::uint16_t kHomingBits =
     cia402::status::kHomingError | cia402::status::kHomingAttained | cia402::status::kTargetReached;
 
-Stage FindZero(double timeout_s) {
+/// How far the shaft went with the switch off, from where it was first seen so. A switch that fails
+/// for a while makes an edge where there is none: then the way is long.
+class WayWithoutSwitch {
+ public:
+  void See(const TxImage& drive) {
+    const bool on = (drive.inputs & cia402::kHomeSwitchInput) != 0;
+    if (!on && (was_on_ || !from_)) from_ = drive.position;
+    if (!on) last_off_ = drive.position;
+    was_on_ = on;
+  }
+  std::int32_t counts() const { return from_ ? std::abs(last_off_ - *from_) : 0; }
+
+ private:
+  bool was_on_ = false;
+  std::optional<std::int32_t> from_;
+  std::int32_t last_off_ = 0;
+};
+
+Stage FindZero(double timeout_s, std::int32_t edge_window) {
   return {"find its zero reference", timeout_s, true, nullptr,
-          [](const TxImage& drive, DriveWrites&) -> Result<bool> {
+          [edge_window, way = WayWithoutSwitch()](const TxImage& drive,
+                                                  DriveWrites&) mutable -> Result<bool> {
             if ((drive.status & cia402::status::kHomingError) != 0)
               return Fail(ErrorCode::kDevice,
                           "found no edge of its home switch (homing error, 6041h = {:04X}h); check "
                           "the switch and home again",
                           drive.status);
             constexpr auto kDone = cia402::status::kHomingAttained | cia402::status::kTargetReached;
-            return (drive.status & kHomingBits) == kDone;
+            if ((drive.status & kHomingBits) != kDone) {
+              way.See(drive);  // behind the end the counts are others
+              return false;
+            }
+            if (way.counts() > edge_window)
+              return Fail(ErrorCode::kDevice,
+                          "found its home switch {} counts from where it had gone off, more than "
+                          "{}; check the switch and home again",
+                          way.counts(), edge_window);
+            return true;
           }};
 }
 
@@ -158,7 +186,7 @@ DriveProcedure HomingProcedure(const HomingProfile& profile, WordOrder order) {
        Say(parameters),
        SayAndSee(cia402::control::kEnableOperation | cia402::control::kStartHoming, kHomingBits, 0,
                  "begin to home"),
-       FindZero(profile.timeout_s), Say(end)});
+       FindZero(profile.timeout_s, profile.edge_window), Say(end)});
 }
 
 DriveProcedure MoveProcedure(const MoveProfile& profile, WordOrder order) {

@@ -48,6 +48,8 @@ struct HomingProfile {
   std::int32_t search_speed = 0;
   std::int32_t edge_speed = 0;
   std::int32_t acceleration = 0;
+  /// The switch comes back on within this of where it went off, or homing fails.
+  std::int32_t edge_window = 1000;
   double timeout_s = 60.0;
 };
 struct MoveProfile {

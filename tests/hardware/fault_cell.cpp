@@ -156,6 +156,10 @@ class Cell {
         fmt::format("scan {}{}{}", ToString(scan.state), lost > 0 ? ", lines lost" : "",
                     scan.frames.empty() ? ", no picture" : "");
     if (scan.state == ScanState::kRunning) Violation("the scan is not marked");
+    // The switch is repeatable to 0.003 deg; hasty homing adds a cycle at 4 deg/s.
+    const double zero_deg = DegreesFromRadians(bench_.site->motor().zero_rad());
+    if (scan.state == ScanState::kComplete && std::abs(zero_deg) > 0.1)
+      Violation(fmt::format("a complete scan with a zero that is off by {:.2f} deg", zero_deg));
     if (scan.state == ScanState::kInterrupted && scan.reason.empty())
       Violation("the scan does not say why it was interrupted");
     const bool swept = phase_ == HeadPhase::kSweeping || phase_ == HeadPhase::kStopping;
