@@ -57,6 +57,7 @@ Result<AlignedSamples> ImportSamples(std::span<const CsvSample> rows, int width,
                 "{}: none of {} samples lies in the picture of {} x {} pixels", source, rows.size(),
                 width, height);
   samples.reasons.assign(samples.samples.size(), RejectReason::kKept);
+  if (camera != nullptr) samples.rays = RaysOf(*camera);
   return samples;
 }
 
