@@ -92,8 +92,8 @@ void Fill(MaskImage& image, std::array<Pixel, 3> p) {
       low = std::min(low, static_cast<float>(p[1].x));
       high = std::max(high, static_cast<float>(p[1].x));
     }
-    const int to = static_cast<int>(std::lround(high));
-    for (int x = static_cast<int>(std::lround(low)); x <= to; ++x)
+    const int to = static_cast<int>(high + 0.5f);
+    for (int x = static_cast<int>(low + 0.5f); x <= to; ++x)
       std::atomic_ref(image(x, y)).store(255, std::memory_order_relaxed);
   }
 }
@@ -129,13 +129,20 @@ Status UpdateConnectedCells(const SparseDepthMap& map, const AlignedSamples& sam
     for (int beam = 0; beam + 1 < grid.width(); ++beam) {
       const std::array<std::int32_t, 4> cell{grid(beam, line), grid(beam + 1, line),
                                              grid(beam + 1, line + 1), grid(beam, line + 1)};
-      // All four triangles of three corners: a cell may have lost one.
-      for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-        const Triangle corners{cell[(left_out + 1) % 4], cell[(left_out + 2) % 4],
-                               cell[(left_out + 3) % 4]};
-        if (touches(corners) && surface.Holds(corners))
+      const auto without = [&](std::size_t corner) {
+        return Triangle{cell[(corner + 1) % 4], cell[(corner + 2) % 4], cell[(corner + 3) % 4]};
+      };
+      const auto fill = [&](const Triangle& corners) {
+        if (touches(corners))
           Fill(inside, {surface.At(corners[0]), surface.At(corners[1]), surface.At(corners[2])});
-      }
+      };
+      // Two triangles are the whole cell; where one does not hold, one corner may be to blame.
+      const bool first = surface.Holds(without(0)), second = surface.Holds(without(2));
+      if (first) fill(without(0));
+      if (second) fill(without(2));
+      if (first && second) continue;
+      for (const std::size_t corner : {1u, 3u})
+        if (surface.Holds(without(corner))) fill(without(corner));
     }
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");

@@ -18,8 +18,8 @@ namespace {
 constexpr int kBlockRows = 8;
 /// A sample supports a pixel within this many sigma_depth of its plane.
 constexpr double kAgreementSigmas = 2.0;
-/// Passes from each candidate to a sample's plane.
-constexpr int kSamplePasses = 4;
+/// Passes from each candidate to a sample's plane; more change no score.
+constexpr int kSamplePasses = 2;
 /// Neighbours on the grid lie on one surface within this.
 constexpr double kOneSurface_m = 0.050;
 
@@ -225,8 +225,7 @@ Status LocalPlaneUpsampler::FilterPixels(const Made* before, const SampleChange&
   const PlaneFilter filter = FilterOf(now);
   const SupportModel support{map,
                              now.planes,
-                             now.spacing.along_line_px,
-                             now.spacing.between_lines_px,
+                             {now.spacing.along_line_px, now.spacing.between_lines_px},
                              kAgreementSigmas * options_.sigma_depth_m,
                              NominalWeight(now.sigma_px, options_.radius_in_sigmas, now.spacing)};
   const int radius = now.spatial.radius();

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/depth/supporters.h"
 
 namespace foresight {
 namespace {
@@ -21,46 +24,24 @@ constexpr float kFullestWeight = 1.2f;
 
 constexpr std::int32_t kLeft = 1, kRight = 2, kAbove = 4, kBelow = 8;
 
-/// What a supporter at an offset means to a pixel, for one dy: by the pixel's place relative to it.
-struct SupporterTable {
-  std::vector<float> cells;         ///< distance in cells of the lidar's grid
-  std::vector<std::int32_t> sides;  ///< where the supporter lies, if within reach
-};
-
-SupporterTable TableFor(int half_width, int dy, float du, float dv) {
-  SupporterTable table;
-  const float down = std::abs(static_cast<float>(dy)) / dv;
-  for (int dx = half_width; dx >= -half_width; --dx) {
-    const float aside = std::abs(static_cast<float>(dx)) / du;
-    table.cells.push_back(std::max(aside, down));
-    std::int32_t sides = 0;
-    if (down <= 1.0f && aside <= kReachCells)
-      sides |= (dx <= 0 ? kLeft : 0) | (dx >= 0 ? kRight : 0);
-    if (aside <= 1.0f && down <= kReachCells)
-      sides |= (dy <= 0 ? kAbove : 0) | (dy >= 0 ? kBelow : 0);
-    table.sides.push_back(sides);
+/// The row's planes, and no supporters yet.
+void Begin(const SupportModel& model, int y, const PlaneRow& planes, RowSupport& row) {
+  const int width = model.samples.width();
+  row.margin = model.tables.half_width();
+  const int padded = width + row.margin + model.tables.stride();
+  row.values.Reset(4, 1, padded);
+  row.sides.assign(static_cast<std::size_t>(padded), 0);
+  std::fill_n(row.AtOrigin() - row.margin, padded, std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(row.Nearest() - row.margin, padded, kFarthestCells);
+  std::copy_n(planes.slope_x, width, row.SlopeX());
+  std::copy_n(planes.slope_y, width, row.SlopeY());
+  for (int x = 0; x < width; ++x) {
+    const float ray_x = planes.ray_x != nullptr ? planes.ray_x[x] : static_cast<float>(x);
+    const float ray_y = planes.ray_y != nullptr ? planes.ray_y[x] : static_cast<float>(y);
+    row.AtOrigin()[x] =
+        1.0f / planes.depth_m[x] - planes.slope_x[x] * ray_x - planes.slope_y[x] * ray_y;
   }
-  return table;
 }
-
-/// Supporters found so far for each pixel of a row.
-struct RowSupport {
-  std::vector<float> at_origin;  ///< inverse depth of the plane at x = y = 0; NaN = no plane
-  std::vector<float> nearest;    ///< cells
-  std::vector<std::int32_t> sides;
-
-  void Reset(const PlaneRow& planes, int y, int width) {
-    at_origin.resize(static_cast<std::size_t>(width));
-    for (int x = 0; x < width; ++x) {
-      const float ray_x = planes.ray_x != nullptr ? planes.ray_x[x] : static_cast<float>(x);
-      const float ray_y = planes.ray_y != nullptr ? planes.ray_y[x] : static_cast<float>(y);
-      at_origin[static_cast<std::size_t>(x)] =
-          1.0f / planes.depth_m[x] - planes.slope_x[x] * ray_x - planes.slope_y[x] * ray_y;
-    }
-    nearest.assign(at_origin.size(), kFarthestCells);
-    sides.assign(at_origin.size(), 0);
-  }
-};
 
 float Confidence(float nearest, std::int32_t sides, float weight, float agreement, bool inside) {
   const float one_sided = ((sides & kLeft) != 0 && (sides & kRight) != 0 ? 0.0f : kOneSidedRow) +
@@ -73,53 +54,39 @@ float Confidence(float nearest, std::int32_t sides, float weight, float agreemen
 
 }  // namespace
 
-int SupportReach(const SupportModel& model) {
-  const auto dv = static_cast<float>(model.between_lines_px);
-  return static_cast<int>(std::ceil(kFarthestCells * dv));
+SupporterTables::SupporterTables(double along_line_px, double between_lines_px)
+    : half_width_(static_cast<int>(std::ceil(kFarthestCells * along_line_px))),
+      reach_(static_cast<int>(std::ceil(kFarthestCells * between_lines_px))),
+      stride_((2 * half_width_ + SpatialKernel::kMargin) / SpatialKernel::kMargin *
+              SpatialKernel::kMargin) {
+  const auto size = static_cast<std::size_t>((2 * reach_ + 1) * stride_);
+  cells_.assign(size, kFarthestCells);
+  sides_.assign(size, 0);
+  for (int dy = -reach_; dy <= reach_; ++dy)
+    for (int dx = half_width_; dx >= -half_width_; --dx) {
+      const auto at = static_cast<std::size_t>((dy + reach_) * stride_ + half_width_ - dx);
+      const float aside = std::abs(static_cast<float>(dx)) / static_cast<float>(along_line_px);
+      const float down = std::abs(static_cast<float>(dy)) / static_cast<float>(between_lines_px);
+      cells_[at] = std::max(aside, down);
+      if (down <= 1.0f && aside <= kReachCells)
+        sides_[at] |= (dx <= 0 ? kLeft : 0) | (dx >= 0 ? kRight : 0);
+      if (aside <= 1.0f && down <= kReachCells)
+        sides_[at] |= (dy <= 0 ? kAbove : 0) | (dy >= 0 ? kBelow : 0);
+    }
 }
 
 void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence) {
-  const auto du = static_cast<float>(model.along_line_px);
-  const auto dv = static_cast<float>(model.between_lines_px);
-  const auto agreement = static_cast<float>(model.agreement_m);
-  const int half_width = static_cast<int>(std::ceil(kFarthestCells * du));
-  const int half_height = SupportReach(model);
-  const int width = model.samples.width();
-  thread_local RowSupport support;
-  support.Reset(planes, y, width);
-  for (int dy = std::max(-half_height, -y);
-       dy <= std::min(half_height, model.samples.height() - 1 - y); ++dy) {
-    if (model.samples.First(y + dy) == model.samples.First(y + dy + 1)) continue;
-    const SupporterTable table = TableFor(half_width, dy, du, dv);
-    for (std::int32_t i = model.samples.First(y + dy); i < model.samples.First(y + dy + 1); ++i) {
-      const int column = model.samples.columns()[static_cast<std::size_t>(i)];
-      const float depth_m = model.samples.depths_m()[static_cast<std::size_t>(i)];
-      const float place_x = model.places[static_cast<std::size_t>(i)].x;
-      const float place_y = model.places[static_cast<std::size_t>(i)].y;
-      const int from = std::max(0, column - half_width);
-      const int to = std::min(width - 1, column + half_width);
-      const float* cells = table.cells.data() + (half_width - column);
-      const std::int32_t* sides = table.sides.data() + (half_width - column);
-      // Neighbouring pixels side by side: the compiler turns this loop into vector instructions.
-      for (int x = from; x <= to; ++x) {
-        const float predicted = support.at_origin[static_cast<std::size_t>(x)] +
-                                planes.slope_x[x] * place_x + planes.slope_y[x] * place_y;
-        // |R - 1 / rho| <= agreement, times rho; false for a NaN and behind infinity.
-        const bool agrees = std::abs(depth_m * predicted - 1.0f) <= agreement * predicted;
-        float& nearest = support.nearest[static_cast<std::size_t>(x)];
-        nearest = agrees && cells[x] < nearest ? cells[x] : nearest;
-        support.sides[static_cast<std::size_t>(x)] |= agrees ? sides[x] : 0;
-      }
-    }
-  }
-  for (int x = 0; x < width; ++x) {
-    const auto i = static_cast<std::size_t>(x);
+  thread_local RowSupport row;
+  Begin(model, y, planes, row);
+  FindSupporters(model, y, row);
+  const float* nearest = row.Nearest();
+  const std::int32_t* sides = row.Sides();
+  for (int x = 0; x < model.samples.width(); ++x)
     confidence[x] = std::isnan(planes.depth_m[x])
                         ? 0.0f
-                        : Confidence(support.nearest[i], support.sides[i],
+                        : Confidence(nearest[x], sides[x],
                                      planes.sum_gh[x] / static_cast<float>(model.nominal_weight),
                                      planes.sum_gkh[x] / planes.sum_gk[x], planes.inside[x] != 0);
-  }
 }
 
 }  // namespace foresight

@@ -2,19 +2,41 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/depth/plane_filter.h"
 
 namespace foresight {
 
+/// What a supporter means to the pixels round it, by its place relative to them.
+class SupporterTables {
+ public:
+  SupporterTables(double along_line_px, double between_lines_px);
+
+  int half_width() const { return half_width_; }
+  int reach() const { return reach_; }
+  /// Values a row; a whole number of the widest registers.
+  int stride() const { return stride_; }
+  /// Of a supporter dy rows below the pixels, for the pixels from half_width to its left onwards:
+  /// its distance in cells of the lidar's grid, and the sides on which it lies, if near enough.
+  const float* Cells(int dy) const { return cells_.data() + (dy + reach_) * stride_; }
+  const std::int32_t* Sides(int dy) const { return sides_.data() + (dy + reach_) * stride_; }
+
+ private:
+  int half_width_;
+  int reach_;
+  int stride_;
+  std::vector<float> cells_;
+  std::vector<std::int32_t> sides_;
+};
+
 /// What a pixel's neighbourhood is compared with.
 struct SupportModel {
   const SparseDepthMap& samples;
   std::span<const SamplePlane> places;  ///< one a sample, for its ray
-  double along_line_px;                 ///< spacing of the samples
-  double between_lines_px;
-  double agreement_m;     ///< a sample this near to the pixel's plane supports it
-  double nominal_weight;  ///< sum of G that a full neighbourhood would have
+  SupporterTables tables;               ///< of the samples' spacing
+  double agreement_m;                   ///< a sample this near to the pixel's plane supports it
+  double nominal_weight;                ///< sum of G that a full neighbourhood would have
 };
 
 /// One image row of planes of inverse depth, as FilterPlaneRows makes them.
@@ -38,6 +60,8 @@ struct PlaneRow {
 void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence);
 
 /// How many rows away MeasureSupport still looks at samples.
-int SupportReach(const SupportModel& model);
+inline int SupportReach(const SupportModel& model) {
+  return model.tables.reach();
+}
 
 }  // namespace foresight

@@ -32,7 +32,8 @@ struct SlopeCandidates {
 /// The joint filter's first-order relative: fits rho = a + b dx + c dy to the samples' inverse
 /// depths, dx and dy in the rays' coordinates from the pixel. A plane in space is exactly that.
 ///   G as in Eq. (8), over pixels; K = exp(-|colour - colour of the sample|^2 / (2 sigma_c^2));
-///   H = exp(-e^2 / (2 sigma_d^2)), e = (rho_q - rho(q)) R_q / rho(q): metres to the plane along z.
+///   H = exp(-e^2 / (2 sigma_d^2)), e = (rho_q - rho(q)) R_q^2: to first order metres to the plane
+///   along z.
 /// Starts at the sample with the largest G K support (the leftmost, then the topmost of equals),
 /// halfway between its depth and its plane's, with its plane's slopes, then makes `iterations`
 /// weighted least squares with weights G K H and `ridge` (sigma_s unit)^2 sum(G K H) on b and c.

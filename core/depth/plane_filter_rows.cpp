@@ -49,7 +49,7 @@ HWY_INLINE PlaneStart GatherPlaneTile(const PlaneFilter& filter, PlaneFilterScra
   const std::ptrdiff_t stride = filter.spatial.stride();
   const float* disc = filter.spatial.Centre() + y * stride + x;
   const Vector k_scale = hn::Set(f, 0.5f * kLog2E / (filter.sigma_colour * filter.sigma_colour));
-  const float depth_scale = std::sqrt(0.5f * kLog2E) / filter.sigma_depth_m;
+  const float depth_scale = std::sqrt(0.5f * kLog2E) / (filter.sigma_depth_m * origin.depth_m);
   const float slope_scale = origin.depth_m / origin.per_sigma;
   const std::ptrdiff_t input_stride = scratch.input.stride();
   const Vector l = LoadTile(scratch.input.Row(0, 0) + x, input_stride);
@@ -66,7 +66,7 @@ HWY_INLINE PlaneStart GatherPlaneTile(const PlaneFilter& filter, PlaneFilterScra
     const SamplePlane& plane = filter.planes[q];
     const PlaneSample sample{(plane.x - origin.x) * origin.per_sigma,
                              (plane.y - origin.y) * origin.per_sigma,
-                             (origin.depth_m - depth_m) / depth_m, depth_m * depth_scale};
+                             (origin.depth_m - depth_m) / depth_m, depth_m * depth_m * depth_scale};
     scratch.samples[i] = sample;
     const Vector g = LoadTile(disc - row * stride - column, stride);
     const Vector dl = hn::Sub(l, hn::Set(f, filter.sample_colour[0][q]));

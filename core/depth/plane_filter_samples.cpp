@@ -31,7 +31,7 @@ HWY_INLINE float GatherNeighbours(const PlaneFilter& filter, PlaneFilterScratch&
   const SamplePlane& centre = filter.planes[q];
   const float depth_m = map.depths_m()[q];
   const float per_sigma = 1.0f / (filter.sigma_spatial_px * centre.unit);
-  const float depth_scale = std::sqrt(0.5f * kLog2E) / filter.sigma_depth_m;
+  const float depth_scale = std::sqrt(0.5f * kLog2E) / (filter.sigma_depth_m * depth_m);
   const float k_scale = 0.5f * kLog2E / (filter.sigma_colour * filter.sigma_colour);
   const std::ptrdiff_t stride = filter.spatial.stride();
   const float* disc = filter.spatial.Centre() + map.rows()[q] * stride + map.columns()[q];
@@ -42,7 +42,7 @@ HWY_INLINE float GatherNeighbours(const PlaneFilter& filter, PlaneFilterScratch&
     const float n_depth_m = map.depths_m()[n];
     scratch.samples[i] = {(filter.planes[n].x - centre.x) * per_sigma,
                           (filter.planes[n].y - centre.y) * per_sigma,
-                          (depth_m - n_depth_m) / n_depth_m, n_depth_m * depth_scale};
+                          (depth_m - n_depth_m) / n_depth_m, n_depth_m * n_depth_m * depth_scale};
     float distance2 = 0.0f;
     for (const auto& colour : filter.sample_colour)
       distance2 += (colour[n] - colour[q]) * (colour[n] - colour[q]);

@@ -55,12 +55,7 @@ HWY_INLINE PlaneSums PlanePass(const Weights& weights, const PlaneSample* HWY_RE
     const Vector y = hn::Set(f, samples[i].y);
     const Vector here = hn::MulAdd(plane.b, x, hn::MulAdd(plane.c, y, plane.a));
     const Vector r = hn::Sub(hn::Set(f, samples[i].inverse_depth), here);
-    // A plane at or behind infinity fits nothing: the residual becomes huge.
-    const Vector inverse = hn::Max(hn::Add(here, hn::Set(f, 1.0f)), hn::Set(f, 1e-6f));
-    // One step of Newton's makes the approximation exact enough, at a third of a division's cost.
-    const Vector guess = hn::ApproximateReciprocal(inverse);
-    const Vector depth = hn::Mul(guess, hn::NegMulAdd(inverse, guess, hn::Set(f, 2.0f)));
-    const Vector e = hn::Mul(hn::Mul(r, hn::Set(f, samples[i].depth)), depth);
+    const Vector e = hn::Mul(r, hn::Set(f, samples[i].per_metre));
     const Vector h = Exp2OfMinus(hn::Mul(e, e));
     const Vector w = hn::Mul(weights.Gk(i), h);
     const Vector wx = hn::Mul(w, x);

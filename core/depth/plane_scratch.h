@@ -12,7 +12,7 @@ struct PlaneSample {
   float x;              ///< from the tile's origin, in sigma_s
   float y;              ///< likewise
   float inverse_depth;  ///< times the origin's depth, minus 1
-  float depth;          ///< in units in which H is 2^(-difference^2)
+  float per_metre;      ///< H is 2^-(residual * per_metre)^2
 };
 
 /// What a thread needs to filter rows; kept from one block to the next.

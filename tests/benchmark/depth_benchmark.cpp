@@ -145,11 +145,12 @@ void Support(benchmark::State& state, const Setting& setting, int64_t target, in
                     blocks.back().Output());
   }
   FloatImage confidence(setting.width, setting.height);
+  const SupportModel model = input.Support();
   for (auto _ : state) {
     input.ForEachBlock(Threads(threads), [&](int top, int bottom) {
       const PlaneBlock& block = blocks[static_cast<std::size_t>(top / PlaneInput::kBlockRows)];
       for (int y = top; y < bottom; ++y)
-        MeasureSupport(input.Support(), y, block.Row(y - top, inside.row(y)), confidence.row(y));
+        MeasureSupport(model, y, block.Row(y - top, inside.row(y)), confidence.row(y));
     });
     benchmark::DoNotOptimize(confidence.data());
   }

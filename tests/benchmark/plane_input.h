@@ -85,8 +85,7 @@ class PlaneInput {
     const double weight = 4.0 * sigma_px_ * sigma_px_;
     return {sparse_,
             planes_,
-            spacing_.along_line_px,
-            spacing_.between_lines_px,
+            {spacing_.along_line_px, spacing_.between_lines_px},
             0.040,
             weight / (spacing_.along_line_px * spacing_.between_lines_px)};
   }

@@ -84,10 +84,8 @@ inline PlaneFit FitByTheBook(const std::vector<PlaneNeighbour>& neighbours,
     fit.sum_gkh = fit.sum_gh = 0.0;
     for (const PlaneNeighbour& n : neighbours) {
       const double predicted = plane.dot(n.at);
-      const double e = (1.0 / n.depth_m - predicted) * n.depth_m / predicted;
-      const double h = predicted > 0.0
-                           ? std::exp(-e * e / (2 * options.sigma_depth_m * options.sigma_depth_m))
-                           : 0.0;
+      const double e = (1.0 / n.depth_m - predicted) * n.depth_m * n.depth_m;
+      const double h = std::exp(-e * e / (2 * options.sigma_depth_m * options.sigma_depth_m));
       const double w = n.g * n.k * h;
       normal += w * n.at * n.at.transpose();
       right += w / n.depth_m * n.at;
