@@ -20,6 +20,7 @@ struct ReadoutTest : testing::Test {
     result.dense.depth_m = DepthImage(40, 40, 2.0f);
     result.dense.confidence = FloatImage(40, 40, 10.0f);
     result.dense.max_confidence = 10.0f;
+    result.density = 0.1;
     AddSample(20.0f, 20.0f, RejectReason::kKept);
   }
   void AddSample(float u, float v, RejectReason reason) {
@@ -78,6 +79,11 @@ TEST_F(ReadoutTest, AnEmptyPixelNamesTheRejectedSampleThatWouldHaveReachedIt) {
             "no kept lidar sample within 21 px; the nearest, 4 px away, was rejected as flipping");
 }
 
+TEST_F(ReadoutTest, AnEmptyPixelAmongKeptSamplesDoesNotClaimThereAreNone) {
+  Empty(20, 18);
+  EXPECT_EQ(Read(20, 18).reason.toStdString(), "the lidar samples within 21 px agree on no depth");
+}
+
 TEST_F(ReadoutTest, AMethodWithoutARadiusOnlySaysWhereTheNearestSampleIs) {
   radius_px = 0.0;
   Empty(20, 0);
@@ -90,12 +96,41 @@ TEST_F(ReadoutTest, AnAbsoluteConfidenceIsNotCalledAShareOfTheLargest) {
   EXPECT_EQ(TextOf(Read(20, 21)).toStdString(), "(20, 21)  2000 mm, confidence 0.90");
 }
 
-TEST(SearchRadius, IsThatOfTheJointFilter) {
+TEST_F(ReadoutTest, BelowTheDensityFloorNoPixelLooksTrusted) {
+  result.density = 0.0199;
+  EXPECT_EQ(TextOf(Read(20, 21)).toStdString(),
+            "(20, 21)  2000 mm, confidence 1.00 of the largest  not to be trusted: too few samples "
+            "in this map");
+}
+
+TEST_F(ReadoutTest, TheWarningNamesTheDensityAndTheFloorAndIsSilentAboveIt) {
+  result.density = 0.0143;
+  const std::string warning = DensityWarning(result).toStdString();
+  EXPECT_NE(warning.find("1.43"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("floor of 2"), std::string::npos) << warning;
+  result.density = 0.02;
+  EXPECT_TRUE(DensityWarning(result).isEmpty());
+}
+
+/// A map made by this method with sigma_s = 7 px, where each method has a radius of its own.
+double RadiusOf(DepthMethod method) {
   DepthResult result;
   result.dense.sigma_spatial_px = 7.0;
-  DepthOptions options = DefaultsOf(DepthMethod::kPaper);
+  DepthOptions options = DefaultsOf(method);
   options.upsample.radius_in_sigmas = 3.0;
-  EXPECT_DOUBLE_EQ(SearchRadius(result, options), 21.0);
+  options.local_plane.radius_in_sigmas = 2.0;
+  return SearchRadius(result, options);
+}
+
+TEST(SearchRadius, IsThatOfTheMethodsOwnWindow) {
+  EXPECT_DOUBLE_EQ(RadiusOf(DepthMethod::kPaper), 21.0);
+  EXPECT_DOUBLE_EQ(RadiusOf(DepthMethod::kJointBilateral), 21.0);
+  EXPECT_DOUBLE_EQ(RadiusOf(DepthMethod::kForesight), 14.0);
+}
+
+TEST(SearchRadius, IsNotKnownOfMethodsThatFillEveryPixel) {
+  EXPECT_DOUBLE_EQ(RadiusOf(DepthMethod::kTgv), 0.0);
+  EXPECT_DOUBLE_EQ(RadiusOf(DepthMethod::kNonlocal), 0.0);
 }
 
 }  // namespace

@@ -22,7 +22,9 @@ Nearest NearestSample(const AlignedSamples& samples, int x, int y, bool only_kep
   for (std::size_t i = 0; i < samples.samples.size(); ++i) {
     if (only_kept && samples.reasons[i] != RejectReason::kKept) continue;
     const AlignedSample& s = samples.samples[i];
-    const double distance = std::hypot(static_cast<double>(s.u) - x, static_cast<double>(s.v) - y);
+    // At whole pixels, as the filters place them: else the edge of a window is told wrong.
+    const double distance = std::hypot(std::round(static_cast<double>(s.u)) - x,
+                                       std::round(static_cast<double>(s.v)) - y);
     if (distance < nearest.distance_px) nearest = {distance, samples.reasons[i]};
   }
   return nearest;
@@ -43,6 +45,8 @@ QString WhyEmpty(const ReadoutSource& source, int x, int y) {
   const QString reach = QString::number(source.radius_px, 'f', 0);
   if (rejected && any.distance_px <= source.radius_px)
     return Tr("no kept lidar sample within %1 px; %2").arg(reach, RejectedText(any));
+  if (any.distance_px <= source.radius_px)
+    return Tr("the lidar samples within %1 px agree on no depth").arg(reach);
   return Tr("no lidar sample within %1 px").arg(reach);
 }
 
@@ -60,9 +64,17 @@ QString WhyMasked(const ReadoutSource& source, const DepthReadout& readout) {
 }  // namespace
 
 double SearchRadius(const DepthResult& result, const DepthOptions& made_with) {
-  const bool joint_filter =
-      made_with.method == DepthMethod::kPaper || made_with.method == DepthMethod::kJointBilateral;
-  return joint_filter ? made_with.upsample.radius_in_sigmas * result.dense.sigma_spatial_px : 0.0;
+  switch (made_with.method) {
+    case DepthMethod::kForesight:
+      return made_with.local_plane.radius_in_sigmas * result.dense.sigma_spatial_px;
+    case DepthMethod::kPaper:
+    case DepthMethod::kJointBilateral:
+      return made_with.upsample.radius_in_sigmas * result.dense.sigma_spatial_px;
+    case DepthMethod::kTgv:
+    case DepthMethod::kNonlocal:
+      break;  // every pixel depends on every sample
+  }
+  return 0.0;
 }
 
 DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
@@ -82,8 +94,17 @@ DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
     readout.confidence = static_cast<double>(confidence / dense.max_confidence);
   readout.relative = dense.max_confidence != 1.0f;
   readout.masked = !(confidence >= limit);
+  readout.sparse = source.result.BelowDensityFloor();
   if (readout.masked) readout.reason = WhyMasked(source, readout);
   return readout;
+}
+
+QString DensityWarning(const DepthResult& result) {
+  if (!result.BelowDensityFloor()) return {};
+  return Tr("Only %1\u00a0% of the pixels were measured, under the floor of %2\u00a0%: "
+            "do not trust this depth. Scan more slowly.")
+      .arg(100.0 * result.density, 0, 'f', 2)
+      .arg(100.0 * ScanPrediction::kMinDensity, 0, 'f', 0);
 }
 
 QString TextOf(const DepthReadout& readout) {
@@ -94,7 +115,9 @@ QString TextOf(const DepthReadout& readout) {
                             .arg(at)
                             .arg(readout.depth_mm, 0, 'f', 0)
                             .arg(readout.confidence, 0, 'f', 2);
-  return readout.masked ? Tr("%1  masked: %2").arg(value, readout.reason) : value;
+  if (readout.masked) return Tr("%1  masked: %2").arg(value, readout.reason);
+  return readout.sparse ? Tr("%1  not to be trusted: too few samples in this map").arg(value)
+                        : value;
 }
 
 }  // namespace foresight

@@ -22,14 +22,18 @@ struct DepthReadout {
   double confidence = 0.0;  ///< of the largest in the map
   bool relative = true;     ///< false for a method whose confidence is absolute: its largest is 1
   bool masked = false;      ///< has a depth that is not to be trusted
+  bool sparse = false;      ///< of a map below the density floor, where no depth is to be trusted
   QString reason;           ///< why it is masked or empty, in words; else empty
 };
 
-/// Radius of the joint filters; 0 for methods that know no fixed one.
+/// Radius of the window that a pixel's depth is made from; 0 for methods that know none.
 double SearchRadius(const DepthResult& result, const DepthOptions& made_with);
 
 /// Looks at one pixel, which must lie in the map, and explains it. O(samples).
 DepthReadout ReadDepth(const ReadoutSource& source, int x, int y);
+
+/// What speaks against the map as a whole: its density is below the paper's floor. Else empty.
+QString DensityWarning(const DepthResult& result);
 
 /// The readout in one line: "(412, 233)  1842 mm  confidence 0.21: ...".
 QString TextOf(const DepthReadout& readout);
