@@ -83,6 +83,42 @@ TEST_F(DepthPaneOnScreen, ALayerThatIsSwitchedOffLeavesNothingBehind) {
   EXPECT_EQ(DepthPixels(), before);
 }
 
+TEST_F(DepthPaneOnScreen, EachSideOfTheLineShowsTheSamplesOfItsOwnMethod) {
+  // The joint bilateral filter takes the raw samples: it has rejected none.
+  Compare().compareWithMethod(DepthMethod::kJointBilateral);
+  ASSERT_TRUE(WaitFor([] { return Compare().Second() != nullptr; }));
+  running->Settle();
+  const int line = Pane()->Canvas()->WidgetFromPixel(At(0.5)).x();
+  const auto left = [line](const QImage& all) { return all.copy(0, 0, line, all.height()); };
+  const auto right = [line](const QImage& all) {
+    return all.copy(line, 0, all.width() - line, all.height());
+  };
+  const QImage before = DepthPixels();
+  Layers().ShowSamples(RejectReason::kFlying, true);
+  running->Settle();
+  const QImage after = DepthPixels();
+  const Rgb8 color = ColorOf(RejectReason::kFlying);
+  EXPECT_GT(ShareNear(left(after), color), ShareNear(left(before), color) + 0.005);
+  EXPECT_EQ(right(after), right(before));
+  Compare().compareWithNothing();
+  running->Settle();
+  EXPECT_GT(ShareNear(right(DepthPixels()), color), 0.005);
+}
+
+TEST_F(DepthPaneOnScreen, BelowTheDensityFloorAWarningStandsUnderTheMapUntilABetterDepthComes) {
+  SessionModel& session = running->bench().session;
+  const auto good = session.Depth();
+  EXPECT_TRUE(Pane()->Warning().isEmpty());
+  auto sparse = std::make_shared<DepthResult>(*good);
+  sparse->density = 0.0143;
+  session.SetDepth(sparse);
+  running->Settle();
+  EXPECT_TRUE(Pane()->Warning().contains("1.43")) << Pane()->Warning().toStdString();
+  session.SetDepth(good);
+  running->Settle();
+  EXPECT_TRUE(Pane()->Warning().isEmpty());
+}
+
 TEST_F(DepthPaneOnScreen, TheCameraStandsRightOfTheLineAndTheDepthLeftOfIt) {
   const QColor depth_left = SeenAt(At(0.4));
   Compare().compareWithPicture();

@@ -45,8 +45,9 @@ void CornerTags::SetTopRight(const QString& text) {
   Place();
 }
 
-void CornerTags::SetLegend(const AlignedSamples* samples, const SampleLayers& layers) {
-  legend_->Show(samples, layers);
+void CornerTags::SetLegend(const AlignedSamples* samples, const SampleLayers& layers,
+                           const AlignedSamples* second) {
+  legend_->Show(samples, layers, second);
   Place();
 }
 

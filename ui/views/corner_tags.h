@@ -22,7 +22,9 @@ class CornerTags : public QObject {
   /// Empty hides the tag.
   void SetTopLeft(const QString& text);
   void SetTopRight(const QString& text);
-  void SetLegend(const AlignedSamples* samples, const SampleLayers& layers);
+  /// With a second set of samples both are counted.
+  void SetLegend(const AlignedSamples* samples, const SampleLayers& layers,
+                 const AlignedSamples* second = nullptr);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/render/paint_mark.h"
 #include "ui/render/vtk_data.h"
-#include "ui/render/vtk_marks.h"
 #include "ui/views/overlay_style.h"
 
 namespace foresight {
@@ -34,19 +32,6 @@ constexpr double kGrip_px = 7.0;       ///< how near to the wipe line counts as 
 constexpr double kWipeStep = 0.02;     ///< of the width, for an arrow key
 constexpr double kWipeBigStep = 0.10;  ///< the same with Shift
 
-/// Marks with their own colours, or the dark rim below them.
-vtkSmartPointer<vtkActor> MarkActor(bool rim, double z) {
-  vtkSmartPointer<vtkActor> actor = LineActor({0, 0, 0}, 1.0f);
-  actor->GetMapper()->SetScalarVisibility(!rim);
-  actor->GetProperty()->SetOpacity(rim ? 0.7 : 1.0);
-  actor->SetPosition(0.0, 0.0, z);
-  return actor;
-}
-
-void SetData(vtkActor* actor, vtkPolyData* data) {
-  static_cast<vtkPolyDataMapper*>(actor->GetMapper())->SetInputData(data);
-}
-
 void SetLines(vtkActor* actor, const Polylines& lines) {
   static_cast<vtkPolyDataMapper*>(actor->GetMapper())->SetInputData(VtkLinesOf(lines));
 }
@@ -58,10 +43,8 @@ DepthCanvas::DepthCanvas(QWidget* parent)
       renderer_(vtkSmartPointer<vtkRenderer>::New()),
       picture_(vtkSmartPointer<vtkImageActor>::New()),
       wipe_(renderer_),
-      dot_rims_(MarkActor(true, 0.80)),
-      dots_(MarkActor(false, 0.82)),
-      symbol_rims_(MarkActor(true, 0.84)),
-      symbols_(MarkActor(false, 0.86)),
+      marks_(renderer_),
+      second_marks_(renderer_),
       templates_(LineActor(kTemplateColor, 2.0f)),
       roi_(LineActor(kRoiColor, 2.0f)),
       drag_actor_(LineActor(kRoiColor, 2.0f)) {
@@ -70,9 +53,8 @@ DepthCanvas::DepthCanvas(QWidget* parent)
   renderer_->GetActiveCamera()->ParallelProjectionOn();
   picture_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
   renderer_->AddActor(picture_);
-  for (const auto& actor :
-       {dot_rims_, dots_, symbol_rims_, symbols_, templates_, roi_, drag_actor_})
-    renderer_->AddActor(actor);
+  for (const auto& actor : {templates_, roi_, drag_actor_}) renderer_->AddActor(actor);
+  PartMarks();
   setMinimumSize(160, 120);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);  // the wipe line moves by keys alone
@@ -91,31 +73,36 @@ void DepthCanvas::SetPicture(const ColorImage& picture) {
 
 void DepthCanvas::SetSecond(const ColorImage* picture) {
   wipe_.SetPicture(picture);
+  PartMarks();
   Redraw();
 }
 
 void DepthCanvas::SetWipe(double share) {
   wipe_.SetShare(share);
+  PartMarks();
   Redraw();
 }
 
 void DepthCanvas::SetMarks(std::vector<SampleMark> marks) {
-  marks_ = std::move(marks);
-  const auto dots = VtkDotsOf(marks_, image_height_);
-  for (const auto& actor : {dot_rims_, dots_}) SetData(actor, dots);
-  DrawMarks();
+  marks_.Set(std::move(marks), image_height_);
+  Redraw();
 }
 
-void DepthCanvas::DrawMarks() {
-  marks_scale_ = Scale();
-  const MarkSize size = MarkSizeAt(1.0 / marks_scale_);
-  const auto symbols = VtkSymbolsOf(marks_, image_height_, size.half_px * marks_scale_);
-  for (const auto& actor : {symbol_rims_, symbols_}) SetData(actor, symbols);
-  symbols_->GetProperty()->SetLineWidth(static_cast<float>(size.line_px));
-  symbol_rims_->GetProperty()->SetLineWidth(static_cast<float>(size.rim_px));
-  dots_->GetProperty()->SetPointSize(static_cast<float>(size.line_px + 0.8));
-  dot_rims_->GetProperty()->SetPointSize(static_cast<float>(size.line_px + 2.2));
+void DepthCanvas::SetSecondMarks(std::optional<std::vector<SampleMark>> marks) {
+  second_has_marks_ = marks.has_value();
+  second_marks_.Set(marks ? std::move(*marks) : std::vector<SampleMark>(), image_height_);
+  PartMarks();
   Redraw();
+}
+
+void DepthCanvas::PartMarks() {
+  if (wipe_.Shown() && second_has_marks_) {
+    marks_.ShowLeftOf(wipe_.Column());
+    second_marks_.ShowRightOf(wipe_.Column());
+  } else {
+    marks_.ShowEverywhere();
+    second_marks_.Hide();
+  }
 }
 
 void DepthCanvas::SetRoi(const std::optional<ImageRoi>& roi) {
@@ -165,8 +152,7 @@ void DepthCanvas::PlaceCamera() {
   camera->SetViewUp(0.0, 1.0, 0.0);
   camera->SetParallelScale(half_height_);
   camera->SetClippingRange(1.0, 20.0);
-  // Symbols keep their size on the screen.
-  if (!marks_.empty() && Scale() != marks_scale_) DrawMarks();
+  for (MarkActors* marks : {&marks_, &second_marks_}) marks->SetScale(Scale());
 }
 
 double DepthCanvas::Scale() const {

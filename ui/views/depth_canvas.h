@@ -8,8 +8,8 @@
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
 #include "core/pictures/projected_wireframe.h"
-#include "core/pictures/sample_marks.h"
 #include "ui/render/vtk_data.h"
+#include "ui/views/mark_actors.h"
 #include "ui/views/roi_drag.h"
 #include "ui/views/vtk_canvas.h"
 #include "ui/views/wipe_actors.h"
@@ -30,6 +30,8 @@ class DepthCanvas : public VtkCanvas {
   void SetSecond(const ColorImage* picture);
   void SetWipe(double share);
   void SetMarks(std::vector<SampleMark> marks);
+  /// The marks right of the line; nullopt = the first ones go on there.
+  void SetSecondMarks(std::optional<std::vector<SampleMark>> marks);
   void SetRoi(const std::optional<ImageRoi>& roi);
   void SetTemplates(const PixelLines& lines);
   void SetDrawing(bool drawing);
@@ -62,16 +64,14 @@ class DepthCanvas : public VtkCanvas {
   Polylines Outline(const ImageRoi& roi) const;
   void PlaceCamera();
   void DrawDrag();
-  void DrawMarks();
+  void PartMarks();
 
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkImageActor> picture_;
   WipeActors wipe_;
-  std::vector<SampleMark> marks_;
-  vtkSmartPointer<vtkActor> dot_rims_;
-  vtkSmartPointer<vtkActor> dots_;
-  vtkSmartPointer<vtkActor> symbol_rims_;
-  vtkSmartPointer<vtkActor> symbols_;
+  MarkActors marks_;
+  MarkActors second_marks_;
+  bool second_has_marks_ = false;
   vtkSmartPointer<vtkActor> templates_;
   vtkSmartPointer<vtkActor> roi_;
   vtkSmartPointer<vtkActor> drag_actor_;
@@ -85,7 +85,6 @@ class DepthCanvas : public VtkCanvas {
   int image_height_ = 1;
   Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< world point in the widget's middle
   double half_height_ = 1.0;                          ///< world units from there to the top
-  double marks_scale_ = 0.0;                          ///< the scale that the symbols are made for
 };
 
 }  // namespace foresight

@@ -2,7 +2,9 @@
 
 #include <QAbstractItemView>
 #include <QComboBox>
+#include <QFrame>
 #include <QHBoxLayout>
+#include <QIcon>
 #include <QLabel>
 #include <QSlider>
 #include <QToolButton>
@@ -91,11 +93,27 @@ void DepthPane::BuildFooter() {
   readout_->setFixedHeight(2 * readout_->fontMetrics().lineSpacing() + 6);  // or the pane jumps
   readout_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   readout_->setWordWrap(true);
+  Footer()->addWidget(BuildWarning());
   Footer()->addWidget(iterations_);
   Footer()->addLayout(row);
   Footer()->addWidget(readout_);
   connect(slider_, &QSlider::valueChanged, this,
           [this](int percent) { depth_->setThreshold(percent / 100.0); });
+}
+
+QWidget* DepthPane::BuildWarning() {
+  warning_row_ = new QFrame;
+  warning_row_->setObjectName(QStringLiteral("notice"));
+  warning_row_->hide();
+  auto* row = new QHBoxLayout(warning_row_);
+  row->setContentsMargins(8, 4, 8, 4);
+  auto* icon = new QLabel;
+  icon->setPixmap(QIcon(QStringLiteral(":/icons/warning.svg")).pixmap(20, 20));
+  warning_ = new QLabel;
+  warning_->setWordWrap(true);
+  row->addWidget(icon, 0, Qt::AlignTop);
+  row->addWidget(warning_, 1);
+  return warning_row_;
 }
 
 void DepthPane::Bind() {
@@ -116,7 +134,10 @@ void DepthPane::Bind() {
   connect(depth_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
   connect(live_, &LiveDepthViewModel::changed, this, &DepthPane::ShowNewDepth);
   connect(compare_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
-  connect(compare_, &CompareViewModel::changed, this, &DepthPane::PaintSecond);
+  connect(compare_, &CompareViewModel::changed, this, [this] {
+    PaintSecond();
+    ShowMarks();
+  });
   connect(compare_, &CompareViewModel::wipeChanged, canvas_, &DepthCanvas::SetWipe);
   connect(canvas_, &DepthCanvas::wiped, compare_, &CompareViewModel::setWipe);
   connect(canvas_, &DepthCanvas::pixelPointedAt, this, &DepthPane::ShowReadout);
@@ -131,14 +152,21 @@ void DepthPane::ShowNewDepth() {
   SetCaption({});
   if (const auto result = Shown()) {
     depth_range_ = DepthRangeOf(result->dense.depth_m, result->mask);
-    const QString density = QString::number(100.0 * LocalDensity(result->samples), 'f', 1);
+    const QString density = QString::number(100.0 * result->density, 'f', 1);
     const QString seconds = QString::number(result->seconds, 'f', 2);
     SetCaption(tr("%1 %, %2 s").arg(density, seconds),
                tr("%1 % of the pixels were measured; the depth took %2 s").arg(density, seconds));
   }
+  ShowWarning();
   Paint();
   PaintSecond();
   ShowMarks();
+}
+
+void DepthPane::ShowWarning() {
+  // A running scan's preview begins with few lines: that is no reason to warn.
+  warning_->setText(session_->Depth() ? DensityWarning(*session_->Depth()) : QString());
+  warning_row_->setVisible(!warning_->text().isEmpty());
 }
 
 ColorImage DepthPane::Painted(const DepthResult& result, const MaskImage* mask) const {
@@ -175,11 +203,15 @@ void DepthPane::PaintSecond() {
 }
 
 void DepthPane::ShowMarks() {
+  const auto marks_of = [this](const DepthResult& result) {
+    return MarksOf(result.samples, layers_->Samples(), depth_range_, layers_->DepthColors());
+  };
   const auto result = Shown();
-  canvas_->SetMarks(result == nullptr ? std::vector<SampleMark>()
-                                      : MarksOf(result->samples, layers_->Samples(), depth_range_,
-                                                layers_->DepthColors()));
-  tags_->SetLegend(result ? &result->samples : nullptr, layers_->Samples());
+  const DepthResult* second = session_->Depth() ? compare_->Second().get() : nullptr;
+  canvas_->SetMarks(result ? marks_of(*result) : std::vector<SampleMark>());
+  canvas_->SetSecondMarks(second ? std::optional(marks_of(*second)) : std::nullopt);
+  tags_->SetLegend(result ? &result->samples : nullptr, layers_->Samples(),
+                   second ? &second->samples : nullptr);
 }
 
 void DepthPane::ShowColors() {
@@ -217,6 +249,10 @@ void DepthPane::ShowMethod() {
 void DepthPane::ShowThreshold() {
   slider_->setValue(static_cast<int>(std::lround(100.0 * depth_->Threshold())));
   threshold_value_->setText(QString::number(depth_->Threshold(), 'f', 2));
+}
+
+QString DepthPane::Warning() const {
+  return warning_row_->isVisible() ? warning_->text() : QString();
 }
 
 QString DepthPane::Readout() const {

@@ -41,10 +41,13 @@ class DepthPane : public Pane {
   IterationBar* Iterations() { return iterations_; }
   /// What is said about the pixel under the cursor.
   QString Readout() const;
+  /// What speaks against the map as a whole; empty while nothing does.
+  QString Warning() const;
 
  private:
   void BuildControls();
   void BuildFooter();
+  QWidget* BuildWarning();
   void Bind();
   /// The depth on the screen: that of the session, else the preview of a running scan.
   std::shared_ptr<const DepthResult> Shown() const;
@@ -53,6 +56,7 @@ class DepthPane : public Pane {
   ColorImage Painted(const DepthResult& result, const MaskImage* mask) const;
   void PaintSecond();
   void ShowMarks();
+  void ShowWarning();
   void ShowColors();
   void ShowState();
   void ShowMethod();
@@ -73,6 +77,8 @@ class DepthPane : public Pane {
   QSlider* slider_;
   QLabel* threshold_value_;
   QLabel* readout_;
+  QWidget* warning_row_;
+  QLabel* warning_;
 };
 
 }  // namespace foresight

@@ -12,6 +12,10 @@ namespace {
 constexpr int kMargin_px = 8;
 constexpr int kSymbolWidth_px = 22;
 
+std::ptrdiff_t CountOf(const AlignedSamples& samples, RejectReason kind) {
+  return std::count(samples.reasons.begin(), samples.reasons.end(), kind);
+}
+
 }  // namespace
 
 QString NameOf(RejectReason kind) {
@@ -33,13 +37,15 @@ SampleLegend::SampleLegend(QWidget* parent) : QWidget(parent) {
   hide();
 }
 
-void SampleLegend::Show(const AlignedSamples* samples, const SampleLayers& layers) {
+void SampleLegend::Show(const AlignedSamples* samples, const SampleLayers& layers,
+                        const AlignedSamples* second) {
   rows_.clear();
   int widest = 0;
   for (const RejectReason kind : kSampleKinds) {
     if (samples == nullptr || !layers.Shows(kind)) continue;
-    const auto count = std::count(samples->reasons.begin(), samples->reasons.end(), kind);
-    rows_.push_back({kind, tr("%1: %2").arg(NameOf(kind)).arg(count)});
+    QString count = QString::number(CountOf(*samples, kind));
+    if (second != nullptr) count += QStringLiteral(" | %1").arg(CountOf(*second, kind));
+    rows_.push_back({kind, tr("%1: %2").arg(NameOf(kind), count)});
     widest = std::max(widest, fontMetrics().horizontalAdvance(rows_.back().text));
   }
   resize(widest + kSymbolWidth_px + 2 * kMargin_px,

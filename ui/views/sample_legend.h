@@ -15,7 +15,9 @@ class SampleLegend : public QWidget {
 
  public:
   explicit SampleLegend(QWidget* parent);
-  void Show(const AlignedSamples* samples, const SampleLayers& layers);
+  /// With a second set of samples, right of a wipe, both are counted: "Flying: 120 | 97".
+  void Show(const AlignedSamples* samples, const SampleLayers& layers,
+            const AlignedSamples* second = nullptr);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
