@@ -73,6 +73,34 @@ TEST_F(DepthChoice, PassesAreKeptOnlyOnceTheyAreAskedFor) {
   EXPECT_EQ(depth.ComputedCount(), 2);
 }
 
+TEST_F(DepthChoice, ForesightsOwnMethodHasPassesToStepThroughToo) {
+  depth.setMethod(DepthMethod::kForesight);
+  ASSERT_TRUE(Idle());
+  EXPECT_TRUE(session.Depth()->dense.iterations.empty());
+  depth.setKeepIterations(true);
+  ASSERT_TRUE(Idle());
+  const DenseDepth& dense = session.Depth()->dense;
+  EXPECT_EQ(dense.iterations.size(), depth.Options().local_plane.iterations + 1u);
+  EXPECT_EQ(dense.mean_change_m.size() + 1, dense.iterations.size());
+}
+
+TEST_F(DepthChoice, PassesAskedForWhileAMethodIsComputedComeWithIt) {
+  depth.setMethod(DepthMethod::kForesight);
+  depth.setKeepIterations(true);
+  ASSERT_TRUE(Idle());
+  EXPECT_EQ(depth.ShownOptions().method, DepthMethod::kForesight);
+  EXPECT_FALSE(session.Depth()->dense.iterations.empty());
+}
+
+TEST_F(DepthChoice, AMethodWithoutPassesIsNotComputedAgainForThem) {
+  depth.setMethod(DepthMethod::kJointBilateral);
+  ASSERT_TRUE(Idle());
+  const auto first = session.Depth();
+  depth.setKeepIterations(true);
+  ASSERT_TRUE(Idle());
+  EXPECT_EQ(session.Depth(), first);
+}
+
 TEST_F(DepthChoice, AnotherMethodIsPutBesideTheDepthWithoutTouchingIt) {
   const auto first = session.Depth();
   compare.compareWithMethod(DepthMethod::kJointBilateral);

@@ -3,6 +3,28 @@
 #include "ui/viewmodels/depth_task.h"
 
 namespace foresight {
+namespace {
+
+void KeepPasses(bool keep, DepthOptions& options) {
+  options.upsample.keep_iterations = keep;
+  options.local_plane.keep_iterations = keep;
+}
+
+bool HasPasses(const DepthOptions& options) {
+  switch (options.method) {
+    case DepthMethod::kForesight:
+      return options.local_plane.iterations > 0;
+    case DepthMethod::kPaper:
+    case DepthMethod::kJointBilateral:
+      return options.upsample.iterations > 0;
+    case DepthMethod::kTgv:
+    case DepthMethod::kNonlocal:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
 
 DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {
@@ -28,9 +50,9 @@ void DepthViewModel::UpdateMask() {
 
 void DepthViewModel::setMethod(DepthMethod method) {
   if (method == options_.method) return;
-  const bool keep_iterations = options_.upsample.keep_iterations;
+  const bool keeps_passes = options_.upsample.keep_iterations;
   options_ = DefaultsOf(method);
-  options_.upsample.keep_iterations = keep_iterations;
+  KeepPasses(keeps_passes, options_);
   if (const auto used = thresholds_.find(method); used != thresholds_.end())
     options_.mask.threshold = used->second;
   Q_EMIT methodChanged();
@@ -40,10 +62,10 @@ void DepthViewModel::setMethod(DepthMethod method) {
 
 void DepthViewModel::setKeepIterations(bool keep) {
   if (keep == options_.upsample.keep_iterations) return;
-  options_.upsample.keep_iterations = keep;
+  KeepPasses(keep, options_);
+  if (!keep || !HasPasses(options_)) return;
   const auto& depth = session_->Depth();
-  const bool has_passes = depth && !depth->dense.mean_change_m.empty();
-  if (keep && has_passes && depth->dense.iterations.empty()) compute();
+  if (runner_.Busy() || (depth && depth->dense.iterations.empty())) compute();
 }
 
 void DepthViewModel::compute() {
