@@ -7,6 +7,7 @@
 
 #include "tests/display/mouse.h"
 #include "tests/display/workstation_fixture.h"
+#include "ui/views/color_bar.h"
 
 namespace foresight {
 namespace {
@@ -18,6 +19,13 @@ TEST_F(Workstation, TheDepthPaneIsMostlyColouredAfterAScan) {
 TEST_F(Workstation, TheCloudPaneShowsPointsAfterAScan) {
   EXPECT_GT(running->window().Cloud()->PointCount(), 10'000u);
   EXPECT_GT(ShareOf(CloudPixels(), IsColoured), 0.1);
+}
+
+TEST(ColorBar, NumbersAFloorThatIsHardlyBelowZeroAsZero) {
+  ColorBar bar;
+  bar.Set(ColorMap::kTurbo, {-0.0004, 2.9}, QStringLiteral("height, m"));
+  EXPECT_EQ(bar.Labels().first().toStdString(), "0.00");
+  EXPECT_EQ(bar.Labels().last().toStdString(), "2.90");
 }
 
 TEST_F(Workstation, ThePictureIsShownAsAWhole) {

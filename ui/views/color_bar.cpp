@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <algorithm>
+#include <cmath>
 
 namespace foresight {
 namespace {
@@ -26,6 +27,18 @@ void ColorBar::Set(ColorMap map, const ValueRange& range, const QString& title) 
   update();
 }
 
+QStringList ColorBar::Labels() const {
+  const int digits = range_.high - range_.low < 50.0 ? 2 : 0;
+  const double step = std::pow(10.0, -digits);
+  QStringList labels;
+  for (int i = 0; i <= kIntervals; ++i) {
+    const double value = range_.low + (range_.high - range_.low) * i / kIntervals;
+    const double shown = std::round(value / step) * step + 0.0;  // nothing reads "-0.00"
+    labels << QString::number(shown, 'f', digits);
+  }
+  return labels;
+}
+
 void ColorBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   const int line = fontMetrics().height();
@@ -38,15 +51,14 @@ void ColorBar::paintEvent(QPaintEvent*) {
     const Rgb8 color = ColorOf(map_, 1.0 - static_cast<double>(y) / std::max(1, bar_height - 1));
     painter.fillRect(kMargin_px, top + y, kBarWidth_px, 1, QColor(color.r, color.g, color.b));
   }
-  const int digits = range_.high - range_.low < 50.0 ? 2 : 0;
+  const QStringList labels = Labels();
   for (int i = 0; i <= kIntervals; ++i) {
     const double share = static_cast<double>(i) / kIntervals;
     const int y = top + static_cast<int>((1.0 - share) * (bar_height - 1));
     const int x = kMargin_px + kBarWidth_px;
     painter.drawLine(x, y, x + 4, y);
     painter.drawText(QRect(x + 8, y - line / 2, width() - x - 8, line),
-                     Qt::AlignLeft | Qt::AlignVCenter,
-                     QString::number(range_.low + share * (range_.high - range_.low), 'f', digits));
+                     Qt::AlignLeft | Qt::AlignVCenter, labels[i]);
   }
 }
 

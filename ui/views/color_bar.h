@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 #include <QWidget>
 
 #include "core/pictures/color_map.h"
@@ -15,6 +16,8 @@ class ColorBar : public QWidget {
  public:
   explicit ColorBar(QWidget* parent = nullptr);
   void Set(ColorMap map, const ValueRange& range, const QString& title);
+  /// The numbers beside the bar, from below.
+  QStringList Labels() const;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
