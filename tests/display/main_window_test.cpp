@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <qtadvanceddocking/DockWidget.h>
 
+#include <QPushButton>
 #include <QSettings>
 #include <QSlider>
 #include <QTemporaryDir>
@@ -26,6 +27,22 @@ TEST(ColorBar, NumbersAFloorThatIsHardlyBelowZeroAsZero) {
   bar.Set(ColorMap::kTurbo, {-0.0004, 2.9}, QStringLiteral("height, m"));
   EXPECT_EQ(bar.Labels().first().toStdString(), "0.00");
   EXPECT_EQ(bar.Labels().last().toStdString(), "2.90");
+}
+
+TEST_F(Workstation, TheScanButtonStaysInItsPlaceWhenAPlanIsWarnedOf) {
+  HeadViewModel& head = running->bench().head;
+  const auto* button = running->window().findChild<QPushButton*>(QStringLiteral("scanButton"));
+  ASSERT_NE(button, nullptr);
+  const PlanFields plan = head.Plan();
+  ASSERT_TRUE(head.Prediction().warning.isEmpty());
+  const QPoint before = button->mapToGlobal({0, 0});
+  PlanFields fast = plan;
+  fast.speed_deg_s = 100.0;
+  head.SetPlan(fast);
+  ASSERT_FALSE(head.Prediction().warning.isEmpty());
+  running->Settle();
+  EXPECT_EQ(button->mapToGlobal({0, 0}), before);
+  head.SetPlan(plan);
 }
 
 TEST_F(Workstation, ThePictureIsShownAsAWhole) {

@@ -121,6 +121,12 @@ QWidget* HeadPanel::BuildPrediction() {
   icon->setPixmap(Icon("warning").pixmap(20, 20));
   warning_ = new QLabel;
   warning_->setWordWrap(true);
+  // Its place is kept, so that Scan and Abort do not move while a plan is typed.
+  warning_->setMinimumHeight(3 * warning_->fontMetrics().lineSpacing() + 6);
+  warning_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  QSizePolicy kept = warning_row_->sizePolicy();
+  kept.setRetainSizeWhenHidden(true);
+  warning_row_->setSizePolicy(kept);
   row->addWidget(icon, 0, Qt::AlignTop);
   row->addWidget(warning_, 1);
   layout->addWidget(warning_row_);

@@ -45,7 +45,7 @@ void TaskStrip::ShowProgress() {
   bar_->setVisible(runner != nullptr);
   cancel_->setVisible(runner != nullptr);
   if (runner == nullptr) {
-    text_->setText(tr("Ready"));
+    text_->setText(tr("Nothing to compute"));  // "ready" is a word for the head
     return;
   }
   bar_->setValue(runner->Permille());
