@@ -218,8 +218,10 @@ void CaptureHead::EnterFault(const std::string& what) {
     status.state = HeadState::kFault;
     status.speed_rad_s = 0.0;
     status.commanded_speed_rad_s = 0.0;
-    status.message =
-        what + "; the motor is stopped. Check the device's power and cable, then home the head";
+    // Told to, not known to: where the motor's own link is lost, the drive's watchdog must do it.
+    status.message = what +
+                     "; the motor was told to stop. See that it stands, check the device's power "
+                     "and cable, then home the head";
   });
 }
 

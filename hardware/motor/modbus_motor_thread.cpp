@@ -216,7 +216,7 @@ void ModbusMotor::LoseLink(const std::string& message) {
   link_.Close();
   const std::lock_guard lock(mutex_);
   connected_ = false;
-  fault_ = Fault{message + "; check its power and cable and home again", true};
+  fault_ = Fault{message, true};
   homed_ = false;
   task_.reset();
   posted_.reset();

@@ -202,7 +202,7 @@ void ExpectFault(TinyHead& tiny, const std::shared_ptr<const Scan>& scan, const 
   EXPECT_THAT(scan->reason, HasSubstr(what));
   ASSERT_TRUE(tiny.WaitFor(HeadState::kFault));
   EXPECT_THAT(tiny.head->Status().message, HasSubstr(what));
-  EXPECT_THAT(tiny.head->Status().message, HasSubstr("the motor is stopped. Check"));
+  EXPECT_THAT(tiny.head->Status().message, HasSubstr("the motor was told to stop. See that it stands"));
   EXPECT_GT(tiny.motor->quick_stops, 0);
   tiny.clock->Sleep(std::chrono::seconds(1));  // longer than any braking
   EXPECT_TRUE(tiny.AtRest());
