@@ -1,9 +1,8 @@
 // foresightctl: everything the workstation can do, without a window.
 #include <cstdio>
 #include <exception>
-#include <stop_token>
 
-#include "app/common/interrupt_watcher.h"
+#include "app/common/run_program.h"
 #include "app/ctl/command.h"
 
 namespace foresight {
@@ -22,23 +21,8 @@ int Main(int argc, char** argv) {
   AddRenderCommand(app, invocation);
   AddDemoCommand(app, invocation);
   AddEmulateCommand(app, invocation);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for_help = error.get_exit_code() == 0;
-    if (asked_for_help) return app.exit(error);
-    fmt::print(stderr, "foresightctl: {} (--help shows how)\n", error.what());
-    return static_cast<int>(ExitCode::kUsage);
-  }
-
-  std::stop_source stop;
-  const InterruptWatcher watcher(stop);
-  RunContext context;
-  context.stop = stop.get_token();
-  const auto result = invocation(context);
-  if (result) return static_cast<int>(*result);
-  fmt::print(stderr, "foresightctl: {}\n", result.error().message);
-  return static_cast<int>(ExitCodeFor(result.error().code));
+  return RunProgram("foresightctl", app, argc, argv,
+                    [&](const RunContext& context) { return invocation(context); });
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "app/common/emulation.h"
-#include "app/common/interrupt_watcher.h"
 #include "app/common/record_scan.h"
+#include "app/common/run_program.h"
 #include "core/base/atomic_file.h"
 #include "core/mission/plan_json.h"
 #include "hardware/assembly/real_head.h"
@@ -63,24 +63,11 @@ int Main(int argc, char** argv) {
       ->required();
   app.add_flag("--json", arguments.json, "Print the result as JSON");
   app.set_version_flag("--version", "foresight-head " FORESIGHT_VERSION);
-  try {
-    app.parse(argc, argv);
+  app.final_callback([&] {
     if (config->empty() && emulate->empty()) throw CLI::RequiredError("--head-config or --emulate");
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for_help = error.get_exit_code() == 0;
-    if (asked_for_help) return app.exit(error);
-    fmt::print(stderr, "foresight-head: {} (--help shows how)\n", error.what());
-    return static_cast<int>(ExitCode::kUsage);
-  }
-
-  std::stop_source stop;
-  const InterruptWatcher watcher(stop);
-  RunContext context;
-  context.stop = stop.get_token();
-  const auto result = Run(arguments, context);
-  if (result) return static_cast<int>(*result);
-  fmt::print(stderr, "foresight-head: {}\n", result.error().message);
-  return static_cast<int>(ExitCodeFor(result.error().code));
+  });
+  return RunProgram("foresight-head", app, argc, argv,
+                    [&](const RunContext& context) { return Run(arguments, context); });
 }
 
 }  // namespace
