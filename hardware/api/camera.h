@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/sensor/camera_frame.h"
+#include "hardware/api/camera_health.h"
 
 namespace foresight {
 
@@ -14,7 +15,8 @@ struct CameraSettings {
   double gain_db = 0.0;
 };
 
-/// A camera with a software trigger. Calls from one thread at a time.
+/// A camera with a software trigger. Calls from one thread at a time, except Health, which any
+/// thread may call at any time.
 class Camera {
  public:
   virtual ~Camera() = default;
@@ -22,11 +24,13 @@ class Camera {
   virtual std::string Describe() const = 0;
   virtual Status Connect() = 0;
   virtual Status Configure(const CameraSettings& settings) = 0;
-  /// Starts one exposure and returns at once; its frame comes from WaitForFrame.
-  virtual Status Trigger() = 0;
+  /// Starts one exposure and returns at once the `seq` of its frame, which comes from WaitForFrame.
+  virtual Result<std::int64_t> Trigger() = 0;
   /// The oldest frame not yet handed out, waiting at most `timeout`; nullopt when none came. The
-  /// motor's angles in it are not filled in.
+  /// motor's angles in it are not filled in. Fails once for each picture that is given up.
   virtual Result<std::optional<CameraFrame>> WaitForFrame(std::chrono::milliseconds timeout) = 0;
+  /// Never waits for the device. What a device cannot know stays at its default.
+  virtual CameraHealth Health() const = 0;
 };
 
 }  // namespace foresight

@@ -6,11 +6,12 @@
 
 #include "core/base/result.h"
 #include "core/sensor/lidar_line.h"
+#include "hardware/api/lidar_health.h"
 
 namespace foresight {
 
-/// A 2D lidar that streams lines. One owner; calls from one thread at a time. Destroying it stops
-/// it.
+/// A 2D lidar that streams lines. One owner; calls from one thread at a time, except Health, which
+/// any thread may call at any time. Destroying it stops it.
 class Lidar {
  public:
   virtual ~Lidar() = default;
@@ -24,6 +25,8 @@ class Lidar {
   /// The next line in order, waiting for it at most `timeout`; nullopt when none came. Fails with
   /// kDevice when the device is lost. Stamps are on the head's clock (see SensorClock).
   virtual Result<std::optional<LidarLine>> WaitForLine(std::chrono::milliseconds timeout) = 0;
+  /// Never waits for the device. What a device cannot know stays at its default.
+  virtual LidarHealth Health() const = 0;
 };
 
 }  // namespace foresight

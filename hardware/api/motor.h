@@ -5,11 +5,12 @@
 
 #include "core/base/result.h"
 #include "core/sensor/motor_track.h"
+#include "hardware/api/motor_health.h"
 
 namespace foresight {
 
-/// The motor that turns the plate. Calls from one thread at a time, except QuickStop, which any
-/// thread may call at any time. Destroying it stops the motor.
+/// The motor that turns the plate. Calls from one thread at a time, except QuickStop and
+/// Health, which any thread may call at any time. Destroying it stops the motor.
 class Motor {
  public:
   virtual ~Motor() = default;
@@ -29,6 +30,8 @@ class Motor {
   virtual std::vector<MotorSample> TakeTrack() = 0;
   /// Stops as fast as the drive allows and holds.
   virtual void QuickStop() = 0;
+  /// Never waits for the device. What a device cannot know stays at its default.
+  virtual MotorHealth Health() const = 0;
 };
 
 }  // namespace foresight

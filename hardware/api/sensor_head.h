@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/sensor/scan.h"
+#include "hardware/api/head_health.h"
 
 namespace foresight {
 
@@ -24,6 +25,7 @@ struct HeadStatus {
   int frames = 0;
   int lost_lines = 0;
   std::string message;  ///< what happened and what to do, one sentence; empty when all is well
+  HeadHealth health;    ///< of the devices, now
 };
 
 /// How a scan arrives, piece by piece. Called from a thread of the head, in order, never
@@ -36,6 +38,8 @@ class ScanSink {
   virtual void OnLine(const LidarLine& line) = 0;
   virtual void OnMotorSamples(std::span<const MotorSample> samples) = 0;
   virtual void OnFrame(const CameraFrame& frame) = 0;
+  /// Once, before the end: how the devices did when the scan started and when it ended.
+  virtual void OnDeviceHealth(const HeadHealth& /*at_start*/, const HeadHealth& /*at_end*/) {}
   virtual void OnScanEnded(ScanState state, const std::string& reason) = 0;
 };
 

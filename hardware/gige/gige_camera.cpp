@@ -70,15 +70,15 @@ Status GigeCamera::Configure(const CameraSettings& settings) {
   return applied_status_;
 }
 
-Status GigeCamera::Trigger() {
+Result<std::int64_t> GigeCamera::Trigger() {
   const std::lock_guard lock(mutex_);
   MarkOverdue();
   if (!connected_) return FailWith("is not connected");
   if (suspect_) return FailWith("does not answer");
   expected_.push_back({next_seq_, clock_->Now(), std::nullopt, wish_.settings, false});
-  triggers_.push_back(next_seq_++);
+  triggers_.push_back(next_seq_);
   changed_.notify_all();
-  return {};
+  return next_seq_++;
 }
 
 Result<std::optional<CameraFrame>> GigeCamera::WaitForFrame(std::chrono::milliseconds timeout) {

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "hardware/api/camera.h"
-#include "hardware/api/camera_health.h"
 #include "hardware/api/sensor_clock.h"
 #include "hardware/gige/gige_session.h"
 
@@ -40,12 +39,12 @@ class GigeCamera final : public Camera {
   /// beyond the camera's limits.
   Status Configure(const CameraSettings& settings) override;
   /// Never waits for the camera. Fails while it is not connected or suspect.
-  Status Trigger() override;
+  Result<std::int64_t> Trigger() override;
   /// Also fails when a picture is overdue. `seq` counts the triggers, `time_s` is the middle of the
   /// exposure on the head's clock.
   Result<std::optional<CameraFrame>> WaitForFrame(std::chrono::milliseconds timeout) override;
 
-  CameraHealth Health() const;
+  CameraHealth Health() const override;
 
  private:
   using SteadyClock = std::chrono::steady_clock;

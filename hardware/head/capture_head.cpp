@@ -42,8 +42,13 @@ std::string CaptureHead::Describe() const {
 }
 
 HeadStatus CaptureHead::Status() const {
-  const std::lock_guard lock(mutex_);
-  return status_;
+  HeadStatus status;
+  {
+    const std::lock_guard lock(mutex_);
+    status = status_;
+  }
+  status.health = ReadHealth(devices_);
+  return status;
 }
 
 Status CaptureHead::Home() {

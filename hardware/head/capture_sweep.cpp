@@ -27,7 +27,8 @@ CaptureSweep::CaptureSweep(HeadDevices& devices, const CaptureOptions& options, 
       hooks_(std::move(hooks)),
       sign_(plan_.to_rad > plan_.from_rad ? 1.0 : -1.0),
       image_angles_(plan_.image_angles_rad),
-      gate_(header.rig.lidar, plan_.from_rad, plan_.to_rad) {
+      gate_(header.rig.lidar, plan_.from_rad, plan_.to_rad),
+      health_at_start_(ReadHealth(devices)) {
   std::sort(image_angles_.begin(), image_angles_.end(),
             [this](double a, double b) { return sign_ * a < sign_ * b; });
 }
@@ -40,8 +41,11 @@ SweepEnd CaptureSweep::Run() {
     end = {ScanState::kInterrupted, error.what(), true, false};
   }
   devices_.motor->QuickStop();
-  devices_.lidar->Stop();
+  StopLidar();
   try {
+    HeadHealth health = ReadHealth(devices_);
+    health.lidar = *lidar_health_;
+    sink_.OnDeviceHealth(health_at_start_, health);
     sink_.OnScanEnded(end.state, end.reason);
   } catch (const std::exception& error) {
     if (!end.fault) end = {ScanState::kInterrupted, error.what(), true, false};
@@ -58,12 +62,18 @@ SweepEnd CaptureSweep::RunToTheEnd() {
   const Step stop = WaitForStandstill(kStandstillTimeout_s);
   if (!end) end = stop;
   HandOnLines();
-  devices_.lidar->Stop();
+  StopLidar();
   if (!end || !end->shutting_down) {
     const Step frames = CollectFrames();
     if (!end) end = frames;
   }
   return end.value_or(SweepEnd{});
+}
+
+void CaptureSweep::StopLidar() {
+  if (lidar_health_) return;
+  lidar_health_ = devices_.lidar->Health();
+  devices_.lidar->Stop();
 }
 
 SweepEnd CaptureSweep::DeviceFailed(const std::string& message) const {
@@ -151,8 +161,8 @@ CaptureSweep::Step CaptureSweep::TriggerWhenDue(double* free_s) {
     }
     if (due_s > 0.0)
       devices_.clock->Sleep(std::chrono::microseconds(static_cast<int>(due_s * 1e6)));
-    if (const Status status = devices_.camera->Trigger(); !status)
-      return DeviceFailed(status.error().message);
+    if (const auto triggered = devices_.camera->Trigger(); !triggered)
+      return DeviceFailed(triggered.error().message);
     triggered_.push_back(target);
     ++next_image_;
     if (Step end = CheckMotor()) return end;

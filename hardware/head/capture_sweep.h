@@ -62,6 +62,7 @@ class CaptureSweep {
   Step ReceiveFrame(std::chrono::milliseconds timeout);
   Step CollectFrames();
   Step CheckMotor();
+  void StopLidar();
   void PumpTrack();
   void HandOnLines();
   void HandOnFrames(bool all);
@@ -87,6 +88,8 @@ class CaptureSweep {
   double last_line_s_ = 0.0;
   std::optional<double> stopped_since_s_;
   SweepProgress progress_;
+  const HeadHealth health_at_start_;
+  std::optional<LidarHealth> lidar_health_;  ///< while it still measured
 };
 
 }  // namespace foresight

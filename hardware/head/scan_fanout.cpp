@@ -24,6 +24,10 @@ void ScanFanout::OnFrame(const CameraFrame& frame) {
   for (const auto& sink : sinks_) sink->OnFrame(frame);
 }
 
+void ScanFanout::OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) {
+  for (const auto& sink : sinks_) sink->OnDeviceHealth(at_start, at_end);
+}
+
 void ScanFanout::OnScanEnded(ScanState state, const std::string& reason) {
   for (const auto& sink : sinks_) sink->OnScanEnded(state, reason);
 }

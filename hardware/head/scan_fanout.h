@@ -16,6 +16,7 @@ class ScanFanout final : public ScanSink {
   void OnLine(const LidarLine& line) override;
   void OnMotorSamples(std::span<const MotorSample> samples) override;
   void OnFrame(const CameraFrame& frame) override;
+  void OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) override;
   void OnScanEnded(ScanState state, const std::string& reason) override;
 
  private:

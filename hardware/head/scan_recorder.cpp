@@ -1,7 +1,10 @@
 #include "hardware/head/scan_recorder.h"
 
+#include <chrono>
+
 #include "core/base/contract.h"
 #include "core/base/log.h"
+#include "hardware/api/health_watch.h"
 
 namespace foresight {
 namespace {
@@ -16,6 +19,10 @@ struct Overloaded : Cases... {
 };
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
+
+std::string Summary(const DeviceDiagnosis& diagnosis, const std::string& numbers) {
+  return diagnosis.problem.empty() ? numbers : numbers + " (" + diagnosis.problem + ")";
+}
 
 }  // namespace
 
@@ -49,6 +56,22 @@ void ScanRecorder::OnMotorSamples(std::span<const MotorSample> samples) {
 
 void ScanRecorder::OnFrame(const CameraFrame& frame) {
   Push(frame, frame.image.size() * sizeof(Rgb8));
+}
+
+void ScanRecorder::OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) {
+  const HeadDiagnosis diagnosis = Diagnose(at_end, at_start);
+  const bool well = diagnosis.Worst() == DeviceCondition::kWell;
+  EventRecord event;
+  event.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                     std::chrono::system_clock::now().time_since_epoch())
+                     .count();
+  event.source = "head";
+  event.severity = well ? "info" : "warning";
+  event.text = "lidar: " + Summary(diagnosis.lidar, Describe(at_end.lidar)) +
+               "; camera: " + Summary(diagnosis.camera, Describe(at_end.camera)) +
+               "; motor: " + Summary(diagnosis.motor, Describe(at_end.motor));
+  event.json = ToJson(at_end);
+  Push(std::move(event), 0);
 }
 
 void ScanRecorder::OnScanEnded(ScanState state, const std::string& reason) {
@@ -120,6 +143,12 @@ Status ScanRecorder::Write(const Piece& piece) {
                    return mission_->AppendMotorSamples(id, samples);
                  },
                  [&](const CameraFrame& frame) { return mission_->AppendFrame(id, frame); },
+                 [&](const EventRecord& event) -> Status {
+                   EventRecord named = event;
+                   named.text = fmt::format("scan {}: {}", id, event.text);
+                   FORESIGHT_CHECK(mission_->AddEvent(named));
+                   return {};
+                 },
                  [&](const End& end) {
                    running_.reset();
                    return mission_->EndScan(id, end.state, end.reason);

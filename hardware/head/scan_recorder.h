@@ -26,6 +26,8 @@ class ScanRecorder final : public ScanSink {
   void OnLine(const LidarLine& line) override;
   void OnMotorSamples(std::span<const MotorSample> samples) override;
   void OnFrame(const CameraFrame& frame) override;
+  /// Becomes an event of the mission, a warning where a device had trouble.
+  void OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) override;
   void OnScanEnded(ScanState state, const std::string& reason) override;
 
   /// Waits until everything handed over so far is on the disk. Returns the id of the newest scan,
@@ -37,7 +39,8 @@ class ScanRecorder final : public ScanSink {
     ScanState state;
     std::string reason;
   };
-  using Piece = std::variant<Scan, LidarLine, std::vector<MotorSample>, CameraFrame, End, Error>;
+  using Piece =
+      std::variant<Scan, LidarLine, std::vector<MotorSample>, CameraFrame, EventRecord, End, Error>;
 
   void Push(Piece piece, std::size_t bytes);
   void Work(const std::stop_token& stop);

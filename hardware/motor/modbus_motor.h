@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "hardware/api/motor.h"
-#include "hardware/api/motor_health.h"
 #include "hardware/api/sensor_clock.h"
 #include "hardware/motor/drive_procedure.h"
 #include "hardware/motor/modbus_link.h"
@@ -44,9 +43,7 @@ class ModbusMotor final : public Motor {
   Result<MotorSample> Position() override;
   std::vector<MotorSample> TakeTrack() override;
   void QuickStop() override;
-
-  /// Safe from any thread.
-  MotorHealth Health() const;
+  MotorHealth Health() const override;
 
  private:
   using WallClock = std::chrono::steady_clock;

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "hardware/api/lidar.h"
-#include "hardware/api/lidar_health.h"
 #include "hardware/api/sensor_clock.h"
 #include "hardware/net/wake_up.h"
 #include "hardware/scip/scip_lidar_options.h"
@@ -36,7 +35,7 @@ class ScipLidar final : public Lidar {
   void Stop() override;
   Result<std::optional<LidarLine>> WaitForLine(std::chrono::milliseconds timeout) override;
 
-  LidarHealth Health() const;
+  LidarHealth Health() const override;
 
  private:
   using SteadyClock = std::chrono::steady_clock;

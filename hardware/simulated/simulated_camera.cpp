@@ -17,6 +17,7 @@ Status SimulatedCamera::Connect() {
   const std::lock_guard lock(mutex_);
   exposed_.clear();
   finished_.clear();
+  health_.connected = true;
   return {};
 }
 
@@ -25,12 +26,12 @@ Status SimulatedCamera::Configure(const CameraSettings& settings) {
   return {};
 }
 
-Status SimulatedCamera::Trigger() {
+Result<std::int64_t> SimulatedCamera::Trigger() {
   const Exposure exposure{next_seq_++, clock_->Now() + 0.5 * settings_.exposure_s, settings_};
   const std::lock_guard lock(mutex_);
   exposed_.push_back(exposure);
   wake_.notify_all();
-  return {};
+  return exposure.seq;
 }
 
 Result<std::optional<CameraFrame>> SimulatedCamera::WaitForFrame(
@@ -41,6 +42,7 @@ Result<std::optional<CameraFrame>> SimulatedCamera::WaitForFrame(
     if (finished_.empty()) return std::nullopt;
     CameraFrame frame = std::move(finished_.front());
     finished_.pop_front();
+    ++health_.frames;
     return frame;
   }
   const double give_up_s = clock_->Now() + std::chrono::duration<double>(timeout).count();
@@ -50,8 +52,15 @@ Result<std::optional<CameraFrame>> SimulatedCamera::WaitForFrame(
   }
   const Exposure exposure = exposed_.front();
   exposed_.pop_front();
+  ++health_.frames;
+  lock.unlock();
   clock_->WaitUntil(exposure.ReadyAt());
   return Render(exposure, RunContext());
+}
+
+CameraHealth SimulatedCamera::Health() const {
+  const std::lock_guard lock(mutex_);
+  return health_;
 }
 
 CameraFrame SimulatedCamera::Render(const Exposure& exposure, const RunContext& context) const {
@@ -84,6 +93,9 @@ void SimulatedCamera::Work(const std::stop_token& stop) {
     } catch (const std::exception& error) {
       // The frame stays out, and who waits for it says so.
       LogError("{}: {}", Describe(), error.what());
+      const std::lock_guard lock(mutex_);
+      ++health_.lost;
+      health_.last_error = error.what();
     }
   }
 }

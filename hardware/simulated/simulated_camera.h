@@ -26,8 +26,9 @@ class SimulatedCamera final : public Camera {
   std::string Describe() const override { return "simulated camera"; }
   Status Connect() override;
   Status Configure(const CameraSettings& settings) override;
-  Status Trigger() override;
+  Result<std::int64_t> Trigger() override;
   Result<std::optional<CameraFrame>> WaitForFrame(std::chrono::milliseconds timeout) override;
+  CameraHealth Health() const override;
 
  private:
   struct Exposure {
@@ -47,9 +48,10 @@ class SimulatedCamera final : public Camera {
   CameraSettings settings_;
   std::int64_t next_seq_ = 0;
 
-  std::mutex mutex_;  ///< guards the queues
+  mutable std::mutex mutex_;  ///< guards the queues and the health
   std::deque<Exposure> exposed_;
   std::deque<CameraFrame> finished_;
+  CameraHealth health_;
   std::condition_variable_any wake_;
   std::condition_variable_any arrived_;
   std::jthread thread_;  ///< only in real time; last: it uses everything above

@@ -9,6 +9,15 @@ SimulatedLidar::SimulatedLidar(std::shared_ptr<const World> world,
                                std::shared_ptr<const SimulatedShaft> shaft)
     : world_(std::move(world)), clock_(std::move(clock)), shaft_(std::move(shaft)) {}
 
+Status SimulatedLidar::Connect() {
+  connected_ = true;
+  return {};
+}
+
+void SimulatedLidar::Stop() {
+  running_ = false;
+}
+
 Status SimulatedLidar::Start() {
   running_ = true;
   next_turn_ =
@@ -27,8 +36,18 @@ Result<std::optional<LidarLine>> SimulatedLidar::WaitForLine(std::chrono::millis
     return std::nullopt;
   }
   clock_->WaitUntil(ready_s);
+  ++lines_;
   return world_->MeasureLine(next_turn_++, stamp_s,
                              [this](double time_s) { return shaft_->At(time_s).angle_rad; });
+}
+
+LidarHealth SimulatedLidar::Health() const {
+  LidarHealth health;
+  health.connected = connected_;
+  health.streaming = running_;
+  health.line_rate_hz = running_ ? 1.0 / world_->true_rig().lidar.period_s : 0.0;
+  health.lines = lines_;
+  return health;
 }
 
 }  // namespace foresight

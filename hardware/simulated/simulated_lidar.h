@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "core/simulation/world.h"
@@ -16,17 +17,20 @@ class SimulatedLidar final : public Lidar {
                  std::shared_ptr<const SimulatedShaft> shaft);
 
   std::string Describe() const override { return "simulated lidar"; }
-  Status Connect() override { return {}; }
+  Status Connect() override;
   Status Start() override;
-  void Stop() override { running_ = false; }
+  void Stop() override;
   Result<std::optional<LidarLine>> WaitForLine(std::chrono::milliseconds timeout) override;
+  LidarHealth Health() const override;
 
  private:
   std::shared_ptr<const World> world_;
   std::shared_ptr<SimulatedClock> clock_;
   std::shared_ptr<const SimulatedShaft> shaft_;
-  bool running_ = false;
   std::int64_t next_turn_ = 0;  ///< of the mirror since the head was switched on
+  std::atomic<bool> connected_{false};
+  std::atomic<bool> running_{false};
+  std::atomic<std::int64_t> lines_{0};
 };
 
 }  // namespace foresight

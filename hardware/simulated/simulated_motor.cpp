@@ -86,4 +86,11 @@ void SimulatedMotor::QuickStop() {
   shaft_->Stop(now_s, kAcceleration_rad_s2);
 }
 
+MotorHealth SimulatedMotor::Health() const {
+  MotorHealth health;
+  health.connected = connected_;
+  health.poll_rate_hz = connected_ ? kSampleRate_hz : 0.0;
+  return health;
+}
+
 }  // namespace foresight

@@ -32,6 +32,7 @@ class SimulatedMotor final : public Motor {
   Result<MotorSample> Position() override;
   std::vector<MotorSample> TakeTrack() override;
   void QuickStop() override;
+  MotorHealth Health() const override;
 
  private:
   double Report(double time_s) const;
@@ -39,7 +40,7 @@ class SimulatedMotor final : public Motor {
   std::shared_ptr<const World> world_;
   std::shared_ptr<SimulatedClock> clock_;
   std::shared_ptr<SimulatedShaft> shaft_;
-  bool connected_ = false;
+  std::atomic<bool> connected_{false};
   std::int64_t next_sample_ = 0;
   /// When the home switch is reached; infinite while nobody looks for it.
   std::atomic<double> homed_at_s_;

@@ -68,6 +68,7 @@ class ObservedMotor final : public Motor {
     ++quick_stops;
     motor_->QuickStop();
   }
+  MotorHealth Health() const override { return motor_->Health(); }
 
   std::atomic<int> quick_stops{0};
   std::atomic<bool> failing{false};
@@ -90,6 +91,7 @@ class TamperedLidar final : public Lidar {
     Answer answer = lidar_->WaitForLine(timeout);
     return tamper ? tamper(std::move(answer)) : answer;
   }
+  LidarHealth Health() const override { return lidar_->Health(); }
 
   std::function<Answer(Answer)> tamper;  ///< set before the scan
 
@@ -104,13 +106,19 @@ class SilentCamera final : public Camera {
   std::string Describe() const override { return "test camera"; }
   Status Connect() override { return {}; }
   Status Configure(const CameraSettings&) override { return {}; }
-  Status Trigger() override { return {}; }
+  Result<std::int64_t> Trigger() override { return triggers_++; }
   Result<std::optional<CameraFrame>> WaitForFrame(std::chrono::milliseconds timeout) override {
     clock_->Sleep(timeout);
     return std::nullopt;
   }
+  CameraHealth Health() const override {
+    CameraHealth health;
+    health.connected = true;
+    return health;
+  }
 
  private:
+  std::int64_t triggers_ = 0;
   std::shared_ptr<SensorClock> clock_;
 };
 
