@@ -22,6 +22,7 @@ void AddUpsampleCommand(CLI::App& app, Invocation& invocation);
 void AddRenderCommand(CLI::App& app, Invocation& invocation);
 void AddDemoCommand(CLI::App& app, Invocation& invocation);
 void AddEmulateCommand(CLI::App& app, Invocation& invocation);
+void AddHealthCommand(CLI::App& app, Invocation& invocation);
 
 /// Creates the folder for results. Fails with kIo.
 Status MakeOutputFolder(const std::string& folder);

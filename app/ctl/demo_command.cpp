@@ -6,7 +6,7 @@
 #include "app/ctl/demo_report.h"
 #include "app/ctl/save_valve.h"
 #include "core/depth/depth_method.h"
-#include "core/fitting/fit_in_scan.h"
+#include "core/detection/fit_in_scan.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -59,7 +59,7 @@ void PrintOutcome(const DemoArguments& arguments, const DemoOutcome& o) {
                {"radius_error_mm", 1000.0 * o.error.radius_m},
                {"spokes_right", o.error.spokes == 0},
                {"depth_seconds", o.depth.seconds},
-               {"fit_seconds", o.valve.seconds}});
+               {"fit_seconds", o.valve.origin.seconds}});
     return;
   }
   PrintLine(

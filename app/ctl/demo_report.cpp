@@ -64,7 +64,7 @@ HtmlReport::Table ValveTable(const DemoOutcome& o) {
            {"spokes", fmt::format("{}", best.model.spokes)},
            {"rays", fmt::format("{}, {} hits, {:.0f} % agree", o.valve.evidence.rays,
                                 o.valve.evidence.hits, 100.0 * o.valve.evidence.inlier_share)},
-           {"time", fmt::format("{:.2f} s", o.valve.seconds)}}};
+           {"time", fmt::format("{:.2f} s", o.valve.origin.seconds)}}};
 }
 
 HtmlReport::Table TruthTable(const DemoOutcome& o) {
@@ -104,7 +104,7 @@ ColorImage CloudPicture(const DemoOutcome& o) {
 }
 
 ColorImage WithOverlay(ColorImage picture, const DemoOutcome& o) {
-  DrawPolygon(picture, o.valve.roi.polygon, kRegion, 2);
+  DrawPolygon(picture, std::get<ImageRoi>(o.valve.origin.roi).polygon, kRegion, 2);
   DrawPolylines(picture, ProjectValve(o.valve.best, o.scan.rig, o.frame.motor_angle_rad), kTemplate,
                 2);
   return picture;

@@ -4,8 +4,8 @@
 #include "app/ctl/depth_files.h"
 #include "app/ctl/open_scan.h"
 #include "app/ctl/save_valve.h"
-#include "core/fitting/detection_json.h"
-#include "core/fitting/fit_in_scan.h"
+#include "core/detection/detection_json.h"
+#include "core/detection/fit_in_scan.h"
 #include "core/registration/register_scan.h"
 
 namespace foresight {

@@ -21,6 +21,7 @@ int Main(int argc, char** argv) {
   AddRenderCommand(app, invocation);
   AddDemoCommand(app, invocation);
   AddEmulateCommand(app, invocation);
+  AddHealthCommand(app, invocation);
   return RunProgram("foresightctl", app, argc, argv,
                     [&](const RunContext& context) { return invocation(context); });
 }

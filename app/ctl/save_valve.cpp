@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "core/fitting/detection_json.h"
+#include "core/detection/detection_json.h"
 
 namespace foresight {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/fitting/detection.h"
+#include "core/fitting/valve/valve_detection.h"
 #include "core/mission/mission_file.h"
 
 namespace foresight {

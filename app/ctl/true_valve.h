@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/fitting/detection.h"
+#include "core/fitting/valve/valve_detection.h"
 #include "core/fitting/roi.h"
 #include "core/simulation/world.h"
 

@@ -10,6 +10,7 @@ Status AlignMoreLines(const RegisteredScan& scan, int first_line, const SensorRi
   if (!std::isfinite(motor_rad))
     return Fail(ErrorCode::kInvalidInput, "alignment: the picture has no motor angle");
   const Rigid<frame::Camera, frame::Base> camera_from_base = rig.CameraFromBase(motor_rad);
+  aligned.motor_rad = motor_rad;
   aligned.width = rig.camera.width;
   aligned.height = rig.camera.height;
   aligned.lines = scan.lines;

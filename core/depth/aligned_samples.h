@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -45,6 +46,8 @@ struct AlignedSamples {
   int height = 0;
   int lines = 0;  ///< of the lidar grid
   int beams = 0;
+  /// The motor's angle of the picture; NaN = not known.
+  double motor_rad = std::numeric_limits<double>::quiet_NaN();
   std::vector<AlignedSample> samples;
   std::vector<RejectReason> reasons;  ///< one a sample
   /// Where the image's pixels look; null = a pinhole, or not known: pixels are taken for rays.

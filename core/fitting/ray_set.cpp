@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/angles.h"
+
 namespace foresight {
 namespace {
 
@@ -25,29 +27,72 @@ Eigen::Vector3d MeanOrigin(const std::vector<RangeRay>& rays) {
   return sum / static_cast<double>(rays.size());
 }
 
+/// A region made ready for many points: an ImageRoi asks where a point appears in its picture.
+class RegionTest {
+ public:
+  RegionTest(const SensorRig& rig, const Roi& roi) : rig_(rig), roi_(roi) {
+    const auto* image = std::get_if<ImageRoi>(&roi);
+    if (image == nullptr) return;
+    camera_from_base_ = rig.CameraFromBase(image->motor_rad);
+    bounds_ = image->Bounds();
+  }
+
+  bool Holds(const Eigen::Vector3d& point_in_base) const {
+    if (const auto* box = std::get_if<BoxRoi>(&roi_)) return box->Contains(point_in_base);
+    const Eigen::Vector3d in_camera = camera_from_base_ * point_in_base;
+    if (!(in_camera.z() > 0.0)) return false;
+    const auto pixel = rig_.camera.Project(in_camera);
+    return pixel && InBox(bounds_, *pixel) && std::get<ImageRoi>(roi_).Contains(*pixel);
+  }
+
+ private:
+  const SensorRig& rig_;
+  const Roi& roi_;
+  Rigid<frame::Camera, frame::Base> camera_from_base_;
+  PixelBox bounds_;
+};
+
+/// The pixels of a map that can lie in a region.
+PixelBox PixelsToLookAt(const Roi& roi, int width, int height) {
+  const Eigen::Vector2d last(width - 1, height - 1);
+  const auto* image = std::get_if<ImageRoi>(&roi);
+  if (image == nullptr) return {Eigen::Vector2d::Zero(), last};
+  const PixelBox box = image->Bounds();
+  const auto clamped = [&last](const Eigen::Vector2d& corner) -> Eigen::Vector2d {
+    return corner.cwiseMax(Eigen::Vector2d::Zero()).cwiseMin(last);
+  };
+  return {clamped(box.low.array().ceil()), clamped(box.high.array().floor())};
+}
+
+Status CheckPicture(const Roi& roi, double motor_rad) {
+  constexpr double kSamePicture_rad = 1e-6;
+  const auto* image = std::get_if<ImageRoi>(&roi);
+  if (image == nullptr || std::abs(image->motor_rad - motor_rad) <= kSamePicture_rad) return {};
+  return Fail(ErrorCode::kInvalidInput,
+              "the region was drawn on the picture at {:.2f} deg, the depth map belongs to the one "
+              "at {:.2f} deg",
+              DegreesFromRadians(image->motor_rad), DegreesFromRadians(motor_rad));
+}
+
 }  // namespace
 
-Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const ImageRoi& roi,
+Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const Roi& roi,
                             double sigma_m) {
-  FORESIGHT_CHECK(roi.Check());
+  FORESIGHT_CHECK(CheckRoi(roi));
   FORESIGHT_CHECK(CheckSigma(sigma_m));
   RaySet set;
   set.sigma_m = sigma_m;
   set.footprint_rad = rig.lidar.angle_step_rad;
-  const Rigid<frame::Camera, frame::Base> camera_from_base = rig.CameraFromBase(roi.motor_rad);
-  const PixelBox box = roi.Bounds();
+  const RegionTest region(rig, roi);
   for (int line = 0; line < scan.lines; ++line) {
     const Eigen::Vector3d origin = scan.origins[static_cast<std::size_t>(line)].cast<double>();
     if (!origin.allFinite()) continue;
     for (int beam = 0; beam < scan.beams; ++beam) {
       if (!scan.Valid(line, beam)) continue;
       const Eigen::Vector3d point = scan.points[scan.Index(line, beam)].cast<double>();
-      const Eigen::Vector3d in_camera = camera_from_base * point;
-      if (!(in_camera.z() > 0.0)) continue;
-      const auto pixel = rig.camera.Project(in_camera);
-      if (!pixel || !InBox(box, *pixel) || !roi.Contains(*pixel)) continue;
       const double range = (point - origin).norm();
-      if (range > 0.0) set.rays.push_back({origin, (point - origin) / range, range});
+      if (range > 0.0 && region.Holds(point))
+        set.rays.push_back({origin, (point - origin) / range, range, {beam, line}});
     }
   }
   if (set.rays.empty())
@@ -58,8 +103,10 @@ Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, co
 }
 
 Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
-                             const ImageRoi& roi, int stride, double sigma_m, double density) {
-  FORESIGHT_CHECK(roi.Check());
+                             double motor_rad, const Roi& roi, int stride, double sigma_m,
+                             double density) {
+  FORESIGHT_CHECK(CheckRoi(roi));
+  FORESIGHT_CHECK(CheckPicture(roi, motor_rad));
   FORESIGHT_CHECK(CheckSigma(sigma_m));
   if (stride < 1)
     return Fail(ErrorCode::kInvalidOptions, "rays of a region: stride {} is below 1", stride);
@@ -75,21 +122,21 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
   set.samples_per_ray = std::min(1.0, density * stride * stride);
   set.footprint_rad = std::max<double>(stride, kDenseEdgeBlur_px) / rig.camera.fx;
   const Rigid<frame::Base, frame::Camera> base_from_camera =
-      rig.CameraFromBase(roi.motor_rad).Inverse();
+      rig.CameraFromBase(motor_rad).Inverse();
   set.viewpoint = base_from_camera.translation();
-  const PixelBox box = roi.Bounds();
-  const auto clamped = [](double value, int size) {
-    return static_cast<int>(std::clamp(value, 0.0, size - 1.0));
-  };
-  const int x_end = clamped(std::floor(box.high.x()), masked_depth_m.width());
-  const int y_end = clamped(std::floor(box.high.y()), masked_depth_m.height());
-  for (int y = clamped(std::ceil(box.low.y()), masked_depth_m.height()); y <= y_end; y += stride) {
-    for (int x = clamped(std::ceil(box.low.x()), masked_depth_m.width()); x <= x_end; x += stride) {
+  const auto* image = std::get_if<ImageRoi>(&roi);
+  const auto* box = std::get_if<BoxRoi>(&roi);
+  const PixelBox pixels = PixelsToLookAt(roi, masked_depth_m.width(), masked_depth_m.height());
+  const Eigen::Vector2i low = pixels.low.cast<int>(), high = pixels.high.cast<int>();
+  for (int y = low.y(); y <= high.y(); y += stride) {
+    for (int x = low.x(); x <= high.x(); x += stride) {
       const double depth = masked_depth_m(x, y);
-      if (!(depth > 0.0) || !roi.Contains({x, y})) continue;
+      if (!(depth > 0.0) || (image != nullptr && !image->Contains({x, y}))) continue;
       const auto ray = rig.camera.Unproject({x, y});
       if (!ray || !(ray->z() > 0.0)) continue;
-      set.rays.push_back({set.viewpoint, base_from_camera.Rotate(*ray), depth / ray->z()});
+      const RangeRay seen{set.viewpoint, base_from_camera.Rotate(*ray), depth / ray->z(),
+                          Eigen::Vector2i(x - low.x(), y - low.y()) / stride};
+      if (box == nullptr || box->Contains(seen.Point())) set.rays.push_back(seen);
     }
   }
   if (set.rays.empty())

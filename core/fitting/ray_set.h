@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "core/depth/upsample.h"
@@ -15,6 +16,9 @@ struct RangeRay {
   Eigen::Vector3d origin;     ///< in base
   Eigen::Vector3d direction;  ///< in base, length 1
   double range_m = 0.0;       ///< along direction
+  /// Where on the grid it was measured, (beam, line) of a scan or (column, row) of a depth map's
+  /// sampled pixels: neighbours differ by 1. (-1, -1) = a cloud without a grid.
+  Eigen::Vector2i cell = Eigen::Vector2i::Constant(-1);
 
   Eigen::Vector3d Point() const { return origin + range_m * direction; }
 };
@@ -29,17 +33,28 @@ struct RaySet {
   double samples_per_ray = 1.0;  ///< independent measurements behind a ray; < 1 for a dense map
 };
 
-/// The raw lidar returns that appear inside the region, also those that the depth filters would
-/// reject: a fit has its own model of bad returns. Origins are the lidar's on each line. Fails with
-/// kInvalidInput (the region) and kTooFewPoints (nothing inside it). O(points).
-Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const ImageRoi& roi,
+/// The raw lidar returns inside the region, also those that the depth filters would reject: a fit
+/// has its own model of bad returns. Origins are the lidar's on each line. An ImageRoi holds what
+/// appears inside its polygon in its picture. Fails with kInvalidInput (the region) and
+/// kTooFewPoints (nothing inside it). O(points).
+Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const Roi& roi,
                             double sigma_m);
 
-/// The masked dense depth inside the region; every `stride`-th pixel in both directions, seen from
-/// the camera's centre. `density` is the share of pixels with a lidar measurement of their own: an
-/// upsampled map holds no more independent measurements than went into it. Fails with kInvalidInput
-/// (the region, the stride, the map's size) and kTooFewPoints. O(pixels of the region).
+/// The masked dense depth of the picture taken at `motor_rad` inside the region; every `stride`-th
+/// pixel in both directions, seen from the camera's centre. `density` is the share of pixels with a
+/// lidar measurement of their own: an upsampled map holds no more independent measurements than
+/// went into it. Fails with kInvalidInput (the region, also one drawn on another picture; the
+/// stride; the map's size) and kTooFewPoints. O(pixels of the region).
 Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
-                             const ImageRoi& roi, int stride, double sigma_m, double density);
+                             double motor_rad, const Roi& roi, int stride, double sigma_m,
+                             double density);
+
+/// Points of a cloud in base inside the region, seen from one viewpoint: ranges of a scanner, or a
+/// cloud from elsewhere. Points that are not finite are left out. `footprint_rad` is set to the
+/// median angle between neighbouring points. Fails with kInvalidInput (the region, an ImageRoi
+/// without `rig`; a viewpoint that is not finite) and kTooFewPoints. O(n log n).
+Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
+                             const Eigen::Vector3d& viewpoint, const SensorRig* rig, const Roi& roi,
+                             double sigma_m);
 
 }  // namespace foresight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace foresight {
 namespace {
@@ -22,6 +23,20 @@ ImageRoi ImageRoi::Rectangle(double motor_rad, const Eigen::Vector2d& corner_a,
   const Eigen::Vector2d low = corner_a.cwiseMin(corner_b);
   const Eigen::Vector2d high = corner_a.cwiseMax(corner_b);
   return {motor_rad, {low, {high.x(), low.y()}, high, {low.x(), high.y()}}};
+}
+
+ImageRoi ImageRoi::AroundTwoClicks(double motor_rad, const Eigen::Vector2d& click_a,
+                                   const Eigen::Vector2d& click_b) {
+  constexpr int kCorners = 32;
+  constexpr double kWider = 1.3;
+  const Eigen::Vector2d middle = 0.5 * (click_a + click_b);
+  const double radius = 0.5 * kWider * (click_a - click_b).norm();
+  ImageRoi roi{motor_rad, {}};
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    roi.polygon.push_back(middle + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return roi;
 }
 
 bool ImageRoi::Contains(const Eigen::Vector2d& pixel) const {
@@ -62,6 +77,26 @@ Status ImageRoi::Check() const {
     return Fail(ErrorCode::kInvalidInput,
                 "region: {:.1f} x {:.1f} px is too small, draw at least 4", size.x(), size.y());
   return {};
+}
+
+bool BoxRoi::Contains(const Eigen::Vector3d& point_in_base) const {
+  const Eigen::Vector3d in_box = base_from_box.Inverse() * point_in_base;
+  return (in_box.cwiseAbs().array() <= 0.5 * size_m.array()).all();
+}
+
+Status BoxRoi::Check() const {
+  constexpr double kMinSide_m = 0.01, kMaxSide_m = 100.0;
+  if (!base_from_box.translation().allFinite() || !base_from_box.rotation().coeffs().allFinite())
+    return Fail(ErrorCode::kInvalidInput, "region: the box's pose is not finite");
+  if (!(size_m.minCoeff() >= kMinSide_m) || !(size_m.maxCoeff() <= kMaxSide_m))
+    return Fail(ErrorCode::kInvalidInput,
+                "region: a box of {} x {} x {} m; each side is {} to {} m", size_m.x(), size_m.y(),
+                size_m.z(), kMinSide_m, kMaxSide_m);
+  return {};
+}
+
+Status CheckRoi(const Roi& roi) {
+  return std::visit([](const auto& region) { return region.Check(); }, roi);
 }
 
 }  // namespace foresight

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/objects/solid_part.h"
 
 namespace foresight {
 
@@ -26,8 +27,6 @@ struct ValveModel {
   double Distance(const Eigen::Vector3d& point) const;
 };
 
-/// Closed or open polylines of the template in the object's frame, for drawing.
-using Wireframe = std::vector<std::vector<Eigen::Vector3d>>;
 Wireframe WireframeOf(const ValveModel& model);
 
 }  // namespace foresight

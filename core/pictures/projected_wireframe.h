@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/fitting/detection.h"
+#include "core/fitting/valve/valve_detection.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {

@@ -76,8 +76,9 @@ bool IsVtk(const std::string& target) {
 }
 
 const std::vector<std::string> kCoreOrder = {
-    "base",  "geometry", "io",         "sensor",  "objects",  "simulation", "registration",
-    "depth", "fitting",  "evaluation", "mission", "pictures", "report"};
+    "base",         "geometry",   "io",      "sensor",        "objects",       "simulation",
+    "registration", "depth",      "fitting", "fitting/valve", "fitting/drill", "fitting/terrain",
+    "detection",    "evaluation", "mission", "pictures",      "report"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);

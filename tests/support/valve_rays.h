@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/base/random.h"
-#include "core/fitting/detection.h"
+#include "core/fitting/valve/valve_detection.h"
 #include "core/fitting/ray_set.h"
 
 namespace foresight::testing {

@@ -18,7 +18,7 @@ struct MissionTest : testing::Test {
   FoundValve Valve() const {
     FoundValve valve;
     valve.detection.best.model.rim_radius_m = 0.123;
-    valve.detection.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
+    valve.detection.origin.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
     valve.rig = scan->rig;
     valve.scan_uuid = scan->uuid;
     return valve;

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <QObject>
 
-#include "core/fitting/fit_in_scan.h"
+#include "core/detection/fit_in_scan.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 

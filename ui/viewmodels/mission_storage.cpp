@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "core/fitting/detection_json.h"
+#include "core/detection/detection_json.h"
 
 namespace foresight {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/depth/pipeline.h"
-#include "core/fitting/detection.h"
+#include "core/fitting/valve/valve_detection.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/scan.h"
 #include "ui/viewmodels/notice.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "core/depth/pipeline.h"
-#include "core/fitting/fit_in_scan.h"
+#include "core/detection/fit_in_scan.h"
 #include "core/geometry/angles.h"
 #include "core/registration/register_scan.h"
 #include "core/simulation/world.h"

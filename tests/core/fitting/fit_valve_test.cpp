@@ -1,4 +1,4 @@
-#include "core/fitting/fit_valve.h"
+#include "core/fitting/valve/fit_valve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "core/fitting/ray_likelihood.h"
+#include "core/fitting/valve/ray_likelihood.h"
 
 #include <gtest/gtest.h>
 
-#include "core/fitting/polish.h"
-#include "core/fitting/refine.h"
+#include "core/fitting/valve/polish.h"
+#include "core/fitting/valve/refine.h"
 #include "core/fitting/wall.h"
 #include "tests/support/valve_rays.h"
 

@@ -54,7 +54,7 @@ TEST(RaysFromDepth, APixelsRayEndsAtItsDepth) {
   DepthImage depth(rig.camera.width, rig.camera.height, kNaN);
   depth(700, 500) = 1.5f;
   const ImageRoi roi = ImageRoi::Rectangle(-0.3, {600, 400}, {800, 600});
-  const auto set = RaysFromDepth(depth, rig, roi, 1, 0.01, 0.02);
+  const auto set = RaysFromDepth(depth, rig, roi.motor_rad, roi, 1, 0.01, 0.02);
   ASSERT_TRUE(set) << set.error().message;
   ASSERT_EQ(set->rays.size(), 1U);
   const Eigen::Vector3d in_camera = rig.CameraFromBase(-0.3) * set->rays[0].Point();
@@ -69,7 +69,7 @@ TEST(RaysFromDepth, CountsNoMoreMeasurementsThanTheLidarMade) {
   const SensorRig rig = DefaultSensorRig();
   const DepthImage depth(rig.camera.width, rig.camera.height, 2.0f);
   const ImageRoi roi = ImageRoi::Rectangle(0.0, {600, 400}, {699, 499});
-  const auto set = RaysFromDepth(depth, rig, roi, 2, 0.01, 0.02);
+  const auto set = RaysFromDepth(depth, rig, roi.motor_rad, roi, 2, 0.01, 0.02);
   ASSERT_TRUE(set);
   EXPECT_EQ(set->rays.size(), 2500U);
   EXPECT_TRUE(set->dense);
@@ -81,13 +81,13 @@ TEST(RaysFromDepth, ARegionBeyondTheImageIsCutAtItsEdge) {
   const SensorRig rig = DefaultSensorRig();
   const DepthImage depth(rig.camera.width, rig.camera.height, 2.0f);
   const auto set =
-      RaysFromDepth(depth, rig, ImageRoi::Rectangle(0.0, {-50, -50}, {9, 9}), 1, 0.01, 0.02);
+      RaysFromDepth(depth, rig, 0.0, ImageRoi::Rectangle(0.0, {-50, -50}, {9, 9}), 1, 0.01, 0.02);
   ASSERT_TRUE(set);
   EXPECT_EQ(set->rays.size(), 100U);
 }
 
 TEST(RaysFromDepth, RefusesAMapOfAnotherSize) {
-  const auto set = RaysFromDepth(DepthImage(10, 10, 1.0f), DefaultSensorRig(),
+  const auto set = RaysFromDepth(DepthImage(10, 10, 1.0f), DefaultSensorRig(), 0.0,
                                  ImageRoi::Rectangle(0.0, {0, 0}, {9, 9}), 1, 0.01, 0.02);
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().code, ErrorCode::kInvalidInput);

@@ -1,4 +1,4 @@
-#include "core/fitting/rim_search.h"
+#include "core/fitting/valve/rim_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fitting/valve_tracer.h"
+#include "core/fitting/valve/valve_tracer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,34 @@
+#include "core/detection/fit_in_scan.h"
+
+namespace foresight {
+namespace {
+
+/// Deviation of a lidar range as the fit's model takes it; a dense map keeps its sources' common
+/// errors.
+constexpr double kRangeSigma_m = 0.010;
+/// Neighbouring pixels of a dense map say the same twice.
+constexpr int kDepthStride_px = 2;
+
+Result<RaySet> RaysOf(const ProcessedScan& scan, FitSource source, const Roi& roi) {
+  if (source == FitSource::kRaw) return RaysFromScan(scan.cloud, scan.rig, roi, kRangeSigma_m);
+  if (scan.depth == nullptr)
+    return Fail(ErrorCode::kState,
+                "there is no depth map yet; compute it first, or fit to the raw returns");
+  const MaskImage& mask = scan.mask != nullptr ? *scan.mask : scan.depth->mask;
+  return RaysFromDepth(ApplyMask(scan.depth->dense.depth_m, mask), scan.rig,
+                       scan.depth->samples.motor_rad, roi, kDepthStride_px, kRangeSigma_m,
+                       LocalDensity(scan.depth->samples));
+}
+
+}  // namespace
+
+Result<ValveDetection> FitValveInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
+                                      const FitValveOptions& options, const RunContext& context) {
+  FORESIGHT_CHECK(CheckRoi(roi));
+  FORESIGHT_TRY(const RaySet rays, RaysOf(scan, source, roi));
+  FORESIGHT_TRY(ValveDetection detection, FitValve(rays, options, context));
+  detection.origin.roi = roi;
+  return detection;
+}
+
+}  // namespace foresight

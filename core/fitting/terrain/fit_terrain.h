@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "core/base/run_context.h"
+#include "core/fitting/ray_set.h"
+#include "core/fitting/terrain/terrain_detection.h"
+
+namespace foresight {
+
+struct FitTerrainOptions {
+  Eigen::Vector2d block_size_m = {0.397, 0.390};   ///< two standard cinder blocks side by side
+  Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
+  double max_tilt_rad = 0.7853981633974483;        ///< of a surface, 45 deg
+  double toehold_margin_m = 0.020;                 ///< kept from each side of a block
+  bool graph_cut = true;  ///< false: planes stay as they grew (for comparison)
+  int max_rays = 62000;   ///< a denser region is thinned to this many
+  std::uint64_t seed = 1;
+
+  Status Check() const;
+};
+
+/// Finds the blocks that can be stood on, Section V-B: normals on a metric window, progressive
+/// grouping, alpha-expansion graph cut, refits, rectangles of the known size, edges. With `last`,
+/// blocks that moved since that accepted detection are marked (both in base, the robot unmoved).
+/// The same rays, options and seed give the same answer on any number of threads. A region without
+/// a block is no error: it has ground and unknown surfaces only. Fails with kTooFewPoints,
+/// kNoConvergence (no plane at all), kInvalidOptions and kCancelled. Below a second at 276 x 222.
+Result<TerrainDetection> FitTerrain(const RaySet& rays, const FitTerrainOptions& options,
+                                    const TerrainDetection* last, const RunContext& context);
+
+}  // namespace foresight

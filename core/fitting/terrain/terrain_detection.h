@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fitting/fit_origin.h"
+#include "core/fitting/verdict.h"
+#include "core/geometry/rigid.h"
+
+namespace foresight {
+
+/// How well the measurements support a block's top.
+struct BlockEvidence {
+  int points = 0;            ///< of its plane, inside the rectangle
+  double cover = 0.0;        ///< share of the rectangle with support
+  double see_through = 0.0;  ///< ... with beams that went through
+  double outside = 0.0;      ///< support beyond the rectangle, as a share of its area
+  int confirmed_edges = 0;   ///< 0 to 4: support inside, none outside
+  double rms_m = 0.0;        ///< of the points from the plane
+};
+
+/// Where a foot may stand: the rectangle shrunk by a margin.
+struct Toehold {
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< along the surface's x and y; 0 = none
+  double slope_rad = 0.0;                            ///< of the surface against level
+  /// Height of its centre above the nearest neighbouring surface's plane there; NaN = no neighbour.
+  double step_m = std::nan("");
+  double sigma_height_m = 0.0;
+  double sigma_tilt_rad = 0.0;
+};
+
+/// One surface of rough terrain.
+struct TerrainSurface {
+  enum class Kind {
+    kBlock,    ///< the top of a block of the known size
+    kGround,   ///< level and large, or under the blocks
+    kUnknown,  ///< a plane that is neither; never a foothold
+  };
+
+  Kind kind = Kind::kUnknown;
+  /// The origin is the middle of the top, z its normal (up), x along its long side. In base.
+  Rigid<frame::Base, frame::Object> base_from_object;
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< along x and y
+  PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
+  BlockEvidence evidence;
+  Toehold toehold;
+  Verdict verdict;
+  /// How far its centre is from the block of the last accepted scan that it matches; NaN = none.
+  double shift_m = std::nan("");
+  double turn_rad = std::nan("");
+};
+/// "block", "ground", "unknown".
+const char* ToString(TerrainSurface::Kind kind);
+
+/// All surfaces of a region.
+struct TerrainDetection {
+  std::vector<TerrainSurface> surfaces;  ///< blocks first, nearest first
+  /// Which surface each ray of the region belongs to, for colours; -1 = none.
+  std::vector<int> labels;
+  Verdict verdict;  ///< of the whole: as good as its worst block that is offered as a foothold
+  FitOrigin origin;
+};
+
+}  // namespace foresight

@@ -1,0 +1,214 @@
+#include "core/fitting/valve/fit_valve.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "core/fitting/valve/polish.h"
+#include "core/fitting/valve/ray_likelihood.h"
+#include "core/fitting/valve/refine.h"
+#include "core/fitting/valve/rim_search.h"
+#include "core/fitting/valve/spoke_search.h"
+#include "core/fitting/valve/valve_state.h"
+#include "core/fitting/valve/valve_verdict.h"
+#include "core/fitting/wall.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kMinRays = 60;
+constexpr int kMinForeground = 25;
+constexpr int kRimPoints = 500;  // of the foreground, for the circle search
+constexpr int kGridRays = 900;   // for the grid of dish and phase
+constexpr int kKeptRims = 2;
+constexpr int kPolished = 2;  // numbers of spokes
+constexpr int kRivals = 3;
+constexpr double kTubeRadius_m = 0.012;  // where the search starts
+
+/// Streams of the seed: each stage draws its own numbers.
+enum Stream : std::uint64_t { kThinning, kWall, kRims };
+
+template <class T>
+std::vector<T> RandomSubset(const std::vector<T>& values, int count, Random& random) {
+  if (std::ssize(values) <= count) return values;
+  std::vector<T> shuffled = values;
+  for (int i = 0; i < count; ++i)
+    std::swap(shuffled[static_cast<std::size_t>(i)],
+              shuffled[static_cast<std::size_t>(i) +
+                       random.Index(static_cast<int>(std::ssize(shuffled)) - i)]);
+  shuffled.resize(static_cast<std::size_t>(count));
+  return shuffled;
+}
+
+/// At most `count` rays; each then stands for more of a dense map's measurements.
+RaySet Thinned(const RaySet& rays, int count, Random& random) {
+  RaySet thinned = rays;
+  thinned.rays = RandomSubset(rays.rays, count, random);
+  const double share = static_cast<double>(thinned.rays.size()) /
+                       static_cast<double>(std::max<std::size_t>(1, rays.rays.size()));
+  thinned.samples_per_ray = std::min(1.0, rays.samples_per_ray / share);
+  return thinned;
+}
+
+bool Usable(const RangeRay& ray) {
+  return ray.origin.allFinite() && ray.direction.allFinite() && std::isfinite(ray.range_m) &&
+         ray.range_m > 0.0;
+}
+
+Status CheckRays(const RaySet& rays) {
+  if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
+      !rays.viewpoint.allFinite())
+    return Fail(ErrorCode::kInvalidInput,
+                "rays of the region: sigma_m {}, footprint_rad {} or samples_per_ray {} is not "
+                "usable",
+                rays.sigma_m, rays.footprint_rad, rays.samples_per_ray);
+  if (std::ssize(rays.rays) < kMinRays)
+    return Fail(
+        ErrorCode::kTooFewPoints,
+        "the region holds {} measurements, a wheel needs {}: draw it larger, scan slower or "
+        "move closer",
+        rays.rays.size(), kMinRays);
+  return {};
+}
+
+/// Rims as valves without spokes, fitted to the rays, the best few first.
+std::vector<ValveCandidate> FitRims(const RaySet& rays, const std::optional<Plane>& wall,
+                                    const RayLikelihood& likelihood,
+                                    const std::vector<RimHypothesis>& rims) {
+  std::vector<ValveCandidate> fitted;
+  RefineOptions options;
+  options.parts = ValveParts::kRim;
+  options.wall = wall;
+  for (const RimHypothesis& rim : rims) {
+    const ValveCandidate start{PoseFromAxis(rim.center, rim.axis),
+                               UsualValve(rim.radius_m, kTubeRadius_m, 0, 0.0), 0.0};
+    ValveCandidate valve = Refine(rays, start, options).valve;
+    valve.log_likelihood = likelihood(valve, ValveParts::kRim);
+    fitted.push_back(valve);
+  }
+  std::stable_sort(fitted.begin(), fitted.end(), [](const auto& a, const auto& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+  if (fitted.size() > kKeptRims) fitted.resize(kKeptRims);
+  return fitted;
+}
+
+std::vector<int> SpokeCounts(const FitValveOptions& options) {
+  std::vector<int> counts = {0};
+  for (int n = options.min_spokes; n <= options.max_spokes; ++n) counts.push_back(n);
+  return counts;
+}
+
+Result<std::vector<RimHypothesis>> SearchRims(const RaySet& rays, const WallSplit& split,
+                                              const FitValveOptions& options) {
+  if (std::ssize(split.foreground) < kMinForeground)
+    return Fail(ErrorCode::kNoConvergence,
+                "only {} of {} measurements stand in front of the wall: draw the region around the "
+                "wheel",
+                split.foreground.size(), rays.rays.size());
+  Random random(options.seed, kRims);
+  const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
+  RimSearchOptions search;
+  const Eigen::Vector3d middle =
+      std::accumulate(points.begin(), points.end(), Eigen::Vector3d(Eigen::Vector3d::Zero())) /
+      static_cast<double>(points.size());
+  search.facing = split.wall ? split.wall->normal : (rays.viewpoint - middle).normalized();
+  search.min_radius_m = options.min_rim_radius_m;
+  search.max_radius_m = options.max_rim_radius_m;
+  search.tolerance_m = 2.0 * rays.sigma_m + 0.008;
+  search.trials = options.circle_trials;
+  std::vector<RimHypothesis> rims = FindRims(points, search, random);
+  if (rims.empty())
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing round of {:.0f} to {:.0f} mm radius stands in the region: draw it around "
+                "the wheel",
+                1000.0 * options.min_rim_radius_m, 1000.0 * options.max_rim_radius_m);
+  return rims;
+}
+
+/// Polishes the leading candidates and puts them back in order.
+Status PolishLeaders(const RayLikelihood& likelihood, std::vector<ValveCandidate>& valves,
+                     const RunContext& context) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(kPolished, valves.size()); ++i) {
+    if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
+    valves[i] = Polish(likelihood, valves[i]);
+  }
+  std::stable_sort(valves.begin(), valves.end(), [](const auto& a, const auto& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+  return {};
+}
+
+}  // namespace
+
+Status FitValveOptions::Check() const {
+  if (!(min_rim_radius_m > 0.0) || !(max_rim_radius_m > min_rim_radius_m))
+    return Fail(ErrorCode::kInvalidOptions,
+                "valve fit: min_rim_radius_m {} and max_rim_radius_m {} make no range",
+                min_rim_radius_m, max_rim_radius_m);
+  if (min_spokes < 2 || max_spokes > 6 || min_spokes > max_spokes)
+    return Fail(ErrorCode::kInvalidOptions,
+                "valve fit: min_spokes {} to max_spokes {} is not within 2 to 6", min_spokes,
+                max_spokes);
+  if (circle_trials < 1)
+    return Fail(ErrorCode::kInvalidOptions, "valve fit: circle_trials {} is below 1",
+                circle_trials);
+  if (max_rays < kMinRays)
+    return Fail(ErrorCode::kInvalidOptions, "valve fit: max_rays {} is below {}", max_rays,
+                kMinRays);
+  return {};
+}
+
+Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& options,
+                                const RunContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  FORESIGHT_CHECK(options.Check());
+  RaySet usable = all_rays;
+  std::erase_if(usable.rays, [](const RangeRay& ray) { return !Usable(ray); });
+  FORESIGHT_CHECK(CheckRays(usable));
+
+  context.Report(0.0, "looking for the wall");
+  Random thinning(options.seed, kThinning);
+  Random wall_random(options.seed, kWall);
+  const RaySet rays = Thinned(usable, options.max_rays, thinning);
+  const RaySet few_rays = Thinned(rays, kGridRays, thinning);
+  const WallSplit split = SplitWall(rays, wall_random);
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
+
+  context.Report(0.1, "looking for the rim");
+  FORESIGHT_TRY(const std::vector<RimHypothesis> hypotheses, SearchRims(rays, split, options));
+  const RayLikelihood likelihood(rays, split.wall);
+  const RayLikelihood coarse(few_rays, split.wall);
+  const std::vector<ValveCandidate> rims = FitRims(rays, split.wall, likelihood, hypotheses);
+
+  context.Report(0.3, "counting the spokes");
+  FORESIGHT_TRY(
+      std::vector<ValveCandidate> valves,
+      FindSpokes(rays, split.wall, coarse, likelihood, rims, SpokeCounts(options), context));
+  context.Report(0.7, "improving the pose");
+  FORESIGHT_CHECK(PolishLeaders(likelihood, valves, context));
+
+  ValveDetection detection;
+  detection.best = WithUpwardSpoke(valves.front());
+  const double nothing = likelihood.Nothing();
+  if (!(detection.best.log_likelihood > nothing))
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing in the region looks like a wheel: draw it around one, or scan slower");
+  for (std::size_t i = 1; i < valves.size() && i <= kRivals; ++i)
+    detection.rivals.push_back(WithUpwardSpoke(valves[i]));
+  RefineOptions at_end;
+  at_end.wall = split.wall;
+  at_end.rounds = at_end.steps = 1;
+  SetSigmas(Refine(rays, detection.best, at_end).information, detection);
+  detection.evidence = GatherEvidence(rays, detection.best);
+  detection.evidence.margin_nats = valves[0].log_likelihood - valves[1].log_likelihood;
+  detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
+  detection.verdict = AssessValve(rays, detection, options);
+  detection.origin.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  context.Report(1.0, "valve fitted");
+  return detection;
+}
+
+}  // namespace foresight

@@ -1,0 +1,162 @@
+#include "core/fitting/valve/refine.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/fitting/valve/valve_tracer.h"
+#include "core/fitting/wall.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kCauchyScale2 = 4.0;   // of the squared pair of residuals: 2 sigma
+constexpr double kGate = 2.5;           // sigmas of range within which a ray saw the template
+constexpr double kEdgeError_m = 0.004;  // across the ray, added to half the footprint
+constexpr double kStep = 1e-5;          // of the numeric derivative, metres and radians
+constexpr int kPriors = 2;
+
+/// What a ray says about the template while a round lasts.
+enum class Role { kSurface, kFree, kNothing };
+
+struct RoledRay {
+  const RangeRay* ray;
+  Role role;
+};
+
+/// The step of a one-sided derivative. A size at the end of its range can only change inwards: the
+/// other way its clamp would hide the slope and the size would stay there for ever.
+double StepTowardsUsual(const ValveModel& model, int parameter) {
+  const bool above =
+      (parameter == kTubeRadius && model.tube_radius_m > ValvePrior::kTubeRadius_m) ||
+      (parameter == kDish && model.dish_m > ValvePrior::kDish_m);
+  return above ? -kStep : kStep;
+}
+
+class Problem {
+ public:
+  Problem(const RaySet& rays, const RefineOptions& options)
+      : rays_(rays), options_(options), sigma_m_(std::hypot(rays.sigma_m, kEdgeError_m)) {
+    const std::size_t stride = std::max<std::size_t>(
+        1, (rays.rays.size() + static_cast<std::size_t>(options.max_rays) - 1) /
+               static_cast<std::size_t>(options.max_rays));
+    for (std::size_t i = 0; i < rays.rays.size(); i += stride)
+      roled_.push_back({&rays.rays[i], Role::kNothing});
+    weight_ = std::min(1.0, rays.samples_per_ray) * static_cast<double>(rays.rays.size()) /
+              static_cast<double>(roled_.size());
+  }
+
+  void AssignRoles(const ValveCandidate& valve) {
+    const ValveTracer tracer(valve, options_.parts);
+    for (RoledRay& roled : roled_) {
+      const double behind = roled.ray->range_m - tracer.Meet(*roled.ray).middle_m;
+      const double gate_m = std::min(kGate * sigma_m_, RangeFromWall(*roled.ray));
+      roled.role = std::abs(behind) < gate_m             ? Role::kSurface
+                   : behind > 0.0 && options_.free_space ? Role::kFree
+                                                         : Role::kNothing;
+    }
+  }
+
+  /// Two residuals a ray, then the priors.
+  Eigen::VectorXd Residuals(const ValveCandidate& valve) const {
+    const ValveTracer tracer(valve, options_.parts);
+    Eigen::VectorXd residuals = Eigen::VectorXd::Zero(2 * std::ssize(roled_) + kPriors);
+    for (Eigen::Index i = 0; i < std::ssize(roled_); ++i) {
+      const RoledRay& roled = roled_[static_cast<std::size_t>(i)];
+      if (roled.role == Role::kNothing) continue;
+      const ValveMeeting meeting = tracer.Meet(*roled.ray);
+      const double lateral_m = kEdgeError_m + 0.5 * rays_.footprint_rad * roled.ray->range_m;
+      if (roled.role == Role::kSurface) {
+        residuals[2 * i] = (roled.ray->range_m - meeting.Range()) / sigma_m_;
+        residuals[2 * i + 1] = std::max(0.0, meeting.Clearance()) / lateral_m;
+      } else {
+        residuals[2 * i] = std::max(0.0, -meeting.Clearance()) / lateral_m;
+      }
+    }
+    residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
+                                     ValvePrior::kTubeRadiusSigma_m,
+        (valve.model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m;
+    return residuals;
+  }
+
+  double Cost(const Eigen::VectorXd& residuals) const {
+    double cost = residuals.tail<kPriors>().squaredNorm();
+    for (Eigen::Index i = 0; i < std::ssize(roled_); ++i)
+      cost += weight_ * kCauchyScale2 *
+              std::log1p(residuals.segment<2>(2 * i).squaredNorm() / kCauchyScale2);
+    return cost;
+  }
+
+  /// Gauss-Newton's normal equations with Cauchy's weights.
+  void Linearise(const ValveCandidate& valve, const Eigen::VectorXd& residuals,
+                 ValveInformation& information, ValveStep& gradient) const {
+    Eigen::Matrix<double, Eigen::Dynamic, kValveParameters> jacobian(residuals.size(),
+                                                                     int{kValveParameters});
+    for (int p = 0; p < kValveParameters; ++p) {
+      if (options_.parts == ValveParts::kRim && (p == kPhase || p == kTubeRadius || p == kDish)) {
+        // Alone, a rim would thicken to reach the returns of its spokes.
+        jacobian.col(p).setZero();
+        continue;
+      }
+      const double step = StepTowardsUsual(valve.model, p);
+      jacobian.col(p) = (Residuals(Moved(valve, step * ValveStep::Unit(p))) - residuals) / step;
+    }
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(residuals.size());
+    for (Eigen::Index i = 0; i < std::ssize(roled_); ++i)
+      weights.segment<2>(2 * i).setConstant(
+          weight_ / (1.0 + residuals.segment<2>(2 * i).squaredNorm() / kCauchyScale2));
+    information = jacobian.transpose() * weights.asDiagonal() * jacobian;
+    gradient = jacobian.transpose() * weights.cwiseProduct(residuals);
+  }
+
+ private:
+  /// How far a measured range is from the wall's, along the ray.
+  double RangeFromWall(const RangeRay& ray) const {
+    if (!options_.wall) return std::numeric_limits<double>::infinity();
+    return std::abs(ray.range_m - RangeToPlane(ray, *options_.wall));
+  }
+
+  const RaySet& rays_;
+  const RefineOptions& options_;
+  double sigma_m_;
+  std::vector<RoledRay> roled_;
+  double weight_ = 1.0;  ///< measurements that one used ray stands for
+};
+
+}  // namespace
+
+RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const RefineOptions& options) {
+  Problem problem(rays, options);
+  RefinedValve best{start, ValveInformation::Identity()};
+  ValveStep gradient;
+  for (int round = 0; round < options.rounds; ++round) {
+    problem.AssignRoles(best.valve);
+    Eigen::VectorXd residuals = problem.Residuals(best.valve);
+    double cost = problem.Cost(residuals);
+    double damping = 1e-3;
+    for (int step = 0; step < options.steps; ++step) {
+      problem.Linearise(best.valve, residuals, best.information, gradient);
+      // A direction that no ray sees (the phase of a bare rim) must not make the system singular.
+      ValveInformation damped = best.information;
+      damped.diagonal() += damping * best.information.diagonal() + ValveStep::Constant(1e-3);
+      const ValveCandidate tried = Moved(best.valve, damped.ldlt().solve(-gradient));
+      const Eigen::VectorXd tried_residuals = problem.Residuals(tried);
+      const double tried_cost = problem.Cost(tried_residuals);
+      if (!(tried_cost < cost)) {
+        damping *= 10.0;
+        continue;
+      }
+      damping = std::max(1e-7, damping * 0.1);
+      const bool settled = cost - tried_cost < 1e-4 * cost;
+      best.valve = tried;
+      residuals = tried_residuals;
+      cost = tried_cost;
+      if (settled) break;
+    }
+  }
+  return best;
+}
+
+}  // namespace foresight

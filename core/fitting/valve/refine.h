@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "core/fitting/ray_set.h"
+#include "core/fitting/valve/valve_state.h"
+#include "core/geometry/plane.h"
+
+namespace foresight {
+
+struct RefineOptions {
+  ValveParts parts = ValveParts::kAll;
+  std::optional<Plane>
+      wall;  ///< a range nearer to it than to the template says nothing of the template
+  bool free_space = true;  ///< rays that went through the template push it away
+  int max_rays = 500;      ///< thinned evenly
+  int rounds = 4;          ///< of deciding what each ray saw
+  int steps = 4;           ///< of Levenberg-Marquardt in a round
+};
+
+struct RefinedValve {
+  ValveCandidate valve;
+  ValveInformation information;  ///< J^T J at the end: the inverse of the covariance
+};
+
+/// Levenberg-Marquardt on all nine parameters. A ray whose range agrees with the template pulls its
+/// surface along the ray and towards it across; a ray that ended behind the template pushes it
+/// aside. The result depends on a start within a few centimetres.
+RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const RefineOptions& options);
+
+}  // namespace foresight

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/fitting/valve/ray_likelihood.h"
+
+namespace foresight {
+
+/// For each number of spokes (0 = a disc) the best valve on one of the given rims: a grid of dish
+/// and phase scored by `coarse`, its best cell refined on `rays` and scored by `fine`. Best first.
+/// Fails with kCancelled.
+Result<std::vector<ValveCandidate>> FindSpokes(const RaySet& rays, const std::optional<Plane>& wall,
+                                               const RayLikelihood& coarse,
+                                               const RayLikelihood& fine,
+                                               const std::vector<ValveCandidate>& rims,
+                                               const std::vector<int>& spoke_counts,
+                                               const RunContext& context);
+
+}  // namespace foresight

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "core/fitting/fit_origin.h"
+#include "core/fitting/verdict.h"
+#include "core/geometry/rigid.h"
+#include "core/objects/valve_model.h"
+
+namespace foresight {
+
+/// How well the measurements support a fit.
+struct ValveEvidence {
+  int rays = 0;               ///< looked at
+  int hits = 0;               ///< rays that meet the template
+  double inlier_share = 0.0;  ///< of the hits, those with a range that agrees
+  double see_through = 0.0;   ///< of the hits, those whose beam went on behind the template
+  double blocked_gaps = 0.0;  ///< of the rays between the spokes, those that did not get through
+  double rms_m = 0.0;         ///< of the agreeing ranges
+  double arc_coverage = 0.0;  ///< share of the rim's circle with support
+  double margin_nats = 0.0;   ///< log likelihood ahead of the next spoke count
+  double gain_nats = 0.0;     ///< log likelihood ahead of no valve at all
+};
+
+/// One answer to "where is the valve": the best one, or a rival.
+struct ValveCandidate {
+  Rigid<frame::Base, frame::Object> base_from_object;
+  ValveModel model;
+  double log_likelihood = 0.0;
+};
+
+/// A fitted valve.
+struct ValveDetection {
+  ValveCandidate best;
+  bool phase_observable = true;  ///< false: the direction of x means nothing
+  Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();  ///< along the object's axes
+  double sigma_axis_rad = 0.0;
+  double sigma_phase_rad = 0.0;
+  ValveEvidence evidence;
+  Verdict verdict;
+  std::vector<ValveCandidate> rivals;  ///< best first
+  PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
+  FitOrigin origin;
+};
+
+}  // namespace foresight

@@ -1,0 +1,143 @@
+#include "core/fitting/valve/valve_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace foresight {
+namespace {
+
+// A ray along a tube would enter it infinitely early; real spokes are short.
+constexpr double kMaxStretch = 3.0;
+
+/// The ray's closest approach to a point of a middle line that runs along `tangent` there.
+ValveMeeting Approach(ValvePart part, const Eigen::Vector3d& origin,
+                      const Eigen::Vector3d& direction, const Eigen::Vector3d& point,
+                      double cosine_to_line, double radius) {
+  ValveMeeting meeting;
+  meeting.part = part;
+  meeting.radius_m = radius;
+  meeting.middle_m = (point - origin).dot(direction);
+  meeting.offset_m = (origin + meeting.middle_m * direction - point).norm();
+  const double sine2 = 1.0 - cosine_to_line * cosine_to_line;
+  meeting.stretch = 1.0 / std::sqrt(std::max(sine2, 1.0 / (kMaxStretch * kMaxStretch)));
+  return meeting;
+}
+
+/// Where along a line (point, unit direction) it is closest to a ray.
+double ClosestAlongLine(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                        const Eigen::Vector3d& point, const Eigen::Vector3d& along, double cosine) {
+  const Eigen::Vector3d from_ray = point - origin;
+  const double sine2 = std::max(1.0 - cosine * cosine, 1e-6);
+  return (cosine * from_ray.dot(direction) - from_ray.dot(along)) / sine2;
+}
+
+}  // namespace
+
+double ValveMeeting::Range() const {
+  const double depth2 = radius_m * radius_m - offset_m * offset_m;
+  return depth2 > 0.0 ? middle_m - stretch * std::sqrt(depth2) : middle_m;
+}
+
+ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
+    : object_from_base_(valve.base_from_object.RotationMatrix().transpose()),
+      center_(valve.base_from_object.translation()),
+      model_(valve.model),
+      parts_(parts),
+      hub_(0.0, 0.0, -valve.model.dish_m) {
+  reach_m_ = std::hypot(model_.rim_radius_m + model_.tube_radius_m, 0.0) +
+             std::max(0.0, std::abs(model_.dish_m) + model_.hub_radius_m - model_.rim_radius_m);
+  for (int i = 0; i < model_.spokes; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / model_.spokes;
+    const Eigen::Vector3d end(model_.rim_radius_m * std::cos(angle),
+                              model_.rim_radius_m * std::sin(angle), 0.0);
+    const double length = (end - hub_).norm();
+    spokes_[static_cast<std::size_t>(i)] = {(end - hub_) / length, length};
+  }
+}
+
+bool ValveTracer::Near(const RangeRay& ray, double margin_m) const {
+  const Eigen::Vector3d to_center = center_ - ray.origin;
+  const double along = to_center.dot(ray.direction);
+  const double reach = reach_m_ + margin_m;
+  return to_center.squaredNorm() - along * along < reach * reach;
+}
+
+ValveMeeting ValveTracer::MeetRim(const LocalRay& ray) const {
+  const double radius = model_.rim_radius_m;
+  // From where the ray crosses the rim's plane; along it there is no crossing, take the nearest
+  // point to the centre.
+  const bool crosses = std::abs(ray.direction.z()) > 0.1;
+  const double start =
+      crosses ? -ray.origin.z() / ray.direction.z() : -ray.origin.dot(ray.direction);
+  Eigen::Vector3d point = ray.origin + start * ray.direction;
+  Eigen::Vector3d on_rim;
+  double cosine = 0.0;
+  // The circle is nearly straight over the distance of one step: two steps leave micrometres.
+  for (int step = 0; step < 3; ++step) {
+    const double radial = std::max(std::hypot(point.x(), point.y()), 1e-9);
+    on_rim = {radius * point.x() / radial, radius * point.y() / radial, 0.0};
+    const Eigen::Vector3d tangent(-on_rim.y() / radius, on_rim.x() / radius, 0.0);
+    cosine = tangent.dot(ray.direction);
+    if (step < 2)
+      point =
+          on_rim + ClosestAlongLine(ray.origin, ray.direction, on_rim, tangent, cosine) * tangent;
+  }
+  ValveMeeting meeting =
+      Approach(ValvePart::kRim, ray.origin, ray.direction, on_rim, cosine, model_.tube_radius_m);
+  meeting.azimuth_rad = std::atan2(on_rim.y(), on_rim.x());
+  return meeting;
+}
+
+ValveMeeting ValveTracer::MeetHub(const LocalRay& ray) const {
+  return Approach(ValvePart::kHub, ray.origin, ray.direction, hub_, 0.0, model_.hub_radius_m);
+}
+
+ValveMeeting ValveTracer::MeetSpoke(const LocalRay& ray, const Spoke& spoke) const {
+  const double cosine = spoke.direction.dot(ray.direction);
+  const double along =
+      std::clamp(ClosestAlongLine(ray.origin, ray.direction, hub_, spoke.direction, cosine), 0.0,
+                 spoke.length_m);
+  return Approach(ValvePart::kSpoke, ray.origin, ray.direction, hub_ + along * spoke.direction,
+                  cosine, model_.spoke_radius_m);
+}
+
+bool ValveTracer::MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const {
+  if (std::abs(ray.direction.z()) < 0.1) return false;
+  double range = -ray.origin.z() / ray.direction.z();
+  double radial = 0.0;
+  // The cone from hub to rim is flat: its height at the last crossing gives the next one.
+  for (int step = 0; step < 4; ++step) {
+    const Eigen::Vector3d point = ray.origin + range * ray.direction;
+    radial = std::hypot(point.x(), point.y());
+    const double height = -model_.dish_m * std::max(0.0, 1.0 - radial / model_.rim_radius_m);
+    range = (height - ray.origin.z()) / ray.direction.z();
+  }
+  if (radial >= model_.rim_radius_m) return false;
+  meeting = ValveMeeting{};
+  meeting.part = ValvePart::kDisc;
+  meeting.middle_m = range;
+  meeting.radius_m = model_.spoke_radius_m;
+  meeting.stretch = std::min(1.0 / std::abs(ray.direction.z()), kMaxStretch);
+  return true;
+}
+
+ValveMeeting ValveTracer::Meet(const RangeRay& ray) const {
+  const LocalRay local{object_from_base_ * (ray.origin - center_),
+                       object_from_base_ * ray.direction};
+  ValveMeeting best = MeetRim(local);
+  const auto consider = [&best](const ValveMeeting& other) {
+    const double gap = best.Clearance();
+    const double other_gap = other.Clearance();
+    const bool both_met = gap < 0.0 && other_gap < 0.0;
+    if (both_met ? other.Range() < best.Range() : other_gap < gap) best = other;
+  };
+  if (parts_ == ValveParts::kRim) return best;
+  consider(MeetHub(local));
+  for (int i = 0; i < model_.spokes; ++i)
+    consider(MeetSpoke(local, spokes_[static_cast<std::size_t>(i)]));
+  if (ValveMeeting disc; model_.spokes == 0 && MeetDisc(local, disc)) consider(disc);
+  return best;
+}
+
+}  // namespace foresight

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "core/fitting/ray_set.h"
+#include "core/fitting/valve/valve_state.h"
+
+namespace foresight {
+
+enum class ValvePart { kRim, kHub, kSpoke, kDisc };
+
+/// How a ray passes the part of a valve that it meets first, or that it misses by least. Each part
+/// is a tube of some radius around its middle line.
+struct ValveMeeting {
+  ValvePart part = ValvePart::kRim;
+  double middle_m = 0.0;     ///< range at which the ray is closest to the middle line
+  double offset_m = 0.0;     ///< how close that is
+  double radius_m = 0.0;     ///< of the tube
+  double stretch = 1.0;      ///< 1 / sine of the angle between ray and middle line
+  double azimuth_rad = 0.0;  ///< of the closest point of a rim, in the object's frame
+
+  /// Gap between ray and part; negative when the ray meets it.
+  double Clearance() const { return offset_m - radius_m; }
+  /// Range at which the ray enters the part, or passes it closest.
+  double Range() const;
+};
+
+/// A valve made ready for many rays: closed forms for ray against tube, several times faster than
+/// tracing spheres through ValveModel::Distance and smooth enough for numeric derivatives.
+class ValveTracer {
+ public:
+  ValveTracer(const ValveCandidate& valve, ValveParts parts);
+
+  /// False for a ray that stays further than `margin_m` from all of the valve, so that Meet can be
+  /// saved.
+  bool Near(const RangeRay& ray, double margin_m) const;
+
+  /// Ranges count from the ray's origin; a valve behind it has a negative one.
+  ValveMeeting Meet(const RangeRay& ray) const;
+
+ private:
+  struct LocalRay {
+    Eigen::Vector3d origin;
+    Eigen::Vector3d direction;
+  };
+  struct Spoke {
+    Eigen::Vector3d direction;
+    double length_m = 0.0;
+  };
+
+  ValveMeeting MeetRim(const LocalRay& ray) const;
+  ValveMeeting MeetHub(const LocalRay& ray) const;
+  ValveMeeting MeetSpoke(const LocalRay& ray, const Spoke& spoke) const;
+  bool MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const;
+
+  Eigen::Matrix3d object_from_base_;
+  Eigen::Vector3d center_;
+  ValveModel model_;
+  ValveParts parts_;
+  Eigen::Vector3d hub_;
+  double reach_m_ = 0.0;
+  std::array<Spoke, 6> spokes_;
+};
+
+}  // namespace foresight

@@ -1,0 +1,23 @@
+#include "core/fitting/verdict.h"
+
+namespace foresight {
+
+const char* ToString(VerdictLevel level) {
+  switch (level) {
+    case VerdictLevel::kUnsure:
+      return "UNSURE";
+    case VerdictLevel::kLikely:
+      return "LIKELY";
+    case VerdictLevel::kConfirmed:
+      return "CONFIRMED";
+  }
+  return "UNSURE";
+}
+
+VerdictLevel LevelFor(double probability, bool objected) {
+  if (!(probability >= Verdict::kLikely)) return VerdictLevel::kUnsure;
+  return probability >= Verdict::kConfirmed && !objected ? VerdictLevel::kConfirmed
+                                                         : VerdictLevel::kLikely;
+}
+
+}  // namespace foresight

@@ -1,0 +1,104 @@
+#include "core/fitting/verdict_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/contract.h"
+#include "core/base/embedded_files.h"
+#include "core/io/yaml_reader.h"
+
+namespace foresight {
+
+std::span<const EmbeddedFile> VerdictFiles();  // resources/verdicts, made by CMake
+
+namespace {
+
+constexpr int kFormatVersion = 1;
+constexpr double kFarthest = 4.0;  // deviations
+
+using Models = std::map<std::pair<std::string, bool>, VerdictModel>;
+
+Models LoadModels() {
+  Models models;
+  for (const EmbeddedFile& file : VerdictFiles()) {
+    auto model = VerdictModelFromYaml(std::string(file.text), std::string(file.name));
+    FORESIGHT_EXPECTS(model.has_value(), "a shipped verdict model can be read");
+    const std::pair key(model->object, model->dense);
+    models.emplace(key, std::move(*model));
+  }
+  return models;
+}
+
+VerdictModel ModelFrom(YamlMap& map) {
+  if (map.Integer("foresight_verdict") != kFormatVersion)
+    map.Fault(map.Node("foresight_verdict"), "this version cannot be read");
+  VerdictModel model;
+  model.object = map.Text("object");
+  const std::string source = map.Text("source");
+  if (source != "raw" && source != "dense")
+    map.Fault(map.Node("source"), "source '" + source + "' is neither raw nor dense");
+  model.dense = source == "dense";
+  model.population = map.Text("population");
+  model.fits = map.Integer("fits");
+  model.right = map.Integer("right");
+  model.auc = map.Number("auc");
+  model.ece = map.Number("ece");
+  model.bias = map.Number("bias");
+  for (YamlMap& entry : map.List("features")) {
+    VerdictModel::Feature feature;
+    feature.name = entry.Text("name");
+    feature.mean = entry.Number("mean");
+    feature.deviation = entry.Number("deviation");
+    feature.weight = entry.Number("weight");
+    if (!(feature.deviation > 0.0)) entry.Fault("'deviation' is not positive");
+    entry.Finish();
+    model.features.push_back(feature);
+  }
+  if (model.features.empty()) map.Fault("there are no features");
+  return model;
+}
+
+}  // namespace
+
+double VerdictModel::Probability(std::span<const double> values) const {
+  FORESIGHT_EXPECTS(values.size() == features.size(), "as many values as the model has features");
+  double sum = bias;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) return 0.0;
+    const Feature& feature = features[i];
+    sum += feature.weight *
+           std::clamp((values[i] - feature.mean) / feature.deviation, -kFarthest, kFarthest);
+  }
+  return 1.0 / (1.0 + std::exp(-sum));
+}
+
+std::string VerdictModel::ToYaml() const {
+  std::string yaml = fmt::format(
+      "# Made by `foresightctl verdict fit`, docs/verdicts.md; not by hand.\n"
+      "foresight_verdict: {}\nobject: {}\nsource: {}\npopulation: \"{}\"\n"
+      "fits: {}\nright: {}\nauc: {:.4f}\nece: {:.4f}\nbias: {:.6g}\nfeatures:\n",
+      kFormatVersion, object, dense ? "dense" : "raw", population, fits, right, auc, ece, bias);
+  for (const Feature& feature : features)
+    yaml += fmt::format("  - {{name: {}, mean: {:.6g}, deviation: {:.6g}, weight: {:.6g}}}\n",
+                        feature.name, feature.mean, feature.deviation, feature.weight);
+  return yaml;
+}
+
+Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::string& source) {
+  VerdictModel model;
+  FORESIGHT_CHECK(ParseYaml(yaml, source, [&model](YamlMap& map) {
+    model = ModelFrom(map);
+    map.Finish();
+  }));
+  return model;
+}
+
+const VerdictModel& ShippedVerdictModel(std::string_view object, bool dense) {
+  static const Models models = LoadModels();
+  const auto found = models.find({std::string(object), dense});
+  FORESIGHT_EXPECTS(found != models.end(), "there is a verdict model for each object and source");
+  return found->second;
+}
+
+}  // namespace foresight

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace foresight {
+
+/// The probability that a fit is right: logistic regression on standardised evidence. Every object
+/// has one for lidar returns and one for dense maps, whose neighbouring rays are not independent.
+/// The files are made by `foresightctl verdict fit`, docs/verdicts.md, and hold the population that
+/// they are true for.
+struct VerdictModel {
+  struct Feature {
+    std::string name;
+    double mean = 0.0;
+    double deviation = 1.0;
+    double weight = 0.0;  ///< of (value - mean) / deviation
+  };
+
+  std::string object;      ///< "valve", "drill", "terrain"
+  bool dense = false;      ///< for depth maps; else for lidar returns
+  std::string population;  ///< how it was made: scenes, seeds, sources
+  int fits = 0;            ///< in the population
+  int right = 0;           ///< of them
+  double auc = 0.0;        ///< area under the ROC curve, cross-validated
+  double ece = 0.0;        ///< expected calibration error, cross-validated
+  std::vector<Feature> features;
+  double bias = 0.0;
+
+  /// In [0, 1]; 0 where a value is not finite. Values beyond 4 deviations count as 4: nothing is
+  /// known out there. Throws ContractViolation for another number of values than features.
+  double Probability(std::span<const double> values) const;
+
+  std::string ToYaml() const;
+};
+
+/// Fails with kBadData, naming `source` and the line at fault.
+Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::string& source);
+
+/// resources/verdicts/<object>_<raw|dense>.yaml as it was when the program was built. Throws
+/// ContractViolation where there is none.
+const VerdictModel& ShippedVerdictModel(std::string_view object, bool dense);
+
+}  // namespace foresight

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/objects/drill_model.h"
+
+namespace foresight {
+
+/// A kind of drill, read from a data file (resources/templates, docs/templates.md): the parts at
+/// scale 1 without lean, and how far a drill of this kind may differ from them.
+struct DrillTemplate {
+  std::string name;
+  /// Foot, body, head, chuck, trigger... The body's axis is z; parts named "battery foot" do not
+  /// lean with it. No bit: that is free.
+  std::vector<SolidPart> parts;
+  double min_scale = 0.8;
+  double max_scale = 1.25;
+  double bit_radius_m = 0.004;
+  double max_bit_length_m = 0.15;  ///< from the chuck's face
+  Eigen::Vector3d chuck_face_m =
+      Eigen::Vector3d::Zero();  ///< where a bit begins; it points along x
+  Rigid<frame::Object, frame::Object> object_from_grasp;
+  Eigen::Vector3d trigger_m = Eigen::Vector3d::Zero();
+
+  /// Fails with kInvalidOptions, naming the part or member at fault.
+  Status Check() const;
+  DrillModel Make(double scale, const Eigen::Vector2d& body_tilt_rad, double bit_length_m) const;
+};
+
+/// Fails with kBadData, naming `source` and the line at fault; an unknown key is an error.
+Result<DrillTemplate> DrillTemplateFromYaml(const std::string& yaml, const std::string& source);
+Result<DrillTemplate> LoadDrillTemplate(const std::filesystem::path& path);
+
+/// resources/templates/drill_*.yaml as they were when the program was built.
+std::vector<DrillTemplate> ShippedDrillTemplates();
+
+}  // namespace foresight

@@ -1,0 +1,78 @@
+#include "core/objects/solid_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace foresight {
+namespace {
+
+/// Circle around z at a height.
+std::vector<Eigen::Vector3d> Circle(double radius, double z) {
+  constexpr int kCorners = 48;
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return points;
+}
+
+Wireframe BoxLines(const Eigen::Vector3d& half) {
+  const auto corner = [&half](int x, int y, int z) -> Eigen::Vector3d {
+    return half.cwiseProduct(Eigen::Vector3d(x, y, z));
+  };
+  Wireframe lines;
+  for (const int z : {-1, 1})
+    lines.push_back({corner(-1, -1, z), corner(1, -1, z), corner(1, 1, z), corner(-1, 1, z),
+                     corner(-1, -1, z)});
+  for (const int x : {-1, 1})
+    for (const int y : {-1, 1}) lines.push_back({corner(x, y, -1), corner(x, y, 1)});
+  return lines;
+}
+
+Wireframe CylinderLines(double radius, double half_length) {
+  Wireframe lines = {Circle(radius, -half_length), Circle(radius, half_length)};
+  for (int i = 0; i < 4; ++i) {
+    const double angle = 0.5 * std::numbers::pi * i;
+    const Eigen::Vector3d side(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    lines.push_back({side - half_length * Eigen::Vector3d::UnitZ(),
+                     side + half_length * Eigen::Vector3d::UnitZ()});
+  }
+  return lines;
+}
+
+}  // namespace
+
+double SolidPart::Distance(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d p = object_from_part.Inverse() * point;
+  if (shape == Shape::kBox) {
+    const Eigen::Vector3d beyond = p.cwiseAbs() - 0.5 * size_m;
+    return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+  }
+  const double radial = std::hypot(p.x(), p.y());
+  const double half_length = 0.5 * size_m.z();
+  const double radius = 0.5 * size_m.x();
+  if (shape == Shape::kCapsule)
+    return std::hypot(radial, std::max(std::abs(p.z()) - half_length, 0.0)) - radius;
+  const Eigen::Vector2d beyond(radial - radius, std::abs(p.z()) - half_length);
+  return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+Wireframe WireframeOf(const SolidPart& part) {
+  Wireframe lines;
+  switch (part.shape) {
+    case SolidPart::Shape::kBox:
+      lines = BoxLines(0.5 * part.size_m);
+      break;
+    case SolidPart::Shape::kCylinder:
+    case SolidPart::Shape::kCapsule:
+      lines = CylinderLines(0.5 * part.size_m.x(), 0.5 * part.size_m.z());
+      break;
+  }
+  for (auto& line : lines)
+    for (Eigen::Vector3d& point : line) point = part.object_from_part * point;
+  return lines;
+}
+
+}  // namespace foresight

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/geometry/rigid.h"
+
+namespace foresight {
+
+/// One solid of a template, in the object's frame.
+struct SolidPart {
+  enum class Shape {
+    kBox,       ///< size_m along its own axes
+    kCylinder,  ///< capped; along z: size_m = (diameter, diameter, length)
+    kCapsule,   ///< a cylinder with round ends; length without them
+  };
+
+  std::string name;  ///< what it is: "body", "head", "chuck", "bit", "battery foot", "trigger"
+  Shape shape = Shape::kBox;
+  Rigid<frame::Object, frame::Object> object_from_part;  ///< the part's middle
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+
+  /// Signed distance of a point in the object's frame to the surface, metres.
+  double Distance(const Eigen::Vector3d& point) const;
+};
+
+/// Closed or open polylines of a template in the object's frame, for drawing.
+using Wireframe = std::vector<std::vector<Eigen::Vector3d>>;
+Wireframe WireframeOf(const SolidPart& part);
+
+}  // namespace foresight

@@ -1,0 +1,67 @@
+#include "core/fitting/verdict_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/contract.h"
+
+namespace foresight {
+namespace {
+
+VerdictModel TwoFeatures() {
+  VerdictModel model;
+  model.object = "valve";
+  model.dense = true;
+  model.population = "seeds 1 to 9";
+  model.fits = 9;
+  model.right = 7;
+  model.auc = 0.95;
+  model.ece = 0.02;
+  model.bias = 0.5;
+  model.features = {{"log_margin", 3.0, 1.5, 2.0}, {"see_through", 0.1, 0.05, -1.0}};
+  return model;
+}
+
+TEST(VerdictModel, IsLogisticInStandardisedEvidence) {
+  const double values[] = {4.5, 0.15};
+  EXPECT_NEAR(TwoFeatures().Probability(values), 1.0 / (1.0 + std::exp(-1.5)), 1e-12);
+}
+
+TEST(VerdictModel, EvidenceBeyondAllThatWasSeenCountsAsTheFarthestSeen) {
+  const double far[] = {9.0, 0.1};
+  const double absurd[] = {1e9, 0.1};
+  EXPECT_EQ(TwoFeatures().Probability(far), TwoFeatures().Probability(absurd));
+}
+
+TEST(VerdictModel, KnowsNothingWithoutANumber) {
+  const double values[] = {std::nan(""), 0.1};
+  EXPECT_EQ(TwoFeatures().Probability(values), 0.0);
+}
+
+TEST(VerdictModel, AnotherNumberOfValuesIsOurMistake) {
+  const double values[] = {1.0};
+  EXPECT_THROW(TwoFeatures().Probability(values), ContractViolation);
+}
+
+TEST(VerdictModel, SurvivesItsFile) {
+  const auto read = VerdictModelFromYaml(TwoFeatures().ToYaml(), "test");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(read->dense);
+  EXPECT_EQ(read->population, "seeds 1 to 9");
+  ASSERT_EQ(read->features.size(), 2u);
+  EXPECT_EQ(read->features[1].name, "see_through");
+  const double values[] = {4.0, 0.12};
+  EXPECT_NEAR(read->Probability(values), TwoFeatures().Probability(values), 1e-9);
+}
+
+TEST(VerdictModel, AFaultNamesItsLine) {
+  std::string yaml = TwoFeatures().ToYaml();
+  yaml.replace(yaml.find("source: dense"), 13, "source: foggy");
+  const auto read = VerdictModelFromYaml(yaml, "valve.yaml");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("valve.yaml:4"), std::string::npos) << read.error().message;
+}
+
+}  // namespace
+}  // namespace foresight
