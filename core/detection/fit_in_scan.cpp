@@ -9,7 +9,9 @@ constexpr double kRangeSigma_m = 0.010;
 /// Neighbouring pixels of a dense map say the same twice.
 constexpr int kDepthStride_px = 2;
 
-Result<RaySet> RaysOf(const ProcessedScan& scan, FitSource source, const Roi& roi) {
+}  // namespace
+
+Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi) {
   if (source == FitSource::kRaw) return RaysFromScan(scan.cloud, scan.rig, roi, kRangeSigma_m);
   if (scan.depth == nullptr)
     return Fail(ErrorCode::kState,
@@ -20,12 +22,9 @@ Result<RaySet> RaysOf(const ProcessedScan& scan, FitSource source, const Roi& ro
                        LocalDensity(scan.depth->samples));
 }
 
-}  // namespace
-
 Result<ValveDetection> FitValveInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                                       const FitValveOptions& options, const RunContext& context) {
-  FORESIGHT_CHECK(CheckRoi(roi));
-  FORESIGHT_TRY(const RaySet rays, RaysOf(scan, source, roi));
+  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
   FORESIGHT_TRY(ValveDetection detection, FitValve(rays, options, context));
   detection.origin.roi = roi;
   return detection;

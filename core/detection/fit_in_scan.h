@@ -19,6 +19,10 @@ struct ProcessedScan {
   const MaskImage* mask = nullptr;     ///< instead of depth->mask, where a threshold was moved
 };
 
+/// The rays of a region with the noise and the thinning that belong to the source. Fails as
+/// RaysFromScan and RaysFromDepth do, and with kState for kDepth without a depth.
+Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi);
+
 /// From a region to a valve, with the noise and the thinning that belong to the source: the one way
 /// that every program takes, so that a number never differs between them. The region is noted in
 /// the result. Fails as RaysFromScan, RaysFromDepth and FitValve do, and with kState for kDepth

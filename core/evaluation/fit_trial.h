@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/depth/depth_method.h"
+#include "core/detection/detection.h"
+#include "core/detection/fit_in_scan.h"
+#include "core/evaluation/simulated_trial.h"
+
+namespace foresight {
+
+/// A scene that a fit is tried on, drawn at random by a seed, and how it is looked at.
+struct FitTrialScene {
+  std::shared_ptr<const Scene> scene;
+  ScanPlan plan;       ///< upwards, with one picture
+  WorldOptions world;  ///< with a noise of its own
+  std::string what;    ///< "wheel of 4 spokes", "half a wheel"
+  bool positive = true;
+  /// What an operator would draw a region round: a sphere in robot.
+  Eigen::Vector3d focus_m = Eigen::Vector3d::Zero();
+  double focus_radius_m = 0.2;
+};
+
+/// A scene as the head brings it home.
+struct FitTrial {
+  std::uint64_t seed = 0;
+  FitTrialScene scene;
+  World world;    ///< the true head in it
+  SensorRig rig;  ///< the believed one
+  RegisteredScan cloud;
+  CameraFrame frame;  ///< its image is empty where no dense source was asked for
+  ImageRoi roi;       ///< as an operator draws it: a circle round the focus, not quite centred
+
+  /// Truth in the believed head's base.
+  Rigid<frame::Base, frame::Robot> TrueBaseFromRobot() const { return world.BaseFromRobot(); }
+};
+
+/// What became of one answer.
+struct FitOutcome {
+  std::uint64_t seed = 0;
+  std::string what;
+  std::string source;    ///< "raw" or a depth method's name
+  bool positive = true;  ///< there was something to find
+  bool found = false;    ///< there is an answer; else `verdict` is empty and `reason` says why
+  bool pose_ok = false;  ///< fitting is right where it counts (docs/evaluation.md)
+  bool all_ok = false;   ///< and in every other respect: what a CONFIRMED answer promises
+  Verdict verdict;
+  std::vector<std::pair<std::string, double>> errors;  ///< "center_mm", "axis_deg", ...
+  double seconds = 0.0;                                ///< of CPU, the fit alone
+  std::string reason;
+};
+
+/// The scenes of one object, and what a right answer is.
+class FitPopulation {
+ public:
+  virtual ~FitPopulation() = default;
+  /// "valve", "drill", "terrain".
+  virtual const char* Kind() const = 0;
+  /// About one in six is a negative: other things, an empty region, a wall, half an object, a
+  /// table's edge, look-alikes.
+  virtual FitTrialScene MakeScene(std::uint64_t seed) const = 0;
+  /// As the programs do it.
+  virtual Result<Detection> Fit(const ProcessedScan& scan, FitSource source, const Roi& roi,
+                                const RunContext& context) const = 0;
+  /// One outcome an answer; terrain has one for each surface that is offered as a block and one,
+  /// not found, for each visible block that is missed. `found` is the failure where there is no
+  /// answer.
+  virtual std::vector<FitOutcome> Judge(const FitTrial& trial,
+                                        const Result<Detection>& found) const = 0;
+  /// What Verdict::features holds.
+  virtual std::vector<std::string> FeatureNames() const = 0;
+};
+
+struct FitTrialOptions {
+  bool raw = true;                            ///< fit to the lidar's returns
+  std::vector<DepthMethod> methods;           ///< and to the dense maps of these
+  std::optional<CalibrationError> rig_error;  ///< of the believed rig; none = perfect
+
+  Status Check() const;
+};
+
+/// Simulates the scan of a population's scene. With dense sources about 2 s of CPU, else 0.5 s.
+Result<FitTrial> MakeFitTrial(const FitPopulation& population, std::uint64_t seed,
+                              const FitTrialOptions& options, const RunContext& context);
+
+/// Every source's fit to one scene, judged.
+Result<std::vector<FitOutcome>> RunFitTrial(const FitPopulation& population, std::uint64_t seed,
+                                            const FitTrialOptions& options,
+                                            const RunContext& context);
+
+}  // namespace foresight
