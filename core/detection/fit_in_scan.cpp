@@ -1,18 +1,28 @@
 #include "core/detection/fit_in_scan.h"
 
+#include <cmath>
+
+#include "core/fitting/range_noise.h"
+
 namespace foresight {
 namespace {
 
-/// Deviation of a lidar range as the fit's model takes it; a dense map keeps its sources' common
-/// errors.
+/// Deviation of a range where a region is too small to tell.
 constexpr double kRangeSigma_m = 0.010;
 /// Neighbouring pixels of a dense map say the same twice.
 constexpr int kDepthStride_px = 2;
 
+RaySet WithOwnSigma(RaySet rays) {
+  const double sigma_m = EstimateRangeSigma(rays);
+  if (std::isfinite(sigma_m)) rays.sigma_m = sigma_m;
+  return rays;
+}
+
 }  // namespace
 
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi) {
-  if (source == FitSource::kRaw) return RaysFromScan(scan.cloud, scan.rig, roi, kRangeSigma_m);
+  if (source == FitSource::kRaw)
+    return RaysFromScan(scan.cloud, scan.rig, roi, kRangeSigma_m).transform(WithOwnSigma);
   if (scan.depth == nullptr)
     return Fail(ErrorCode::kState,
                 "there is no depth map yet; compute it first, or fit to the raw returns");

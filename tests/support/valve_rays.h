@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/base/random.h"
-#include "core/fitting/valve/valve_detection.h"
 #include "core/fitting/ray_set.h"
+#include "core/fitting/valve/valve_detection.h"
 
 namespace foresight::testing {
 
@@ -130,7 +130,8 @@ inline ValveScene MakeValveScene(const ValveView& view) {
       if (*high - *low > 0.03 && random.Uniform() < 0.35) range = random.Uniform(*low, *high);
       range += view.sigma_m * random.Normal();
       if (random.Uniform() < view.spurious_share) range = random.Uniform(0.3, view.distance_m);
-      scene.rays.rays.push_back({Eigen::Vector3d::Zero(), direction_of(az, el), range});
+      scene.rays.rays.push_back(
+          {Eigen::Vector3d::Zero(), direction_of(az, el), range, {beam + beams, line + lines}});
     }
   }
   return scene;

@@ -118,7 +118,7 @@ class SimulatedValve : public ::testing::Test {
         static_cast<int>(seed), found->best.model.spokes, 1000.0 * error.center_m,
         DegreesFromRadians(error.axis_rad), 1000.0 * error.radius_m,
         DegreesFromRadians(error.phase_rad), ToString(found->verdict.level),
-        found->verdict.probability, found->seconds);
+        found->verdict.probability, found->origin.seconds);
     return error.spokes_right && error.center_m < 0.010 && DegreesFromRadians(error.axis_rad) < 3.0;
   }
 

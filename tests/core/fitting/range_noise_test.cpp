@@ -1,0 +1,55 @@
+#include "core/fitting/range_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/valve_rays.h"
+
+namespace foresight {
+namespace {
+
+using testing::ValveView;
+
+class RangeNoise : public ::testing::TestWithParam<double> {};
+
+TEST_P(RangeNoise, IsReadOffAWall) {
+  ValveView view;
+  view.object = ValveView::Object::kNothing;
+  view.pipe = false;
+  view.view_rad = 0.5;
+  view.half_angle_rad = 0.12;
+  view.sigma_m = GetParam();
+  // About 1200 triples tell a deviation to 4 %.
+  EXPECT_NEAR(EstimateRangeSigma(MakeValveScene(view).rays) / view.sigma_m, 1.0, 0.12);
+}
+
+TEST_P(RangeNoise, IsReadOffAWheelInFrontOfItsWall) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    ValveView view = testing::RandomValveView(seed);
+    view.sigma_m = GetParam();
+    // Round tubes and edges add a little; a fit bears a third more.
+    const double ratio = EstimateRangeSigma(MakeValveScene(view).rays) / view.sigma_m;
+    EXPECT_GT(ratio, 0.75) << seed;
+    EXPECT_LT(ratio, 1.35) << seed;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Millimetres, RangeNoise, ::testing::Values(0.005, 0.010, 0.020, 0.030));
+
+TEST(RangeNoise, OfAnExactDeviceIsTheLeastThereIs) {
+  ValveView view;
+  view.object = ValveView::Object::kNothing;
+  view.pipe = false;
+  view.sigma_m = 0.0;
+  EXPECT_EQ(EstimateRangeSigma(MakeValveScene(view).rays), kLeastRangeSigma_m);
+}
+
+TEST(RangeNoise, IsUnknownWithoutNeighbours) {
+  RaySet cloud = MakeValveScene(ValveView()).rays;
+  EXPECT_TRUE(std::isnan(EstimateRangeSigma(RaySet())));
+  for (RangeRay& ray : cloud.rays) ray.cell.setConstant(-1);
+  EXPECT_TRUE(std::isnan(EstimateRangeSigma(cloud)));
+}
+
+}  // namespace
+}  // namespace foresight
