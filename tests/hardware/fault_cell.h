@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "hardware/emulator/emulated_site.h"
@@ -12,7 +14,8 @@ namespace foresight {
 struct HeadFault {
   std::string device;  ///< "lidar", "motor" or "camera"
   std::string name;
-  std::function<void(EmulatedSite&)> begin;
+  /// What goes on beside the head until the fault is over, or an empty thread.
+  std::function<std::jthread(EmulatedSite&)> begin;
   double lasts_s = 0.0;                     ///< then it is over by itself
   std::function<void(EmulatedSite&)> heal;  ///< what an operator would do; may be empty
 };
@@ -22,8 +25,23 @@ enum class HeadPhase { kConnecting, kHoming, kReady, kSweeping, kStopping };
 inline constexpr int kHeadPhases = 5;
 const char* ToString(HeadPhase phase);
 
-/// Every fault that the emulators can show on request.
+/// Every fault that the emulators can show on request (head_faults.cpp).
 const std::vector<HeadFault>& HeadFaults();
+
+/// Something that is wrong with one device from its power-on.
+struct PlannedFault {
+  std::string device;
+  std::string name;
+  SiteFaults plan;
+  std::vector<std::string> members;  ///< of the device's fault plan that it sets
+  bool harmless = false;             ///< the scan is to be complete in every line and picture
+};
+
+/// Every member of every emulator's fault plan (planned_faults.cpp).
+const std::vector<PlannedFault>& PlannedFaults();
+/// Names of the members of LidarFaults, MotorFault and CameraFaults, e.g. "lidar.clock_ppm". Does
+/// not compile when one of them gets a member that is not named.
+std::vector<std::string> FaultPlanMembers();
 
 /// How a head came through a fault.
 struct FaultOutcome {
@@ -36,5 +54,9 @@ struct FaultOutcome {
 /// sentence that names its device, and the same head flies a complete scan once the fault is over.
 /// Takes some ten seconds, most of them waiting.
 FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase);
+/// The same with a fault from power-on and without what comes after: homes, flies, and looks.
+FaultOutcome RunPlannedFault(const PlannedFault& fault);
+/// All of PlannedFaults(), several at once.
+std::vector<std::pair<const PlannedFault*, FaultOutcome>> RunPlannedFaults();
 
 }  // namespace foresight

@@ -40,6 +40,13 @@ std::string Page() {
     std::fprintf(stderr, "%s: %s\n", fault.device.c_str(), fault.name.c_str());
     page += Row(fault);
   }
+  page +=
+      "\n## From power-on\n\nThe same for what is wrong with a device from its beginning, a "
+      "member of its emulator's fault plan each: the head homes and flies\none scan.\n\n"
+      "| device | fault | |\n| --- | --- | --- |\n";
+  for (const auto& [fault, outcome] : RunPlannedFaults())
+    page += fmt::format("| {} | {} | {}{} |\n", fault->device, fault->name,
+                        outcome.violations.empty() ? "" : "**FAILS** ", outcome.summary);
   return page;
 }
 

@@ -1,9 +1,10 @@
-// Every fault of every emulator in every state of the head.
+// Every fault of every emulator in every state of the head, and from power-on.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <future>
 #include <ostream>
+#include <set>
 
 #include "tests/hardware/fault_cell.h"
 
@@ -29,6 +30,23 @@ TEST_P(FaultMatrix, TheMotorStopsTheScanIsKeptAndTheHeadRecoversInEveryState) {
       ADD_FAILURE() << "while " << ToString(static_cast<HeadPhase>(i)) << ": " << violation;
     EXPECT_FALSE(outcome.summary.empty());
   }
+}
+
+/// Several at once: most of their time is waiting, too.
+TEST(PlannedFaults, TheMotorStopsAndTheScanIsKeptWhateverIsWrongFromPowerOn) {
+  for (const auto& [fault, outcome] : RunPlannedFaults()) {
+    for (const std::string& violation : outcome.violations)
+      ADD_FAILURE() << fault->device << ", " << fault->name << ": " << violation;
+    EXPECT_FALSE(outcome.summary.empty());
+  }
+}
+
+TEST(PlannedFaults, AreAllThatTheEmulatorsKnow) {
+  std::set<std::string> met;
+  for (const PlannedFault& fault : PlannedFaults())
+    for (const std::string& member : fault.members) met.insert(fault.device + "." + member);
+  const std::vector<std::string> members = FaultPlanMembers();
+  EXPECT_EQ(met, std::set<std::string>(members.begin(), members.end()));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FaultMatrix, testing::ValuesIn(HeadFaults()), [](const auto& test) {

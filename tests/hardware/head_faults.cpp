@@ -1,0 +1,107 @@
+// The rows of the fault matrix: what begins while a head runs.
+#include "hardware/net/tcp_socket.h"
+#include "tests/hardware/fault_cell.h"
+
+namespace foresight {
+namespace {
+
+HeadFault Of(const std::string& device, const std::string& name,
+             const std::function<void(EmulatedSite&)>& begin, double lasts_s,
+             const std::function<void(EmulatedSite&)>& heal = {}) {
+  return {device, name,
+          [begin](EmulatedSite& site) {
+            begin(site);
+            return std::jthread();
+          },
+          lasts_s, heal};
+}
+
+HeadFault OfLidar(const std::string& name, const std::function<void(ScipEmulator&)>& begin,
+                  double lasts_s) {
+  return Of(
+      "lidar", name, [begin](EmulatedSite& site) { begin(site.lidar()); }, lasts_s);
+}
+
+HeadFault OfCamera(const std::string& name, const std::function<void(CameraEmulator&)>& begin,
+                   double lasts_s) {
+  return Of(
+      "camera", name, [begin](EmulatedSite& site) { begin(site.camera()); }, lasts_s,
+      [](EmulatedSite& site) { site.camera().ClearFaults(); });
+}
+
+/// Long enough to be met in every state; the switch is only looked at while homing.
+double DurationOf(MotorFault::Kind kind) {
+  switch (kind) {
+    case MotorFault::Kind::kBlockedShaft:
+      return 1.0;
+    case MotorFault::Kind::kLostHomeSwitch:
+      return 6.0;
+    case MotorFault::Kind::kDeadLink:
+    case MotorFault::Kind::kStaleStatus:
+      return 2.0;
+    case MotorFault::Kind::kTcpReset:
+      break;
+  }
+  return 0.0;
+}
+
+HeadFault OfMotor(MotorFault::Kind kind) {
+  const double lasts_s = DurationOf(kind);
+  return Of(
+      "motor", ToString(kind),
+      [kind, lasts_s](EmulatedSite& site) {
+        site.motor().Inject({kind, 0.0, lasts_s});
+      },
+      lasts_s, [](EmulatedSite& site) { site.motor().ClearFaults(); });
+}
+
+constexpr double kStays_s = 3.0;
+
+/// Somebody else connects to the lidar, which serves one client, and stays for a while if it can.
+HeadFault SecondClientOfTheLidar() {
+  const auto begin = [](EmulatedSite& site) {
+    return std::jthread([address = site.lidar().address()](const std::stop_token& stop) {
+      const auto client = TcpSocket::Connect(address, std::chrono::milliseconds(200));
+      const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kStays_s);
+      while (client && !stop.stop_requested() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    });
+  };
+  return {"lidar", "second client", begin, kStays_s, {}};
+}
+
+}  // namespace
+
+const std::vector<HeadFault>& HeadFaults() {
+  static const std::vector<HeadFault> kFaults = [] {
+    std::vector<HeadFault> faults = {
+        OfLidar(
+            "corrupt sums", [](auto& lidar) { lidar.InjectCorruptScans(5); }, 0.0),
+        OfLidar(
+            "short stall", [](auto& lidar) { lidar.InjectStall(0.5); }, 0.5),
+        OfLidar(
+            "long stall", [](auto& lidar) { lidar.InjectStall(4.0); }, 4.0),
+        OfLidar(
+            "silence", [](auto& lidar) { lidar.InjectSilence(4.0); }, 4.0),
+        OfLidar(
+            "reset", [](auto& lidar) { lidar.InjectReset(); }, 0.0),
+        OfLidar(
+            "abnormal state", [](auto& lidar) { lidar.InjectAbnormalState(); }, 0.0),
+        SecondClientOfTheLidar(),
+    };
+    for (int i = 0; i < MotorFault::kKinds; ++i)
+      faults.push_back(OfMotor(static_cast<MotorFault::Kind>(i)));
+    faults.push_back(OfCamera(
+        "packet loss 5 %", [](auto& camera) { camera.InjectPacketLoss(0.05); }, 0.0));
+    faults.push_back(OfCamera(
+        "vanished", [](auto& camera) { camera.InjectVanish(4.0); }, 4.0));
+    faults.push_back(OfCamera(
+        "ignored trigger", [](auto& camera) { camera.InjectIgnoredTriggers(1); }, 0.0));
+    faults.push_back(OfCamera(
+        "slow picture", [](auto& camera) { camera.InjectSlowFrames(1, 3.0); }, 3.0));
+    return faults;
+  }();
+  return kFaults;
+}
+
+}  // namespace foresight
