@@ -9,9 +9,9 @@
 
 namespace foresight {
 
-/// A drill as it stands there, in the object's frame: x = the way the bit points, z = up along the
-/// body, y = z cross x; the origin is the middle of the body's axis on the surface that the foot
-/// stands on (DrillTruth has the same frame). Made from a DrillTemplate (drill_template.h) by
+/// A drill as it stands there, in the object's frame: x = the way the bit points, z = up from the
+/// surface that the foot stands on, y = z cross x; the origin is where the body's axis meets that
+/// surface (DrillTruth has the same frame). Made from a DrillTemplate (drill_template.h) by
 /// choosing scale, tilt and bit; it holds all that is needed to draw it and to grasp it.
 struct DrillModel {
   std::string template_name;
@@ -32,6 +32,9 @@ struct DrillModel {
   /// Signed distance of a point in the object's frame to the nearest part's surface, metres.
   double Distance(const Eigen::Vector3d& point) const;
 };
+
+/// The turn about the object's origin that a body's lean stands for.
+Eigen::Quaterniond BodyTurn(const Eigen::Vector2d& body_tilt_rad);
 
 Wireframe WireframeOf(const DrillModel& model);
 

@@ -12,6 +12,9 @@ namespace foresight {
 /// A kind of drill, read from a data file (resources/templates, docs/templates.md): the parts at
 /// scale 1 without lean, and how far a drill of this kind may differ from them.
 struct DrillTemplate {
+  static constexpr const char* kBody = "body";          ///< the part that a hand goes round
+  static constexpr const char* kFoot = "battery foot";  ///< parts that do not lean with the body
+
   std::string name;
   /// Foot, body, head, chuck, trigger... The body's axis is z; parts named "battery foot" do not
   /// lean with it. No bit: that is free.
@@ -20,13 +23,16 @@ struct DrillTemplate {
   double max_scale = 1.25;
   double bit_radius_m = 0.004;
   double max_bit_length_m = 0.15;  ///< from the chuck's face
-  Eigen::Vector3d chuck_face_m =
-      Eigen::Vector3d::Zero();  ///< where a bit begins; it points along x
+  /// Where a bit begins, and the way it points there: x, or z of a tool that works upwards.
+  Eigen::Vector3d chuck_face_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d bit_direction = Eigen::Vector3d::UnitX();
   Rigid<frame::Object, frame::Object> object_from_grasp;
   Eigen::Vector3d trigger_m = Eigen::Vector3d::Zero();
 
   /// Fails with kInvalidOptions, naming the part or member at fault.
   Status Check() const;
+  /// The first part named "body". Check() has passed.
+  const SolidPart& Body() const;
   DrillModel Make(double scale, const Eigen::Vector2d& body_tilt_rad, double bit_length_m) const;
 };
 

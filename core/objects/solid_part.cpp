@@ -44,6 +44,19 @@ Wireframe CylinderLines(double radius, double half_length) {
 
 }  // namespace
 
+Status SolidPart::Check() const {
+  if (!(size_m.minCoeff() > 0.0) || !size_m.allFinite())
+    return Fail(ErrorCode::kInvalidOptions, "part '{}': size {} x {} x {} m is not above 0", name,
+                size_m.x(), size_m.y(), size_m.z());
+  if (!object_from_part.translation().allFinite() ||
+      !object_from_part.rotation().coeffs().allFinite())
+    return Fail(ErrorCode::kInvalidOptions, "part '{}': its pose is not finite", name);
+  if (shape != Shape::kBox && size_m.x() != size_m.y())
+    return Fail(ErrorCode::kInvalidOptions, "part '{}': {} m by {} m is not round", name,
+                size_m.x(), size_m.y());
+  return {};
+}
+
 double SolidPart::Distance(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d p = object_from_part.Inverse() * point;
   if (shape == Shape::kBox) {

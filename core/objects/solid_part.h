@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/geometry/rigid.h"
 
 namespace foresight {
@@ -21,6 +22,9 @@ struct SolidPart {
   Rigid<frame::Object, frame::Object> object_from_part;  ///< the part's middle
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
 
+  /// Fails with kInvalidOptions, naming the part: a size that is not above 0, a pose that is not
+  /// finite, a cylinder or capsule that is not round.
+  Status Check() const;
   /// Signed distance of a point in the object's frame to the surface, metres.
   double Distance(const Eigen::Vector3d& point) const;
 };

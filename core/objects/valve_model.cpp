@@ -27,9 +27,54 @@ std::vector<Eigen::Vector3d> Circle(double radius, double z) {
   return points;
 }
 
+Status CheckLever(const ValveModel& lever) {
+  if (!std::isfinite(lever.lever_length_m) || !(lever.tube_radius_m > 0.0) ||
+      !(lever.tube_radius_m < lever.lever_length_m))
+    return Fail(ErrorCode::kInvalidOptions,
+                "valve: lever_length_m {} and tube_radius_m {} make no lever", lever.lever_length_m,
+                lever.tube_radius_m);
+  if (!(lever.hub_radius_m > 0.0) || !std::isfinite(lever.hub_radius_m))
+    return Fail(ErrorCode::kInvalidOptions, "valve: hub_radius_m {} is not usable",
+                lever.hub_radius_m);
+  return {};
+}
+
+double LeverDistance(const ValveModel& lever, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
+  const double bar =
+      SegmentDistance(point, pivot, lever.lever_length_m * Eigen::Vector3d::UnitX()) -
+      lever.tube_radius_m;
+  const double stem =
+      SegmentDistance(point, pivot, -ValveModel::kLeverStem_m * Eigen::Vector3d::UnitZ()) -
+      ValveModel::kLeverStemPerHub * lever.hub_radius_m;
+  return std::min({bar, stem, point.norm() - lever.hub_radius_m});
+}
+
+Wireframe LeverLines(const ValveModel& lever) {
+  const double length = lever.lever_length_m;
+  const double half = lever.tube_radius_m;
+  std::vector<Eigen::Vector3d> outline;
+  constexpr int kCorners = 16;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double angle = std::numbers::pi * (static_cast<double>(i) / kCorners - 0.5);
+    outline.emplace_back(length + half * std::cos(angle), half * std::sin(angle), 0.0);
+  }
+  outline.emplace_back(0.0, half, 0.0);
+  outline.emplace_back(0.0, -half, 0.0);
+  outline.push_back(outline.front());
+  return {outline,
+          Circle(lever.hub_radius_m, 0.0),
+          {{0.0, 0.0, -ValveModel::kLeverStem_m}, {0.0, 0.0, 0.1}}};
+}
+
 }  // namespace
 
+const char* ToString(ValveModel::Kind kind) {
+  return kind == ValveModel::Kind::kLever ? "lever" : "wheel";
+}
+
 Status ValveModel::Check() const {
+  if (IsLever()) return CheckLever(*this);
   if (!std::isfinite(rim_radius_m) || !(tube_radius_m > 0.0) || !(tube_radius_m < rim_radius_m))
     return Fail(ErrorCode::kInvalidOptions,
                 "valve: rim_radius_m {} and tube_radius_m {} make no wheel", rim_radius_m,
@@ -46,6 +91,7 @@ Status ValveModel::Check() const {
 }
 
 double ValveModel::Distance(const Eigen::Vector3d& point) const {
+  if (IsLever()) return LeverDistance(*this, point);
   const double radial = std::hypot(point.x(), point.y());
   double distance = std::hypot(radial - rim_radius_m, point.z()) - tube_radius_m;
   const Eigen::Vector3d hub(0.0, 0.0, -dish_m);
@@ -67,6 +113,7 @@ double ValveModel::Distance(const Eigen::Vector3d& point) const {
 }
 
 Wireframe WireframeOf(const ValveModel& model) {
+  if (model.IsLever()) return LeverLines(model);
   Wireframe lines;
   lines.push_back(Circle(model.rim_radius_m + model.tube_radius_m, 0.0));
   lines.push_back(Circle(model.rim_radius_m - model.tube_radius_m, 0.0));

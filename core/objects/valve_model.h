@@ -8,17 +8,30 @@
 
 namespace foresight {
 
-/// A wheel valve in the object's frame: the rim is a torus in the plane z = 0 around the origin, z
-/// is the axis of rotation pointing to the viewer, x points along the first spoke. The hub lies at
-/// z = -dish (away from the viewer for a positive dish, as handwheels are built) and carries the
-/// spokes.
+/// A valve in the object's frame; z is the axis of rotation pointing to the viewer.
+///
+/// A wheel's rim is a torus in the plane z = 0 around the origin, x points along the first spoke.
+/// The hub lies at z = -dish (away from the viewer for a positive dish, as handwheels are built)
+/// and carries the spokes.
+///
+/// A lever's bar runs from the origin, its pivot, along x. A round head sits on the pivot and a
+/// stem leads back from it. Rim, spokes and dish mean nothing there.
 struct ValveModel {
-  double rim_radius_m = 0.10;  ///< centre of the rim's tube
-  double tube_radius_m = 0.012;
-  int spokes = 3;  ///< 0 = a disc, else 2 to 6
+  enum class Kind { kWheel, kLever };
+
+  double rim_radius_m = 0.10;    ///< centre of the rim's tube
+  double tube_radius_m = 0.012;  ///< of the rim, or half a lever's thickness
+  int spokes = 3;                ///< 0 = a disc, else 2 to 6
   double spoke_radius_m = 0.008;
-  double hub_radius_m = 0.020;
+  double hub_radius_m = 0.020;  ///< or of the head on a lever's pivot
   double dish_m = 0.0;
+  Kind kind = Kind::kWheel;
+  double lever_length_m = 0.0;  ///< from the pivot to the middle of its round end
+
+  static constexpr double kLeverStem_m = 0.05;     ///< length of a lever's stem
+  static constexpr double kLeverStemPerHub = 0.6;  ///< its radius, as a share of the head's
+
+  bool IsLever() const { return kind == Kind::kLever; }
 
   Status Check() const;
 
@@ -26,6 +39,9 @@ struct ValveModel {
   /// outside.
   double Distance(const Eigen::Vector3d& point) const;
 };
+
+/// "wheel", "lever": the kind in files.
+const char* ToString(ValveModel::Kind kind);
 
 Wireframe WireframeOf(const ValveModel& model);
 

@@ -1,0 +1,91 @@
+#include "core/objects/drill_template.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/contract.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kShortestBit_m = 0.002;
+
+SolidPart Bit(const Eigen::Vector3d& chuck_face_m, const Eigen::Vector3d& direction,
+              double radius_m, double length_m) {
+  SolidPart bit;
+  bit.name = "bit";
+  bit.shape = SolidPart::Shape::kCylinder;
+  bit.object_from_part = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction),
+                          chuck_face_m + 0.5 * length_m * direction};
+  bit.size_m = {2.0 * radius_m, 2.0 * radius_m, length_m};
+  return bit;
+}
+
+SolidPart Scaled(const SolidPart& part, double scale) {
+  SolidPart scaled = part;
+  scaled.size_m *= scale;
+  scaled.object_from_part = {part.object_from_part.rotation(),
+                             scale * part.object_from_part.translation()};
+  return scaled;
+}
+
+}  // namespace
+
+Status DrillTemplate::Check() const {
+  if (!(min_scale >= 0.5 && min_scale <= 1.0 && max_scale >= 1.0 && max_scale <= 2.0))
+    return Fail(ErrorCode::kInvalidOptions,
+                "drill template '{}': scale {} to {} does not hold 1 within 0.5 to 2", name,
+                min_scale, max_scale);
+  if (!(bit_radius_m > 0.0 && max_bit_length_m >= 0.0 && max_bit_length_m <= 0.5))
+    return Fail(ErrorCode::kInvalidOptions,
+                "drill template '{}': a bit of radius {} m and up to {} m is not usable", name,
+                bit_radius_m, max_bit_length_m);
+  if (!(std::abs(bit_direction.norm() - 1.0) < 1e-6))
+    return Fail(ErrorCode::kInvalidOptions,
+                "drill template '{}': the bit's direction has length {}", name,
+                bit_direction.norm());
+  for (const SolidPart& part : parts) FORESIGHT_CHECK(part.Check());
+  const auto is_body = [](const SolidPart& part) { return part.name == kBody; };
+  if (std::none_of(parts.begin(), parts.end(), is_body))
+    return Fail(ErrorCode::kInvalidOptions, "drill template '{}': no part is named '{}'", name,
+                kBody);
+  return {};
+}
+
+const SolidPart& DrillTemplate::Body() const {
+  const auto is_body = [](const SolidPart& part) { return part.name == kBody; };
+  const auto found = std::find_if(parts.begin(), parts.end(), is_body);
+  FORESIGHT_EXPECTS(found != parts.end(), "a drill template has a body");
+  return *found;
+}
+
+DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_rad,
+                               double bit_length_m) const {
+  const Rigid<frame::Object, frame::Object> lean(BodyTurn(body_tilt_rad), Eigen::Vector3d::Zero());
+  DrillModel model;
+  model.template_name = name;
+  model.scale = scale;
+  model.body_tilt_rad = body_tilt_rad;
+  model.bit_length_m = bit_length_m < kShortestBit_m ? 0.0 : bit_length_m;
+  model.parts.reserve(parts.size() + 1);
+  for (const SolidPart& part : parts) {
+    SolidPart made = Scaled(part, scale);
+    if (part.name != kFoot) made.object_from_part = lean * made.object_from_part;
+    model.parts.push_back(std::move(made));
+  }
+  // A bit is no part of the drill's size: it begins at the scaled chuck and keeps its own length.
+  const Eigen::Vector3d chuck_face = scale * chuck_face_m;
+  if (model.bit_length_m > 0.0) {
+    SolidPart bit = Bit(chuck_face, bit_direction, bit_radius_m, model.bit_length_m);
+    bit.object_from_part = lean * bit.object_from_part;
+    model.parts.push_back(std::move(bit));
+  }
+  model.object_from_grasp =
+      lean * Rigid<frame::Object, frame::Object>(object_from_grasp.rotation(),
+                                                 scale * object_from_grasp.translation());
+  model.trigger_m = lean * Eigen::Vector3d(scale * trigger_m);
+  model.bit_tip_m = lean * Eigen::Vector3d(chuck_face + model.bit_length_m * bit_direction);
+  return model;
+}
+
+}  // namespace foresight

@@ -1,0 +1,131 @@
+#include "core/objects/drill_template.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kExact = 1e-12;
+
+const char* const kExample = R"(foresight_template: 1
+object: drill
+name: example
+parts:
+  - {name: battery foot, shape: box, middle_m: [0.01, 0, 0.02], size_m: [0.10, 0.06, 0.04]}
+  - {name: body, shape: cylinder, from_m: [0, 0, 0.04], to_m: [0, 0, 0.20], radius_m: 0.025}
+  - {name: head, shape: capsule, from_m: [-0.05, 0, 0.21], to_m: [0.08, 0, 0.21], radius_m: 0.03}
+bit: {from_m: [0.11, 0, 0.21]}
+grasp_m: [0, 0, 0.12]
+trigger_m: [0.03, 0, 0.16]
+)";
+
+std::string Replaced(const std::string& from, const std::string& to) {
+  std::string text = kExample;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string FaultOf(const std::string& yaml) {
+  const auto read = DrillTemplateFromYaml(yaml, "my.yaml");
+  if (read) return "was read";
+  EXPECT_EQ(read.error().code, ErrorCode::kBadData);
+  return read.error().message;
+}
+
+DrillTemplate Example() {
+  auto read = DrillTemplateFromYaml(kExample, "my.yaml");
+  EXPECT_TRUE(read) << read.error().message;
+  return *read;
+}
+
+TEST(DrillTemplate, ShipsABarrelDrillACutOutToolAndAPlainOne) {
+  std::vector<std::string> names;
+  for (const DrillTemplate& drill : ShippedDrillTemplates()) {
+    EXPECT_TRUE(drill.Check()) << drill.name;
+    names.push_back(drill.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"barrel drill", "cut-out tool", "plain drill"}));
+}
+
+TEST(DrillTemplate, ShippedOnesStandOnTheirOrigin) {
+  for (const DrillTemplate& drill : ShippedDrillTemplates()) {
+    const DrillModel model = drill.Make(1.0, {0.0, 0.0}, 0.0);
+    EXPECT_LT(model.Distance({0.0, 0.0, 0.001}), 0.0) << drill.name;
+    EXPECT_NEAR(model.Distance({0.0, 0.0, -0.010}), 0.010, kExact) << drill.name;
+  }
+}
+
+TEST(DrillTemplate, FaultsNameFileAndLine) {
+  EXPECT_EQ(FaultOf(Replaced("radius_m: 0.025", "radius_m: -1")).substr(0, 10), "my.yaml:6:");
+  EXPECT_EQ(FaultOf(Replaced("shape: capsule", "shape: cone")),
+            "my.yaml:7: shape 'cone' is not box, cylinder or capsule");
+  EXPECT_EQ(FaultOf(Replaced("name: body", "name: boddy")),
+            "my.yaml:1: drill template 'example': no part is named 'body'");
+  EXPECT_EQ(FaultOf(Replaced("object: drill", "object: valve")).substr(0, 10), "my.yaml:2:");
+  EXPECT_EQ(FaultOf(Replaced("foresight_template: 1", "foresight_template: 9")),
+            "my.yaml:1: this version cannot be read");
+}
+
+TEST(DrillTemplate, AMistypedKeyIsNotSilentlyADefault) {
+  EXPECT_EQ(FaultOf(Replaced("bit: {from_m", "bit: {lenght_m: 0.1, from_m")).substr(0, 10),
+            "my.yaml:8:");
+}
+
+TEST(DrillTemplate, IsReadFromAFile) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "drill.yaml";
+  std::ofstream(path) << kExample;
+  const auto read = LoadDrillTemplate(path);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->name, "example");
+  EXPECT_FALSE(LoadDrillTemplate(folder.path() / "none.yaml"));
+}
+
+TEST(DrillTemplate, ScalesTheDrillButNotItsBit) {
+  const DrillModel model = Example().Make(1.2, {0.0, 0.0}, 0.05);
+  EXPECT_NEAR((model.bit_tip_m - Eigen::Vector3d(0.132 + 0.05, 0.0, 0.252)).norm(), 0.0, kExact);
+  EXPECT_NEAR((model.trigger_m - Eigen::Vector3d(0.036, 0.0, 0.192)).norm(), 0.0, kExact);
+  EXPECT_NEAR(model.Distance({0.0, 0.13, 0.144}), 0.13 - 0.03, kExact);  // to the body's side
+}
+
+TEST(DrillTemplate, WithoutABitTheTipIsTheChucksFace) {
+  const DrillModel model = Example().Make(1.0, {0.0, 0.0}, 0.0);
+  EXPECT_EQ(model.parts.size(), 3u);
+  EXPECT_NEAR((model.bit_tip_m - Eigen::Vector3d(0.11, 0.0, 0.21)).norm(), 0.0, kExact);
+}
+
+TEST(DrillTemplate, LeansEverythingButTheFoot) {
+  const double lean = 0.2;  // about y: the head goes forwards
+  const DrillModel model = Example().Make(1.0, {0.0, lean}, 0.0);
+  EXPECT_NEAR(model.parts[0].object_from_part.translation().x(), 0.01, kExact);
+  EXPECT_NEAR(model.parts[1].object_from_part.translation().x(), 0.12 * std::sin(lean), kExact);
+  const Eigen::Vector3d up = model.object_from_grasp.Rotate(Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(std::atan2(up.x(), up.z()), lean, kExact);
+  EXPECT_NEAR(model.object_from_grasp.translation().norm(), 0.12, kExact);
+}
+
+TEST(DrillModel, IsDrawnWithItsBit) {
+  const DrillModel bare = Example().Make(1.0, {0.0, 0.0}, 0.0);
+  const DrillModel with_bit = Example().Make(1.0, {0.0, 0.0}, 0.07);
+  EXPECT_GT(WireframeOf(with_bit).size(), WireframeOf(bare).size());
+  double reach = 0.0;
+  for (const auto& line : WireframeOf(with_bit))
+    for (const Eigen::Vector3d& point : line) reach = std::max(reach, point.x());
+  EXPECT_NEAR(reach, 0.18, 1e-6);
+}
+
+TEST(DrillModel, RefusesASizeThatIsNotAboveZero) {
+  DrillModel model = Example().Make(1.0, {0.0, 0.0}, 0.0);
+  EXPECT_TRUE(model.Check());
+  model.parts[1].size_m.z() = 0.0;
+  EXPECT_FALSE(model.Check());
+  EXPECT_FALSE(DrillModel().Check());
+}
+
+}  // namespace
+}  // namespace foresight
