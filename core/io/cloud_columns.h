@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace foresight {
+
+/// A number as point cloud files store it.
+enum class CloudScalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+std::size_t SizeOf(CloudScalar type);
+
+/// One coordinate of all points in a block of bytes.
+struct CloudColumn {
+  CloudScalar type = CloudScalar::kFloat32;
+  std::size_t first = 0;   ///< bytes before the first value
+  std::size_t stride = 0;  ///< bytes from one value to the next
+};
+
+/// Points from columns x, y, z. The caller has checked that the block is long enough.
+std::vector<Eigen::Vector3d> PointsFromColumns(std::string_view block,
+                                               const std::array<CloudColumn, 3>& columns,
+                                               std::size_t count, bool big_endian);
+
+/// Points from numbers written out: `count` rows of `fields` words each, of which `xyz` are wanted.
+Result<std::vector<Eigen::Vector3d>> PointsFromText(std::string_view text,
+                                                    const std::array<std::size_t, 3>& xyz,
+                                                    std::size_t fields, std::size_t count,
+                                                    const std::string& source);
+
+/// Takes the next line off `rest`, without its end; nullopt where there is none.
+std::optional<std::string_view> TakeLine(std::string_view& rest);
+std::vector<std::string_view> Words(std::string_view line);
+/// A whole number in [0, limit]; nullopt for anything else.
+std::optional<std::size_t> ParseCount(std::string_view word, std::size_t limit);
+
+inline constexpr std::size_t kMostCloudPoints = 100'000'000;
+
+}  // namespace foresight

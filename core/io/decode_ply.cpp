@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <array>
+
+#include "core/io/cloud_columns.h"
+#include "core/io/read_point_cloud.h"
+
+namespace foresight {
+namespace {
+
+enum class Format { kAscii, kLittleEndian, kBigEndian };
+
+struct Property {
+  std::string_view name;
+  CloudScalar type = CloudScalar::kFloat32;
+};
+
+struct Element {
+  std::string_view name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+  bool has_list = false;
+
+  std::size_t RecordBytes() const {
+    std::size_t bytes = 0;
+    for (const Property& property : properties) bytes += SizeOf(property.type);
+    return bytes;
+  }
+};
+
+struct Header {
+  Format format = Format::kAscii;
+  std::vector<Element> elements;
+};
+
+std::optional<CloudScalar> ScalarNamed(std::string_view name) {
+  using enum CloudScalar;
+  struct Name {
+    std::string_view name;
+    CloudScalar type;
+  };
+  constexpr Name kNames[] = {
+      {"char", kInt8},     {"int8", kInt8},       {"uchar", kUint8},    {"uint8", kUint8},
+      {"short", kInt16},   {"int16", kInt16},     {"ushort", kUint16},  {"uint16", kUint16},
+      {"int", kInt32},     {"int32", kInt32},     {"uint", kUint32},    {"uint32", kUint32},
+      {"float", kFloat32}, {"float32", kFloat32}, {"double", kFloat64}, {"float64", kFloat64}};
+  for (const Name& known : kNames)
+    if (known.name == name) return known.type;
+  return std::nullopt;
+}
+
+Result<Format> FormatNamed(std::string_view name, const std::string& source) {
+  if (name == "ascii") return Format::kAscii;
+  if (name == "binary_little_endian") return Format::kLittleEndian;
+  if (name == "binary_big_endian") return Format::kBigEndian;
+  return Fail(ErrorCode::kBadData, "{}: PLY format '{}' is not known", source, name.substr(0, 32));
+}
+
+Status ReadHeaderLine(const std::vector<std::string_view>& words, Header& header,
+                      const std::string& source) {
+  const auto fail = [&] {
+    return Fail(ErrorCode::kBadData, "{}: PLY header: '{} ...' makes no sense", source,
+                words[0].substr(0, 32));
+  };
+  if (words[0] == "comment" || words[0] == "obj_info") return {};
+  if (words[0] == "format" && words.size() >= 2) {
+    FORESIGHT_TRY(header.format, FormatNamed(words[1], source));
+    return {};
+  }
+  if (words[0] == "element" && words.size() == 3) {
+    const auto count = ParseCount(words[2], kMostCloudPoints);
+    if (!count)
+      return Fail(ErrorCode::kBadData, "{}: '{}' elements '{}' are not 0 to {}", source,
+                  words[2].substr(0, 32), words[1].substr(0, 32), kMostCloudPoints);
+    header.elements.push_back({words[1], *count, {}, false});
+    return {};
+  }
+  if (words[0] != "property" || words.size() < 3 || header.elements.empty()) return fail();
+  Element& element = header.elements.back();
+  if (words[1] == "list") {
+    element.has_list = true;
+    return {};
+  }
+  const auto type = ScalarNamed(words[1]);
+  if (!type) return fail();
+  element.properties.push_back({words[2], *type});
+  return {};
+}
+
+/// Leaves `rest` at the first byte after the header.
+Result<Header> ReadHeader(std::string_view& rest, const std::string& source) {
+  Header header;
+  bool has_format = false;
+  TakeLine(rest);
+  while (const auto line = TakeLine(rest)) {
+    const std::vector<std::string_view> words = Words(*line);
+    if (words.empty()) continue;
+    if (words[0] == "end_header") {
+      if (has_format) return header;
+      return Fail(ErrorCode::kBadData, "{}: PLY header without a format", source);
+    }
+    has_format = has_format || words[0] == "format";
+    FORESIGHT_CHECK(ReadHeaderLine(words, header, source));
+  }
+  return Fail(ErrorCode::kBadData, "{}: PLY header without an end", source);
+}
+
+Result<std::array<std::size_t, 3>> FindXyz(const Element& vertex, const std::string& source) {
+  std::array<std::size_t, 3> at{};
+  constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto found = std::find_if(vertex.properties.begin(), vertex.properties.end(),
+                                    [&](const Property& p) { return p.name == kNames[axis]; });
+    if (found == vertex.properties.end())
+      return Fail(ErrorCode::kBadData, "{}: its vertices have no '{}'", source, kNames[axis]);
+    at[axis] = static_cast<std::size_t>(found - vertex.properties.begin());
+  }
+  return at;
+}
+
+Status SkipElement(const Element& element, Format format, std::string_view& rest,
+                   const std::string& source) {
+  if (format == Format::kAscii) {
+    for (std::size_t i = 0; i < element.count; ++i)
+      if (!TakeLine(rest)) return Fail(ErrorCode::kBadData, "{}: ends before its vertices", source);
+    return {};
+  }
+  const std::size_t bytes = element.count * element.RecordBytes();
+  if (element.has_list)
+    return Fail(ErrorCode::kBadData, "{}: lists of '{}' before the vertices are not read", source,
+                element.name.substr(0, 32));
+  if (bytes > rest.size()) return Fail(ErrorCode::kBadData, "{}: ends before its vertices", source);
+  rest.remove_prefix(bytes);
+  return {};
+}
+
+Result<std::vector<Eigen::Vector3d>> ReadVertices(const Element& vertex, Format format,
+                                                  std::string_view rest,
+                                                  const std::string& source) {
+  FORESIGHT_TRY(const auto xyz, FindXyz(vertex, source));
+  if (vertex.has_list)
+    return Fail(ErrorCode::kBadData, "{}: vertices with lists are not read", source);
+  if (format == Format::kAscii)
+    return PointsFromText(rest, xyz, vertex.properties.size(), vertex.count, source);
+  const std::size_t record = vertex.RecordBytes();
+  if (vertex.count * record > rest.size())
+    return Fail(ErrorCode::kBadData, "{}: {} points need {} bytes, the file has {}", source,
+                vertex.count, vertex.count * record, rest.size());
+  std::array<CloudColumn, 3> columns;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    columns[axis] = {vertex.properties[xyz[axis]].type, 0, record};
+    for (std::size_t i = 0; i < xyz[axis]; ++i)
+      columns[axis].first += SizeOf(vertex.properties[i].type);
+  }
+  return PointsFromColumns(rest, columns, vertex.count, format == Format::kBigEndian);
+}
+
+}  // namespace
+
+Result<std::vector<Eigen::Vector3d>> DecodePly(std::string_view bytes, const std::string& source) {
+  if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
+    return Fail(ErrorCode::kBadData, "{}: is not a PLY file: it does not start with 'ply'", source);
+  FORESIGHT_TRY(const Header header, ReadHeader(bytes, source));
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") return ReadVertices(element, header.format, bytes, source);
+    FORESIGHT_CHECK(SkipElement(element, header.format, bytes, source));
+  }
+  return Fail(ErrorCode::kBadData, "{}: PLY without vertices", source);
+}
+
+}  // namespace foresight
