@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/log.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -14,6 +13,12 @@ constexpr std::chrono::microseconds kPoll{5000};
 constexpr double kStandstillTimeout_s = 10.0;
 /// The last lines still arrive after the motor has come to rest.
 constexpr double kLateLines_s = 0.3;
+
+std::vector<double> InOrder(std::vector<double> angles_rad, double sign) {
+  std::sort(angles_rad.begin(), angles_rad.end(),
+            [sign](double a, double b) { return sign * a < sign * b; });
+  return angles_rad;
+}
 
 }  // namespace
 
@@ -26,12 +31,9 @@ CaptureSweep::CaptureSweep(HeadDevices& devices, const CaptureOptions& options, 
       sink_(sink),
       hooks_(std::move(hooks)),
       sign_(plan_.to_rad > plan_.from_rad ? 1.0 : -1.0),
-      image_angles_(plan_.image_angles_rad),
+      pictures_(*devices.camera, *devices.clock, InOrder(plan_.image_angles_rad, sign_)),
       gate_(header.rig.lidar, plan_.from_rad, plan_.to_rad),
-      health_at_start_(ReadHealth(devices)) {
-  std::sort(image_angles_.begin(), image_angles_.end(),
-            [this](double a, double b) { return sign_ * a < sign_ * b; });
-}
+      health_at_start_(ReadHealth(devices)) {}
 
 SweepEnd CaptureSweep::Run() {
   SweepEnd end;
@@ -57,17 +59,17 @@ SweepEnd CaptureSweep::RunToTheEnd() {
   sink_.OnScanStarted(header_);
   Step end = MoveToStart();
   if (!end) end = SweepThrough();
-  Report(HeadState::kStopping);
-  if (end) devices_.motor->QuickStop();
-  const Step stop = WaitForStandstill(kStandstillTimeout_s);
-  if (!end) end = stop;
+  end = ComeToRest(end);
   HandOnLines();
   StopLidar();
   if (!end || !end->shutting_down) {
-    const Step frames = CollectFrames();
-    if (!end) end = frames;
+    const Step pictures = CollectPictures();
+    if (!end) end = pictures;
   }
-  return end.value_or(SweepEnd{});
+  if (!end && !pictures_.Missing().empty()) end = ComeToRest(ShootAtRest(pictures_.Missing()));
+  HandOnPictures(true);
+  Report(HeadState::kStopping);
+  return end.value_or(JudgePictures());
 }
 
 void CaptureSweep::StopLidar() {
@@ -87,8 +89,12 @@ CaptureSweep::Step CaptureSweep::MoveToStart() {
   const double start = plan_.from_rad - sign_ * options_.RunUp(plan_.speed_rad_s);
   const Status moving = devices_.motor->StartMove(start, options_.travel_speed_rad_s);
   if (!moving) return DeviceFailed(moving.error().message);
+  return WaitForStandstill(TravelTimeout());
+}
+
+double CaptureSweep::TravelTimeout() const {
   const double longest_way = ScanPlan::kMaxAngle_rad - ScanPlan::kMinAngle_rad;
-  return WaitForStandstill(kStandstillTimeout_s + 2.0 * longest_way / options_.travel_speed_rad_s);
+  return kStandstillTimeout_s + 2.0 * longest_way / options_.travel_speed_rad_s;
 }
 
 CaptureSweep::Step CaptureSweep::WaitForStandstill(double timeout_s) {
@@ -106,7 +112,7 @@ CaptureSweep::Step CaptureSweep::WaitForStandstill(double timeout_s) {
       return DeviceFailed(fmt::format("{}: did not come to rest within {:.0f} s",
                                       devices_.motor->Describe(), timeout_s));
     devices_.clock->Sleep(kPoll);
-    if (ending) PumpTrack();
+    if (lidar_health_ || ending) PumpTrack();
     Report(progress_.state);
   }
 }
@@ -119,7 +125,7 @@ CaptureSweep::Step CaptureSweep::SweepThrough() {
   const double end = plan_.to_rad + sign_ * options_.RunUp(plan_.speed_rad_s);
   if (const Status moving = devices_.motor->StartMove(end, plan_.speed_rad_s); !moving)
     return DeviceFailed(moving.error().message);
-  while (!gate_.Passed() || next_image_ < image_angles_.size())
+  while (!gate_.Passed() || next_picture_ < pictures_.size())
     if (Step over = SweepOnce()) return over;
   return std::nullopt;
 }
@@ -132,9 +138,8 @@ CaptureSweep::Step CaptureSweep::SweepOnce() {
   if (Step end = ReceiveLine(free_s)) return end;
   PumpTrack();
   HandOnLines();
-  if (!triggered_.empty())
-    if (Step end = ReceiveFrame(std::chrono::milliseconds(0))) return end;
-  HandOnFrames(false);
+  if (pictures_.Waiting()) pictures_.Receive(std::chrono::milliseconds(0));
+  HandOnPictures(false);
   Report(HeadState::kSweeping);
   return std::nullopt;
 }
@@ -150,8 +155,8 @@ CaptureSweep::Step CaptureSweep::CheckMotor() {
 CaptureSweep::Step CaptureSweep::TriggerWhenDue(double* free_s) {
   constexpr double kTimerStep_s = 0.001;  // a device's time-out is in whole milliseconds
   *free_s = std::numeric_limits<double>::infinity();
-  while (next_image_ < image_angles_.size()) {
-    const double target = image_angles_[next_image_];
+  while (next_picture_ < pictures_.size()) {
+    const double target = pictures_.Angle(next_picture_);
     const double now_rad = progress_.position.angle_rad;
     // The middle of the exposure is to lie at the angle.
     const double due_s = sign_ * (target - now_rad) / plan_.speed_rad_s - 0.5 * plan_.exposure_s;
@@ -161,10 +166,7 @@ CaptureSweep::Step CaptureSweep::TriggerWhenDue(double* free_s) {
     }
     if (due_s > 0.0)
       devices_.clock->Sleep(std::chrono::microseconds(static_cast<int>(due_s * 1e6)));
-    if (const auto triggered = devices_.camera->Trigger(); !triggered)
-      return DeviceFailed(triggered.error().message);
-    triggered_.push_back(target);
-    ++next_image_;
+    pictures_.Trigger(next_picture_++);
     if (Step end = CheckMotor()) return end;
   }
   return std::nullopt;
@@ -202,35 +204,71 @@ CaptureSweep::Step CaptureSweep::ReceiveLine(double longest_wait_s) {
   return std::nullopt;
 }
 
-CaptureSweep::Step CaptureSweep::ReceiveFrame(std::chrono::milliseconds timeout) {
-  Result<std::optional<CameraFrame>> frame = devices_.camera->WaitForFrame(timeout);
-  if (!frame) return DeviceFailed(frame.error().message);
-  if (!*frame) return std::nullopt;
-  (*frame)->target_angle_rad = triggered_.front();
-  triggered_.pop_front();
-  frames_.push_back(std::move(**frame));
+/// Waits until the motor stands, which it is told to where the scan must end; `end` if it must.
+CaptureSweep::Step CaptureSweep::ComeToRest(Step end) {
+  Report(HeadState::kStopping);
+  if (end) devices_.motor->QuickStop();
+  const Step failed = WaitForStandstill(kStandstillTimeout_s);
+  return end ? end : failed;
+}
+
+CaptureSweep::Step CaptureSweep::CollectPictures() {
+  while (pictures_.Waiting() && Now() - pictures_.LastNews_s() <= options_.camera_timeout_s) {
+    if (Step end = hooks_.interruption(); end && end->shutting_down) return end;
+    pictures_.Receive(std::chrono::milliseconds(100));
+    PumpTrack();
+    HandOnPictures(false);
+    Report(progress_.state);
+  }
+  pictures_.StopWaiting();
+  PumpTrack();
+  HandOnPictures(false);
   return std::nullopt;
 }
 
-CaptureSweep::Step CaptureSweep::CollectFrames() {
-  double last_frame_s = Now();
-  while (!triggered_.empty()) {
-    if (Step end = hooks_.interruption(); end && end->shutting_down) return end;
-    const std::size_t before = triggered_.size();
-    if (Step failed = ReceiveFrame(std::chrono::milliseconds(100))) return failed;
-    if (triggered_.size() < before) last_frame_s = Now();
-    if (Now() - last_frame_s > options_.camera_timeout_s)
-      return DeviceFailed(fmt::format("{}: {} pictures did not arrive within {:.0f} s",
-                                      devices_.camera->Describe(), triggered_.size(),
-                                      options_.camera_timeout_s));
-    PumpTrack();
-    HandOnFrames(false);
-    Report(HeadState::kStopping);
+/// Goes to the angle of each picture and takes it while the head stands.
+CaptureSweep::Step CaptureSweep::ShootAtRest(const std::vector<std::size_t>& pictures) {
+  Report(HeadState::kSweeping);
+  for (const std::size_t picture : pictures) {
+    bool taken = false;
+    if (Step end = ShootAtRest(picture, &taken)) return end;
+    if (!taken) break;  // nor would it take the next one
   }
-  PumpTrack();
-  HandOnFrames(true);
-  Report(HeadState::kStopping);
+  return CollectPictures();
+}
+
+/// Waits for a camera that does not take the trigger; `taken` tells whether it did in the end.
+CaptureSweep::Step CaptureSweep::ShootAtRest(std::size_t picture, bool* taken) {
+  const Status moving =
+      devices_.motor->StartMove(pictures_.Angle(picture), options_.travel_speed_rad_s);
+  if (!moving) return DeviceFailed(moving.error().message);
+  if (Step end = WaitForStandstill(TravelTimeout())) return end;
+  if (Step end = StandFor(options_.settle_s)) return end;
+  const double deadline_s = Now() + options_.camera_timeout_s;
+  while (!(*taken = pictures_.Trigger(picture)) && Now() < deadline_s)
+    if (Step end = StandFor(0.1)) return end;
+  return *taken ? StandFor(plan_.exposure_s + options_.settle_s) : std::nullopt;
+}
+
+CaptureSweep::Step CaptureSweep::StandFor(double seconds) {
+  const double end_s = Now() + seconds;
+  while (Now() < end_s) {
+    if (Step end = hooks_.interruption()) return end;
+    if (Step failed = CheckMotor()) return failed;
+    devices_.clock->Sleep(kPoll);
+    PumpTrack();
+    Report(progress_.state);
+  }
   return std::nullopt;
+}
+
+/// All lines are there; a picture that is not is worth a word, and a camera that is gone a fault.
+SweepEnd CaptureSweep::JudgePictures() const {
+  SweepEnd end;
+  end.reason = pictures_.DescribeMissing();
+  const CameraHealth camera = devices_.camera->Health();
+  end.fault = !end.reason.empty() && (!camera.connected || camera.suspect);
+  return end;
 }
 
 void CaptureSweep::PumpTrack() {
@@ -252,23 +290,8 @@ void CaptureSweep::HandOnLines() {
   }
 }
 
-/// Hands on the frames around whose exposure the track is known; `all`: no more samples will come.
-void CaptureSweep::HandOnFrames(bool all) {
-  while (!frames_.empty()) {
-    CameraFrame& frame = frames_.front();
-    const bool covered =
-        !track_.empty() && track_.samples().back().time_s >= frame.time_s + MotorTrack::kWindow_s;
-    if (!covered && !all) return;
-    frame.motor_angle_rad = track_.AngleAt(frame.time_s);
-    if (std::isfinite(frame.motor_angle_rad)) {
-      sink_.OnFrame(frame);
-      ++progress_.frames;
-    } else {
-      LogWarning("{}: dropped a picture taken while the motor's angle was not known",
-                 devices_.camera->Describe());
-    }
-    frames_.erase(frames_.begin());
-  }
+void CaptureSweep::HandOnPictures(bool all) {
+  progress_.frames += pictures_.HandOn(track_, sink_, all);
 }
 
 void CaptureSweep::Report(HeadState state) {

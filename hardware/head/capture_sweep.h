@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "hardware/head/capture_options.h"
 #include "hardware/head/head_devices.h"
 #include "hardware/head/line_gate.h"
+#include "hardware/head/sweep_pictures.h"
 
 namespace foresight {
 
@@ -31,8 +31,9 @@ struct SweepProgress {
   int lost_lines = 0;
 };
 
-/// One scan, from the way to its start to the last frame. Runs in the head's thread; the motor is
-/// at rest when Run returns, whatever happened.
+/// One scan, from the way to its start to the last frame. A picture that does not come is tried
+/// once more after the sweep, standing still; without it the scan is complete all the same, with a
+/// reason. Runs in the head's thread; the motor is at rest when Run returns, whatever happened.
 class CaptureSweep {
  public:
   struct Hooks {
@@ -55,17 +56,22 @@ class CaptureSweep {
   SweepEnd RunToTheEnd();
   Step MoveToStart();
   Step WaitForStandstill(double timeout_s);
+  double TravelTimeout() const;
   Step SweepThrough();
   Step SweepOnce();
   Step TriggerWhenDue(double* free_s);
   Step ReceiveLine(double longest_wait_s);
-  Step ReceiveFrame(std::chrono::milliseconds timeout);
-  Step CollectFrames();
+  Step ComeToRest(Step end);
+  Step CollectPictures();
+  Step ShootAtRest(const std::vector<std::size_t>& pictures);
+  Step ShootAtRest(std::size_t picture, bool* taken);
+  Step StandFor(double seconds);
+  SweepEnd JudgePictures() const;
   Step CheckMotor();
   void StopLidar();
   void PumpTrack();
   void HandOnLines();
-  void HandOnFrames(bool all);
+  void HandOnPictures(bool all);
   void Report(HeadState state);
   double Now() const { return devices_.clock->Now(); }
   SweepEnd DeviceFailed(const std::string& message) const;
@@ -77,11 +83,9 @@ class CaptureSweep {
   ScanSink& sink_;
   Hooks hooks_;
 
-  double sign_;                       ///< of the sweep
-  std::vector<double> image_angles_;  ///< in the order of the sweep
-  std::size_t next_image_ = 0;
-  std::deque<double> triggered_;     ///< targets of the frames that are still to come
-  std::vector<CameraFrame> frames_;  ///< came, but the track does not reach beyond them yet
+  const double sign_;       ///< of the sweep
+  SweepPictures pictures_;  ///< in the order of the sweep
+  std::size_t next_picture_ = 0;
   MotorTrack track_;
   LineGate gate_;
   std::optional<std::int64_t> last_seq_;
