@@ -59,10 +59,21 @@ void AddWheel(const ValveObject& valve, Scene& scene) {
   wheel.MoveTo(scene);
 }
 
+void AddLever(const ValveObject& valve, Scene& scene) {
+  const ValveModel& model = valve.model;
+  Part lever(valve.name, valve.robot_from_object, valve.wheel_material);
+  lever.AddCapsule(Eigen::Vector3d::Zero(), model.lever_length_m * Eigen::Vector3d::UnitX(),
+                   model.tube_radius_m);
+  lever.AddAt(SphereShape(model.hub_radius_m), Eigen::Vector3d::Zero());
+  lever.AddCapsule(Eigen::Vector3d::Zero(), -ValveModel::kLeverStem_m * Eigen::Vector3d::UnitZ(),
+                   ValveModel::kLeverStemPerHub * model.hub_radius_m);
+  lever.MoveTo(scene);
+}
+
 void AddValveBody(const ValveObject& valve, Scene& scene) {
   constexpr double kFlangeThickness_m = 0.016;
   constexpr int kBolts = 6;
-  const double hub_z = -valve.model.dish_m;
+  const double hub_z = valve.model.IsLever() ? 0.0 : -valve.model.dish_m;
   const double face_z = hub_z - valve.stem_length_m;
   Part body(valve.name + " body", valve.robot_from_object, valve.body_material);
   body.AddCylinder({0.0, 0.0, face_z}, {0.0, 0.0, hub_z}, valve.stem_radius_m);
@@ -84,7 +95,10 @@ void AddValveBody(const ValveObject& valve, Scene& scene) {
 }  // namespace
 
 void AddValve(const ValveObject& valve, Scene& scene) {
-  AddWheel(valve, scene);
+  if (valve.model.IsLever())
+    AddLever(valve, scene);
+  else
+    AddWheel(valve, scene);
   AddValveBody(valve, scene);
   scene.valves.push_back({valve.name, valve.robot_from_object, valve.model});
 }

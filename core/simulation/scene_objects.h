@@ -6,12 +6,13 @@
 
 namespace foresight {
 
-/// A wheel valve on its stem, in front of a flange.
+/// A wheel or a lever on its stem, in front of a flange.
 struct ValveObject {
   std::string name;
   Rigid<frame::Robot, frame::Object> robot_from_object;  ///< as ValveModel defines the object frame
   ValveModel model;
-  double stem_length_m = 0.10;  ///< from the hub's centre back to the flange's face
+  double stem_length_m =
+      0.10;  ///< from the hub's centre (a lever's pivot) back to the flange's face
   double stem_radius_m = 0.012;
   double flange_radius_m = 0.05;
   Material wheel_material;
