@@ -18,6 +18,8 @@ void AddScanCommand(CLI::App& app, Invocation& invocation);
 void AddDepthCommand(CLI::App& app, Invocation& invocation);
 void AddFitCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateCommand(CLI::App& app, Invocation& invocation);
+void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation);
+void AddVerdictCommand(CLI::App& app, Invocation& invocation);
 void AddUpsampleCommand(CLI::App& app, Invocation& invocation);
 void AddRenderCommand(CLI::App& app, Invocation& invocation);
 void AddDemoCommand(CLI::App& app, Invocation& invocation);

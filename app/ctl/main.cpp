@@ -18,6 +18,8 @@ int Main(int argc, char** argv) {
   AddFitCommand(app, invocation);
   AddUpsampleCommand(app, invocation);
   AddEvaluateCommand(app, invocation);
+  AddEvaluateFitsCommand(app, invocation);
+  AddVerdictCommand(app, invocation);
   AddRenderCommand(app, invocation);
   AddDemoCommand(app, invocation);
   AddEmulateCommand(app, invocation);

@@ -15,6 +15,7 @@ enum class NoisePurpose : std::uint64_t {
   kPictureRow = 5,
   kPixelGain = 6,
   kCalibrationError = 7,
+  kDrawnRegion = 8,
 };
 
 /// The generator of one purpose, of one line or picture, of one row: whoever draws first, and on

@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <set>
+
+#include "app/ctl/command.h"
+#include "app/ctl/depth_files.h"
+#include "core/base/atomic_file.h"
+#include "core/base/parallel.h"
+#include "core/evaluation/fit_outcome_json.h"
+#include "core/evaluation/fit_populations.h"
+#include "core/evaluation/fit_statistics.h"
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+struct EvaluateFitsArguments {
+  std::string kind;
+  std::uint64_t first_seed = 1;
+  int count = 50;
+  std::vector<std::string> sources = {"raw", "foresight"};
+  double rotation_error_deg = 0.0;
+  double translation_error_mm = 0.0;
+  std::string table;  ///< empty = kept in memory only
+  bool json = false;
+};
+
+Result<FitTrialOptions> TrialOptionsFrom(const EvaluateFitsArguments& arguments) {
+  FitTrialOptions options;
+  options.raw = false;
+  for (const std::string& source : arguments.sources) {
+    if (source == "raw") {
+      options.raw = true;
+      continue;
+    }
+    FORESIGHT_TRY(const DepthMethod method, DepthMethodFromName(source));
+    options.methods.push_back(method);
+  }
+  if (arguments.rotation_error_deg > 0.0 || arguments.translation_error_mm > 0.0)
+    options.rig_error = CalibrationError{RadiansFromDegrees(arguments.rotation_error_deg),
+                                         arguments.translation_error_mm / 1000.0};
+  FORESIGHT_CHECK(options.Check());
+  return options;
+}
+
+/// The outcomes so far, on disk as they come: a run that is cut goes on where it was.
+class OutcomeTable {
+ public:
+  Status Open(const std::string& path) {
+    if (path.empty()) return {};
+    if (std::filesystem::exists(path)) {
+      FORESIGHT_TRY(outcomes_, LoadFitOutcomes(path));
+      FORESIGHT_CHECK(DropTornLine(path));
+    }
+    stream_.open(path, std::ios::app);
+    if (!stream_) return Fail(ErrorCode::kIo, "{}: cannot be written", path);
+    return {};
+  }
+
+  std::set<std::uint64_t> Seeds() const {
+    std::set<std::uint64_t> seeds;
+    for (const FitOutcome& outcome : outcomes_) seeds.insert(outcome.seed);
+    return seeds;
+  }
+
+  void Add(const std::vector<FitOutcome>& outcomes) {
+    const std::lock_guard lock(mutex_);
+    std::string lines;
+    for (const FitOutcome& outcome : outcomes) lines += FitOutcomeToJson(outcome) + "\n";
+    if (stream_.is_open()) stream_ << lines << std::flush;
+    outcomes_.insert(outcomes_.end(), outcomes.begin(), outcomes.end());
+  }
+
+  /// In the order of their seeds, whatever threads did.
+  std::vector<FitOutcome> Sorted() const {
+    std::vector<FitOutcome> sorted = outcomes_;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.seed < b.seed; });
+    return sorted;
+  }
+
+ private:
+  Status DropTornLine(const std::string& path) const {
+    FORESIGHT_TRY(const std::string text, ReadFile(path));
+    const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
+    std::error_code error;
+    if (whole < text.size()) std::filesystem::resize_file(path, whole, error);
+    if (error) return Fail(ErrorCode::kIo, "{}: {}", path, error.message());
+    return {};
+  }
+
+  std::mutex mutex_;
+  std::vector<FitOutcome> outcomes_;
+  std::ofstream stream_;
+};
+
+Status RunTrials(const FitPopulation& population, const EvaluateFitsArguments& arguments,
+                 OutcomeTable& table, const RunContext& context) {
+  FORESIGHT_TRY(const FitTrialOptions options, TrialOptionsFrom(arguments));
+  const std::set<std::uint64_t> done = table.Seeds();
+  std::vector<std::uint64_t> seeds;
+  for (int i = 0; i < arguments.count; ++i)
+    if (const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(i);
+        !done.contains(seed))
+      seeds.push_back(seed);
+  std::mutex mutex;
+  Status failure;
+  int finished = 0;
+  const bool whole = ParallelFor(static_cast<int>(std::ssize(seeds)), context, [&](int i) {
+    const auto outcomes =
+        RunFitTrial(population, seeds[static_cast<std::size_t>(i)], options, context);
+    if (outcomes) table.Add(*outcomes);
+    const std::lock_guard lock(mutex);
+    if (!outcomes && failure)
+      failure = Fail(outcomes.error().code, "seed {}: {}", seeds[static_cast<std::size_t>(i)],
+                     outcomes.error().message);
+    fmt::print(stderr, "\r{} of {} scenes", ++finished, seeds.size());
+  });
+  if (!seeds.empty()) fmt::print(stderr, "\n");
+  if (!whole) return Fail(ErrorCode::kCancelled, "the trials were cancelled");
+  return failure;
+}
+
+std::string Share(int part, int whole) {
+  return whole > 0
+             ? fmt::format("{:.3f} ({} of {})", static_cast<double>(part) / whole, part, whole)
+             : "-";
+}
+
+void PrintTable(const FitStatistics& s) {
+  PrintLine(fmt::format("{}", s.source));
+  PrintLine(fmt::format("  pose right        {}", Share(s.pose_ok, s.positives)));
+  PrintLine(fmt::format("  all right         {}", Share(s.all_ok, s.positives)));
+  PrintLine(fmt::format("  CONFIRMED right   {}", Share(s.confirmed_right, s.confirmed)));
+  PrintLine(fmt::format("  LIKELY right      {}", Share(s.likely_right, s.likely)));
+  PrintLine(fmt::format("  negatives         {} scenes, {} CONFIRMED, {} LIKELY", s.negatives,
+                        s.negatives_confirmed, s.negatives_likely));
+  PrintLine(fmt::format("  AUC {:.3f}, ECE {:.3f}", s.auc, s.ece));
+  for (const ErrorSpread& error : s.errors)
+    PrintLine(
+        fmt::format("  {:<16}  median {:.3f}, 95 % {:.3f}", error.name, error.median, error.p95));
+  PrintLine(fmt::format("  CPU               median {:.2f} s, 95 % {:.2f} s", s.seconds_median,
+                        s.seconds_p95));
+}
+
+nlohmann::ordered_json ToJson(const FitStatistics& s) {
+  nlohmann::ordered_json errors = nlohmann::ordered_json::object();
+  for (const ErrorSpread& error : s.errors)
+    errors[error.name] = {{"median", Finite(error.median)}, {"p95", Finite(error.p95)}};
+  return {{"source", s.source},
+          {"positives", s.positives},
+          {"found", s.found},
+          {"pose_ok", s.pose_ok},
+          {"all_ok", s.all_ok},
+          {"confirmed", s.confirmed},
+          {"confirmed_right", s.confirmed_right},
+          {"likely", s.likely},
+          {"likely_right", s.likely_right},
+          {"negatives", s.negatives},
+          {"negatives_confirmed", s.negatives_confirmed},
+          {"negatives_likely", s.negatives_likely},
+          {"auc", Finite(s.auc)},
+          {"ece", Finite(s.ece)},
+          {"errors", errors},
+          {"seconds", {{"median", Finite(s.seconds_median)}, {"p95", Finite(s.seconds_p95)}}}};
+}
+
+Result<ExitCode> EvaluateFits(const EvaluateFitsArguments& arguments, const RunContext& context) {
+  FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
+  OutcomeTable table;
+  FORESIGHT_CHECK(table.Open(arguments.table));
+  FORESIGHT_CHECK(RunTrials(*population, arguments, table, context));
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const FitStatistics& statistics : StatisticsOf(table.Sorted())) {
+    if (arguments.json)
+      json.push_back(ToJson(statistics));
+    else
+      PrintTable(statistics);
+  }
+  if (arguments.json) PrintJson(json);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
+  const auto arguments = std::make_shared<EvaluateFitsArguments>();
+  CLI::App* command = app.add_subcommand(
+      "evaluate-fits", "Try a fit on simulated scenes drawn at random, and judge every answer");
+  command->add_option("object", arguments->kind, "valve, drill or terrain")
+      ->required()
+      ->check(CLI::IsMember(FitPopulationKinds()));
+  command->add_option("--first-seed", arguments->first_seed, "Seed of the first scene")
+      ->capture_default_str();
+  command->add_option("--count", arguments->count, "Number of scenes")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--source", arguments->sources,
+                   "What to fit to: raw, or depth methods: " + MethodNames())
+      ->delimiter(',')
+      ->capture_default_str();
+  command
+      ->add_option("--rotation-error-deg", arguments->rotation_error_deg,
+                   "How far the lidar's believed pose is turned from the true one")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--translation-error-mm", arguments->translation_error_mm,
+                   "How far the lidar's believed pose is shifted from the true one")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--table", arguments->table,
+                      "File for the outcomes, one JSON object a line; seeds that are in it already "
+                      "are not run again");
+  command->add_flag("--json", arguments->json, "Print a JSON list, one object a source");
+  command->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) {
+      return EvaluateFits(*arguments, context);
+    };
+  });
+}
+
+}  // namespace foresight

@@ -1,0 +1,64 @@
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "core/base/atomic_file.h"
+#include "core/evaluation/fit_outcome_json.h"
+#include "core/evaluation/fit_populations.h"
+#include "core/evaluation/verdict_fit.h"
+
+namespace foresight {
+namespace {
+
+struct VerdictArguments {
+  std::string kind;
+  std::vector<std::string> tables;
+  std::string source = "raw";
+  std::string population;
+  std::string out;
+};
+
+Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&) {
+  FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
+  std::vector<FitOutcome> outcomes;
+  for (const std::string& table : arguments.tables) {
+    FORESIGHT_TRY(const std::vector<FitOutcome> loaded, LoadFitOutcomes(table));
+    for (const FitOutcome& outcome : loaded)
+      if ((outcome.source == "raw") == (arguments.source == "raw")) outcomes.push_back(outcome);
+  }
+  VerdictFitOptions options;
+  options.object = arguments.kind;
+  options.dense = arguments.source != "raw";
+  options.population = arguments.population;
+  options.features = population->FeatureNames();
+  FORESIGHT_TRY(const VerdictModel model, FitVerdictModel(outcomes, options));
+  FORESIGHT_CHECK(WriteFileAtomically(arguments.out, model.ToYaml()));
+  PrintLine(fmt::format("{}: {} fits, {} right; AUC {:.3f}, ECE {:.3f} (cross-validated)",
+                        arguments.out, model.fits, model.right, model.auc, model.ece));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
+  CLI::App* verdict = app.add_subcommand("verdict", "How far an answer may be trusted");
+  verdict->require_subcommand(1);
+  const auto arguments = std::make_shared<VerdictArguments>();
+  CLI::App* fit = verdict->add_subcommand(
+      "fit", "Fit the weights of a probability to judged answers (evaluate-fits --table)");
+  fit->add_option("object", arguments->kind, "valve, drill or terrain")
+      ->required()
+      ->check(CLI::IsMember(FitPopulationKinds()));
+  fit->add_option("tables", arguments->tables, "Outcomes, one JSON object a line")->required();
+  fit->add_option("--source", arguments->source, "raw or dense")
+      ->check(CLI::IsMember({"raw", "dense"}))
+      ->capture_default_str();
+  fit->add_option("--population", arguments->population,
+                  "How the outcomes were made, for the file: scenes, seeds, sources")
+      ->required();
+  fit->add_option("-o,--out", arguments->out, "File for the weights (YAML)")->required();
+  fit->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) { return FitVerdict(*arguments, context); };
+  });
+}
+
+}  // namespace foresight

@@ -1,0 +1,94 @@
+#include "core/evaluation/fit_outcome_json.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/base/atomic_file.h"
+
+namespace foresight {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json Number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+double NumberFrom(const ordered_json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+VerdictLevel LevelFrom(const std::string& name) {
+  for (const VerdictLevel level :
+       {VerdictLevel::kUnsure, VerdictLevel::kLikely, VerdictLevel::kConfirmed})
+    if (name == ToString(level)) return level;
+  throw std::invalid_argument("verdict '" + name + "' is not known");
+}
+
+FitOutcome OutcomeFrom(const ordered_json& value) {
+  FitOutcome outcome;
+  outcome.seed = value.at("seed");
+  outcome.what = value.at("what");
+  outcome.source = value.at("source");
+  outcome.positive = value.at("positive");
+  outcome.found = value.at("found");
+  outcome.pose_ok = value.at("pose_ok");
+  outcome.all_ok = value.at("all_ok");
+  outcome.verdict.level = LevelFrom(value.at("verdict"));
+  outcome.verdict.probability = NumberFrom(value.at("probability"));
+  for (const auto& feature : value.at("features"))
+    outcome.verdict.features.push_back(NumberFrom(feature));
+  for (const auto& [name, error] : value.at("errors").items())
+    outcome.errors.emplace_back(name, NumberFrom(error));
+  outcome.seconds = NumberFrom(value.at("seconds"));
+  outcome.reason = value.at("reason");
+  return outcome;
+}
+
+}  // namespace
+
+std::string FitOutcomeToJson(const FitOutcome& outcome) {
+  ordered_json features = ordered_json::array();
+  for (const double feature : outcome.verdict.features) features.push_back(Number(feature));
+  ordered_json errors = ordered_json::object();
+  for (const auto& [name, value] : outcome.errors) errors[name] = Number(value);
+  const ordered_json json = {{"seed", outcome.seed},
+                             {"what", outcome.what},
+                             {"source", outcome.source},
+                             {"positive", outcome.positive},
+                             {"found", outcome.found},
+                             {"pose_ok", outcome.pose_ok},
+                             {"all_ok", outcome.all_ok},
+                             {"verdict", ToString(outcome.verdict.level)},
+                             {"probability", Number(outcome.verdict.probability)},
+                             {"features", features},
+                             {"errors", errors},
+                             {"seconds", Number(outcome.seconds)},
+                             {"reason", outcome.reason}};
+  return json.dump();
+}
+
+Result<FitOutcome> FitOutcomeFromJson(std::string_view line) {
+  try {
+    return OutcomeFrom(ordered_json::parse(line));
+  } catch (const std::exception& failure) {
+    return Fail(ErrorCode::kBadData, "outcome of a fit: {}", failure.what());
+  }
+}
+
+Result<std::vector<FitOutcome>> LoadFitOutcomes(const std::filesystem::path& path) {
+  FORESIGHT_TRY(const std::string text, ReadFile(path));
+  std::vector<FitOutcome> outcomes;
+  int number = 1;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos;
+       begin = end + 1, ++number) {
+    auto outcome = FitOutcomeFromJson(std::string_view(text).substr(begin, end - begin));
+    if (!outcome)
+      return Fail(ErrorCode::kBadData, "{}:{}: {}", path.string(), number, outcome.error().message);
+    outcomes.push_back(std::move(*outcome));
+  }
+  return outcomes;
+}
+
+}  // namespace foresight

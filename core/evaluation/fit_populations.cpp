@@ -1,0 +1,35 @@
+#include "core/evaluation/fit_populations.h"
+
+#include <functional>
+
+namespace foresight {
+namespace {
+
+struct Entry {
+  std::string kind;
+  std::function<std::unique_ptr<FitPopulation>()> make;
+};
+
+const std::vector<Entry>& Entries() {
+  static const std::vector<Entry> entries = {};
+  return entries;
+}
+
+}  // namespace
+
+std::vector<std::string> FitPopulationKinds() {
+  std::vector<std::string> kinds;
+  for (const Entry& entry : Entries()) kinds.push_back(entry.kind);
+  return kinds;
+}
+
+Result<std::unique_ptr<FitPopulation>> MakeFitPopulation(const std::string& kind) {
+  std::string known;
+  for (const Entry& entry : Entries()) {
+    if (entry.kind == kind) return entry.make();
+    known += (known.empty() ? "" : ", ") + entry.kind;
+  }
+  return Fail(ErrorCode::kInvalidOptions, "object '{}' is not one of: {}", kind, known);
+}
+
+}  // namespace foresight

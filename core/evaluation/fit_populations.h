@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/evaluation/fit_trial.h"
+
+namespace foresight {
+
+/// "valve", "drill", "terrain": the objects whose fits can be tried.
+std::vector<std::string> FitPopulationKinds();
+
+/// Fails with kInvalidOptions, listing the kinds there are.
+Result<std::unique_ptr<FitPopulation>> MakeFitPopulation(const std::string& kind);
+
+}  // namespace foresight

@@ -1,0 +1,128 @@
+#include "core/evaluation/fit_statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace foresight {
+namespace {
+
+double Quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
+std::vector<ErrorSpread> SpreadsOf(const std::vector<const FitOutcome*>& answers) {
+  std::vector<std::string> names;
+  for (const FitOutcome* answer : answers)
+    for (const auto& [name, value] : answer->errors)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  std::vector<ErrorSpread> spreads;
+  for (const std::string& name : names) {
+    std::vector<double> values;
+    for (const FitOutcome* answer : answers)
+      for (const auto& [error, value] : answer->errors)
+        if (error == name && std::isfinite(value)) values.push_back(std::abs(value));
+    spreads.push_back({name, Quantile(values, 0.5), Quantile(values, 0.95)});
+  }
+  return spreads;
+}
+
+/// Counts one outcome in; `scenes` are the negatives that count already.
+void Count(const FitOutcome& outcome, FitStatistics& statistics) {
+  const bool confirmed = outcome.found && outcome.verdict.level == VerdictLevel::kConfirmed;
+  const bool likely = outcome.found && outcome.verdict.level == VerdictLevel::kLikely;
+  const bool right = outcome.positive && outcome.all_ok;
+  statistics.confirmed += confirmed ? 1 : 0;
+  statistics.confirmed_right += confirmed && right ? 1 : 0;
+  statistics.likely += likely ? 1 : 0;
+  statistics.likely_right += likely && right ? 1 : 0;
+  if (!outcome.positive) {
+    statistics.negatives_confirmed += confirmed ? 1 : 0;
+    statistics.negatives_likely += likely ? 1 : 0;
+    return;
+  }
+  ++statistics.positives;
+  statistics.found += outcome.found ? 1 : 0;
+  statistics.pose_ok += outcome.pose_ok ? 1 : 0;
+  statistics.all_ok += outcome.all_ok ? 1 : 0;
+}
+
+FitStatistics StatisticsOfSource(const std::string& source, std::span<const FitOutcome> outcomes) {
+  FitStatistics statistics;
+  statistics.source = source;
+  std::vector<const FitOutcome*> good;
+  std::vector<double> seconds, probabilities;
+  std::vector<bool> right;
+  std::set<std::uint64_t> negatives;
+  for (const FitOutcome& outcome : outcomes) {
+    if (outcome.source != source) continue;
+    Count(outcome, statistics);
+    if (!outcome.positive) negatives.insert(outcome.seed);
+    seconds.push_back(outcome.seconds);
+    if (outcome.pose_ok) good.push_back(&outcome);
+    if (!outcome.found) continue;
+    probabilities.push_back(outcome.verdict.probability);
+    right.push_back(outcome.positive && outcome.all_ok);
+  }
+  statistics.negatives = static_cast<int>(negatives.size());
+  statistics.errors = SpreadsOf(good);
+  statistics.auc = AreaUnderRoc(probabilities, right);
+  statistics.ece = CalibrationErrorOf(probabilities, right);
+  statistics.seconds_median = Quantile(seconds, 0.5);
+  statistics.seconds_p95 = Quantile(seconds, 0.95);
+  return statistics;
+}
+
+}  // namespace
+
+std::vector<FitStatistics> StatisticsOf(std::span<const FitOutcome> outcomes) {
+  std::vector<std::string> sources;
+  for (const FitOutcome& outcome : outcomes)
+    if (std::find(sources.begin(), sources.end(), outcome.source) == sources.end())
+      sources.push_back(outcome.source);
+  std::vector<FitStatistics> statistics;
+  for (const std::string& source : sources)
+    statistics.push_back(StatisticsOfSource(source, outcomes));
+  return statistics;
+}
+
+double AreaUnderRoc(std::span<const double> probabilities, const std::vector<bool>& right) {
+  double ahead = 0.0;
+  double pairs = 0.0;
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    if (!right[i]) continue;
+    for (std::size_t j = 0; j < right.size(); ++j) {
+      if (right[j]) continue;
+      pairs += 1.0;
+      if (probabilities[i] > probabilities[j])
+        ahead += 1.0;
+      else if (probabilities[i] == probabilities[j])
+        ahead += 0.5;
+    }
+  }
+  return pairs > 0.0 ? ahead / pairs : std::numeric_limits<double>::quiet_NaN();
+}
+
+double CalibrationErrorOf(std::span<const double> probabilities, const std::vector<bool>& right) {
+  constexpr int kBins = 10;
+  std::array<double, kBins> promised{}, came_true{};
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    const auto bin = static_cast<std::size_t>(
+        std::clamp(static_cast<int>(kBins * probabilities[i]), 0, kBins - 1));
+    promised[bin] += probabilities[i];
+    came_true[bin] += right[i] ? 1.0 : 0.0;
+  }
+  double error = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin) error += std::abs(promised[bin] - came_true[bin]);
+  return right.empty() ? std::numeric_limits<double>::quiet_NaN()
+                       : error / static_cast<double>(right.size());
+}
+
+}  // namespace foresight

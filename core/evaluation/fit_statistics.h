@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/evaluation/fit_trial.h"
+
+namespace foresight {
+
+/// Middle and tail of one kind of error, over the answers that are right where it counts.
+struct ErrorSpread {
+  std::string name;
+  double median = 0.0;
+  double p95 = 0.0;
+};
+
+/// How one source did over a population.
+struct FitStatistics {
+  std::string source;
+  int positives = 0;
+  int found = 0;  ///< answers to positives
+  int pose_ok = 0;
+  int all_ok = 0;
+  std::vector<ErrorSpread> errors;
+  int confirmed = 0;        ///< of all answers, negatives' too
+  int confirmed_right = 0;  ///< all_ok
+  int likely = 0;
+  int likely_right = 0;
+  int negatives = 0;  ///< scenes
+  int negatives_confirmed = 0;
+  int negatives_likely = 0;
+  double auc = 0.0;             ///< of the probability, for "all ok"; NaN without both kinds
+  double ece = 0.0;             ///< expected calibration error, ten bins
+  double seconds_median = 0.0;  ///< CPU of a fit
+  double seconds_p95 = 0.0;
+};
+
+/// One entry a source, in the order they first appear.
+std::vector<FitStatistics> StatisticsOf(std::span<const FitOutcome> outcomes);
+
+/// Area under the ROC curve; ties count half. NaN where all labels are the same.
+double AreaUnderRoc(std::span<const double> probabilities, const std::vector<bool>& right);
+
+/// Mean distance between what was promised and what came true, in ten bins of probability weighted
+/// by how many fell into each.
+double CalibrationErrorOf(std::span<const double> probabilities, const std::vector<bool>& right);
+
+}  // namespace foresight

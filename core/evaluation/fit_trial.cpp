@@ -1,0 +1,120 @@
+#include "core/evaluation/fit_trial.h"
+
+#include <time.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/registration/register_scan.h"
+#include "core/simulation/noise_stream.h"
+#include "core/simulation/simulate_scan.h"
+
+namespace foresight {
+namespace {
+
+/// CPU time of the calling thread; fits are tried with one thread.
+double CpuSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// A circle as an operator draws it: a little wider than the thing and not quite centred.
+Result<ImageRoi> DrawnRegion(const FitTrialScene& scene, const World& world, double motor_rad,
+                             std::uint64_t seed) {
+  constexpr int kCorners = 24;
+  constexpr double kLeastWider = 1.10, kMostWider = 1.35, kOffCentre = 0.08;
+  const SensorRig& rig = world.true_rig();
+  const Eigen::Vector3d focus =
+      rig.CameraFromBase(motor_rad) * (world.BaseFromRobot() * scene.focus_m);
+  Random random = NoiseStream(seed, NoisePurpose::kDrawnRegion);
+  const double radius = scene.focus_radius_m * random.Uniform(kLeastWider, kMostWider);
+  const Eigen::Vector3d shift(scene.focus_radius_m * random.Uniform(-kOffCentre, kOffCentre),
+                              scene.focus_radius_m * random.Uniform(-kOffCentre, kOffCentre), 0.0);
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitY().cross(focus).normalized();
+  const Eigen::Vector3d down = focus.cross(right).normalized();
+  ImageRoi roi{motor_rad, {}};
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    const Eigen::Vector3d at =
+        focus + shift + radius * (std::cos(angle) * right + std::sin(angle) * down);
+    if (const auto pixel = rig.camera.Project(at); pixel && at.z() > 0.0)
+      roi.polygon.push_back(*pixel);
+  }
+  FORESIGHT_CHECK(roi.Check());
+  return roi;
+}
+
+Result<Scan> Simulated(const World& world, const ScanPlan& plan, bool with_picture,
+                       const RunContext& context) {
+  if (with_picture) return SimulateScan(world, plan, context);
+  FORESIGHT_TRY(Scan scan, SimulateSweep(world, plan, context));
+  CameraFrame frame;
+  frame.motor_angle_rad = frame.target_angle_rad = plan.image_angles_rad.front();
+  scan.frames.push_back(std::move(frame));
+  return scan;
+}
+
+void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const char* source,
+                 const Result<Detection>& found, double seconds,
+                 std::vector<FitOutcome>& outcomes) {
+  for (FitOutcome& outcome : population.Judge(trial, found)) {
+    outcome.seed = trial.seed;
+    outcome.source = source;
+    outcome.what = trial.scene.what;
+    outcome.positive = trial.scene.positive;
+    outcome.seconds = seconds;
+    outcomes.push_back(std::move(outcome));
+  }
+}
+
+}  // namespace
+
+Status FitTrialOptions::Check() const {
+  if (!raw && methods.empty())
+    return Fail(ErrorCode::kInvalidOptions, "trial of fits: no source is named");
+  return rig_error ? rig_error->Check() : Status();
+}
+
+Result<FitTrial> MakeFitTrial(const FitPopulation& population, std::uint64_t seed,
+                              const FitTrialOptions& options, const RunContext& context) {
+  FORESIGHT_CHECK(options.Check());
+  FitTrialScene scene = population.MakeScene(seed);
+  scene.world.seed = seed;
+  // The guide needs edges, not smooth ones; four times faster.
+  scene.world.camera.samples_side = 1;
+  FORESIGHT_CHECK(scene.world.Check());
+  const World world(scene.scene, DefaultSensorRig(), scene.world);
+  FORESIGHT_TRY(Scan scan, Simulated(world, scene.plan, !options.methods.empty(), context));
+  if (options.rig_error) scan.rig = MiscalibratedRig(scan.rig, *options.rig_error, seed);
+  FORESIGHT_TRY(RegisteredScan cloud, RegisterScan(scan, context));
+  const double motor_rad = scan.frames.front().motor_angle_rad;
+  FORESIGHT_TRY(const ImageRoi roi, DrawnRegion(scene, world, motor_rad, seed));
+  return FitTrial{seed,     std::move(scene), world,
+                  scan.rig, std::move(cloud), std::move(scan.frames.front()),
+                  roi};
+}
+
+Result<std::vector<FitOutcome>> RunFitTrial(const FitPopulation& population, std::uint64_t seed,
+                                            const FitTrialOptions& options,
+                                            const RunContext& context) {
+  RunContext one_thread = context;
+  one_thread.threads = 1;
+  FORESIGHT_TRY(const FitTrial trial, MakeFitTrial(population, seed, options, one_thread));
+  std::vector<FitOutcome> outcomes;
+  const auto fit = [&](const ProcessedScan& scan, FitSource source, const char* name) {
+    const double begin = CpuSeconds();
+    const Result<Detection> found = population.Fit(scan, source, trial.roi, one_thread);
+    AddOutcomes(population, trial, name, found, CpuSeconds() - begin, outcomes);
+  };
+  if (options.raw) fit({trial.rig, trial.cloud}, FitSource::kRaw, "raw");
+  for (const DepthMethod method : options.methods) {
+    FORESIGHT_TRY(const DepthResult depth, ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
+                                                               DefaultsOf(method), one_thread));
+    fit({trial.rig, trial.cloud, &depth}, FitSource::kDepth, InfoOf(method).name);
+  }
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the trial of a fit was cancelled");
+  return outcomes;
+}
+
+}  // namespace foresight

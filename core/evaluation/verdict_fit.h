@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/evaluation/fit_trial.h"
+#include "core/fitting/verdict_model.h"
+
+namespace foresight {
+
+struct VerdictFitOptions {
+  std::string object;  ///< "valve"
+  bool dense = false;
+  std::string population;             ///< goes into the model's file
+  std::vector<std::string> features;  ///< names, as Verdict::features holds them
+  double ridge = 1.0;                 ///< pull of each weight towards 0, in fits' worth
+  int folds = 5;
+
+  Status Check() const;
+};
+
+/// Weights of the probability that an answer is right in every respect, from judged answers (those
+/// found, negatives too), by penalised maximum likelihood on standardised evidence. AUC and ECE are
+/// those of folds that were left out; answers of one scene stay in one fold. Fails with
+/// kInvalidOptions and kTooFewPoints (fewer than 10 right or 10 wrong answers, no evidence).
+Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
+                                     const VerdictFitOptions& options);
+
+}  // namespace foresight

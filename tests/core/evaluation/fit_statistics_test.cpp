@@ -1,0 +1,137 @@
+#include "core/evaluation/fit_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/random.h"
+#include "core/evaluation/fit_outcome_json.h"
+#include "core/evaluation/verdict_fit.h"
+
+namespace foresight {
+namespace {
+
+FitOutcome Answer(std::uint64_t seed, bool right, double probability) {
+  FitOutcome outcome;
+  outcome.seed = seed;
+  outcome.what = "wheel of 3 spokes";
+  outcome.source = "raw";
+  outcome.found = true;
+  outcome.pose_ok = outcome.all_ok = right;
+  outcome.verdict.level = LevelFor(probability, false);
+  outcome.verdict.probability = probability;
+  outcome.errors = {{"center_mm", right ? 2.0 : 80.0}};
+  outcome.seconds = 0.5;
+  return outcome;
+}
+
+TEST(FitStatistics, AConfirmedNegativeIsNoRightAnswer) {
+  std::vector<FitOutcome> outcomes = {Answer(1, true, 0.99), Answer(2, true, 0.97)};
+  outcomes[1].positive = false;
+  const auto statistics = StatisticsOf(outcomes);
+  ASSERT_EQ(statistics.size(), 1u);
+  EXPECT_EQ(statistics[0].positives, 1);
+  EXPECT_EQ(statistics[0].negatives, 1);
+  EXPECT_EQ(statistics[0].confirmed, 2);
+  EXPECT_EQ(statistics[0].confirmed_right, 1);
+  EXPECT_EQ(statistics[0].negatives_confirmed, 1);
+}
+
+TEST(FitStatistics, ErrorsAreThoseOfRightAnswers) {
+  const std::vector<FitOutcome> outcomes = {Answer(1, true, 0.99), Answer(2, false, 0.3)};
+  const auto statistics = StatisticsOf(outcomes);
+  ASSERT_EQ(statistics[0].errors.size(), 1u);
+  EXPECT_EQ(statistics[0].errors[0].p95, 2.0);
+}
+
+TEST(FitStatistics, AucIsTheChanceThatARightAnswerIsMoreProbable) {
+  const std::vector<double> probabilities = {0.9, 0.8, 0.4, 0.3};
+  EXPECT_DOUBLE_EQ(AreaUnderRoc(probabilities, {true, false, true, false}), 0.75);
+  EXPECT_DOUBLE_EQ(AreaUnderRoc(probabilities, {true, true, false, false}), 1.0);
+  EXPECT_TRUE(std::isnan(AreaUnderRoc(probabilities, {true, true, true, true})));
+}
+
+TEST(FitStatistics, CalibrationErrorIsPromiseLessTruth) {
+  const std::vector<double> probabilities(10, 0.95);
+  std::vector<bool> right(10, true);
+  EXPECT_NEAR(CalibrationErrorOf(probabilities, right), 0.05, 1e-12);
+  right[0] = right[1] = false;
+  EXPECT_NEAR(CalibrationErrorOf(probabilities, right), 0.15, 1e-12);
+}
+
+/// Answers that are right with the probability that their evidence says.
+std::vector<FitOutcome> DrawnFromALogistic(int count) {
+  Random random(7);
+  std::vector<FitOutcome> outcomes;
+  for (int i = 0; i < count; ++i) {
+    const double margin = 5.0 + 2.0 * random.Normal();
+    const double noise = random.Normal();
+    const double p = 1.0 / (1.0 + std::exp(-(margin - 5.0)));
+    FitOutcome outcome = Answer(static_cast<std::uint64_t>(i), random.Uniform() < p, p);
+    outcome.verdict.features = {margin, noise};
+    outcomes.push_back(outcome);
+  }
+  return outcomes;
+}
+
+TEST(VerdictFit, FindsTheLogisticThatTheAnswersWereDrawnFrom) {
+  VerdictFitOptions options;
+  options.object = "valve";
+  options.population = "drawn";
+  options.features = {"margin", "noise"};
+  const auto model = FitVerdictModel(DrawnFromALogistic(4000), options);
+  ASSERT_TRUE(model) << model.error().message;
+  // One nat of margin is one nat of log odds; a deviation of margin is 2. Four standard errors.
+  EXPECT_NEAR(model->features[0].weight, 2.0, 0.3);
+  EXPECT_NEAR(model->features[1].weight, 0.0, 0.2);
+  EXPECT_LT(model->ece, 0.03);
+  EXPECT_GT(model->auc, 0.8);
+  const double middle[] = {5.0, 0.0};
+  EXPECT_NEAR(model->Probability(middle), 0.5, 0.05);
+}
+
+TEST(VerdictFit, RefusesAPopulationWithoutWrongAnswers) {
+  VerdictFitOptions options;
+  options.object = "valve";
+  options.features = {"margin", "noise"};
+  std::vector<FitOutcome> outcomes = DrawnFromALogistic(100);
+  for (FitOutcome& outcome : outcomes) outcome.all_ok = true;
+  const auto model = FitVerdictModel(outcomes, options);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::kTooFewPoints);
+}
+
+TEST(FitOutcomes, SurviveTheirFileAndATornLastLineIsLeftOut) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "outcomes.jsonl";
+  FitOutcome outcome = Answer(12, true, 0.971);
+  outcome.verdict.features = {1.25, std::nan("")};
+  outcome.reason = "the rim \"is\" seen";
+  {
+    std::ofstream stream(path);
+    stream << FitOutcomeToJson(outcome) << "\n" << FitOutcomeToJson(outcome).substr(0, 40);
+  }
+  const auto loaded = LoadFitOutcomes(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->size(), 1u);
+  EXPECT_EQ(loaded->front().seed, 12u);
+  EXPECT_EQ(loaded->front().verdict.level, VerdictLevel::kConfirmed);
+  EXPECT_EQ(loaded->front().verdict.features[0], 1.25);
+  EXPECT_TRUE(std::isnan(loaded->front().verdict.features[1]));
+  EXPECT_EQ(loaded->front().reason, outcome.reason);
+}
+
+TEST(FitOutcomes, ADamagedLineIsNamed) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "damaged.jsonl";
+  {
+    std::ofstream stream(path);
+    stream << FitOutcomeToJson(Answer(1, true, 0.9)) << "\n{\"seed\": 3}\n";
+  }
+  const auto loaded = LoadFitOutcomes(path);
+  ASSERT_FALSE(loaded);
+  EXPECT_NE(loaded.error().message.find("damaged.jsonl:2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace foresight
