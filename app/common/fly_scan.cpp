@@ -14,11 +14,13 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{5};
 
-/// Waits until the head leaves `state`; a cancelled context aborts the scan and stops the motor.
+/// Waits until the head leaves `states`, and stands for the operator meanwhile; a cancelled context
+/// aborts the scan and stops the motor.
 HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
                      const RunContext& context) {
   bool aborted = false;
   for (;;) {
+    head.OperatorSeen();
     const HeadStatus status = head.Status();
     if (std::find(states.begin(), states.end(), status.state) == states.end()) return status;
     if (context.Cancelled() && !aborted) {
@@ -31,6 +33,7 @@ HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
 }
 
 Status HomeAndWait(SensorHead& head, const RunContext& context) {
+  head.OperatorSeen();
   FORESIGHT_CHECK(head.Home());
   const HeadStatus status = WaitWhile(head, {HeadState::kHoming}, context);
   if (status.state != HeadState::kReady)

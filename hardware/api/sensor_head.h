@@ -63,6 +63,9 @@ class SensorHead {
   virtual void AbortScan() = 0;
   /// Stops the motor at once, in every state.
   virtual void StopMotor() = 0;
+  /// Somebody is there and could act. From the first call on a head expects it again and again, and
+  /// stops what turns when it stays out; what it stopped does not start again by itself.
+  virtual void OperatorSeen() = 0;
 };
 
 }  // namespace foresight

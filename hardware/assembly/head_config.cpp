@@ -151,6 +151,7 @@ void ReadCapture(YamlMap map, CaptureOptions* capture) {
   ReadDegrees(map, "travel_speed_deg_s", 0.1, 120.0, &capture->travel_speed_rad_s);
   ReadSeconds(map, "lidar_timeout_s", 0.1, &capture->lidar_timeout_s);
   ReadSeconds(map, "camera_timeout_s", 0.1, &capture->camera_timeout_s);
+  ReadSeconds(map, "operator_timeout_s", 0.0, &capture->operator_timeout_s);
   map.Finish();
 }
 
@@ -230,9 +231,10 @@ std::string HeadConfigToYaml(const HeadConfig& config, const std::string& rig_fi
       config.exposure.gain_db);
   text += fmt::format(
       "capture:\n  settle_s: {}\n  travel_speed_deg_s: {:.10g}\n  lidar_timeout_s: {}\n"
-      "  camera_timeout_s: {}\n",
+      "  camera_timeout_s: {}\n  operator_timeout_s: {}\n",
       config.capture.settle_s, degrees(config.capture.travel_speed_rad_s),
-      config.capture.lidar_timeout_s, config.capture.camera_timeout_s);
+      config.capture.lidar_timeout_s, config.capture.camera_timeout_s,
+      config.capture.operator_timeout_s);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "hardware/head/capture_head.h"
 
 #include <chrono>
+#include <limits>
 
 #include "core/base/contract.h"
 #include "core/base/log.h"
@@ -20,7 +21,10 @@ std::int64_t WallClock_ns() {
 }  // namespace
 
 CaptureHead::CaptureHead(HeadDevices devices, SensorRig rig, CaptureOptions options)
-    : devices_(std::move(devices)), rig_(std::move(rig)), options_(std::move(options)) {
+    : devices_(std::move(devices)),
+      rig_(std::move(rig)),
+      options_(std::move(options)),
+      operator_seen_s_(std::numeric_limits<double>::infinity()) {
   FORESIGHT_EXPECTS(devices_.lidar && devices_.camera && devices_.motor && devices_.clock,
                     "a head has all of its devices");
   FORESIGHT_EXPECTS(options_.Check().has_value(), options_.Check().error().message);
@@ -101,6 +105,18 @@ void CaptureHead::StopMotor() {
   StopMotorNow();
 }
 
+void CaptureHead::OperatorSeen() {
+  operator_seen_s_ = devices_.clock->Now();
+}
+
+/// Why the motor must not turn any longer, if nobody watches it.
+std::optional<std::string> CaptureHead::OperatorLost() const {
+  const double away_s = devices_.clock->Now() - operator_seen_s_;
+  if (options_.operator_timeout_s == 0.0 || away_s <= options_.operator_timeout_s)
+    return std::nullopt;
+  return fmt::format("the operator's link was lost for {:.1f} s; the motor was stopped", away_s);
+}
+
 void CaptureHead::Work(const std::stop_token& stop) {
   for (;;) {
     Request request;
@@ -151,11 +167,13 @@ Status CaptureHead::ConnectAndHome(const HomeRequest& request, const std::stop_t
   FORESIGHT_CHECK(devices_.motor->Connect());
   FORESIGHT_CHECK(devices_.lidar->Connect());
   FORESIGHT_CHECK(devices_.camera->Connect());
-  if (!stopped()) FORESIGHT_CHECK(devices_.motor->StartHoming());
+  if (!stopped() && !OperatorLost()) FORESIGHT_CHECK(devices_.motor->StartHoming());
   const double deadline_s = devices_.clock->Now() + options_.homing_timeout_s;
   for (;;) {
     if (stopped())
       return Fail(ErrorCode::kCancelled, "homing was stopped: home again before scanning");
+    if (const auto lost = OperatorLost())
+      return Fail(ErrorCode::kCancelled, "{}; home again before scanning", *lost);
     FORESIGHT_TRY(const bool moving, devices_.motor->Moving());
     if (!moving) break;
     if (devices_.clock->Now() > deadline_s)
@@ -179,6 +197,8 @@ void CaptureHead::RunScan(ScanRequest& request, const std::stop_token& stop) {
       return SweepEnd{ScanState::kAborted, "the operator stopped the motor", false, false};
     if (abort_requested_)
       return SweepEnd{ScanState::kAborted, "the operator ended the scan", false, false};
+    if (const auto lost = OperatorLost())
+      return SweepEnd{ScanState::kInterrupted, *lost + "; the scan ends there", false, false};
     return std::nullopt;
   };
   hooks.report = [this](const SweepProgress& progress) {

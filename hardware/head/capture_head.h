@@ -4,6 +4,8 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 #include <variant>
 
@@ -33,6 +35,7 @@ class CaptureHead final : public SensorHead {
   foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
   void AbortScan() override;
   void StopMotor() override;
+  void OperatorSeen() override;
 
  private:
   struct HomeRequest {
@@ -49,6 +52,7 @@ class CaptureHead final : public SensorHead {
   void RunHoming(const HomeRequest& request, const std::stop_token& stop);
   foresight::Status ConnectAndHome(const HomeRequest& request, const std::stop_token& stop);
   void RunScan(ScanRequest& request, const std::stop_token& stop);
+  std::optional<std::string> OperatorLost() const;
   void LookAtMotor();
   void EnterFault(const std::string& what);
   void StopMotorNow() noexcept;
@@ -64,7 +68,8 @@ class CaptureHead final : public SensorHead {
   std::condition_variable_any wake_;
   std::atomic<int> stop_count_{0};
   std::atomic<bool> abort_requested_{false};
-  std::jthread thread_;  ///< last: starts when everything else is there
+  std::atomic<double> operator_seen_s_;  ///< infinite until the first time
+  std::jthread thread_;                  ///< last: starts when everything else is there
 };
 
 }  // namespace foresight

@@ -18,6 +18,9 @@ struct CaptureOptions {
   /// A driver asks a silent lidar again after 0.25 s, and anew on a new connection after 0.75 s.
   double lidar_timeout_s = 1.5;
   double camera_timeout_s = 10.0;  ///< since the last frame; a simulated picture takes a second
+  /// An operator who has been seen once and then not for so long ends a homing or a sweep. 0 =
+  /// nobody watches.
+  double operator_timeout_s = 5.0;
 
   Status Check() const;
   /// From standstill to the scope, and from the scope to standstill.

@@ -25,6 +25,8 @@ Result<std::unique_ptr<SensorHead>> MakeSimulatedHead(std::shared_ptr<const Scen
   capture.description = fmt::format("simulated: {}, seed {}", scene_name, options.world.seed);
   capture.simulated = true;
   capture.acceleration_rad_s2 = SimulatedMotor::kAcceleration_rad_s2;
+  capture.operator_timeout_s =
+      options.speed == SimulationSpeed::kRealTime ? options.operator_timeout_s : 0.0;
   return std::make_unique<CaptureHead>(std::move(devices), options.believed_rig,
                                        std::move(capture));
 }

@@ -15,6 +15,8 @@ struct SimulatedHeadOptions {
   SensorRig true_rig = DefaultSensorRig();      ///< the head as it is
   SensorRig believed_rig = DefaultSensorRig();  ///< the calibration in force
   SimulationSpeed speed = SimulationSpeed::kRealTime;
+  /// CaptureOptions::operator_timeout_s; only in real time, as an operator's seconds are.
+  double operator_timeout_s = 5.0;
 };
 
 /// A complete head in this process, looking at a scene. Fails with kInvalidOptions for a bad rig,

@@ -148,7 +148,7 @@ class ScanWatch final : public ScanSink {
 /// A head on simulated devices, as fast as the machine allows, with its parts in reach of the test.
 struct TinyHead {
   TinyHead() : TinyHead([](HeadDevices&) {}) {}
-  explicit TinyHead(const std::function<void(HeadDevices&)>& change) {
+  explicit TinyHead(const std::function<void(HeadDevices&)>& change, CaptureOptions options = {}) {
     const auto world = TinyWorld();
     HeadDevices devices;
     auto wrapped_lidar =
@@ -162,7 +162,6 @@ struct TinyHead {
     devices.camera = std::make_unique<SimulatedCamera>(world, clock, shaft);
     devices.clock = clock;
     change(devices);
-    CaptureOptions options;
     options.description = "tiny head";
     options.simulated = true;
     head = std::make_unique<CaptureHead>(std::move(devices), TinyRig(), options);

@@ -34,6 +34,7 @@ class FakeHead : public SensorHead {
     status_.state = HeadState::kReady;
   }
   void StopMotor() override { stopped_ = true; }
+  void OperatorSeen() override { ++operator_seen_; }
 
   /// Plays a finished scan into the sink, up to its `lines`-th line.
   void Deliver(const Scan& scan, std::size_t lines) {
@@ -59,6 +60,7 @@ class FakeHead : public SensorHead {
   void SetState(HeadState state) { status_.state = state; }
   const ScanPlan& LastPlan() const { return plan_; }
   bool Stopped() const { return stopped_; }
+  int TimesOperatorSeen() const { return operator_seen_; }
 
  private:
   SensorRig rig_;
@@ -66,6 +68,7 @@ class FakeHead : public SensorHead {
   ScanPlan plan_;
   std::shared_ptr<ScanSink> sink_;
   bool stopped_ = false;
+  int operator_seen_ = 0;
   bool delivered_ = false;  ///< the sink was told that the scan started
 };
 

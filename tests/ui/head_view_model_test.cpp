@@ -49,6 +49,12 @@ TEST_F(HeadTest, AnImpossiblePlanNamesItsFaultAndCannotBeScanned) {
   EXPECT_FALSE(model.CanScan());
 }
 
+TEST_F(HeadTest, EveryPollTellsTheHeadThatTheOperatorIsThere) {
+  const int before = head->TimesOperatorSeen();
+  model.Poll();
+  EXPECT_EQ(head->TimesOperatorSeen(), before + 1);
+}
+
 TEST_F(HeadTest, AbortIsPossibleOnlyWhileSweeping) {
   for (const HeadState state : {HeadState::kDisconnected, HeadState::kHoming, HeadState::kReady,
                                 HeadState::kStopping, HeadState::kFault}) {

@@ -81,6 +81,7 @@ bool HeadViewModel::CanHome() const {
 }
 
 void HeadViewModel::Poll() {
+  head_->OperatorSeen();  // a window that hangs does not say so, and the head stops its motor
   status_ = head_->Status();
   if (live_) PollScan();
   Q_EMIT statusChanged();

@@ -61,7 +61,8 @@ class HeadViewModel : public QObject {
     recorder_source_ = std::move(source);
   }
 
-  /// Reads the head's status now; otherwise it is read ten times a second.
+  /// Reads the head's status now; otherwise it is read ten times a second. Tells the head that the
+  /// operator is there.
   void Poll();
 
   /// Before the program ends: ends the running scan and stops the motor.
