@@ -4,6 +4,7 @@
 #include <QFile>
 #include <QSettings>
 
+#include "app/common/emulation.h"
 #include "app/workstation/main_window.h"
 #include "app/workstation/quit_on_signal.h"
 #include "app/workstation/unattended.h"
@@ -17,27 +18,33 @@ namespace foresight {
 namespace {
 
 struct Options {
-  std::string scene;        ///< empty: the valve scene that comes with the program
-  std::string head_config;  ///< of a real head, in place of the scene
-  std::string rig;
+  std::string scene;             ///< empty: the valve scene that comes with the program
+  EmulationArguments emulation;  ///< its scene, rig and seed; rig and seed are the simulation's too
+  std::string head_config;       ///< of a real head, in place of a scene
   std::string mission;
-  std::uint64_t seed = 1;
   bool fast = false;
   UnattendedOptions unattended;
 };
 
 int Parse(int argc, char** argv, Options* options) {
   CLI::App app{"Foresight, the workstation for a rotating lidar-camera head"};
+  EmulationArguments& emulation = options->emulation;
   app.add_option("--scene", options->scene, "Scene file that the simulated head looks at");
-  app.add_option("--rig", options->rig, "Calibration file of the simulated head");
-  app.add_option("--seed", options->seed, "Seed of the simulated noise");
-  app.add_flag("--fast", options->fast, "Let the simulated head's time run as fast as it can");
-  app.add_option("--head-config", options->head_config,
-                 "A real head and its devices (YAML), in place of the simulated one")
-      ->excludes("--scene")
-      ->excludes("--rig")
-      ->excludes("--seed")
-      ->excludes("--fast");
+  CLI::Option* emulate =
+      app.add_option("--emulate", emulation.scene,
+                     "Scene file: emulate the devices in this process, on real sockets")
+          ->excludes("--scene");
+  app.add_option("--rig", emulation.rig, "Calibration file of the simulated or emulated head");
+  app.add_option("--seed", emulation.seed, "Seed of the simulated noise and faults");
+  app.add_option("--faults", emulation.faults, "What goes wrong with emulated devices (YAML)")
+      ->needs(emulate);
+  app.add_flag("--fast", options->fast, "Let the simulated head's time run as fast as it can")
+      ->excludes(emulate);
+  CLI::Option* config =
+      app.add_option("--head-config", options->head_config,
+                     "A real head and its devices (YAML), in place of the simulated one");
+  for (const char* other : {"--scene", "--emulate", "--rig", "--seed", "--fast"})
+    config->excludes(other);
   app.add_option("--open", options->mission, "Mission file to show");
   app.add_flag("--scan", options->unattended.scan, "Start a scan as soon as the head is ready");
   app.add_option("--screenshot", options->unattended.screenshot,
@@ -61,26 +68,40 @@ std::string DefaultScene() {
 }
 
 struct Head {
+  std::unique_ptr<EmulatedSite> emulated;  ///< the devices behind the head, if they are here
   std::shared_ptr<SensorHead> head;
   SessionMode mode = SessionMode::kSimulation;
 };
 
-Result<Head> MakeHead(const Options& options) {
-  if (!options.head_config.empty()) {
-    FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(options.head_config));
-    return Head{MakeRealHead(config),
-                config.simulated ? SessionMode::kSimulation : SessionMode::kLive};
-  }
+/// The drivers of a real head, through the sockets of this computer.
+Result<Head> MakeEmulatedHead(const EmulationArguments& arguments) {
+  Head head;
+  FORESIGHT_TRY(head.emulated, StartEmulation(arguments));
+  head.head = MakeRealHead(ConfigFor(*head.emulated));
+  return head;
+}
+
+/// In this process, without drivers.
+Result<Head> MakeHeadOnScene(const Options& options) {
   SimulatedHeadOptions simulation;
-  simulation.world.seed = options.seed;
+  simulation.world.seed = options.emulation.seed;
   simulation.speed = options.fast ? SimulationSpeed::kAsFastAsPossible : SimulationSpeed::kRealTime;
-  if (!options.rig.empty()) {
-    FORESIGHT_TRY(simulation.true_rig, LoadSensorRig(options.rig));
+  if (!options.emulation.rig.empty()) {
+    FORESIGHT_TRY(simulation.true_rig, LoadSensorRig(options.emulation.rig));
     simulation.believed_rig = simulation.true_rig;
   }
   const std::string scene = options.scene.empty() ? DefaultScene() : options.scene;
-  FORESIGHT_TRY(std::shared_ptr<SensorHead> head, MakeSimulatedHead(scene, simulation));
-  return Head{std::move(head), SessionMode::kSimulation};
+  Head head;
+  FORESIGHT_TRY(head.head, MakeSimulatedHead(scene, simulation));
+  return head;
+}
+
+Result<Head> MakeHead(const Options& options) {
+  if (!options.emulation.scene.empty()) return MakeEmulatedHead(options.emulation);
+  if (options.head_config.empty()) return MakeHeadOnScene(options);
+  FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(options.head_config));
+  return Head{nullptr, MakeRealHead(config),
+              config.simulated ? SessionMode::kSimulation : SessionMode::kLive};
 }
 
 int Run(int argc, char** argv) {
