@@ -10,6 +10,7 @@
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/rim_search.h"
 #include "core/fitting/valve/spoke_search.h"
+#include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/valve/valve_state.h"
 #include "core/fitting/valve/valve_verdict.h"
 #include "core/fitting/wall.h"

@@ -19,9 +19,11 @@ struct ValveEvidence {
   double see_through = 0.0;   ///< of the hits, those whose beam went on behind the template
   double blocked_gaps = 0.0;  ///< of the rays between the spokes, those that did not get through
   double rms_m = 0.0;         ///< of the agreeing ranges
-  double arc_coverage = 0.0;  ///< share of the rim's circle with support
-  double margin_nats = 0.0;   ///< log likelihood ahead of the next spoke count
+  double arc_coverage = 0.0;  ///< share of the rim's circle, or of a lever, with support
+  double margin_nats = 0.0;   ///< log likelihood ahead of the next number of spokes or kind
   double gain_nats = 0.0;     ///< log likelihood ahead of no valve at all
+  /// Of the rays on the spoke that is seen worst, those with a range that agrees; 1 without spokes.
+  double weakest_spoke = 1.0;
 };
 
 /// One answer to "where is the valve": the best one, or a rival.
@@ -34,13 +36,15 @@ struct ValveCandidate {
 /// A fitted valve.
 struct ValveDetection {
   ValveCandidate best;
-  bool phase_observable = true;  ///< false: the direction of x means nothing
+  bool phase_observable = true;  ///< false: the direction of x means nothing (a disc)
   Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();  ///< along the object's axes
   double sigma_axis_rad = 0.0;
   double sigma_phase_rad = 0.0;
   ValveEvidence evidence;
   Verdict verdict;
   std::vector<ValveCandidate> rivals;  ///< best first
+  /// Of best; about the object's axes. The centre along the axis (2, 2) trades with the dish and is
+  /// known worse than across. NaN where a disc has no phase.
   PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
   FitOrigin origin;
 };

@@ -32,6 +32,14 @@ double ClosestAlongLine(const Eigen::Vector3d& origin, const Eigen::Vector3d& di
   return (cosine * from_ray.dot(direction) - from_ray.dot(along)) / sine2;
 }
 
+/// Of two parts the one that is met first, or missed by less.
+ValveMeeting FirstMet(const ValveMeeting& a, const ValveMeeting& b) {
+  const double gap_a = a.Clearance();
+  const double gap_b = b.Clearance();
+  const bool both_met = gap_a < 0.0 && gap_b < 0.0;
+  return (both_met ? b.Range() < a.Range() : gap_b < gap_a) ? b : a;
+}
+
 }  // namespace
 
 double ValveMeeting::Range() const {
@@ -44,15 +52,24 @@ ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
       center_(valve.base_from_object.translation()),
       model_(valve.model),
       parts_(parts),
-      hub_(0.0, 0.0, -valve.model.dish_m) {
-  reach_m_ = std::hypot(model_.rim_radius_m + model_.tube_radius_m, 0.0) +
+      hub_(0.0, 0.0, valve.model.IsLever() ? 0.0 : -valve.model.dish_m) {
+  if (model_.IsLever()) {
+    reach_m_ = model_.lever_length_m + model_.tube_radius_m;
+    lever_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), model_.lever_length_m,
+              model_.tube_radius_m};
+    stem_ = {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), ValveModel::kLeverStem_m,
+             ValveModel::kLeverStemPerHub * model_.hub_radius_m};
+    return;
+  }
+  reach_m_ = model_.rim_radius_m + model_.tube_radius_m +
              std::max(0.0, std::abs(model_.dish_m) + model_.hub_radius_m - model_.rim_radius_m);
   for (int i = 0; i < model_.spokes; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / model_.spokes;
     const Eigen::Vector3d end(model_.rim_radius_m * std::cos(angle),
                               model_.rim_radius_m * std::sin(angle), 0.0);
     const double length = (end - hub_).norm();
-    spokes_[static_cast<std::size_t>(i)] = {(end - hub_) / length, length};
+    spokes_[static_cast<std::size_t>(i)] = {hub_, (end - hub_) / length, length,
+                                            model_.spoke_radius_m};
   }
 }
 
@@ -93,13 +110,15 @@ ValveMeeting ValveTracer::MeetHub(const LocalRay& ray) const {
   return Approach(ValvePart::kHub, ray.origin, ray.direction, hub_, 0.0, model_.hub_radius_m);
 }
 
-ValveMeeting ValveTracer::MeetSpoke(const LocalRay& ray, const Spoke& spoke) const {
-  const double cosine = spoke.direction.dot(ray.direction);
+ValveMeeting ValveTracer::MeetBar(ValvePart part, const LocalRay& ray, const Bar& bar) {
+  const double cosine = bar.direction.dot(ray.direction);
   const double along =
-      std::clamp(ClosestAlongLine(ray.origin, ray.direction, hub_, spoke.direction, cosine), 0.0,
-                 spoke.length_m);
-  return Approach(ValvePart::kSpoke, ray.origin, ray.direction, hub_ + along * spoke.direction,
-                  cosine, model_.spoke_radius_m);
+      std::clamp(ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction, cosine), 0.0,
+                 bar.length_m);
+  ValveMeeting meeting = Approach(part, ray.origin, ray.direction,
+                                  bar.begin + along * bar.direction, cosine, bar.radius_m);
+  meeting.along_m = along;
+  return meeting;
 }
 
 bool ValveTracer::MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const {
@@ -122,22 +141,28 @@ bool ValveTracer::MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const {
   return true;
 }
 
+ValveMeeting ValveTracer::MeetWheel(const LocalRay& ray) const {
+  ValveMeeting best = MeetRim(ray);
+  if (parts_ == ValveParts::kRim) return best;
+  best = FirstMet(best, MeetHub(ray));
+  for (int i = 0; i < model_.spokes; ++i) {
+    ValveMeeting spoke = MeetBar(ValvePart::kSpoke, ray, spokes_[static_cast<std::size_t>(i)]);
+    spoke.spoke = i;
+    best = FirstMet(best, spoke);
+  }
+  if (ValveMeeting disc; model_.spokes == 0 && MeetDisc(ray, disc)) best = FirstMet(best, disc);
+  return best;
+}
+
+ValveMeeting ValveTracer::MeetLever(const LocalRay& ray) const {
+  const ValveMeeting bar = MeetBar(ValvePart::kLever, ray, lever_);
+  return FirstMet(FirstMet(bar, MeetHub(ray)), MeetBar(ValvePart::kStem, ray, stem_));
+}
+
 ValveMeeting ValveTracer::Meet(const RangeRay& ray) const {
   const LocalRay local{object_from_base_ * (ray.origin - center_),
                        object_from_base_ * ray.direction};
-  ValveMeeting best = MeetRim(local);
-  const auto consider = [&best](const ValveMeeting& other) {
-    const double gap = best.Clearance();
-    const double other_gap = other.Clearance();
-    const bool both_met = gap < 0.0 && other_gap < 0.0;
-    if (both_met ? other.Range() < best.Range() : other_gap < gap) best = other;
-  };
-  if (parts_ == ValveParts::kRim) return best;
-  consider(MeetHub(local));
-  for (int i = 0; i < model_.spokes; ++i)
-    consider(MeetSpoke(local, spokes_[static_cast<std::size_t>(i)]));
-  if (ValveMeeting disc; model_.spokes == 0 && MeetDisc(local, disc)) consider(disc);
-  return best;
+  return model_.IsLever() ? MeetLever(local) : MeetWheel(local);
 }
 
 }  // namespace foresight

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-enum class ValvePart { kRim, kHub, kSpoke, kDisc };
+enum class ValvePart { kRim, kHub, kSpoke, kDisc, kLever, kStem };
 
 /// How a ray passes the part of a valve that it meets first, or that it misses by least. Each part
 /// is a tube of some radius around its middle line.
@@ -19,6 +19,8 @@ struct ValveMeeting {
   double radius_m = 0.0;     ///< of the tube
   double stretch = 1.0;      ///< 1 / sine of the angle between ray and middle line
   double azimuth_rad = 0.0;  ///< of the closest point of a rim, in the object's frame
+  double along_m = 0.0;      ///< of the closest point of a spoke, lever or stem, from its beginning
+  int spoke = 0;             ///< which one
 
   /// Gap between ray and part; negative when the ray meets it.
   double Clearance() const { return offset_m - radius_m; }
@@ -44,14 +46,18 @@ class ValveTracer {
     Eigen::Vector3d origin;
     Eigen::Vector3d direction;
   };
-  struct Spoke {
-    Eigen::Vector3d direction;
+  struct Bar {
+    Eigen::Vector3d begin = Eigen::Vector3d::Zero();
+    Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
     double length_m = 0.0;
+    double radius_m = 0.0;
   };
 
   ValveMeeting MeetRim(const LocalRay& ray) const;
   ValveMeeting MeetHub(const LocalRay& ray) const;
-  ValveMeeting MeetSpoke(const LocalRay& ray, const Spoke& spoke) const;
+  static ValveMeeting MeetBar(ValvePart part, const LocalRay& ray, const Bar& bar);
+  ValveMeeting MeetWheel(const LocalRay& ray) const;
+  ValveMeeting MeetLever(const LocalRay& ray) const;
   bool MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const;
 
   Eigen::Matrix3d object_from_base_;
@@ -60,7 +66,9 @@ class ValveTracer {
   ValveParts parts_;
   Eigen::Vector3d hub_;
   double reach_m_ = 0.0;
-  std::array<Spoke, 6> spokes_;
+  std::array<Bar, 6> spokes_;
+  Bar lever_;
+  Bar stem_;
 };
 
 }  // namespace foresight

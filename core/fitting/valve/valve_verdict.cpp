@@ -1,20 +1,13 @@
 #include "core/fitting/valve/valve_verdict.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <bitset>
 #include <cmath>
-#include <numbers>
 
-#include "core/fitting/valve/valve_tracer.h"
+#include "core/fitting/valve/valve_evidence.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
-
-constexpr int kBins = 24;
-constexpr double kAgreeSigmas = 3.0;
-constexpr double kTemplateError_m = 0.0045;
 
 constexpr double kLikely = 0.70;
 constexpr double kConfirmed = 0.95;
@@ -24,7 +17,6 @@ constexpr double kAbsurdSeeThrough = 0.25;
 constexpr double kMaxBlockedGaps = 0.4;
 constexpr double kMinMargin_nats = 10.0;
 constexpr double kMaxOffCenter_m = 0.15;
-constexpr double kMaxPhaseSigma_rad = 0.15;
 
 double Logistic(double value) {
   return 1.0 / (1.0 + std::exp(-value));
@@ -42,14 +34,6 @@ double Probability(const RaySet& rays, const ValveDetection& detection) {
                   1.00 * evidence.inlier_share + 1.13 * gain -
                   0.45 * std::log(std::max(1e-4, detection.sigma_axis_rad)) -
                   6.55 * evidence.blocked_gaps);
-}
-
-double DistanceFromRegionCenter(const RaySet& rays, const Eigen::Vector3d& center) {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  for (const RangeRay& ray : rays.rays) direction += ray.direction;
-  direction.normalize();
-  const Eigen::Vector3d to_center = center - rays.viewpoint;
-  return (to_center - to_center.dot(direction) * direction).norm();
 }
 
 /// Why there is no wheel to speak of; empty when there may be one.
@@ -92,7 +76,7 @@ std::string Objection(const RaySet& rays, const ValveDetection& detection,
       best.model.rim_radius_m > 0.98 * options.max_rim_radius_m)
     return fmt::format("the rim's radius of {:.0f} mm is at the end of its range",
                        1000.0 * best.model.rim_radius_m);
-  const double off_m = DistanceFromRegionCenter(rays, best.base_from_object.translation());
+  const double off_m = DistanceFromRegionCenter(rays, best);
   if (off_m > kMaxOffCenter_m)
     return fmt::format(
         "the wheel lies {:.0f} mm from the region's centre: draw the region around it",
@@ -119,78 +103,14 @@ std::string WeakestPoint(const ValveDetection& detection) {
   return fmt::format("the number of spokes leads by {:.0f} nats only", evidence.margin_nats);
 }
 
-/// Of the rays that cross the rim's plane inside it and touch nothing of the wheel, the share that
-/// ends there all the same: a wheel is open, a box or a ball is not.
-double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveTracer& tracer) {
-  const Eigen::Vector3d axis = valve.base_from_object.Rotate(Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d& center = valve.base_from_object.translation();
-  const double inside_m = valve.model.rim_radius_m - valve.model.tube_radius_m;
-  int gaps = 0;
-  int blocked = 0;
-  for (const RangeRay& ray : rays.rays) {
-    const double closing = -axis.dot(ray.direction);
-    if (closing < 0.1) continue;
-    const double crossing_m = axis.dot(ray.origin - center) / closing;
-    const Eigen::Vector3d crossing = ray.origin + crossing_m * ray.direction;
-    if ((crossing - center).norm() > inside_m) continue;
-    if (tracer.Meet(ray).Clearance() < rays.footprint_rad * ray.range_m) continue;
-    ++gaps;
-    if (ray.range_m < crossing_m + rays.sigma_m) ++blocked;
-  }
-  return gaps > 0 ? static_cast<double>(blocked) / gaps : 0.0;
-}
-
 }  // namespace
-
-ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve) {
-  const ValveTracer tracer(valve, ValveParts::kAll);
-  const double agree_m = kAgreeSigmas * std::hypot(rays.sigma_m, kTemplateError_m);
-  ValveEvidence evidence;
-  std::bitset<kBins> covered;
-  int agreeing = 0;
-  int behind = 0;
-  double square_sum = 0.0;
-  for (const RangeRay& ray : rays.rays) {
-    ++evidence.rays;
-    if (!tracer.Near(ray, 0.0)) continue;
-    const ValveMeeting meeting = tracer.Meet(ray);
-    if (meeting.Clearance() >= 0.0) continue;
-    ++evidence.hits;
-    const double error = ray.range_m - meeting.Range();
-    if (error > agree_m) ++behind;
-    if (std::abs(error) > agree_m) continue;
-    ++agreeing;
-    square_sum += error * error;
-    if (meeting.part != ValvePart::kRim) continue;
-    const double turn = meeting.azimuth_rad / (2.0 * std::numbers::pi) + 0.5;
-    covered.set(static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kBins), 0, kBins - 1)));
-  }
-  const double hits = std::max(1, evidence.hits);
-  evidence.inlier_share = agreeing / hits;
-  evidence.see_through = behind / hits;
-  evidence.blocked_gaps = BlockedGaps(rays, valve, tracer);
-  evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
-  evidence.arc_coverage = static_cast<double>(covered.count()) / kBins;
-  return evidence;
-}
-
-void SetSigmas(const ValveInformation& information, ValveDetection& detection) {
-  // The ridge bounds what no ray sees: a phase to a turn, a length to a metre.
-  const ValveInformation covariance =
-      (information + ValveInformation::Identity()).ldlt().solve(ValveInformation::Identity());
-  const ValveStep sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  detection.sigma_position_m = sigmas.segment<3>(kMoveX);
-  detection.sigma_axis_rad = std::max(sigmas[kTiltX], sigmas[kTiltY]);
-  detection.sigma_phase_rad = sigmas[kPhase];
-  detection.phase_observable =
-      detection.best.model.spokes > 0 && detection.sigma_phase_rad < kMaxPhaseSigma_rad;
-}
 
 Verdict AssessValve(const RaySet& rays, const ValveDetection& detection,
                     const FitValveOptions& options) {
   const std::string disbelief = Disbelief(detection, options);
   const std::string objection = Objection(rays, detection, options);
   Verdict verdict;
+  verdict.features = ValveFeatures(rays, detection);
   verdict.probability = Probability(rays, detection);
   if (!objection.empty()) verdict.probability = std::min(verdict.probability, kConfirmed - 0.01);
   if (!disbelief.empty()) verdict.probability = std::min(verdict.probability, kLikely - 0.01);

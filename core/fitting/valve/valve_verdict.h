@@ -5,12 +5,6 @@
 
 namespace foresight {
 
-/// Counts what the rays of a region say about a valve; the two likelihoods are left at 0.
-ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve);
-
-/// Standard deviations of the detection from the information of its best candidate.
-void SetSigmas(const ValveInformation& information, ValveDetection& detection);
-
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
 ///
 /// The probability is a logistic function of the evidence; its weights are provisional, set on

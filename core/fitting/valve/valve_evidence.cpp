@@ -1,0 +1,165 @@
+#include "core/fitting/valve/valve_evidence.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <numbers>
+
+#include "core/fitting/valve/valve_tracer.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kBins = 24;
+constexpr double kAgreeSigmas = 3.0;
+constexpr double kTemplateError_m = 0.0045;
+constexpr double kMaxPhaseSigma_rad = 0.15;
+
+/// Of the rays that meet one part, those whose range agrees.
+struct PartSupport {
+  int hits = 0;
+  int agreeing = 0;
+
+  double Share() const { return hits > 0 ? static_cast<double>(agreeing) / hits : 0.0; }
+};
+
+/// Of the rays that cross the plane z = 0 inside the rim (beside a lever: within half its length of
+/// its middle) and touch nothing of the valve, the share that ends there all the same: a valve is
+/// open, a box or a ball is not.
+double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveTracer& tracer) {
+  const ValveModel& model = valve.model;
+  const Eigen::Vector3d axis = valve.base_from_object.Rotate(Eigen::Vector3d::UnitZ());
+  const double reach = model.IsLever() ? 0.5 * model.lever_length_m + 4.0 * model.tube_radius_m
+                                       : model.rim_radius_m - model.tube_radius_m;
+  const Eigen::Vector3d middle =
+      valve.base_from_object *
+      Eigen::Vector3d(model.IsLever() ? 0.5 * model.lever_length_m : 0.0, 0.0, 0.0);
+  int gaps = 0;
+  int blocked = 0;
+  for (const RangeRay& ray : rays.rays) {
+    const double closing = -axis.dot(ray.direction);
+    if (closing < 0.1) continue;
+    const double crossing_m = axis.dot(ray.origin - middle) / closing;
+    const Eigen::Vector3d crossing = ray.origin + crossing_m * ray.direction;
+    if ((crossing - middle).norm() > reach) continue;
+    if (tracer.Meet(ray).Clearance() < rays.footprint_rad * ray.range_m) continue;
+    ++gaps;
+    if (ray.range_m < crossing_m + rays.sigma_m) ++blocked;
+  }
+  return gaps > 0 ? static_cast<double>(blocked) / gaps : 0.0;
+}
+
+/// Share of the middle line's bins that have support: of the rim's circle, or along a lever.
+int BinOf(const ValveMeeting& meeting, const ValveModel& model) {
+  const double share = model.IsLever() ? meeting.along_m / std::max(model.lever_length_m, 1e-6)
+                                       : meeting.azimuth_rad / (2.0 * std::numbers::pi) + 0.5;
+  return std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
+}
+
+}  // namespace
+
+ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve) {
+  const ValveTracer tracer(valve, ValveParts::kAll);
+  const double agree_m = kAgreeSigmas * std::hypot(rays.sigma_m, kTemplateError_m);
+  const ValvePart outline = valve.model.IsLever() ? ValvePart::kLever : ValvePart::kRim;
+  ValveEvidence evidence;
+  std::bitset<kBins> covered;
+  std::array<PartSupport, 6> spokes;
+  int agreeing = 0;
+  int behind = 0;
+  double square_sum = 0.0;
+  for (const RangeRay& ray : rays.rays) {
+    ++evidence.rays;
+    if (!tracer.Near(ray, 0.0)) continue;
+    const ValveMeeting meeting = tracer.Meet(ray);
+    if (meeting.Clearance() >= 0.0) continue;
+    ++evidence.hits;
+    const double error = ray.range_m - meeting.Range();
+    const bool agrees = std::abs(error) <= agree_m;
+    if (error > agree_m) ++behind;
+    if (meeting.part == ValvePart::kSpoke) {
+      PartSupport& spoke = spokes[static_cast<std::size_t>(meeting.spoke)];
+      ++spoke.hits;
+      spoke.agreeing += agrees ? 1 : 0;
+    }
+    if (!agrees) continue;
+    ++agreeing;
+    square_sum += error * error;
+    if (meeting.part == outline) covered.set(static_cast<std::size_t>(BinOf(meeting, valve.model)));
+  }
+  const double hits = std::max(1, evidence.hits);
+  evidence.inlier_share = agreeing / hits;
+  evidence.see_through = behind / hits;
+  evidence.blocked_gaps = BlockedGaps(rays, valve, tracer);
+  evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
+  evidence.arc_coverage = static_cast<double>(covered.count()) / kBins;
+  evidence.weakest_spoke = 1.0;
+  for (int i = 0; i < valve.model.spokes && !valve.model.IsLever(); ++i)
+    evidence.weakest_spoke =
+        std::min(evidence.weakest_spoke, spokes[static_cast<std::size_t>(i)].Share());
+  return evidence;
+}
+
+void SetSigmas(const ValveInformation& information, ValveDetection& detection) {
+  // The ridge bounds what no ray sees: a phase to a turn, a length to a metre.
+  const ValveInformation covariance =
+      (information + ValveInformation::Identity()).ldlt().solve(ValveInformation::Identity());
+  const ValveStep sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const ValveModel& model = detection.best.model;
+  const bool has_phase = model.IsLever() || model.spokes > 0;
+  detection.covariance = covariance.topLeftCorner<6, 6>();
+  if (!has_phase) {
+    detection.covariance.row(kPhase).setConstant(std::nan(""));
+    detection.covariance.col(kPhase).setConstant(std::nan(""));
+  }
+  detection.sigma_position_m = sigmas.segment<3>(kMoveX);
+  detection.sigma_axis_rad = std::max(sigmas[kTiltX], sigmas[kTiltY]);
+  detection.sigma_phase_rad = sigmas[kPhase];
+  detection.phase_observable = has_phase && detection.sigma_phase_rad < kMaxPhaseSigma_rad;
+}
+
+double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence) {
+  return evidence.hits * std::min(1.0, rays.samples_per_ray);
+}
+
+double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve) {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (const RangeRay& ray : rays.rays) direction += ray.direction;
+  direction.normalize();
+  const double half_m = valve.model.IsLever() ? 0.5 * valve.model.lever_length_m : 0.0;
+  const Eigen::Vector3d to_middle =
+      valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0) - rays.viewpoint;
+  return (to_middle - to_middle.dot(direction) * direction).norm();
+}
+
+std::vector<std::string> ValveFeatureNames() {
+  return {"log_margin",     "gain_per_hit", "log_hits",      "inlier_share",   "see_through",
+          "blocked_gaps",   "arc_coverage", "weakest_spoke", "log_sigma_axis", "log_sigma_pos",
+          "log_sigma_turn", "log_size",     "disc",          "lever"};
+}
+
+std::vector<double> ValveFeatures(const RaySet& rays, const ValveDetection& detection) {
+  const ValveEvidence& evidence = detection.evidence;
+  const ValveModel& model = detection.best.model;
+  const double hits = std::max(1.0, MeasuredHits(rays, evidence));
+  const double size_m = model.IsLever() ? model.lever_length_m : model.rim_radius_m;
+  const bool disc = !model.IsLever() && model.spokes == 0;
+  return {std::log1p(std::max(0.0, evidence.margin_nats)),
+          std::clamp(evidence.gain_nats / hits, 0.0, 5.0),
+          std::log(hits),
+          evidence.inlier_share,
+          evidence.see_through,
+          evidence.blocked_gaps,
+          evidence.arc_coverage,
+          evidence.weakest_spoke,
+          std::log(std::max(1e-4, detection.sigma_axis_rad)),
+          std::log(std::max(1e-5, detection.sigma_position_m.norm())),
+          disc ? std::log(0.1) : std::log(std::max(1e-4, detection.sigma_phase_rad)),
+          std::log(size_m),
+          disc ? 1.0 : 0.0,
+          model.IsLever() ? 1.0 : 0.0};
+}
+
+}  // namespace foresight

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/fitting/ray_set.h"
+#include "core/fitting/valve/valve_state.h"
+
+namespace foresight {
+
+/// What the rays of a region say about a valve. The two likelihoods are left at 0.
+ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve);
+
+/// Fills the covariance and the deviations of a detection from the information of its best
+/// candidate. A direction that no ray sees has a deviation of about a turn or a metre; the phase of
+/// a disc is NaN in the covariance.
+void SetSigmas(const ValveInformation& information, ValveDetection& detection);
+
+/// Independent measurements on the valve: a dense map has fewer than rays.
+double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
+
+/// How far a valve is from the middle of the region, across the line of sight.
+double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve);
+
+/// What the probability of a verdict is computed from, in the order of the names. The detection's
+/// evidence, sigmas and candidates are filled in.
+std::vector<std::string> ValveFeatureNames();
+std::vector<double> ValveFeatures(const RaySet& rays, const ValveDetection& detection);
+
+}  // namespace foresight
