@@ -135,7 +135,7 @@ class Cell {
     if (status.state == HeadState::kFault) {
       if (status.message.find('\n') != std::string::npos || status.message.empty())
         Violation("the message is no sentence: " + status.message);
-      if (status.message.rfind(fault_.device, 0) != 0)
+      if (DeviceIn(status.message) != fault_.device)
         Violation("the message names another device: " + status.message);
       outcome_.summary += (assembler_ ? "; " : "") + std::string("fault: ") +
                           Short(status.message.substr(0, status.message.find(';')));
@@ -173,6 +173,13 @@ class Cell {
     if (scan->state != ScanState::kComplete) Violation("did not recover: " + scan->reason);
     if (scan->frames.size() != 1) Violation("no picture after the recovery");
     if (bench_.head->Status().lost_lines != 0) Violation("lines are lost after the recovery");
+  }
+
+  /// The first device that a message names.
+  static std::string DeviceIn(const std::string& message) {
+    static const std::regex kDevice("lidar|motor|camera");
+    std::smatch found;
+    return std::regex_search(message, found, kDevice) ? found.str() : "";
   }
 
   /// Without addresses, which differ from run to run.

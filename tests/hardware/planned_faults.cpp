@@ -31,8 +31,8 @@ const std::vector<PlannedFault>& PlannedFaults() {
   static const std::vector<PlannedFault> kFaults = {
       OfLidar("5 % of the scans corrupt", {"seed", "corrupt_share"},
               {.seed = 7, .corrupt_share = 0.05}, false),
-      OfLidar("1 % of the scans reset the connection", {"reset_share"},
-              {.seed = 7, .reset_share = 0.01}, false),
+      OfLidar("3 % of the scans reset the connection", {"reset_share"},
+              {.seed = 7, .reset_share = 0.03}, false),
       OfLidar("1 % of the scans are followed by 0.3 s of silence", {"stall_share", "stall_s"},
               {.seed = 7, .stall_share = 0.01, .stall_s = 0.3}, false),
       OfLidar("everything in pieces of 7 bytes", {"fragment_bytes"}, {.fragment_bytes = 7},
