@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/angles.h"
 
@@ -11,6 +12,8 @@ namespace {
 // The filter of Eq. (8) displaces an edge of depth by a few pixels, so the silhouette in a dense
 // map is known no better than this.
 constexpr double kDenseEdgeBlur_px = 4.0;
+// Of a UTM-30LX; docs/simulation.md has the source.
+constexpr double kSpotHeight_rad = 0.012;
 
 bool InBox(const PixelBox& box, const Eigen::Vector2d& pixel) {
   return (pixel.array() >= box.low.array()).all() && (pixel.array() <= box.high.array()).all();
@@ -30,10 +33,11 @@ Eigen::Vector3d MeanOrigin(const std::vector<RangeRay>& rays) {
 /// A region made ready for many points: an ImageRoi asks where a point appears in its picture.
 class RegionTest {
  public:
-  RegionTest(const SensorRig& rig, const Roi& roi) : rig_(rig), roi_(roi) {
+  /// @param rig may be null for a BoxRoi.
+  RegionTest(const SensorRig* rig, const Roi& roi) : rig_(rig), roi_(roi) {
     const auto* image = std::get_if<ImageRoi>(&roi);
     if (image == nullptr) return;
-    camera_from_base_ = rig.CameraFromBase(image->motor_rad);
+    camera_from_base_ = rig->CameraFromBase(image->motor_rad);
     bounds_ = image->Bounds();
   }
 
@@ -41,12 +45,12 @@ class RegionTest {
     if (const auto* box = std::get_if<BoxRoi>(&roi_)) return box->Contains(point_in_base);
     const Eigen::Vector3d in_camera = camera_from_base_ * point_in_base;
     if (!(in_camera.z() > 0.0)) return false;
-    const auto pixel = rig_.camera.Project(in_camera);
+    const auto pixel = rig_->camera.Project(in_camera);
     return pixel && InBox(bounds_, *pixel) && std::get<ImageRoi>(roi_).Contains(*pixel);
   }
 
  private:
-  const SensorRig& rig_;
+  const SensorRig* rig_;
   const Roi& roi_;
   Rigid<frame::Camera, frame::Base> camera_from_base_;
   PixelBox bounds_;
@@ -74,6 +78,27 @@ Status CheckPicture(const Roi& roi, double motor_rad) {
               DegreesFromRadians(image->motor_rad), DegreesFromRadians(motor_rad));
 }
 
+/// Median angle from a ray to its nearest neighbour; NaN where no two rays differ. A few hundred
+/// rays spread over the set tell it well enough.
+double MedianNeighbourAngle(const std::vector<RangeRay>& rays) {
+  constexpr std::size_t kAsked = 400;
+  constexpr double kSameDirection = 1e-12;  // of squared chords
+  std::vector<double> nearest2;
+  const std::size_t step = std::max<std::size_t>(1, rays.size() / kAsked);
+  for (std::size_t i = 0; i < rays.size(); i += step) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const RangeRay& other : rays) {
+      const double chord2 = (other.direction - rays[i].direction).squaredNorm();
+      if (chord2 > kSameDirection && chord2 < least) least = chord2;
+    }
+    if (std::isfinite(least)) nearest2.push_back(least);
+  }
+  if (nearest2.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = nearest2.begin() + static_cast<std::ptrdiff_t>(nearest2.size() / 2);
+  std::nth_element(nearest2.begin(), middle, nearest2.end());
+  return 2.0 * std::asin(0.5 * std::sqrt(*middle));
+}
+
 }  // namespace
 
 Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const Roi& roi,
@@ -83,7 +108,8 @@ Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, co
   RaySet set;
   set.sigma_m = sigma_m;
   set.footprint_rad = rig.lidar.angle_step_rad;
-  const RegionTest region(rig, roi);
+  set.spot_height_rad = kSpotHeight_rad;
+  const RegionTest region(&rig, roi);
   for (int line = 0; line < scan.lines; ++line) {
     const Eigen::Vector3d origin = scan.origins[static_cast<std::size_t>(line)].cast<double>();
     if (!origin.allFinite()) continue;
@@ -143,6 +169,35 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
     return Fail(ErrorCode::kTooFewPoints,
                 "no trusted depth lies inside the region: draw it larger, or lower the confidence "
                 "threshold");
+  return set;
+}
+
+Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
+                             const Eigen::Vector3d& viewpoint, const SensorRig* rig, const Roi& roi,
+                             double sigma_m) {
+  FORESIGHT_CHECK(CheckRoi(roi));
+  FORESIGHT_CHECK(CheckSigma(sigma_m));
+  if (!viewpoint.allFinite())
+    return Fail(ErrorCode::kInvalidInput, "rays of a cloud: its viewpoint ({}, {}, {}) is no place",
+                viewpoint.x(), viewpoint.y(), viewpoint.z());
+  if (rig == nullptr && std::holds_alternative<ImageRoi>(roi))
+    return Fail(ErrorCode::kInvalidInput,
+                "a region in a picture of a cloud needs the calibration of the head");
+  RaySet set;
+  set.sigma_m = sigma_m;
+  set.viewpoint = viewpoint;
+  const RegionTest region(rig, roi);
+  for (const Eigen::Vector3d& point : points) {
+    if (!point.allFinite()) continue;
+    const Eigen::Vector3d sight = point - viewpoint;
+    const double range = sight.norm();
+    if (range > 0.0 && region.Holds(point))
+      set.rays.push_back({viewpoint, sight / range, range, Eigen::Vector2i::Constant(-1)});
+  }
+  if (set.rays.empty())
+    return Fail(ErrorCode::kTooFewPoints, "no point of the cloud lies inside the region");
+  const double neighbour_rad = MedianNeighbourAngle(set.rays);
+  if (std::isfinite(neighbour_rad)) set.footprint_rad = neighbour_rad;
   return set;
 }
 

@@ -31,6 +31,9 @@ struct RaySet {
   double footprint_rad = 0.004;                         ///< full angle between neighbouring rays
   bool dense = false;            ///< from an upsampled map: neighbouring rays are not independent
   double samples_per_ray = 1.0;  ///< independent measurements behind a ray; < 1 for a dense map
+  /// Full angle of a beam's spot across its scan line; 0 = round, footprint_rad wide. Where a spot
+  /// lies on two surfaces the range is one in between.
+  double spot_height_rad = 0.0;
 };
 
 /// The raw lidar returns inside the region, also those that the depth filters would reject: a fit
@@ -51,8 +54,8 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
 
 /// Points of a cloud in base inside the region, seen from one viewpoint: ranges of a scanner, or a
 /// cloud from elsewhere. Points that are not finite are left out. `footprint_rad` is set to the
-/// median angle between neighbouring points. Fails with kInvalidInput (the region, an ImageRoi
-/// without `rig`; a viewpoint that is not finite) and kTooFewPoints. O(n log n).
+/// median angle from a point to its nearest neighbour. Fails with kInvalidInput (the region, an
+/// ImageRoi without `rig`; a viewpoint that is not finite) and kTooFewPoints. O(points).
 Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
                              const Eigen::Vector3d& viewpoint, const SensorRig* rig, const Roi& roi,
                              double sigma_m);

@@ -93,5 +93,63 @@ TEST(RaysFromDepth, RefusesAMapOfAnotherSize) {
   EXPECT_EQ(set.error().code, ErrorCode::kInvalidInput);
 }
 
+/// A wall of points 0.01 rad apart as seen from the viewpoint, one of them not measured.
+std::vector<Eigen::Vector3d> WallOfPoints(const Eigen::Vector3d& viewpoint) {
+  std::vector<Eigen::Vector3d> points;
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 30; ++column)
+      points.push_back(viewpoint + Eigen::Vector3d(0.02 * column, 0.02 * row, 2.0));
+  points[7] = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return points;
+}
+
+TEST(RaysFromCloud, TakesThePointsInTheBoxAsSeenFromTheViewpoint) {
+  const Eigen::Vector3d viewpoint(0.3, -0.2, 0.1);
+  const auto points = WallOfPoints(viewpoint);
+  const BoxRoi box{{Eigen::Quaterniond::Identity(), viewpoint + Eigen::Vector3d(0, 0, 2.0)},
+                   {0.05, 0.05, 0.1}};
+  const auto set = RaysFromCloud(points, viewpoint, nullptr, box, 0.01);
+  ASSERT_TRUE(set) << set.error().message;
+  ASSERT_EQ(set->rays.size(), 4U);
+  EXPECT_EQ(set->viewpoint, viewpoint);
+  EXPECT_FALSE(set->dense);
+  EXPECT_LT((set->rays[1].Point() - points[1]).norm(), 1e-12);
+  EXPECT_EQ(set->rays[0].cell, Eigen::Vector2i::Constant(-1));
+}
+
+TEST(RaysFromCloud, KnowsHowFarApartItsRaysAreAndLeavesOutWhatWasNotMeasured) {
+  const Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+  const BoxRoi all{{}, Eigen::Vector3d::Constant(10.0)};
+  const auto set = RaysFromCloud(WallOfPoints(viewpoint), viewpoint, nullptr, all, 0.01);
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->rays.size(), 599U);
+  EXPECT_NEAR(set->footprint_rad, 0.01, 0.001);  // towards the wall's ends a little less
+}
+
+TEST(RaysFromCloud, ARegionInAPictureNeedsTheCalibration) {
+  const SensorRig rig = DefaultSensorRig();
+  const auto ahead = rig.CameraFromBase(0.2).Inverse() * Eigen::Vector3d(0.0, 0.0, 2.0);
+  const std::vector<Eigen::Vector3d> points = {ahead, ahead + Eigen::Vector3d(1.0, 0.0, 0.0)};
+  const ImageRoi roi = AroundTheCenter(rig, 0.2);
+  const auto set = RaysFromCloud(points, {0, 0, 0}, &rig, roi, 0.01);
+  ASSERT_TRUE(set) << set.error().message;
+  EXPECT_EQ(set->rays.size(), 1U);
+  const auto without = RaysFromCloud(points, {0, 0, 0}, nullptr, roi, 0.01);
+  ASSERT_FALSE(without);
+  EXPECT_EQ(without.error().code, ErrorCode::kInvalidInput);
+}
+
+TEST(RaysFromCloud, RefusesAViewpointThatIsNoPlaceAndAnEmptyRegion) {
+  const std::vector<Eigen::Vector3d> points = {{0.0, 0.0, 2.0}};
+  const BoxRoi far_away{{Eigen::Quaterniond::Identity(), {50.0, 0.0, 0.0}}, {1.0, 1.0, 1.0}};
+  const Eigen::Vector3d nowhere(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  const auto refused = RaysFromCloud(points, nowhere, nullptr, far_away, 0.01);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kInvalidInput);
+  const auto empty = RaysFromCloud(points, {0, 0, 0}, nullptr, far_away, 0.01);
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().code, ErrorCode::kTooFewPoints);
+}
+
 }  // namespace
 }  // namespace foresight
