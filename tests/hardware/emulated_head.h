@@ -7,14 +7,31 @@
 #include "hardware/assembly/real_head.h"
 #include "hardware/emulator/emulated_site.h"
 #include "tests/hardware/tiny_head.h"
+#include "tests/support/sanitized.h"
 
 namespace foresight {
+
+/// The default head, as far as this build can emulate it in real time: under a sanitizer with a
+/// quarter of the beams, one ray each, and a sixteenth of the pixels.
+inline EmulatedSiteOptions RealTimeSite() {
+  EmulatedSiteOptions options;
+  if (!kSanitized) return options;
+  options.world.lidar.footprint_side = 1;
+  options.true_rig.lidar.beams = 271;
+  options.true_rig.lidar.angle_step_rad *= 4.0;
+  FisheyeCamera& camera = options.true_rig.camera;
+  camera.width /= 4;
+  camera.height /= 4;
+  for (double* length_px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *length_px /= 4.0;
+  return options;
+}
 
 /// A head on the real drivers before an emulated site, over the sockets of this machine. Head and
 /// site share a clock, so stamps can be compared with the truth.
 struct EmulatedHead {
   explicit EmulatedHead(const std::string& scene_file)
-      : EmulatedHead(std::make_shared<const Scene>(LoadScene(scene_file).value()), {}) {}
+      : EmulatedHead(std::make_shared<const Scene>(LoadScene(scene_file).value()), RealTimeSite()) {
+  }
   EmulatedHead(std::shared_ptr<const Scene> scene, const EmulatedSiteOptions& options,
                const std::function<void(HeadConfig&)>& change = {}) {
     auto started = EmulatedSite::Start(std::move(scene), options);
@@ -33,7 +50,7 @@ struct EmulatedHead {
   }
 
   /// The state is reached before `seconds` are over.
-  bool WaitFor(HeadState state, double seconds = 30.0) const {
+  bool WaitFor(HeadState state, double seconds = 30.0 * kSanitizerFactor) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (head->Status().state != state) {
       if (std::chrono::steady_clock::now() > end) return false;
