@@ -2,6 +2,7 @@
 
 #include "app/common/fly_scan.h"
 #include "app/common/output.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
@@ -29,15 +30,16 @@ void PrintScan(const std::string& mission_file, const ScanSummary& scan, const F
 
 std::string ToText(const ScanPrediction& p) {
   return fmt::format(
-      "{:.1f} s, {} lines, {:.1f} % of the pixels measured, sigma_s {:.1f} px, blur {:.2f} px, "
-      "{:.1f} MB",
-      p.duration_s, p.lines, 100.0 * p.density, p.sigma_spatial_px, p.blur_px,
-      1e-6 * static_cast<double>(p.bytes));
+      "{:.1f} s, {} lines, {:.1f} % of the pixels measured, sigma_s {:.1f} px, exposure {:.2f} ms, "
+      "blur {:.2f} px, {:.1f} MB; {:.0f} % up to {:.1f} deg/s",
+      p.duration_s, p.lines, 100.0 * p.density, p.sigma_spatial_px, 1e3 * p.exposure_s, p.blur_px,
+      1e-6 * static_cast<double>(p.bytes), 100.0 * ScanPrediction::kMinDensity,
+      DegreesFromRadians(p.fastest_speed_rad_s));
 }
 
 Result<ExitCode> RecordScan(SensorHead& head, const ScanPlan& plan, const std::string& mission_file,
                             bool json, const RunContext& context) {
-  FORESIGHT_TRY(const auto prediction, PredictScan(plan, head.Rig()));
+  FORESIGHT_TRY(const auto prediction, PredictScan(plan, head.Rig(), head.Motion()));
   fmt::print(stderr, "{}: {}\n", head.Describe(), ToText(prediction));
   FORESIGHT_TRY(const auto mission, OpenOrCreateMission(mission_file));
   FORESIGHT_TRY(const FlownScan flown, FlyScan(head, plan, mission, context));

@@ -18,6 +18,9 @@ struct ScanCommandArguments {
   double speed_deg_s = 10.0;
   std::vector<double> image_deg;
   std::optional<double> exposure_ms;  ///< not given: the head's
+  bool stop_and_shoot = false;
+  double max_blur_px = ScanPlan().max_blur_px;
+  int passes = 1;
   std::string out;
   bool predict = false;
   bool json = false;
@@ -30,6 +33,9 @@ ScanPlan PlanFrom(const ScanCommandArguments& arguments, const CameraSettings& u
   plan.speed_rad_s = RadiansFromDegrees(arguments.speed_deg_s);
   plan.exposure_s = arguments.exposure_ms ? 1e-3 * *arguments.exposure_ms : usual.exposure_s;
   plan.gain_db = usual.gain_db;
+  if (arguments.stop_and_shoot) plan.picture_mode = ScanPlan::PictureMode::kStopAndShoot;
+  plan.max_blur_px = arguments.max_blur_px;
+  plan.passes = arguments.passes;
   plan.image_angles_rad.clear();
   for (const double angle : arguments.image_deg)
     plan.image_angles_rad.push_back(RadiansFromDegrees(angle));
@@ -44,7 +50,9 @@ nlohmann::ordered_json ToJson(const ScanPrediction& prediction) {
           {"line_spacing_px", prediction.line_spacing_px},
           {"beam_spacing_px", prediction.beam_spacing_px},
           {"sigma_spatial_px", prediction.sigma_spatial_px},
+          {"exposure_s", prediction.exposure_s},
           {"blur_px", prediction.blur_px},
+          {"fastest_speed_deg_s", DegreesFromRadians(prediction.fastest_speed_rad_s)},
           {"bytes", prediction.bytes}};
 }
 
@@ -106,6 +114,14 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
       ->delimiter(',');
   command->add_option("--exposure", arguments->exposure_ms,
                       "Exposure in milliseconds; default: the head's");
+  command->add_flag("--stop-and-shoot", arguments->stop_and_shoot,
+                    "Take the pictures after the sweep, standing still");
+  command
+      ->add_option("--max-blur", arguments->max_blur_px,
+                   "Most motion blur of a picture taken in passing, in pixels: caps the exposure")
+      ->capture_default_str();
+  command->add_option("--passes", arguments->passes, "1: one way; 2: there and back in one scan")
+      ->capture_default_str();
   command->add_option("-o,--out", arguments->out,
                       "Mission file; a scan is added to one that exists");
   command->add_flag("--predict", arguments->predict, "Only say what the plan would cost and give");

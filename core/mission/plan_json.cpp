@@ -5,10 +5,15 @@
 namespace foresight {
 
 std::string PlanToJson(const ScanPlan& plan) {
-  return nlohmann::json{
-      {"from_rad", plan.from_rad},       {"to_rad", plan.to_rad},
-      {"speed_rad_s", plan.speed_rad_s}, {"image_angles_rad", plan.image_angles_rad},
-      {"exposure_s", plan.exposure_s},   {"gain_db", plan.gain_db}}
+  return nlohmann::json{{"from_rad", plan.from_rad},
+                        {"to_rad", plan.to_rad},
+                        {"speed_rad_s", plan.speed_rad_s},
+                        {"image_angles_rad", plan.image_angles_rad},
+                        {"exposure_s", plan.exposure_s},
+                        {"gain_db", plan.gain_db},
+                        {"picture_mode", ToString(plan.picture_mode)},
+                        {"max_blur_px", plan.max_blur_px},
+                        {"passes", plan.passes}}
       .dump();
 }
 
@@ -22,6 +27,15 @@ Result<ScanPlan> PlanFromJson(const std::string& json, const std::string& source
     value.at("image_angles_rad").get_to(plan.image_angles_rad);
     value.at("exposure_s").get_to(plan.exposure_s);
     value.at("gain_db").get_to(plan.gain_db);
+    // Plans that were written before these existed are flown as they were.
+    if (value.contains("picture_mode")) {
+      const auto mode = PictureModeFromString(value["picture_mode"].get<std::string>());
+      if (!mode)
+        return Fail(ErrorCode::kBadData, "{}: scan plan: {}", source, mode.error().message);
+      plan.picture_mode = *mode;
+    }
+    plan.max_blur_px = value.value("max_blur_px", plan.max_blur_px);
+    plan.passes = value.value("passes", plan.passes);
     return plan;
   } catch (const nlohmann::json::exception& error) {
     return Fail(ErrorCode::kBadData, "{}: scan plan: {}", source, error.what());

@@ -53,6 +53,8 @@ class SensorHead {
   virtual HeadStatus Status() const = 0;
   /// The calibration in force on the head.
   virtual SensorRig Rig() const = 0;
+  /// How it moves, for PredictScan.
+  virtual HeadMotion Motion() const { return {}; }
 
   /// Connects to the devices and searches the zero reference. Fails with kState while sweeping.
   virtual foresight::Status Home() = 0;

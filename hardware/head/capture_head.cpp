@@ -70,7 +70,7 @@ Status CaptureHead::Home() {
 
 Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) {
   FORESIGHT_EXPECTS(sink != nullptr, "a scan needs somewhere to go");
-  FORESIGHT_TRY(const ScanPrediction prediction, PredictScan(plan, rig_));
+  FORESIGHT_TRY(const ScanPrediction prediction, PredictScan(plan, rig_, Motion()));
   const std::lock_guard lock(mutex_);
   if (status_.state != HeadState::kReady)
     return Fail(ErrorCode::kState, "{}: cannot scan while {}{}", options_.description,

@@ -31,6 +31,7 @@ class CaptureHead final : public SensorHead {
   std::string Describe() const override;
   HeadStatus Status() const override;
   SensorRig Rig() const override { return rig_; }
+  HeadMotion Motion() const override { return options_.Motion(); }
   foresight::Status Home() override;
   foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
   void AbortScan() override;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/sensor/scan_plan.h"
 
 namespace foresight {
 
@@ -23,6 +24,7 @@ struct CaptureOptions {
   double operator_timeout_s = 5.0;
 
   Status Check() const;
+  HeadMotion Motion() const { return {acceleration_rad_s2, settle_s, travel_speed_rad_s}; }
   /// From standstill to the scope, and from the scope to standstill.
   double RunUp(double speed_rad_s) const;
 };

@@ -30,6 +30,7 @@ CaptureSweep::CaptureSweep(HeadDevices& devices, const CaptureOptions& options, 
       header_(header),
       sink_(sink),
       hooks_(std::move(hooks)),
+      exposure_s_(ExposureOnHead(plan_, header.rig)),
       sign_(plan_.to_rad > plan_.from_rad ? 1.0 : -1.0),
       pictures_(*devices.camera, *devices.clock, InOrder(plan_.image_angles_rad, sign_)),
       gate_(header.rig.lidar, plan_.from_rad, plan_.to_rad),
@@ -84,7 +85,7 @@ SweepEnd CaptureSweep::DeviceFailed(const std::string& message) const {
 
 CaptureSweep::Step CaptureSweep::MoveToStart() {
   if (Step end = hooks_.interruption()) return end;
-  const Status configured = devices_.camera->Configure({plan_.exposure_s, plan_.gain_db});
+  const Status configured = devices_.camera->Configure({exposure_s_, plan_.gain_db});
   if (!configured) return DeviceFailed(configured.error().message);
   const double start = plan_.from_rad - sign_ * options_.RunUp(plan_.speed_rad_s);
   const Status moving = devices_.motor->StartMove(start, options_.travel_speed_rad_s);
@@ -122,12 +123,46 @@ CaptureSweep::Step CaptureSweep::SweepThrough() {
     return DeviceFailed(started.error().message);
   last_line_s_ = Now();
   devices_.motor->TakeTrack();  // what led here is of no use to anyone
-  const double end = plan_.to_rad + sign_ * options_.RunUp(plan_.speed_rad_s);
+  if (plan_.picture_mode == ScanPlan::PictureMode::kStopAndShoot) next_picture_ = pictures_.size();
+  for (int pass = 0; pass < plan_.passes; ++pass)
+    if (Step over = SweepPass(pass)) return over;
+  return std::nullopt;
+}
+
+CaptureSweep::Step CaptureSweep::SweepPass(int pass) {
+  const bool back = pass % 2 == 1;
+  if (back) {
+    if (Step over = WaitForTurn()) return over;
+    gate_ = LineGate(header_.rig.lidar, plan_.to_rad, plan_.from_rad);
+  }
+  const double run_out = sign_ * options_.RunUp(plan_.speed_rad_s);
+  const double end = back ? plan_.from_rad - run_out : plan_.to_rad + run_out;
   if (const Status moving = devices_.motor->StartMove(end, plan_.speed_rad_s); !moving)
     return DeviceFailed(moving.error().message);
+  stopped_since_s_.reset();
   while (!gate_.Passed() || next_picture_ < pictures_.size())
     if (Step over = SweepOnce()) return over;
   return std::nullopt;
+}
+
+/// Until the motor stands behind the scope. The lines of the turn belong to no pass.
+CaptureSweep::Step CaptureSweep::WaitForTurn() {
+  const double deadline_s = Now() + kStandstillTimeout_s;
+  for (;;) {
+    if (Step end = hooks_.interruption()) return end;
+    if (Step failed = CheckMotor()) return failed;
+    const Result<bool> moving = devices_.motor->Moving();
+    if (!moving) return DeviceFailed(moving.error().message);
+    if (!*moving) return std::nullopt;
+    if (Now() > deadline_s)
+      return DeviceFailed(fmt::format("{}: did not come to rest within {:.0f} s",
+                                      devices_.motor->Describe(), kStandstillTimeout_s));
+    if (Step end = ReceiveLine(std::chrono::duration<double>(kPoll).count())) return end;
+    PumpTrack();
+    HandOnLines();
+    HandOnPictures(false);
+    Report(HeadState::kSweeping);
+  }
 }
 
 CaptureSweep::Step CaptureSweep::SweepOnce() {
@@ -136,6 +171,7 @@ CaptureSweep::Step CaptureSweep::SweepOnce() {
   double free_s = 0.0;
   if (Step end = TriggerWhenDue(&free_s)) return end;
   if (Step end = ReceiveLine(free_s)) return end;
+  if (Step end = CheckArrival()) return end;
   PumpTrack();
   HandOnLines();
   if (pictures_.Waiting()) pictures_.Receive(std::chrono::milliseconds(0));
@@ -159,7 +195,7 @@ CaptureSweep::Step CaptureSweep::TriggerWhenDue(double* free_s) {
     const double target = pictures_.Angle(next_picture_);
     const double now_rad = progress_.position.angle_rad;
     // The middle of the exposure is to lie at the angle.
-    const double due_s = sign_ * (target - now_rad) / plan_.speed_rad_s - 0.5 * plan_.exposure_s;
+    const double due_s = sign_ * (target - now_rad) / plan_.speed_rad_s - 0.5 * exposure_s_;
     if (due_s > kTimerStep_s) {
       *free_s = due_s;
       return std::nullopt;
@@ -187,6 +223,11 @@ CaptureSweep::Step CaptureSweep::ReceiveLine(double longest_wait_s) {
     return DeviceFailed(fmt::format("{}: no line for {:.0f} ms", devices_.lidar->Describe(),
                                     1e3 * (Now() - last_line_s_)));
   }
+  return std::nullopt;
+}
+
+/// A motor that stands although lines of the scope are still to come has failed.
+CaptureSweep::Step CaptureSweep::CheckArrival() {
   const Result<bool> moving = devices_.motor->Moving();
   if (!moving) return DeviceFailed(moving.error().message);
   // Behind a silent lidar the motor may well have arrived: the lines to come will tell, or its
@@ -226,9 +267,23 @@ CaptureSweep::Step CaptureSweep::CollectPictures() {
   return std::nullopt;
 }
 
-/// Goes to the angle of each picture and takes it while the head stands.
-CaptureSweep::Step CaptureSweep::ShootAtRest(const std::vector<std::size_t>& pictures) {
+/// What the sweep did not bring, or was not to bring; what fails at the first time here is tried
+/// once more.
+CaptureSweep::Step CaptureSweep::ShootMissing() {
+  const bool planned = plan_.picture_mode == ScanPlan::PictureMode::kStopAndShoot;
+  Step end;
+  for (int tries = planned ? 2 : 1; tries > 0 && !end && !pictures_.Missing().empty(); --tries)
+    end = ComeToRest(ShootAtRest(pictures_.Missing()));
+  return end;
+}
+
+/// Goes to the angle of each picture, the nearest end first, and takes it while the head stands.
+CaptureSweep::Step CaptureSweep::ShootAtRest(std::vector<std::size_t> pictures) {
   Report(HeadState::kSweeping);
+  const double here = progress_.position.angle_rad;
+  if (std::abs(pictures_.Angle(pictures.back()) - here) <
+      std::abs(pictures_.Angle(pictures.front()) - here))
+    std::reverse(pictures.begin(), pictures.end());
   for (const std::size_t picture : pictures) {
     bool taken = false;
     if (Step end = ShootAtRest(picture, &taken)) return end;
@@ -247,7 +302,7 @@ CaptureSweep::Step CaptureSweep::ShootAtRest(std::size_t picture, bool* taken) {
   const double deadline_s = Now() + options_.camera_timeout_s;
   while (!(*taken = pictures_.Trigger(picture)) && Now() < deadline_s)
     if (Step end = StandFor(0.1)) return end;
-  return *taken ? StandFor(plan_.exposure_s + options_.settle_s) : std::nullopt;
+  return *taken ? StandFor(exposure_s_ + options_.settle_s) : std::nullopt;
 }
 
 CaptureSweep::Step CaptureSweep::StandFor(double seconds) {

@@ -31,7 +31,8 @@ struct SweepProgress {
   int lost_lines = 0;
 };
 
-/// One scan, from the way to its start to the last frame. A picture that does not come is tried
+/// One scan, from the way to its start to the last frame: one pass or two, pictures in the first
+/// one or after the last one, standing still. A picture that does not come is tried
 /// once more after the sweep, standing still; without it the scan is complete all the same, with a
 /// reason. Runs in the head's thread; the motor is at rest when Run returns, whatever happened.
 class CaptureSweep {
@@ -58,12 +59,16 @@ class CaptureSweep {
   Step WaitForStandstill(double timeout_s);
   double TravelTimeout() const;
   Step SweepThrough();
+  Step SweepPass(int pass);
   Step SweepOnce();
+  Step WaitForTurn();
   Step TriggerWhenDue(double* free_s);
   Step ReceiveLine(double longest_wait_s);
+  Step CheckArrival();
   Step ComeToRest(Step end);
   Step CollectPictures();
-  Step ShootAtRest(const std::vector<std::size_t>& pictures);
+  Step ShootAtRest(std::vector<std::size_t> pictures);
+  Step ShootMissing();
   Step ShootAtRest(std::size_t picture, bool* taken);
   Step StandFor(double seconds);
   SweepEnd JudgePictures() const;
@@ -83,7 +88,8 @@ class CaptureSweep {
   ScanSink& sink_;
   Hooks hooks_;
 
-  const double sign_;       ///< of the sweep
+  const double exposure_s_;
+  const double sign_;       ///< of the first pass
   SweepPictures pictures_;  ///< in the order of the sweep
   std::size_t next_picture_ = 0;
   MotorTrack track_;

@@ -53,7 +53,7 @@ TEST(CaptureHead, ASweepBringsTheExpectedLines) {
   EXPECT_LE(scan->lines.size(), 42u);
   ASSERT_TRUE(tiny.WaitFor(HeadState::kReady));
   const HeadStatus status = tiny.head->Status();
-  EXPECT_EQ(status.expected_lines, 40);
+  EXPECT_EQ(status.expected_lines, 42);
   EXPECT_EQ(status.lines, static_cast<int>(scan->lines.size()));
   EXPECT_EQ(status.frames, 1);
   EXPECT_EQ(status.lost_lines, 0);

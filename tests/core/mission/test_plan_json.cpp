@@ -1,0 +1,40 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/mission/plan_json.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(PlanJson, EveryMemberSurvivesTheRoundTrip) {
+  ScanPlan plan;
+  plan.image_angles_rad = {-0.25, 0.125};
+  plan.picture_mode = ScanPlan::PictureMode::kStopAndShoot;
+  plan.max_blur_px = 0.1;
+  plan.passes = 2;
+  EXPECT_EQ(PlanFromJson(PlanToJson(plan), "plan.json").value(), plan);
+}
+
+TEST(PlanJson, APlanOfAnEarlierVersionIsOnePassOnTheFly) {
+  const auto plan = PlanFromJson(
+      R"({"from_rad": -0.5, "to_rad": 0.5, "speed_rad_s": 0.17, "image_angles_rad": [0],
+          "exposure_s": 0.004, "gain_db": 0})",
+      "old.json");
+  ASSERT_TRUE(plan) << plan.error().message;
+  EXPECT_EQ(plan->picture_mode, ScanPlan::PictureMode::kOnTheFly);
+  EXPECT_EQ(plan->passes, 1);
+  EXPECT_EQ(plan->max_blur_px, 0.5);
+}
+
+TEST(PlanJson, AnUnknownPictureModeIsNamed) {
+  std::string json = PlanToJson(ScanPlan());
+  json.replace(json.find("on_the_fly"), 10, "in_flight");
+  const auto plan = PlanFromJson(json, "plan.json");
+  ASSERT_FALSE(plan);
+  EXPECT_THAT(plan.error().message, HasSubstr("plan.json: scan plan: picture mode 'in_flight'"));
+}
+
+}  // namespace
+}  // namespace foresight
