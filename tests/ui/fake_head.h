@@ -58,6 +58,7 @@ class FakeHead : public SensorHead {
   }
 
   void SetState(HeadState state) { status_.state = state; }
+  void SetHealth(const HeadHealth& health) { status_.health = health; }
   const ScanPlan& LastPlan() const { return plan_; }
   bool Stopped() const { return stopped_; }
   int TimesOperatorSeen() const { return operator_seen_; }

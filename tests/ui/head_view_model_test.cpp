@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/depth/depth_method.h"
+#include "core/depth/local_plane.h"
 #include "tests/ui/fake_head.h"
 #include "tests/ui/synthetic_scan.h"
 
@@ -26,7 +28,7 @@ TEST_F(HeadTest, PredictionFollowsTheSpeed) {
   EXPECT_EQ(model.Prediction().time.toStdString(), "6.0 s");
   SetSpeed(20.0);
   EXPECT_EQ(model.Prediction().time.toStdString(), "3.0 s");
-  EXPECT_EQ(model.Prediction().lines.toStdString(), "120");
+  EXPECT_EQ(model.Prediction().lines.toStdString(), "121");
 }
 
 TEST_F(HeadTest, WarnsUnderTheFloorOfTwoPercentAndSaysHowFastToScan) {
@@ -65,6 +67,54 @@ TEST_F(HeadTest, AbortIsPossibleOnlyWhileSweeping) {
   head->SetState(HeadState::kSweeping);
   model.Poll();
   EXPECT_TRUE(model.CanAbort());
+}
+
+TEST_F(HeadTest, ThePlanCannotBeEditedWhileTheHeadMoves) {
+  for (const HeadState state : {HeadState::kHoming, HeadState::kSweeping, HeadState::kStopping}) {
+    head->SetState(state);
+    model.Poll();
+    EXPECT_FALSE(model.CanEditPlan()) << ToString(state);
+  }
+  for (const HeadState state : {HeadState::kDisconnected, HeadState::kReady, HeadState::kFault}) {
+    head->SetState(state);
+    model.Poll();
+    EXPECT_TRUE(model.CanEditPlan()) << ToString(state);
+  }
+}
+
+TEST_F(HeadTest, TheFilterRadiusIsThatOfTheMethodThatWillRun) {
+  SetSpeed(12.0);
+  const double density = PredictScan(model.Plan().ToPlan(), head->Rig())->density;
+  const PredictionText text = model.Prediction();
+  EXPECT_EQ(text.sigma, QStringLiteral("%1 px").arg(LocalPlaneSigmaForDensity(density), 0, 'f', 1));
+  EXPECT_EQ(text.method.toStdString(), DepthMethods().front().title);
+}
+
+TEST_F(HeadTest, DevicesAreNotCalledMissingBeforeTheHeadIsConnected) {
+  head->SetState(HeadState::kDisconnected);
+  model.Poll();
+  ASSERT_EQ(model.Devices().size(), 3);
+  EXPECT_EQ(model.Devices()[0].state.toStdString(), "not connected yet");
+  EXPECT_EQ(model.Devices()[0].lamp, DeviceRow::Lamp::kIdle);
+}
+
+TEST_F(HeadTest, DeviceRowsSayHowTheDevicesDoAndWhatIsWrong) {
+  HeadHealth health;
+  health.lidar.connected = health.motor.connected = true;
+  health.lidar.line_rate_hz = 40.0;
+  health.lidar.lost_lines = 3;
+  health.motor.poll_rate_hz = 240.0;
+  health.camera.last_error = "camera 10.0.0.3: does not answer";
+  head->SetHealth(health);
+  model.Poll();
+  const QVector<DeviceRow> rows = model.Devices();
+  EXPECT_EQ(rows[0].state.toStdString(), "degraded");
+  EXPECT_EQ(rows[0].detail.toStdString(),
+            "40 lines/s, 3 lost, clock offset 0.000 s\nlines lost: 3");
+  EXPECT_EQ(rows[1].state.toStdString(), "missing");
+  EXPECT_EQ(rows[1].detail.toStdString(), "not connected: camera 10.0.0.3: does not answer");
+  EXPECT_EQ(rows[2].state.toStdString(), "well");
+  EXPECT_EQ(rows[2].detail.toStdString(), "240 polls/s, round trip 0.00 ms");
 }
 
 TEST_F(HeadTest, SendsThePlanInRadians) {

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "ui/panels/head_device_rows.h"
 #include "ui/panels/theme.h"
 
 namespace foresight {
@@ -32,12 +33,16 @@ HeadPanel::HeadPanel(HeadViewModel* head, QWidget* parent) : QWidget(parent), he
   layout->setContentsMargins(12, 12, 12, 12);
   layout->setSpacing(8);
   layout->addWidget(SectionTitle(tr("Plan")));
-  layout->addWidget(BuildPlan());
+  plan_ = BuildPlan();
+  layout->addWidget(plan_);
   layout->addSpacing(8);
   layout->addWidget(SectionTitle(tr("Prediction")));
   layout->addWidget(BuildPrediction());
   layout->addSpacing(8);
   layout->addWidget(BuildButtons());
+  layout->addSpacing(8);
+  layout->addWidget(SectionTitle(tr("Devices")));
+  layout->addWidget(new HeadDeviceRows(head_));
   layout->addStretch(1);
   setMinimumWidth(270);
   connect(head_, &HeadViewModel::planChanged, this, &HeadPanel::ShowPlan);
@@ -112,6 +117,7 @@ QWidget* HeadPanel::BuildPrediction() {
   lines_ = add(tr("Lidar lines"), {});
   coverage_ = add(tr("Coverage"), tr("Lidar points per picture pixel; at least 2 % is wanted"));
   sigma_ = add(tr("Filter radius σs"), tr("How far the depth filter must reach for points"));
+  sigma_title_ = qobject_cast<QLabel*>(form->labelForField(sigma_));
   layout->addLayout(form);
 
   warning_row_ = new QWidget;
@@ -161,12 +167,14 @@ void HeadPanel::ShowPlan() {
   lines_->setText(prediction.lines);
   coverage_->setText(prediction.coverage);
   sigma_->setText(prediction.sigma);
+  if (!prediction.method.isEmpty()) sigma_title_->setText(tr("σs of %1").arg(prediction.method));
   warning_->setText(prediction.warning);
   warning_row_->setVisible(!prediction.warning.isEmpty());
   ShowStatus();
 }
 
 void HeadPanel::ShowStatus() {
+  plan_->setEnabled(head_->CanEditPlan());
   scan_button_->setEnabled(head_->CanScan());
   abort_button_->setEnabled(head_->CanAbort());
   home_button_->setEnabled(head_->CanHome());

@@ -30,11 +30,13 @@ class HeadPanel : public QWidget {
   void ShowStatus();
 
   HeadViewModel* head_;
+  QWidget* plan_;
   QLineEdit* angles_;
   QLabel* time_;
   QLabel* lines_;
   QLabel* coverage_;
   QLabel* sigma_;
+  QLabel* sigma_title_;
   QWidget* warning_row_;
   QLabel* warning_;
   QPushButton* scan_button_;

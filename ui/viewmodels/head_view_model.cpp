@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/depth/depth_method.h"
+#include "core/depth/local_plane.h"
 #include "core/geometry/angles.h"
 #include "hardware/head/scan_fanout.h"
 
@@ -10,6 +12,32 @@ namespace {
 
 constexpr int kPollInterval_ms = 100;
 constexpr int kPollsPerLook = 3;  ///< a running scan is looked at about four times a second
+
+/// The reach of the filter that a new scan is computed with, and the method's name.
+void DescribeFilter(double density, PredictionText* text) {
+  const DepthMethodInfo& method = DepthMethods().front();
+  const double sigma_px = method.method == DepthMethod::kForesight
+                              ? LocalPlaneSigmaForDensity(density)
+                              : SpatialSigmaForDensity(density);
+  text->sigma = HeadViewModel::tr("%1 px").arg(sigma_px, 0, 'f', 1);
+  text->method = QString::fromUtf8(method.title);
+}
+
+DeviceRow RowOf(const QString& name, const DeviceDiagnosis& diagnosis, const std::string& numbers) {
+  using Lamp = DeviceRow::Lamp;
+  const auto problem = QString::fromStdString(diagnosis.problem);
+  const auto values = QString::fromStdString(numbers);
+  switch (diagnosis.condition) {
+    case DeviceCondition::kWell:
+      return {name, Lamp::kWell, HeadViewModel::tr("well"), values};
+    case DeviceCondition::kDegraded:
+      return {name, Lamp::kDegraded, HeadViewModel::tr("degraded"),
+              values + QLatin1Char('\n') + problem};
+    case DeviceCondition::kMissing:
+      break;
+  }
+  return {name, Lamp::kMissing, HeadViewModel::tr("missing"), problem};
+}
 
 }  // namespace
 
@@ -27,6 +55,8 @@ ScanPlan PlanFields::ToPlan() const {
 
 HeadViewModel::HeadViewModel(std::shared_ptr<SensorHead> head, QObject* parent)
     : QObject(parent), head_(std::move(head)), status_(head_->Status()) {
+  since_start_.start();
+  PollHealth();
   connect(&timer_, &QTimer::timeout, this, &HeadViewModel::Poll);
   timer_.start(kPollInterval_ms);
 }
@@ -52,7 +82,7 @@ PredictionText HeadViewModel::Prediction() const {
   text.time = tr("%1 s").arg(prediction->duration_s, 0, 'f', 1);
   text.lines = QString::number(prediction->lines);
   text.coverage = tr("%1 %").arg(100.0 * prediction->density, 0, 'f', 1);
-  text.sigma = tr("%1 px").arg(prediction->sigma_spatial_px, 0, 'f', 1);
+  DescribeFilter(prediction->density, &text);
   if (prediction->density < ScanPrediction::kMinDensity) {
     const double enough = plan_.speed_deg_s * prediction->density / ScanPrediction::kMinDensity;
     text.warning = tr("Coverage is under the floor of 2\u00a0%: the depth will be coarse. "
@@ -65,6 +95,25 @@ PredictionText HeadViewModel::Prediction() const {
 double HeadViewModel::ScanProgress() const {
   if (status_.expected_lines <= 0) return 0.0;
   return std::clamp(static_cast<double>(status_.lines) / status_.expected_lines, 0.0, 1.0);
+}
+
+QVector<DeviceRow> HeadViewModel::Devices() const {
+  const QStringList names = {tr("Lidar"), tr("Camera"), tr("Motor")};
+  QVector<DeviceRow> rows;
+  if (status_.state == HeadState::kDisconnected) {
+    for (const QString& name : names)
+      rows << DeviceRow{name, DeviceRow::Lamp::kIdle, tr("not connected yet"), {}};
+    return rows;
+  }
+  rows << RowOf(names[0], diagnosis_.lidar, Describe(status_.health.lidar))
+       << RowOf(names[1], diagnosis_.camera, Describe(status_.health.camera))
+       << RowOf(names[2], diagnosis_.motor, Describe(status_.health.motor));
+  return rows;
+}
+
+bool HeadViewModel::CanEditPlan() const {
+  return !live_ && status_.state != HeadState::kHoming && status_.state != HeadState::kSweeping &&
+         status_.state != HeadState::kStopping;
 }
 
 bool HeadViewModel::CanScan() const {
@@ -83,8 +132,14 @@ bool HeadViewModel::CanHome() const {
 void HeadViewModel::Poll() {
   head_->OperatorSeen();  // a window that hangs does not say so, and the head stops its motor
   status_ = head_->Status();
+  PollHealth();
   if (live_) PollScan();
   Q_EMIT statusChanged();
+}
+
+void HeadViewModel::PollHealth() {
+  const double now_s = 1e-3 * static_cast<double>(since_start_.elapsed());
+  diagnosis_ = health_watch_.Update(now_s, status_.health);
 }
 
 void HeadViewModel::PollScan() {

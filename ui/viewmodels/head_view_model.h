@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QString>
 #include <QTimer>
@@ -8,6 +9,7 @@
 #include <memory>
 
 #include "core/sensor/scan_plan.h"
+#include "hardware/api/health_watch.h"
 #include "hardware/api/sensor_head.h"
 #include "hardware/head/scan_assembler.h"
 #include "ui/viewmodels/notice.h"
@@ -30,9 +32,20 @@ struct PredictionText {
   QString time;      ///< "6.0 s"
   QString lines;     ///< "240"
   QString coverage;  ///< "2.5 %"
-  QString sigma;     ///< "18.7 px"
+  QString sigma;     ///< "11.2 px", of the method that a new scan is computed with
+  QString method;    ///< its name: "Foresight"
   QString warning;   ///< what is wrong with the plan and what to do; empty when all is well
   bool usable = true;
+};
+
+/// How a device of the head does, in words.
+struct DeviceRow {
+  enum class Lamp { kIdle, kWell, kDegraded, kMissing };
+
+  QString name;  ///< "Lidar"
+  Lamp lamp = Lamp::kIdle;
+  QString state;   ///< "well", "not connected"
+  QString detail;  ///< numbers, then what is wrong; empty before the head is connected
 };
 
 /// The head and the next scan: status at 10 Hz, plan, prediction, commands.
@@ -50,6 +63,11 @@ class HeadViewModel : public QObject {
   /// In [0, 1], of the running scan.
   double ScanProgress() const;
 
+  /// Lidar, camera and motor; trouble of the last ten seconds still shows.
+  QVector<DeviceRow> Devices() const;
+
+  /// Not while the head moves: what is typed then would look as if it steered the scan.
+  bool CanEditPlan() const;
   bool CanScan() const;
   bool CanAbort() const;
   bool CanHome() const;
@@ -85,9 +103,13 @@ class HeadViewModel : public QObject {
 
  private:
   void PollScan();
+  void PollHealth();
 
   std::shared_ptr<SensorHead> head_;
   HeadStatus status_;
+  HealthWatch health_watch_;
+  HeadDiagnosis diagnosis_;
+  QElapsedTimer since_start_;
   PlanFields plan_;
   std::function<std::shared_ptr<ScanSink>()> recorder_source_;
   std::shared_ptr<ScanAssembler> live_;

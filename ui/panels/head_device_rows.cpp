@@ -1,0 +1,56 @@
+#include "ui/panels/head_device_rows.h"
+
+#include <QGridLayout>
+#include <QLabel>
+
+#include "ui/panels/theme.h"
+
+namespace foresight {
+namespace {
+
+const char* IconOf(DeviceRow::Lamp lamp) {
+  switch (lamp) {
+    case DeviceRow::Lamp::kIdle:
+      return "info";
+    case DeviceRow::Lamp::kWell:
+      return "confirmed";
+    case DeviceRow::Lamp::kDegraded:
+      return "warning";
+    case DeviceRow::Lamp::kMissing:
+      return "error";
+  }
+  return "info";
+}
+
+}  // namespace
+
+HeadDeviceRows::HeadDeviceRows(HeadViewModel* head, QWidget* parent)
+    : QWidget(parent), head_(head) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setColumnStretch(1, 1);
+  int at = 0;
+  for (Row& row : rows_) {
+    row = {new QLabel, new QLabel, new QLabel};
+    row.detail->setWordWrap(true);
+    grid->addWidget(row.lamp, at, 0, Qt::AlignTop);
+    grid->addWidget(row.title, at, 1);
+    grid->addWidget(row.detail, at + 1, 1);
+    at += 2;
+  }
+  connect(head_, &HeadViewModel::statusChanged, this, &HeadDeviceRows::Show);
+  Show();
+}
+
+void HeadDeviceRows::Show() {
+  const QVector<DeviceRow> devices = head_->Devices();
+  for (int i = 0; i < devices.size(); ++i) {
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    row.lamp->setPixmap(Icon(IconOf(devices[i].lamp)).pixmap(16, 16));
+    row.title->setText(tr("%1: %2").arg(devices[i].name, devices[i].state));
+    row.detail->setText(devices[i].detail);
+    row.detail->setVisible(!devices[i].detail.isEmpty());
+  }
+}
+
+}  // namespace foresight
