@@ -40,10 +40,13 @@ struct ValveTruth {
 };
 struct DrillTruth {
   std::string name;
-  /// x = the way the bit points, z = up along the grip; the origin is the middle of the grip's axis
-  /// on the surface that the battery stands on.
+  /// x = the way the bit points, z = up; the origin is where the grip's axis meets the surface that
+  /// the battery stands on.
   Rigid<frame::Robot, frame::Object> robot_from_object;
   double scale = 1.0;  ///< 1 = 0.24 m tall
+  /// Lean of the grip and the head about x and y of the object, against the foot.
+  Eigen::Vector2d body_tilt_rad = Eigen::Vector2d::Zero();
+  double grip_height_m = 0.125;  ///< of the grip's middle along its axis
 };
 struct BlockTruth {
   std::string name;

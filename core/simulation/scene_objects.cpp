@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/base/contract.h"
+#include "core/objects/drill_model.h"
 #include "core/simulation/shapes.h"
 
 namespace foresight {
@@ -92,6 +93,98 @@ void AddValveBody(const ValveObject& valve, Scene& scene) {
   body.MoveTo(scene);
 }
 
+// Where a hand goes round a drill's grip.
+constexpr double kGripMiddle_m = 0.125;
+constexpr double kPlate_m = 0.020;  // of the shell, between battery and grip
+
+/// The pose of what leans with a drill's grip.
+Pose LeaningPose(const DrillObject& drill) {
+  return drill.robot_from_object *
+         LocalPose(BodyTurn(drill.shape.body_tilt_rad), Eigen::Vector3d::Zero());
+}
+
+void AddShell(const DrillObject& drill, Scene& scene) {
+  const DrillShape& shape = drill.shape;
+  const double s = drill.scale;
+  Part plate(drill.name, drill.robot_from_object, drill.shell_material);
+  plate.AddAt(BoxShape(s * Eigen::Vector3d(shape.foot_m.x(), shape.foot_m.y(), kPlate_m)),
+              s * Eigen::Vector3d(shape.foot_forward_m, 0.0, shape.foot_m.z() - 0.5 * kPlate_m));
+  plate.MoveTo(scene);
+
+  Part head(drill.name + " head", LeaningPose(drill), drill.shell_material);
+  const Eigen::Vector3d back = s * Eigen::Vector3d(-shape.head_back_m, 0.0, shape.head_height_m);
+  const Eigen::Vector3d front = s * Eigen::Vector3d(shape.head_front_m, 0.0, shape.head_height_m);
+  const double radius = s * shape.head_radius_m;
+  if (shape.kind == DrillShape::Kind::kBarrel) {
+    head.AddCylinder(back, front, radius);
+    head.AddAt(SphereShape(radius), back);
+  } else if (shape.kind == DrillShape::Kind::kBoxHead) {
+    head.AddAt(BoxShape({(front - back).x() + radius, 2.0 * radius, 2.0 * radius}),
+               0.5 * (front + back) - 0.5 * radius * Eigen::Vector3d::UnitX());
+  } else {
+    head.AddCylinder(s * Eigen::Vector3d(0.0, 0.0, shape.head_height_m - 0.040),
+                     s * Eigen::Vector3d(0.0, 0.0, shape.head_height_m), radius);
+  }
+  head.MoveTo(scene);
+}
+
+void AddGrip(const DrillObject& drill, Scene& scene) {
+  const DrillShape& shape = drill.shape;
+  const double s = drill.scale;
+  const double battery_m = shape.foot_m.z() - kPlate_m;
+  Part battery(drill.name + " battery", drill.robot_from_object, drill.grip_material);
+  battery.AddAt(
+      BoxShape(s * Eigen::Vector3d(shape.foot_m.x() - 0.002, shape.foot_m.y() - 0.002, battery_m)),
+      s * Eigen::Vector3d(shape.foot_forward_m, 0.0, 0.5 * battery_m));
+  battery.MoveTo(scene);
+
+  Part grip(drill.name + " grip", LeaningPose(drill), drill.grip_material);
+  const double top_m = shape.kind == DrillShape::Kind::kCutOut ? shape.head_height_m - 0.040
+                                                               : shape.head_height_m - 0.013;
+  for (const double side : {-0.5, 0.5}) {
+    const double x = side * shape.grip_depth_m;
+    grip.AddCylinder(s * Eigen::Vector3d(x, 0.0, shape.foot_m.z() - 0.007),
+                     s * Eigen::Vector3d(x, 0.0, top_m), s * shape.grip_radius_m);
+    if (shape.grip_depth_m == 0.0) break;
+  }
+  if (shape.trigger && shape.kind != DrillShape::Kind::kCutOut)
+    grip.AddAt(BoxShape(s * Eigen::Vector3d(0.020, 0.016, 0.034)),
+               s * Eigen::Vector3d(0.5 * shape.grip_depth_m + shape.grip_radius_m + 0.0045, 0.0,
+                                   shape.head_height_m - 0.048));
+  if (shape.side_handle) {
+    const Eigen::Vector3d root =
+        s * Eigen::Vector3d(shape.head_front_m - 0.015, shape.head_radius_m, shape.head_height_m);
+    grip.AddCapsule(root, root + s * Eigen::Vector3d(0.0, 0.110, 0.0), s * 0.015);
+  }
+  grip.MoveTo(scene);
+}
+
+void AddChuckAndBit(const DrillObject& drill, Scene& scene) {
+  constexpr double kCollar_m = 0.013;
+  const DrillShape& shape = drill.shape;
+  const double s = drill.scale;
+  Part metal(drill.name + " chuck", LeaningPose(drill), drill.metal_material);
+  if (shape.kind == DrillShape::Kind::kCutOut) {
+    const Eigen::Vector3d face(0.0, 0.0, s * shape.head_height_m);
+    if (shape.bit_length_m > 0.0)
+      metal.AddCylinder(face, face + s * Eigen::Vector3d(0.0, 0.0, shape.bit_length_m),
+                        s * shape.bit_radius_m);
+    else
+      metal.AddCylinder(face, face + Eigen::Vector3d(0.0, 0.0, 0.002), s * 0.010);
+  } else {
+    const auto at = [&](double x) -> Eigen::Vector3d {
+      return s * Eigen::Vector3d(x, 0.0, shape.head_height_m);
+    };
+    const double collar = shape.head_front_m + kCollar_m;
+    const double face = collar + shape.chuck_length_m;
+    metal.AddCylinder(at(shape.head_front_m), at(collar), s * 1.3 * shape.chuck_radius_m);
+    metal.AddCylinder(at(collar), at(face), s * shape.chuck_radius_m);
+    if (shape.bit_length_m > 0.0)
+      metal.AddCylinder(at(face), at(face + shape.bit_length_m), s * shape.bit_radius_m);
+  }
+  metal.MoveTo(scene);
+}
+
 }  // namespace
 
 void AddValve(const ValveObject& valve, Scene& scene) {
@@ -104,29 +197,11 @@ void AddValve(const ValveObject& valve, Scene& scene) {
 }
 
 void AddDrill(const DrillObject& drill, Scene& scene) {
-  // The bounds of a common 18 V drill (239 x 73 x 247 mm with battery) at scale 1.
-  const double s = drill.scale;
-  const auto at = [s](double x, double y, double z) -> Eigen::Vector3d {
-    return s * Eigen::Vector3d(x, y, z);
-  };
-  Part shell(drill.name, drill.robot_from_object, drill.shell_material);
-  shell.AddAt(BoxShape(at(0.117, 0.073, 0.020)), at(0.006, 0.0, 0.052));
-  shell.AddCylinder(at(-0.070, 0.0, 0.208), at(0.085, 0.0, 0.208), s * 0.034);
-  shell.AddAt(SphereShape(s * 0.034), at(-0.070, 0.0, 0.208));
-  shell.MoveTo(scene);
-
-  Part grip(drill.name + " grip", drill.robot_from_object, drill.grip_material);
-  grip.AddAt(BoxShape(at(0.115, 0.071, 0.042)), at(0.006, 0.0, 0.021));
-  grip.AddCylinder(at(0.0, 0.0, 0.055), at(0.0, 0.0, 0.195), s * 0.0255);
-  grip.AddAt(BoxShape(at(0.020, 0.016, 0.034)), at(0.030, 0.0, 0.160));
-  grip.MoveTo(scene);
-
-  Part metal(drill.name + " chuck", drill.robot_from_object, drill.metal_material);
-  metal.AddCylinder(at(0.085, 0.0, 0.208), at(0.098, 0.0, 0.208), s * 0.026);
-  metal.AddCylinder(at(0.098, 0.0, 0.208), at(0.135, 0.0, 0.208), s * 0.020);
-  metal.AddCylinder(at(0.135, 0.0, 0.208), at(0.205, 0.0, 0.208), s * 0.004);
-  metal.MoveTo(scene);
-  scene.drills.push_back({drill.name, drill.robot_from_object, drill.scale});
+  AddShell(drill, scene);
+  AddGrip(drill, scene);
+  AddChuckAndBit(drill, scene);
+  scene.drills.push_back({drill.name, drill.robot_from_object, drill.scale,
+                          drill.shape.body_tilt_rad, drill.scale * kGripMiddle_m});
 }
 
 void AddBlock(const BlockObject& block, Scene& scene) {

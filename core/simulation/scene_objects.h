@@ -19,11 +19,39 @@ struct ValveObject {
   Material body_material;
 };
 
+/// How a cordless drill is built, at scale 1 and in its own frame; the defaults are those of a
+/// common 18 V drill (239 x 73 x 247 mm with battery).
+struct DrillShape {
+  enum class Kind {
+    kBarrel,   ///< a round head lies across the grip
+    kBoxHead,  ///< the same with a boxy head
+    kCutOut,   ///< an upright motor housing on a battery, the bit upwards in a guard
+  };
+  Kind kind = Kind::kBarrel;
+  Eigen::Vector3d foot_m = {0.117, 0.073, 0.062};
+  double foot_forward_m = 0.006;  ///< of the foot's middle before the grip's axis
+  double grip_radius_m = 0.0255;
+  double grip_depth_m = 0.0;     ///< the grip is this much longer along x than across
+  double head_height_m = 0.208;  ///< of the head's axis; of a cut-out tool's guard
+  double head_radius_m = 0.034;  ///< half the sides of a boxy head
+  double head_back_m = 0.070;    ///< behind the grip's axis, without the round end
+  double head_front_m = 0.085;
+  double chuck_radius_m = 0.020;
+  double chuck_length_m = 0.037;
+  double bit_radius_m = 0.004;
+  double bit_length_m = 0.070;  ///< 0 = none
+  bool trigger = true;
+  bool side_handle = false;  ///< to the left of the head's front
+  /// Lean of all but the foot about x and y, as DrillModel::body_tilt_rad.
+  Eigen::Vector2d body_tilt_rad = Eigen::Vector2d::Zero();
+};
+
 /// A cordless drill standing on its battery; frame as DrillTruth.
 struct DrillObject {
   std::string name;
   Rigid<frame::Robot, frame::Object> robot_from_object;
   double scale = 1.0;
+  DrillShape shape = {};
   Material shell_material;
   Material grip_material;
   Material metal_material;

@@ -1,0 +1,211 @@
+#include "core/fitting/drill/drill_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/fitting/drill/pattern_search.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kMinBodyHeight_m = 0.04;  // of points that may be a grip's
+constexpr double kMaxBodyHeight_m = 0.22;
+constexpr std::size_t kBodyTrials = 160;
+constexpr std::size_t kBodies = 5;
+constexpr double kBodiesApart_m = 0.025;
+
+constexpr int kYaws = 40;  // 9 deg
+constexpr std::array<double, 3> kScales = {0.9, 1.0, 1.12};
+constexpr std::size_t kModesPerTemplate = 5;
+constexpr double kSameMode_m = 0.03;
+constexpr double kSameMode_rad = 0.4;
+
+constexpr double kBitStep_m = 0.01;
+constexpr double kTiltHeight_m = 0.15;  // a lean about this height keeps the body in place
+
+SolidPart BodyCylinder(double radius_m) {
+  constexpr double kLow_m = 0.04, kHigh_m = 0.19;
+  SolidPart body;
+  body.shape = SolidPart::Shape::kCylinder;
+  body.size_m = {2.0 * radius_m, 2.0 * radius_m, kHigh_m - kLow_m};
+  body.object_from_part = {Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.5 * (kLow_m + kHigh_m)}};
+  return body;
+}
+
+struct Scored {
+  double score;
+  Eigen::Vector2d at;
+};
+
+/// The best scales at each yaw of a template on a body.
+std::vector<DrillState> BestByYaw(const SolidLikelihood& likelihood, const DrillTemplate& kind,
+                                  const Eigen::Vector2d& body, const TableFrame& base_from_table,
+                                  const DrillPrior& prior) {
+  std::vector<DrillState> best(kYaws);
+  for (int i = 0; i < kYaws; ++i) {
+    DrillState& leading = best[static_cast<std::size_t>(i)];
+    leading.log_likelihood = -std::numeric_limits<double>::infinity();
+    for (const double scale : kScales) {
+      DrillState tried;
+      tried.kind = &kind;
+      tried.values.head<2>() = body;
+      tried.values[kDrillYaw] = 2.0 * std::numbers::pi * i / kYaws;
+      tried.values[kDrillScale] = std::clamp(scale, kind.min_scale, kind.max_scale);
+      tried.log_likelihood = Score(likelihood, tried, base_from_table, prior);
+      if (tried.log_likelihood > leading.log_likelihood) leading = tried;
+    }
+  }
+  return best;
+}
+
+bool SameMode(const DrillState& a, const DrillState& b) {
+  return (a.values.head<2>() - b.values.head<2>()).norm() < kSameMode_m &&
+         TurnBetween(a.yaw(), b.yaw()) < kSameMode_rad;
+}
+
+void KeepDistinct(std::vector<DrillState>& states, std::size_t count) {
+  std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+  std::vector<DrillState> kept;
+  for (const DrillState& state : states) {
+    if (kept.size() == count) break;
+    const auto near = [&](const DrillState& other) { return SameMode(state, other); };
+    if (std::none_of(kept.begin(), kept.end(), near)) kept.push_back(state);
+  }
+  states = std::move(kept);
+}
+
+PatternSearchOptions Steps(PolishEffort effort) {
+  PatternSearchOptions options;
+  const auto add = [&options](std::initializer_list<std::pair<int, double>> entries) {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(kDrillParameters);
+    for (const auto& [parameter, size] : entries) step[parameter] = size;
+    options.steps.push_back(step);
+  };
+  add({{kDrillX, 0.010}});
+  add({{kDrillY, 0.010}});
+  add({{kDrillYaw, 0.080}});
+  add({{kDrillScale, 0.040}});
+  add({{kDrillTiltX, 0.050}});
+  add({{kDrillTiltY, 0.050}});
+  options.rounds = effort == PolishEffort::kCoarse ? 3 : 5;
+  if (effort == PolishEffort::kCoarse) return options;
+  add({{kDrillZ, 0.004}});
+  add({{kDrillBit, 0.010}});
+  return options;
+}
+
+/// The bit's length by trying all: its few rays make many local maxima.
+DrillState WithBestBit(const SolidLikelihood& likelihood, const DrillState& state,
+                       const TableFrame& base_from_table, const DrillPrior& prior) {
+  DrillState best = state;
+  const int lengths = static_cast<int>(state.kind->max_bit_length_m / kBitStep_m);
+  for (int i = 0; i <= lengths; ++i) {
+    DrillState tried = state;
+    tried.values[kDrillBit] = i * kBitStep_m;
+    tried.log_likelihood = Score(likelihood, tried, base_from_table, prior);
+    if (tried.log_likelihood > best.log_likelihood) best = tried;
+  }
+  return best;
+}
+
+}  // namespace
+
+double Score(const SolidLikelihood& likelihood, const DrillState& state,
+             const TableFrame& base_from_table, const DrillPrior& prior) {
+  const double log_prior = prior(state);
+  if (!std::isfinite(log_prior)) return log_prior;
+  return likelihood(state.Model().parts, state.Pose(base_from_table)) + log_prior;
+}
+
+std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
+                                        const std::vector<Eigen::Vector3d>& foreground,
+                                        const TableFrame& base_from_table, double radius_m) {
+  const auto table_from_base = base_from_table.Inverse();
+  const Eigen::Vector2d viewer = (table_from_base * likelihood.rays().viewpoint).head<2>();
+  std::vector<Eigen::Vector2d> facing;
+  for (const Eigen::Vector3d& point : foreground) {
+    const Eigen::Vector3d at = table_from_base * point;
+    if (at.z() < kMinBodyHeight_m || at.z() > kMaxBodyHeight_m) continue;
+    facing.push_back(at.head<2>() + radius_m * (at.head<2>() - viewer).normalized());
+  }
+  const std::array<SolidPart, 1> body = {BodyCylinder(radius_m)};
+  std::vector<Scored> scored;
+  const std::size_t stride = std::max<std::size_t>(1, facing.size() / kBodyTrials);
+  for (std::size_t i = 0; i < facing.size(); i += stride) {
+    const Rigid<frame::Object, frame::Object> at(Eigen::Quaterniond::Identity(),
+                                                 {facing[i].x(), facing[i].y(), 0.0});
+    scored.push_back({likelihood(body, base_from_table * at), facing[i]});
+  }
+  std::stable_sort(scored.begin(), scored.end(),
+                   [](const Scored& a, const Scored& b) { return a.score > b.score; });
+  std::vector<Eigen::Vector2d> bodies;
+  for (const Scored& candidate : scored) {
+    if (bodies.size() == kBodies) break;
+    const auto near = [&](const Eigen::Vector2d& other) {
+      return (other - candidate.at).norm() < kBodiesApart_m;
+    };
+    if (std::none_of(bodies.begin(), bodies.end(), near)) bodies.push_back(candidate.at);
+  }
+  return bodies;
+}
+
+std::vector<DrillState> FindModes(const SolidLikelihood& likelihood,
+                                  std::span<const DrillTemplate> templates,
+                                  const std::vector<Eigen::Vector2d>& bodies,
+                                  const TableFrame& base_from_table, const DrillPrior& prior) {
+  std::vector<DrillState> modes;
+  for (const DrillTemplate& kind : templates) {
+    std::vector<DrillState> of_kind;
+    for (const Eigen::Vector2d& body : bodies) {
+      const auto by_yaw = BestByYaw(likelihood, kind, body, base_from_table, prior);
+      for (std::size_t i = 0; i < kYaws; ++i) {
+        const double score = by_yaw[i].log_likelihood;
+        if (score >= by_yaw[(i + 1) % kYaws].log_likelihood &&
+            score > by_yaw[(i + kYaws - 1) % kYaws].log_likelihood)
+          of_kind.push_back(by_yaw[i]);
+      }
+    }
+    KeepDistinct(of_kind, kModesPerTemplate);
+    modes.insert(modes.end(), of_kind.begin(), of_kind.end());
+  }
+  std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+  return modes;
+}
+
+DrillState Polish(const SolidLikelihood& likelihood, const DrillState& start,
+                  const TableFrame& base_from_table, const DrillPrior& prior, PolishEffort effort) {
+  DrillState best = start;
+  best.log_likelihood = Score(likelihood, start, base_from_table, prior);
+  if (effort == PolishEffort::kFine) best = WithBestBit(likelihood, best, base_from_table, prior);
+  // A lean about the middle of the body, whose place is known best, moves the foot.
+  const auto score = [&](const Eigen::VectorXd& values) {
+    DrillState tried = best;
+    tried.values = values;
+    return Score(likelihood, tried, base_from_table, prior);
+  };
+  PatternSearchOptions options = Steps(effort);
+  const double yaw = best.yaw();
+  for (const int tilt : {int{kDrillTiltX}, int{kDrillTiltY}}) {
+    constexpr double kLean_rad = 0.05;
+    const Eigen::Vector2d along = tilt == kDrillTiltY
+                                      ? Eigen::Vector2d(std::cos(yaw), std::sin(yaw))
+                                      : Eigen::Vector2d(std::sin(yaw), -std::cos(yaw));
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(kDrillParameters);
+    step[tilt] = kLean_rad;
+    step.head<2>() = -kTiltHeight_m * kLean_rad * along;
+    options.steps.push_back(step);
+  }
+  const PatternSearchResult found = ClimbByPatternSearch(best.values, score, options);
+  best.values = found.values;
+  best.log_likelihood = found.score;
+  return best;
+}
+
+}  // namespace foresight

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/fitting/drill/drill_state.h"
+#include "core/fitting/drill/solid_likelihood.h"
+
+namespace foresight {
+
+/// Where on the table something as thick as a grip stands upright: the middle of a circle behind
+/// each of the points that faces the viewer, kept where the rays agree with a cylinder there. At
+/// the noise of a lidar normals are useless for this. The best few, at least 25 mm apart.
+std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
+                                        const std::vector<Eigen::Vector3d>& foreground,
+                                        const TableFrame& base_from_table, double radius_m);
+
+/// Every direction and size of each template at each body, scored by ray; the leading local maxima,
+/// best first, none near a better one of its template.
+std::vector<DrillState> FindModes(const SolidLikelihood& likelihood,
+                                  std::span<const DrillTemplate> templates,
+                                  const std::vector<Eigen::Vector2d>& bodies,
+                                  const TableFrame& base_from_table, const DrillPrior& prior);
+
+enum class PolishEffort { kCoarse, kFine };
+
+/// Climbs the likelihood over all parameters of a drill, the bit's length by trying lengths first.
+/// The result's log_likelihood is never below the start's under the same likelihood.
+DrillState Polish(const SolidLikelihood& likelihood, const DrillState& start,
+                  const TableFrame& base_from_table, const DrillPrior& prior, PolishEffort effort);
+
+/// Log likelihood with the prior.
+double Score(const SolidLikelihood& likelihood, const DrillState& state,
+             const TableFrame& base_from_table, const DrillPrior& prior);
+
+}  // namespace foresight

@@ -1,0 +1,65 @@
+#include "core/fitting/drill/drill_state.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace foresight {
+namespace {
+
+constexpr double kScaleSigma = 0.08;
+constexpr double kTiltSigma_rad = 0.07;  // 4 deg
+
+double Squared(double value) {
+  return value * value;
+}
+
+}  // namespace
+
+TableFrame FrameOf(const Plane& table, const Eigen::Vector3d& near_point) {
+  const Eigen::Vector3d& z = table.normal;
+  const Eigen::Vector3d x = z.unitOrthogonal();
+  Eigen::Matrix3d rotation;
+  rotation << x, z.cross(x), z;
+  return {rotation, near_point - table.Distance(near_point) * z};
+}
+
+DrillModel DrillState::Model() const {
+  return kind->Make(values[kDrillScale], {values[kDrillTiltX], values[kDrillTiltY]},
+                    values[kDrillBit]);
+}
+
+Rigid<frame::Base, frame::Object> DrillState::Pose(const TableFrame& base_from_table) const {
+  return base_from_table *
+         Rigid<frame::Object, frame::Object>(
+             Eigen::Quaterniond(Eigen::AngleAxisd(values[kDrillYaw], Eigen::Vector3d::UnitZ())),
+             values.head<3>());
+}
+
+double DrillPrior::operator()(const DrillState& state) const {
+  const DrillStep& v = state.values;
+  const double tilt = std::hypot(v[kDrillTiltX], v[kDrillTiltY]);
+  if (v[kDrillScale] < state.kind->min_scale || v[kDrillScale] > state.kind->max_scale ||
+      v[kDrillBit] < 0.0 || v[kDrillBit] > state.kind->max_bit_length_m || tilt > max_tilt_rad)
+    return -std::numeric_limits<double>::infinity();
+  return -0.5 * (Squared(v[kDrillZ] / height_sigma_m) +
+                 Squared((v[kDrillScale] - 1.0) / kScaleSigma) + Squared(tilt / kTiltSigma_rad));
+}
+
+DrillState Flipped(const DrillState& state) {
+  DrillState flipped = state;
+  flipped.values[kDrillYaw] += std::numbers::pi;
+  flipped.values[kDrillTiltX] *= -1.0;
+  flipped.values[kDrillTiltY] *= -1.0;
+  return flipped;
+}
+
+double TurnBetween(double yaw_a, double yaw_b) {
+  return std::abs(std::remainder(yaw_a - yaw_b, 2.0 * std::numbers::pi));
+}
+
+DrillCandidate CandidateOf(const DrillState& state, const TableFrame& base_from_table) {
+  return {state.Pose(base_from_table), state.Model(), state.log_likelihood};
+}
+
+}  // namespace foresight

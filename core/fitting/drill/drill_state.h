@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "core/fitting/drill/drill_detection.h"
+#include "core/geometry/plane.h"
+#include "core/objects/drill_template.h"
+
+namespace foresight {
+
+/// What a fit may change of a drill.
+enum DrillParameter {
+  kDrillX,  ///< of the origin on the table, in the table's frame
+  kDrillY,
+  kDrillZ,  ///< above the table: a fitted plane is a few millimetres off
+  kDrillYaw,
+  kDrillScale,
+  kDrillTiltX,  ///< the body's own lean
+  kDrillTiltY,
+  kDrillBit,
+  kDrillParameters
+};
+using DrillStep = Eigen::Matrix<double, kDrillParameters, 1>;
+using DrillInformation = Eigen::Matrix<double, kDrillParameters, kDrillParameters>;
+
+/// Where drills may stand: a table's frame, z = its normal.
+using TableFrame = Rigid<frame::Base, frame::Object>;
+TableFrame FrameOf(const Plane& table, const Eigen::Vector3d& near_point);
+
+/// A template at a place of a table.
+struct DrillState {
+  const DrillTemplate* kind = nullptr;
+  DrillStep values = DrillStep::Zero();
+  double log_likelihood = 0.0;  ///< with the prior
+
+  double yaw() const { return values[kDrillYaw]; }
+  DrillModel Model() const;
+  Rigid<frame::Base, frame::Object> Pose(const TableFrame& base_from_table) const;
+};
+
+/// How sure it is, before any ray, where a table's foot stands and that a drill stands upright.
+struct DrillPrior {
+  double height_sigma_m = 0.005;
+  double max_tilt_rad = 0.2617993877991494;
+
+  /// Log of the density without its constant; minus infinity outside the template's ranges.
+  double operator()(const DrillState& state) const;
+};
+
+/// The same drill turned by 180 deg about its origin, leaning the same way in space.
+DrillState Flipped(const DrillState& state);
+
+/// Difference of two directions in [0, pi].
+double TurnBetween(double yaw_a, double yaw_b);
+
+DrillCandidate CandidateOf(const DrillState& state, const TableFrame& base_from_table);
+
+}  // namespace foresight

@@ -1,0 +1,232 @@
+#include "core/fitting/drill/drill_verdict.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/verdict_model.h"
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kAgreeSigmas = 3.0;
+constexpr double kTemplateError_m = 0.005;
+constexpr double kEdgeError_m = 0.003;
+
+constexpr double kMinHits = 40.0;  // independent measurements on the drill
+constexpr double kMaxSeeThrough = 0.15;
+constexpr double kMinYawMargin_nats = 10.0;
+constexpr double kMinHead_nats = 10.0;
+constexpr double kMaxOffCenter_m = 0.15;
+constexpr double kBound = 0.01;  // of the range of a scale
+
+double Compressed(double nats) {
+  return std::copysign(std::log1p(std::abs(nats)), nats);
+}
+
+double Hits(const RaySet& rays, const DrillEvidence& evidence) {
+  return evidence.hits * std::min(1.0, rays.samples_per_ray);
+}
+
+std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detection) {
+  const DrillEvidence& evidence = detection.evidence;
+  const double hits = std::max(1.0, Hits(rays, evidence));
+  return {Compressed(evidence.yaw_margin_nats),
+          Compressed(evidence.head_nats),
+          Compressed(evidence.rival_margin_nats),
+          evidence.rival_margin_nats / hits,
+          evidence.gain_nats / hits,
+          evidence.inlier_share,
+          evidence.see_through,
+          std::log(hits),
+          std::log(std::max(1e-3, detection.sigma_yaw_rad)),
+          std::abs(std::log(detection.best.model.scale)),
+          detection.best.model.body_tilt_rad.norm()};
+}
+
+double DistanceFromRegionCenter(const RaySet& rays, const Eigen::Vector3d& center) {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (const RangeRay& ray : rays.rays) direction += ray.direction;
+  direction.normalize();
+  const Eigen::Vector3d to_center = center - rays.viewpoint;
+  return (to_center - to_center.dot(direction) * direction).norm();
+}
+
+/// Why the drill must not be confirmed; empty when nothing speaks against it.
+std::string Objection(const RaySet& rays, const DrillDetection& detection, const DrillState& drill,
+                      const DrillPrior& prior) {
+  const DrillEvidence& evidence = detection.evidence;
+  if (!detection.table) return "no table is seen under it: draw the region a little lower";
+  if (const double hits = Hits(rays, evidence); hits < kMinHits)
+    return fmt::format("only {:.0f} measurements lie on the drill: scan slower or move closer",
+                       hits);
+  if (evidence.see_through > kMaxSeeThrough)
+    return fmt::format("{:.0f} % of the beams went through the drill",
+                       100.0 * evidence.see_through);
+  if (!(evidence.rival_margin_nats > 0.0))
+    return fmt::format("a {} explains it as well", evidence.best_rival);
+  if (evidence.head_nats < kMinHead_nats) return "the head is not seen: it may point either way";
+  if (evidence.flip_margin_nats < kMinYawMargin_nats)
+    return "turned by 180 deg it fits almost as well: it may point either way";
+  if (evidence.yaw_margin_nats < kMinYawMargin_nats) return "another direction fits almost as well";
+  const double range = drill.kind->max_scale - drill.kind->min_scale;
+  const double scale = detection.best.model.scale;
+  if (scale < drill.kind->min_scale + kBound * range ||
+      scale > drill.kind->max_scale - kBound * range)
+    return fmt::format("its size, {:.2f} of the template's, is at the end of the range", scale);
+  if (detection.best.model.body_tilt_rad.norm() > 0.95 * prior.max_tilt_rad)
+    return fmt::format("it leans by {:.0f} deg, the most there is",
+                       DegreesFromRadians(detection.best.model.body_tilt_rad.norm()));
+  const double off_m = DistanceFromRegionCenter(
+      rays, detection.best.base_from_object * detection.best.model.object_from_grasp.translation());
+  if (off_m > kMaxOffCenter_m)
+    return fmt::format(
+        "the drill lies {:.0f} mm from the region's centre: draw the region around it",
+        1000.0 * off_m);
+  return {};
+}
+
+std::string WeakestPoint(const DrillDetection& detection) {
+  const DrillEvidence& evidence = detection.evidence;
+  if (evidence.inlier_share < 0.7)
+    return fmt::format("only {:.0f} % of the beams on the drill agree with it",
+                       100.0 * evidence.inlier_share);
+  if (evidence.see_through > 0.08)
+    return fmt::format("{:.0f} % of the beams went through the drill",
+                       100.0 * evidence.see_through);
+  if (detection.sigma_yaw_rad > RadiansFromDegrees(4.0))
+    return fmt::format("its direction is known to {:.0f} deg only",
+                       DegreesFromRadians(detection.sigma_yaw_rad));
+  if (evidence.yaw_margin_nats < 5.0 * kMinYawMargin_nats)
+    return fmt::format("its direction leads by {:.0f} nats only", evidence.yaw_margin_nats);
+  return fmt::format("it leads a {} by {:.0f} nats only", evidence.best_rival,
+                     evidence.rival_margin_nats);
+}
+
+double Squared(double value) {
+  return value * value;
+}
+
+}  // namespace
+
+DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill) {
+  const SolidTracer tracer(drill.model.parts, drill.base_from_object);
+  const double agree_m = kAgreeSigmas * std::hypot(rays.sigma_m, kTemplateError_m);
+  DrillEvidence evidence;
+  int agreeing = 0;
+  int behind = 0;
+  double square_sum = 0.0;
+  for (const RangeRay& ray : rays.rays) {
+    ++evidence.rays;
+    const SolidMeeting meeting = tracer.Meet(ray, 0.0);
+    if (!meeting.Hits()) continue;
+    ++evidence.hits;
+    const double error = ray.range_m - meeting.range_m;
+    if (error > agree_m) ++behind;
+    if (std::abs(error) > agree_m) continue;
+    ++agreeing;
+    square_sum += error * error;
+  }
+  const double hits = std::max(1, evidence.hits);
+  evidence.inlier_share = agreeing / hits;
+  evidence.see_through = behind / hits;
+  evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
+  return evidence;
+}
+
+DrillInformation InformationOf(const RaySet& rays, const DrillState& drill,
+                               const TableFrame& base_from_table, const DrillPrior& prior) {
+  constexpr double kStep = 1e-3;  // metres and radians
+  constexpr double kReach_m = 0.02;
+  const double sigma = std::hypot(rays.sigma_m, kTemplateError_m);
+  const auto tracer_at = [&](const DrillState& state) {
+    return SolidTracer(state.Model().parts, state.Pose(base_from_table));
+  };
+  const SolidTracer here = tracer_at(drill);
+  std::vector<SolidTracer> moved;
+  std::array<double, kDrillParameters> steps;
+  for (int p = 0; p < kDrillParameters; ++p) {
+    DrillState state = drill;
+    // A bit cannot be shorter than none.
+    steps[static_cast<std::size_t>(p)] = kStep;
+    state.values[p] += kStep;
+    moved.push_back(tracer_at(state));
+  }
+  DrillInformation information = DrillInformation::Zero();
+  for (const RangeRay& ray : rays.rays) {
+    const SolidMeeting meeting = here.MeetWithDepth(ray, kReach_m);
+    if (meeting.part < 0) continue;
+    const double width = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
+    const bool inside = meeting.Hits();
+    if (inside && std::abs(ray.range_m - meeting.range_m) > kAgreeSigmas * sigma) continue;
+    // A ray that grazes the outline knows where that is, one further in how far the surface is.
+    const bool outline = std::abs(meeting.clearance_m) < width;
+    if (!inside && !outline) continue;
+    DrillStep slope;
+    for (int p = 0; p < kDrillParameters; ++p) {
+      const SolidMeeting there = moved[static_cast<std::size_t>(p)].MeetWithDepth(ray, kReach_m);
+      const double change = outline ? (there.clearance_m - meeting.clearance_m) / width
+                                    : (there.range_m - meeting.range_m) / sigma;
+      const bool same = there.part == meeting.part && there.Hits() == inside;
+      slope[p] = same || (outline && there.part == meeting.part)
+                     ? change / steps[static_cast<std::size_t>(p)]
+                     : 0.0;
+    }
+    information += slope * slope.transpose();
+  }
+  information *= std::min(1.0, rays.samples_per_ray);
+  DrillStep before;
+  before << 1.0, 1.0, 1.0 / Squared(prior.height_sigma_m), 0.1, 1.0 / Squared(0.08),
+      1.0 / Squared(0.07), 1.0 / Squared(0.07), 1.0 / Squared(0.1);
+  information.diagonal() += before;
+  return information;
+}
+
+void SetSigmas(const DrillInformation& information, const DrillState& drill,
+               DrillDetection& detection) {
+  using Matrix = DrillInformation;
+  const Matrix covariance = information.ldlt().solve(Matrix::Identity());
+  // From the table's frame to the object's own axes; its tilt is the table's, which is level.
+  constexpr double kTableTiltSigma_rad = 0.01;
+  Eigen::Matrix<double, 6, kDrillParameters> to_pose =
+      Eigen::Matrix<double, 6, kDrillParameters>::Zero();
+  const Eigen::AngleAxisd turn(-drill.yaw(), Eigen::Vector3d::UnitZ());
+  to_pose.topLeftCorner<3, 3>() = turn.toRotationMatrix();
+  to_pose(5, kDrillYaw) = 1.0;
+  detection.covariance = to_pose * covariance * to_pose.transpose();
+  detection.covariance(3, 3) += Squared(kTableTiltSigma_rad);
+  detection.covariance(4, 4) += Squared(kTableTiltSigma_rad);
+  detection.sigma_position_m = detection.covariance.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
+  detection.sigma_yaw_rad = std::sqrt(std::max(0.0, covariance(kDrillYaw, kDrillYaw)));
+  detection.sigma_axis_rad = std::sqrt(
+      std::max({0.0, covariance(kDrillTiltX, kDrillTiltX), covariance(kDrillTiltY, kDrillTiltY)}) +
+      Squared(kTableTiltSigma_rad));
+}
+
+std::vector<std::string> DrillFeatureNames() {
+  return {"log_yaw_margin", "log_head",      "log_rival_margin", "rival_margin_per_hit",
+          "gain_per_hit",   "inlier_share",  "see_through",      "log_hits",
+          "log_sigma_yaw",  "abs_log_scale", "body_tilt_rad"};
+}
+
+Verdict AssessDrill(const RaySet& rays, const DrillDetection& detection, const DrillState& drill,
+                    const DrillPrior& prior) {
+  Verdict verdict;
+  verdict.features = FeaturesOf(rays, detection);
+  verdict.probability = ShippedVerdictModel("drill", rays.dense).Probability(verdict.features);
+  const std::string objection = Objection(rays, detection, drill, prior);
+  verdict.level = LevelFor(verdict.probability, !objection.empty());
+  if (!objection.empty())
+    verdict.reason = objection;
+  else if (verdict.level == VerdictLevel::kConfirmed)
+    verdict.reason =
+        fmt::format("{} beams on the drill, {:.0f} % of them agree; the other way fits worse",
+                    detection.evidence.hits, 100.0 * detection.evidence.inlier_share);
+  else
+    verdict.reason = WeakestPoint(detection);
+  return verdict;
+}
+
+}  // namespace foresight

@@ -1,0 +1,281 @@
+#include "core/fitting/drill/fit_drill.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/fitting/drill/drill_search.h"
+#include "core/fitting/drill/drill_state.h"
+#include "core/fitting/drill/drill_verdict.h"
+#include "core/fitting/drill/rival_shapes.h"
+#include "core/fitting/drill/solid_likelihood.h"
+#include "core/fitting/drill/surroundings.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kMinRays = 60;
+constexpr std::size_t kMinForeground = 25;
+constexpr int kCoarseRays = 500;
+constexpr std::size_t kCoarseModes = 10;
+constexpr std::size_t kFineModes = 4;
+constexpr std::size_t kRivals = 3;
+constexpr double kBodyRadius_m = 0.027;
+constexpr double kOtherWay_rad = 0.5;
+constexpr double kRivalReach_m = 0.06;     // round the drill: what a rival must explain too
+constexpr double kUnknownHeight_m = 0.04;  // deviation of a foot's height without a table
+
+/// Streams of the seed: each stage draws its own numbers.
+enum Stream : std::uint64_t { kThinning, kSurroundings };
+
+RaySet Thinned(const RaySet& rays, int count, Random& random) {
+  if (std::ssize(rays.rays) <= count) return rays;
+  RaySet thinned = rays;
+  for (int i = 0; i < count; ++i)
+    std::swap(thinned.rays[static_cast<std::size_t>(i)],
+              thinned.rays[static_cast<std::size_t>(i) +
+                           random.Index(static_cast<int>(std::ssize(rays.rays)) - i)]);
+  thinned.rays.resize(static_cast<std::size_t>(count));
+  const double share = static_cast<double>(count) / static_cast<double>(rays.rays.size());
+  thinned.samples_per_ray = std::min(1.0, rays.samples_per_ray / share);
+  return thinned;
+}
+
+bool Usable(const RangeRay& ray) {
+  return ray.origin.allFinite() && ray.direction.allFinite() && std::isfinite(ray.range_m) &&
+         ray.range_m > 0.0;
+}
+
+Status CheckRays(const RaySet& rays) {
+  if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
+      !rays.viewpoint.allFinite())
+    return Fail(ErrorCode::kInvalidInput,
+                "rays of the region: sigma_m {}, footprint_rad {} or samples_per_ray {} is not "
+                "usable",
+                rays.sigma_m, rays.footprint_rad, rays.samples_per_ray);
+  if (std::ssize(rays.rays) < kMinRays)
+    return Fail(
+        ErrorCode::kTooFewPoints,
+        "the region holds {} measurements, a drill needs {}: draw it larger, scan slower or "
+        "move closer",
+        rays.rays.size(), kMinRays);
+  return {};
+}
+
+Status CheckForeground(const RaySet& rays, const Surroundings& found) {
+  if (found.foreground.size() >= kMinForeground) return {};
+  return Fail(ErrorCode::kNoConvergence,
+              "only {} of {} measurements stand on the table before the wall: draw the region "
+              "around the drill",
+              found.foreground.size(), rays.rays.size());
+}
+
+/// The lowest that anything in the foreground reaches, as a level plane: where a foot would be.
+Plane GuessedTable(const std::vector<Eigen::Vector3d>& foreground, const Eigen::Vector3d& up) {
+  std::vector<double> heights;
+  for (const Eigen::Vector3d& point : foreground) heights.push_back(up.dot(point));
+  const auto low = heights.begin() + std::ssize(heights) / 50;
+  std::nth_element(heights.begin(), low, heights.end());
+  return {up, *low};
+}
+
+Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+void SortBest(std::vector<DrillState>& states) {
+  std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+}
+
+/// One drill's fit while it lasts.
+class DrillFit {
+ public:
+  DrillFit(const RaySet& rays, RaySet few_rays, const Surroundings& around,
+           const FitDrillOptions& options)
+      : options_(options),
+        around_(around),
+        likelihood_(rays, around.planes),
+        coarse_(std::move(few_rays), around.planes),
+        table_(around.table.value_or(GuessedTable(around.foreground, options.up))),
+        base_from_table_(FrameOf(table_, Mean(around.foreground))) {
+    prior_.max_tilt_rad = options.max_body_tilt_rad;
+    if (!around.table) prior_.height_sigma_m = kUnknownHeight_m;
+  }
+
+  /// Modes of all templates, polished, best first; at least one has been turned by 180 deg.
+  Result<std::vector<DrillState>> Search(const RunContext& context) const {
+    context.Report(0.2, "looking for the body");
+    const auto bodies = FindBodies(coarse_, around_.foreground, base_from_table_, kBodyRadius_m);
+    if (bodies.empty())
+      return Fail(ErrorCode::kNoConvergence,
+                  "nothing as tall as a drill stands in the region: draw it around the drill");
+    context.Report(0.3, "turning the templates");
+    std::vector<DrillState> modes =
+        FindModes(coarse_, options_.templates, bodies, base_from_table_, prior_);
+    if (context.Cancelled()) return Cancelled();
+    context.Report(0.5, "improving the pose");
+    FORESIGHT_CHECK(PolishAll(coarse_, modes, kCoarseModes, PolishEffort::kCoarse, context));
+    AddFlips(modes);
+    FORESIGHT_CHECK(PolishAll(likelihood_, modes, kFineModes, PolishEffort::kFine, context));
+    // The dangerous error is a drill that points the wrong way: the leader is always asked.
+    DrillState flipped = PolishedFlip(modes.front());
+    modes.insert(modes.begin() + 1, flipped);
+    SortBest(modes);
+    return modes;
+  }
+
+  DrillState PolishedFlip(const DrillState& state) const {
+    return Polish(likelihood_, Flipped(state), base_from_table_, prior_, PolishEffort::kFine);
+  }
+
+  DrillDetection Detection(const std::vector<DrillState>& modes) const {
+    const DrillState& best = modes.front();
+    DrillDetection detection;
+    detection.best = CandidateOf(best, base_from_table_);
+    detection.table = around_.table;
+    for (std::size_t i = 1; i < modes.size() && detection.rivals.size() < kRivals; ++i)
+      detection.rivals.push_back(CandidateOf(modes[i], base_from_table_));
+    SetSigmas(InformationOf(likelihood_.rays(), best, base_from_table_, prior_), best, detection);
+    detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
+    SetMargins(modes, detection);
+    SetRivalMargin(best, detection);
+    detection.verdict = AssessDrill(likelihood_.rays(), detection, best, prior_);
+    return detection;
+  }
+
+  double Nothing() const { return likelihood_.Nothing(); }
+
+ private:
+  static tl::unexpected<Error> Cancelled() {
+    return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
+  }
+
+  Status PolishAll(const SolidLikelihood& likelihood, std::vector<DrillState>& states,
+                   std::size_t count, PolishEffort effort, const RunContext& context) const {
+    if (states.size() > count) states.resize(count);
+    for (DrillState& state : states) {
+      if (context.Cancelled()) return Cancelled();
+      state = Polish(likelihood, state, base_from_table_, prior_, effort);
+    }
+    SortBest(states);
+    return {};
+  }
+
+  /// The leaders turned by 180 deg take part in the final round; duplicates leave it.
+  void AddFlips(std::vector<DrillState>& modes) const {
+    std::vector<DrillState> kept;
+    for (const DrillState& mode : modes) {
+      const auto same = [&](const DrillState& other) {
+        return other.kind == mode.kind && TurnBetween(other.yaw(), mode.yaw()) < 0.2 &&
+               (other.values.head<2>() - mode.values.head<2>()).norm() < 0.02;
+      };
+      if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(mode);
+    }
+    modes = std::move(kept);
+  }
+
+  void SetMargins(const std::vector<DrillState>& modes, DrillDetection& detection) const {
+    const DrillState& best = modes.front();
+    DrillEvidence& evidence = detection.evidence;
+    double other_way = Nothing();
+    for (const DrillState& mode : modes)
+      if (TurnBetween(mode.yaw(), best.yaw()) > kOtherWay_rad)
+        other_way = std::max(other_way, mode.log_likelihood);
+    evidence.yaw_margin_nats = best.log_likelihood - other_way;
+    evidence.flip_margin_nats = best.log_likelihood - PolishedFlip(best).log_likelihood;
+    evidence.yaw_margin_nats = std::min(evidence.yaw_margin_nats, evidence.flip_margin_nats);
+    evidence.gain_nats = best.log_likelihood - Nothing();
+    std::vector<SolidPart> headless = detection.best.model.parts;
+    std::erase_if(headless, [](const SolidPart& part) {
+      return part.name != DrillTemplate::kBody && part.name != DrillTemplate::kFoot;
+    });
+    evidence.head_nats =
+        best.log_likelihood - prior_(best) - likelihood_(headless, detection.best.base_from_object);
+  }
+
+  /// Half of Schwarz's penalty for each parameter that a rival has more than the drill.
+  void SetRivalMargin(const DrillState& best, DrillDetection& detection) const {
+    const auto& parts = detection.best.model.parts;
+    const auto& pose = detection.best.base_from_object;
+    const SolidLikelihood near = likelihood_.Near(parts, pose, kRivalReach_m);
+    const double own = near(parts, pose);
+    const double measurements =
+        std::max(2.0, static_cast<double>(near.rays().rays.size()) * near.rays().samples_per_ray);
+    DrillEvidence& evidence = detection.evidence;
+    evidence.rival_margin_nats = own - near.Nothing();
+    for (const RivalShape& rival :
+         FitRivalShapes(near, around_.foreground, base_from_table_, best.values.head<2>())) {
+      const double margin = own - rival.log_likelihood +
+                            0.5 * (rival.parameters - kDrillParameters) * std::log(measurements);
+      if (!evidence.best_rival.empty() && margin >= evidence.rival_margin_nats) continue;
+      evidence.rival_margin_nats = margin;
+      evidence.best_rival = rival.name;
+    }
+  }
+
+  const FitDrillOptions& options_;
+  const Surroundings& around_;
+  SolidLikelihood likelihood_;
+  SolidLikelihood coarse_;
+  Plane table_;
+  TableFrame base_from_table_;
+  DrillPrior prior_;
+};
+
+}  // namespace
+
+Status FitDrillOptions::Check() const {
+  if (templates.empty())
+    return Fail(ErrorCode::kInvalidOptions, "drill fit: there are no templates");
+  for (const DrillTemplate& kind : templates) FORESIGHT_CHECK(kind.Check());
+  if (!(std::abs(up.norm() - 1.0) < 1e-6))
+    return Fail(ErrorCode::kInvalidOptions, "drill fit: up has length {}, not 1", up.norm());
+  if (!(max_table_tilt_rad > 0.0 && max_table_tilt_rad < 1.0))
+    return Fail(ErrorCode::kInvalidOptions, "drill fit: max_table_tilt_rad {} is not within 0 to 1",
+                max_table_tilt_rad);
+  if (!(max_body_tilt_rad > 0.0 && max_body_tilt_rad < 1.0))
+    return Fail(ErrorCode::kInvalidOptions, "drill fit: max_body_tilt_rad {} is not within 0 to 1",
+                max_body_tilt_rad);
+  if (max_rays < kMinRays)
+    return Fail(ErrorCode::kInvalidOptions, "drill fit: max_rays {} is below {}", max_rays,
+                kMinRays);
+  return {};
+}
+
+Result<DrillDetection> FitDrill(const RaySet& all_rays, const FitDrillOptions& options,
+                                const RunContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  FORESIGHT_CHECK(options.Check());
+  RaySet usable = all_rays;
+  std::erase_if(usable.rays, [](const RangeRay& ray) { return !Usable(ray); });
+  FORESIGHT_CHECK(CheckRays(usable));
+
+  context.Report(0.0, "looking for the table");
+  Random thinning(options.seed, kThinning);
+  Random random(options.seed, kSurroundings);
+  const RaySet rays = Thinned(usable, options.max_rays, thinning);
+  const Surroundings around =
+      FindSurroundings(rays, {options.up, options.max_table_tilt_rad}, random);
+  FORESIGHT_CHECK(CheckForeground(rays, around));
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
+
+  const DrillFit fit(rays, Thinned(rays, kCoarseRays, thinning), around, options);
+  FORESIGHT_TRY(const std::vector<DrillState> modes, fit.Search(context));
+  if (!(modes.front().log_likelihood > fit.Nothing()))
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing in the region looks like a drill: draw it around one, or scan slower");
+  context.Report(0.8, "trying other shapes");
+  DrillDetection detection = fit.Detection(modes);
+  detection.origin.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  context.Report(1.0, "drill fitted");
+  return detection;
+}
+
+}  // namespace foresight

@@ -1,0 +1,97 @@
+#include "core/fitting/drill/solid_likelihood.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/wall.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kUniform = 1.0 / 3.0;      // per metre: a return from anywhere within 3 m
+constexpr double kHit = 0.93;               // a ray that meets a solid returns from it
+constexpr double kGrazing = 0.5;            // ... that just misses it
+constexpr double kGoodReturn = 0.9;         // ... and has no other reason to be wrong
+constexpr double kPlaneShare = 0.7;         // of the rays that miss
+constexpr double kTemplateError_m = 0.005;  // no real drill is made of cylinders and boxes
+constexpr double kEdgeError_m = 0.003;
+constexpr double kReachWidths = 3.5;
+
+double NormalDensity(double error, double sigma) {
+  const double ratio = error / sigma;
+  return ratio * ratio > 60.0 ? 0.0 : 0.3989422804014327 / sigma * std::exp(-0.5 * ratio * ratio);
+}
+
+/// Density of a range where only planes are: the first one that a ray meets hides the others, but a
+/// table ends somewhere, so each has its share.
+double BackgroundDensity(const RangeRay& ray, std::span<const Plane> planes, double sigma_m) {
+  if (planes.empty()) return kUniform;
+  double density = 0.0;
+  for (const Plane& plane : planes)
+    density += NormalDensity(ray.range_m - RangeToPlane(ray, plane), sigma_m);
+  return kPlaneShare / static_cast<double>(planes.size()) * density +
+         (1.0 - kPlaneShare) * kUniform;
+}
+
+}  // namespace
+
+SolidLikelihood::SolidLikelihood(RaySet rays, std::span<const Plane> planes)
+    : rays_(std::move(rays)) {
+  noise_.reserve(rays_.rays.size());
+  const double sigma = std::hypot(rays_.sigma_m, kTemplateError_m);
+  for (const RangeRay& ray : rays_.rays) {
+    RayNoise noise;
+    noise.sigma_m = sigma;
+    noise.width_m = 0.5 * rays_.footprint_rad * ray.range_m + kEdgeError_m;
+    noise.background = BackgroundDensity(ray, planes, sigma);
+    noise.log_background = std::log(noise.background);
+    noise_.push_back(noise);
+  }
+}
+
+double SolidLikelihood::operator()(
+    std::span<const SolidPart> parts,
+    const Rigid<frame::Base, frame::Object>& base_from_object) const {
+  const SolidTracer tracer(parts, base_from_object);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < noise_.size(); ++i) {
+    const RangeRay& ray = rays_.rays[i];
+    const RayNoise& noise = noise_[i];
+    const SolidMeeting meeting = tracer.Meet(ray, kReachWidths * noise.width_m);
+    if (meeting.part < 0) {
+      sum += noise.log_background;
+      continue;
+    }
+    const double ratio = meeting.clearance_m / noise.width_m;
+    const double hit = meeting.Hits() ? kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
+    const double on_solid =
+        kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, noise.sigma_m) +
+        (1.0 - kGoodReturn) * kUniform;
+    sum += std::log(hit * on_solid + (1.0 - hit) * noise.background);
+  }
+  return rays_.samples_per_ray * sum;
+}
+
+double SolidLikelihood::Nothing() const {
+  double sum = 0.0;
+  for (const RayNoise& noise : noise_) sum += noise.log_background;
+  return rays_.samples_per_ray * sum;
+}
+
+SolidLikelihood SolidLikelihood::Near(std::span<const SolidPart> parts,
+                                      const Rigid<frame::Base, frame::Object>& base_from_object,
+                                      double reach_m) const {
+  const SolidTracer tracer(parts, base_from_object);
+  SolidLikelihood near;
+  near.rays_ = rays_;
+  near.rays_.rays.clear();
+  for (std::size_t i = 0; i < noise_.size(); ++i) {
+    if (tracer.Meet(rays_.rays[i], reach_m).part < 0) continue;
+    near.rays_.rays.push_back(rays_.rays[i]);
+    near.noise_.push_back(noise_[i]);
+  }
+  return near;
+}
+
+}  // namespace foresight

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/fitting/ray_set.h"
+#include "core/geometry/plane.h"
+#include "core/objects/solid_part.h"
+
+namespace foresight {
+
+/// How well solids at a place explain every ray of a region: those that should meet them, and those
+/// that went past or through. The same rays score every shape, a drill or a box, so scores compare
+/// directly. The terms are those of the valve's RayLikelihood.
+///
+/// A ray that meets a solid returns its range with probability 0.93 (or something nearer, or
+/// nonsense); one that passes within its footprint may have touched it; all others return one of
+/// the planes behind, or anything.
+class SolidLikelihood {
+ public:
+  /// `planes` = what lies behind: table, walls. Keeps a copy of the rays.
+  SolidLikelihood(RaySet rays, std::span<const Plane> planes);
+
+  const RaySet& rays() const { return rays_; }
+
+  /// Log likelihood of all rays in nats, counted as independent measurements.
+  double operator()(std::span<const SolidPart> parts,
+                    const Rigid<frame::Base, frame::Object>& base_from_object) const;
+  /// The same with nothing there but the planes.
+  double Nothing() const;
+
+  /// The same for the rays that pass within `reach_m` of these solids alone.
+  SolidLikelihood Near(std::span<const SolidPart> parts,
+                       const Rigid<frame::Base, frame::Object>& base_from_object,
+                       double reach_m) const;
+
+ private:
+  struct RayNoise {
+    double sigma_m = 0.0;     ///< of the range, with the template's own inaccuracy
+    double width_m = 0.0;     ///< how far beside the ray its footprint still touches
+    double background = 0.0;  ///< density of the measured range without a solid
+    double log_background = 0.0;
+  };
+
+  SolidLikelihood() = default;
+
+  RaySet rays_;
+  std::vector<RayNoise> noise_;
+};
+
+}  // namespace foresight

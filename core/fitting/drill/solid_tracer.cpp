@@ -1,0 +1,181 @@
+#include "core/fitting/drill/solid_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace foresight {
+namespace {
+
+using Shape = SolidPart::Shape;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnmeasuredDepth_m = -1.0;
+
+struct LocalRay {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+};
+
+/// Range at which a ray enters a box around the origin; infinite when it misses.
+double EnterBox(const LocalRay& ray, const Eigen::Vector3d& half) {
+  double enter = -kNever, leave = kNever;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(ray.direction[i]) < 1e-12) {
+      if (std::abs(ray.origin[i]) > half[i]) return kNever;
+      continue;
+    }
+    const double a = (-half[i] - ray.origin[i]) / ray.direction[i];
+    const double b = (half[i] - ray.origin[i]) / ray.direction[i];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter < leave ? enter : kNever;
+}
+
+double EnterCylinder(const LocalRay& ray, double radius, double half_length) {
+  const double a = ray.direction.head<2>().squaredNorm();
+  double enter = -kNever, leave = kNever;
+  const double across2 = ray.origin.head<2>().squaredNorm() - radius * radius;
+  if (a > 1e-12) {
+    const double b = ray.origin.head<2>().dot(ray.direction.head<2>());
+    const double root2 = b * b - a * across2;
+    if (root2 <= 0.0) return kNever;
+    const double root = std::sqrt(root2);
+    enter = (-b - root) / a;
+    leave = (-b + root) / a;
+  } else if (across2 > 0.0) {
+    return kNever;
+  }
+  if (std::abs(ray.direction.z()) > 1e-12) {
+    const double c = (-half_length - ray.origin.z()) / ray.direction.z();
+    const double d = (half_length - ray.origin.z()) / ray.direction.z();
+    enter = std::max(enter, std::min(c, d));
+    leave = std::min(leave, std::max(c, d));
+  } else if (std::abs(ray.origin.z()) > half_length) {
+    return kNever;
+  }
+  return enter < leave ? enter : kNever;
+}
+
+double EnterSphere(const LocalRay& ray, double z, double radius) {
+  const Eigen::Vector3d from = ray.origin - Eigen::Vector3d(0.0, 0.0, z);
+  const double b = from.dot(ray.direction);
+  const double root2 = b * b - from.squaredNorm() + radius * radius;
+  return root2 > 0.0 ? -b - std::sqrt(root2) : kNever;
+}
+
+double Enter(Shape shape, const LocalRay& ray, const Eigen::Vector3d& half) {
+  switch (shape) {
+    case Shape::kBox:
+      return EnterBox(ray, half);
+    case Shape::kCylinder:
+      return EnterCylinder(ray, half.x(), half.z());
+    case Shape::kCapsule:
+      return std::min({EnterCylinder(ray, half.x(), half.z()), EnterSphere(ray, half.z(), half.x()),
+                       EnterSphere(ray, -half.z(), half.x())});
+  }
+  return kNever;
+}
+
+double Distance(Shape shape, const Eigen::Vector3d& p, const Eigen::Vector3d& half) {
+  if (shape == Shape::kBox) {
+    const Eigen::Vector3d beyond = p.cwiseAbs() - half;
+    return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+  }
+  const double radial = p.head<2>().norm();
+  if (shape == Shape::kCapsule)
+    return std::hypot(radial, std::max(std::abs(p.z()) - half.z(), 0.0)) - half.x();
+  const Eigen::Vector2d beyond(radial - half.x(), std::abs(p.z()) - half.z());
+  return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+struct Closest {
+  double distance_m;
+  double range_m;
+};
+
+/// The distance to a convex solid is convex along a ray: golden section finds its least value.
+Closest ClosestOnRay(Shape shape, const LocalRay& ray, const Eigen::Vector3d& half, double bound) {
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr int kSteps = 14;  // 0.1 % of the bracket
+  const double middle = -ray.origin.dot(ray.direction);
+  double low = middle - bound, high = middle + bound;
+  const auto at = [&](double range) {
+    return Distance(shape, ray.origin + range * ray.direction, half);
+  };
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = at(a), at_b = at(b);
+  for (int i = 0; i < kSteps; ++i) {
+    if (at_a < at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - kGolden * (high - low);
+      at_a = at(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + kGolden * (high - low);
+      at_b = at(b);
+    }
+  }
+  return at_a < at_b ? Closest{at_a, a} : Closest{at_b, b};
+}
+
+}  // namespace
+
+SolidTracer::SolidTracer(std::span<const SolidPart> parts,
+                         const Rigid<frame::Base, frame::Object>& base_from_object) {
+  parts_.reserve(parts.size());
+  for (const SolidPart& part : parts) {
+    const auto base_from_part = base_from_object * part.object_from_part;
+    Part made;
+    made.shape = part.shape;
+    made.part_from_base = base_from_part.RotationMatrix().transpose();
+    made.middle = base_from_part.translation();
+    made.offset = -(made.part_from_base * made.middle);
+    made.half = 0.5 * part.size_m;
+    made.bound_m = part.shape == Shape::kBox        ? made.half.norm()
+                   : part.shape == Shape::kCylinder ? std::hypot(made.half.x(), made.half.z())
+                                                    : made.half.x() + made.half.z();
+    parts_.push_back(made);
+  }
+}
+
+SolidMeeting SolidTracer::Meet(const RangeRay& ray, double reach_m) const {
+  SolidMeeting best{kNever, kNever, -1};
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    const Eigen::Vector3d to_middle = part.middle - ray.origin;
+    const double along = to_middle.dot(ray.direction);
+    const double bound = part.bound_m + reach_m;
+    if (to_middle.squaredNorm() - along * along > bound * bound) continue;
+    const LocalRay local{part.part_from_base * ray.origin + part.offset,
+                         part.part_from_base * ray.direction};
+    const double enter = Enter(part.shape, local, part.half);
+    if (enter < kNever) {
+      if (!best.Hits() || enter < best.range_m)
+        best = {kUnmeasuredDepth_m, enter, static_cast<int>(i)};
+      continue;
+    }
+    if (best.Hits()) continue;
+    const Closest closest = ClosestOnRay(part.shape, local, part.half, part.bound_m);
+    if (closest.distance_m <= reach_m && closest.distance_m < best.clearance_m)
+      best = {std::max(closest.distance_m, 0.0), closest.range_m, static_cast<int>(i)};
+  }
+  return best;
+}
+
+SolidMeeting SolidTracer::MeetWithDepth(const RangeRay& ray, double reach_m) const {
+  SolidMeeting meeting = Meet(ray, reach_m);
+  if (!meeting.Hits()) return meeting;
+  const Part& part = parts_[static_cast<std::size_t>(meeting.part)];
+  const LocalRay local{part.part_from_base * ray.origin + part.offset,
+                       part.part_from_base * ray.direction};
+  meeting.clearance_m =
+      std::min(ClosestOnRay(part.shape, local, part.half, part.bound_m).distance_m, -1e-9);
+  return meeting;
+}
+
+}  // namespace foresight

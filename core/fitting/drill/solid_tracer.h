@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/fitting/ray_set.h"
+#include "core/objects/solid_part.h"
+
+namespace foresight {
+
+/// How a ray passes some solids.
+struct SolidMeeting {
+  /// Least distance between ray and solids; negative when the ray enters one: how deep.
+  double clearance_m = 0.0;
+  double range_m = 0.0;  ///< where the ray enters the first solid, or passes it closest
+  int part = -1;         ///< which; -1 = none within reach
+
+  bool Hits() const { return clearance_m < 0.0; }
+};
+
+/// Solids at a place, made ready for many rays: closed forms where a ray enters, and a bounding
+/// sphere that saves most of the work.
+class SolidTracer {
+ public:
+  SolidTracer(std::span<const SolidPart> parts,
+              const Rigid<frame::Base, frame::Object>& base_from_object);
+
+  /// What the ray meets, or misses by at most `reach_m`. A hit's clearance is not measured: -1 m.
+  SolidMeeting Meet(const RangeRay& ray, double reach_m) const;
+  /// The same with a hit's depth: how far the ray gets inside the solid that it enters first.
+  SolidMeeting MeetWithDepth(const RangeRay& ray, double reach_m) const;
+
+ private:
+  struct Part {
+    SolidPart::Shape shape;
+    Eigen::Matrix3d part_from_base;
+    Eigen::Vector3d offset;
+    Eigen::Vector3d middle;  ///< in base
+    Eigen::Vector3d half;    ///< half the size; of a round one (radius, radius, half length)
+    double bound_m;          ///< radius of the sphere round it
+  };
+
+  std::vector<Part> parts_;
+};
+
+}  // namespace foresight
