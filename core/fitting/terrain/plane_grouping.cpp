@@ -1,0 +1,200 @@
+#include "core/fitting/terrain/plane_grouping.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kMaxDirections = 14;
+constexpr double kCone_rad = RadiansFromDegrees(9.0);
+constexpr double kNearest_rad = RadiansFromDegrees(14.0);
+constexpr int kMeanShifts = 5;
+constexpr double kLeastShare = 0.004;  // of all normals, within a cone
+constexpr int kBinsAcross = 61;        // of the tangent plane; 1.7 deg each at 45 deg of tilt
+constexpr int kReach = 2;              // cells that a component may jump
+constexpr double kMinArea_m2 = 0.01;
+constexpr double kMergeAngle_rad = RadiansFromDegrees(6.0);
+constexpr double kMergeGap_m = 0.06;
+
+/// Where a direction falls on the map of directions around up, in bins.
+class DirectionMap {
+ public:
+  DirectionMap(const Eigen::Vector3d& up, double max_tilt_rad)
+      : turn_(Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ())),
+        reach_(std::sin(std::min(1.5, max_tilt_rad + kCone_rad))),
+        counts_(Eigen::MatrixXd::Zero(kBinsAcross, kBinsAcross)) {}
+
+  void Add(const Eigen::Vector3d& normal) {
+    const Eigen::Vector2i bin = Bin(normal);
+    counts_(bin.x(), bin.y()) += 1.0;
+  }
+
+  /// A direction in the middle of the fullest 3 x 3 bins.
+  Eigen::Vector3d Fullest() const {
+    double most = -1.0;
+    Eigen::Vector2i at(0, 0);
+    for (int x = 1; x + 1 < kBinsAcross; ++x)
+      for (int y = 1; y + 1 < kBinsAcross; ++y) {
+        const double count = counts_.block<3, 3>(x - 1, y - 1).sum();
+        if (count > most) {
+          most = count;
+          at = {x, y};
+        }
+      }
+    const Eigen::Vector2d flat =
+        ((at.cast<double>() + Eigen::Vector2d::Constant(0.5)) / kBinsAcross * 2.0 -
+         Eigen::Vector2d::Ones()) *
+        reach_;
+    const Eigen::Vector3d seen(flat.x(), flat.y(),
+                               std::sqrt(std::max(0.0, 1.0 - flat.squaredNorm())));
+    return turn_.conjugate() * seen;
+  }
+
+ private:
+  Eigen::Vector2i Bin(const Eigen::Vector3d& normal) const {
+    const Eigen::Vector3d seen = turn_ * normal;
+    const Eigen::Vector2d flat = (seen.head<2>() / reach_ + Eigen::Vector2d::Ones()) * 0.5;
+    return (flat * kBinsAcross).cast<int>().cwiseMax(0).cwiseMin(kBinsAcross - 1);
+  }
+
+  Eigen::Quaterniond turn_;
+  double reach_;
+  Eigen::MatrixXd counts_;
+};
+
+/// Index of the direction nearest to a normal, within kNearest_rad; -1 = none.
+int NearestDirection(const Eigen::Vector3d& normal,
+                     const std::vector<Eigen::Vector3d>& directions) {
+  int best = -1;
+  double most = std::cos(kNearest_rad);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const double along = normal.dot(directions[k]);
+    if (!(along > most)) continue;
+    most = along;
+    best = static_cast<int>(k);
+  }
+  return best;
+}
+
+/// Grows one component from a point; the members get `label`.
+int Grow(const SurfaceGrid& grid, const std::vector<int>& direction,
+         const std::vector<Eigen::Vector3d>& directions, int start, int label,
+         std::vector<int>& labels) {
+  const double gate_m = std::max(0.020, 2.0 * grid.sigma_m());
+  const int k = direction[static_cast<std::size_t>(start)];
+  const Eigen::Vector3d& normal = directions[static_cast<std::size_t>(k)];
+  std::vector<int> front = {start};
+  labels[static_cast<std::size_t>(start)] = label;
+  int members = 0;
+  while (!front.empty()) {
+    const int i = front.back();
+    front.pop_back();
+    ++members;
+    for (int dy = -kReach; dy <= kReach; ++dy)
+      for (int dx = -kReach; dx <= kReach; ++dx) {
+        if (dx != 0 && dy != 0) continue;
+        const int j = grid.Neighbor(i, dx, dy);
+        if (j < 0 || labels[static_cast<std::size_t>(j)] >= 0 ||
+            direction[static_cast<std::size_t>(j)] != k)
+          continue;
+        const Eigen::Vector3d step = grid[j].point - grid[i].point;
+        if (std::abs(step.dot(normal)) > gate_m || step.norm() > 4.0 * gate_m) continue;
+        labels[static_cast<std::size_t>(j)] = label;
+        front.push_back(j);
+      }
+  }
+  return members;
+}
+
+/// Gap between the balls around two planes' points, as if each were a square.
+double GapBetween(const SurfacePlane& a, const SurfacePlane& b) {
+  return (a.center - b.center).norm() - 0.5 * (std::sqrt(a.area_m2) + std::sqrt(b.area_m2));
+}
+
+bool Coplanar(const SurfaceGrid& grid, const SurfacePlane& a, const SurfacePlane& b) {
+  const double gate_m = std::max(0.012, 0.8 * grid.sigma_m());
+  return a.plane.normal.dot(b.plane.normal) > std::cos(kMergeAngle_rad) &&
+         std::abs(a.plane.Distance(b.center)) < gate_m &&
+         std::abs(b.plane.Distance(a.center)) < gate_m;
+}
+
+/// Puts parts of one plane together, the largest first.
+void MergeParts(const SurfaceGrid& grid, SurfacePlanes& surfaces) {
+  const std::size_t count = surfaces.planes.size();
+  std::vector<int> target(count);
+  for (std::size_t a = 0; a < count; ++a) {
+    target[a] = static_cast<int>(a);
+    for (std::size_t b = 0; b < a; ++b)
+      if (target[b] == static_cast<int>(b) &&
+          GapBetween(surfaces.planes[a], surfaces.planes[b]) < kMergeGap_m &&
+          Coplanar(grid, surfaces.planes[a], surfaces.planes[b])) {
+        target[a] = static_cast<int>(b);
+        break;
+      }
+  }
+  for (int& label : surfaces.labels)
+    if (label >= 0) label = target[static_cast<std::size_t>(label)];
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> FrequentDirections(std::span<const Eigen::Vector3d> normals,
+                                                const Eigen::Vector3d& up, double max_tilt_rad) {
+  std::vector<Eigen::Vector3d> left;
+  for (const Eigen::Vector3d& normal : normals)
+    if (normal.allFinite() && normal.dot(up) > std::cos(max_tilt_rad + kCone_rad))
+      left.push_back(normal);
+  const double least = std::max(6.0, kLeastShare * static_cast<double>(left.size()));
+  std::vector<Eigen::Vector3d> directions;
+  while (static_cast<int>(directions.size()) < kMaxDirections &&
+         static_cast<double>(left.size()) >= least) {
+    DirectionMap map(up, max_tilt_rad);
+    for (const Eigen::Vector3d& normal : left) map.Add(normal);
+    Eigen::Vector3d mode = map.Fullest();
+    double members = 0.0;
+    for (int shift = 0; shift < kMeanShifts; ++shift) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      members = 0.0;
+      for (const Eigen::Vector3d& normal : left) {
+        if (normal.dot(mode) < std::cos(kCone_rad)) continue;
+        sum += normal;
+        members += 1.0;
+      }
+      if (members > 0.0) mode = sum.normalized();
+    }
+    if (members < least) break;
+    if (mode.dot(up) > std::cos(max_tilt_rad)) directions.push_back(mode);
+    std::erase_if(left,
+                  [&](const auto& normal) { return normal.dot(mode) >= std::cos(kCone_rad); });
+  }
+  return directions;
+}
+
+SurfacePlanes GroupPlanes(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> normals,
+                          const Eigen::Vector3d& up, double max_tilt_rad) {
+  const std::vector<Eigen::Vector3d> directions = FrequentDirections(normals, up, max_tilt_rad);
+  const auto count = static_cast<std::size_t>(grid.size());
+  std::vector<int> direction(count, -1);
+  for (std::size_t i = 0; i < count; ++i)
+    if (normals[i].allFinite()) direction[i] = NearestDirection(normals[i], directions);
+
+  SurfacePlanes surfaces;
+  surfaces.labels.assign(count, -1);
+  std::vector<int> members;
+  for (int i = 0; i < grid.size(); ++i)
+    if (direction[static_cast<std::size_t>(i)] >= 0 &&
+        surfaces.labels[static_cast<std::size_t>(i)] < 0)
+      members.push_back(
+          Grow(grid, direction, directions, i, static_cast<int>(members.size()), surfaces.labels));
+  surfaces.planes.resize(members.size());
+  RefitPlanes(grid, kMinArea_m2, surfaces);
+  MergeParts(grid, surfaces);
+  RefitPlanes(grid, kMinArea_m2, surfaces);
+  return surfaces;
+}
+
+}  // namespace foresight

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/fitting/terrain/surface_planes.h"
+
+namespace foresight {
+
+/// The directions that most normals have, the most frequent first: modes on the sphere within
+/// `max_tilt_rad` of `up`. NaN normals do not count.
+std::vector<Eigen::Vector3d> FrequentDirections(std::span<const Eigen::Vector3d> normals,
+                                                const Eigen::Vector3d& up, double max_tilt_rad);
+
+/// Progressive grouping, Section V-B: points by the frequent direction that their normal is nearest
+/// to, then by what is connected in one plane, then parts of one plane put together.
+SurfacePlanes GroupPlanes(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> normals,
+                          const Eigen::Vector3d& up, double max_tilt_rad);
+
+}  // namespace foresight

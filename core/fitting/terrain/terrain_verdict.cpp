@@ -1,0 +1,124 @@
+#include "core/fitting/terrain/terrain_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fitting/verdict_model.h"
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kMinEdges = 3;     // of a confirmed block
+constexpr int kUnsureEdges = 1;  // no more than this: UNSURE
+constexpr double kMinCover = 0.6;
+constexpr double kMaxOutside = 0.1;
+
+std::string Edges(int count) {
+  static constexpr const char* kWords[] = {"no edge", "one edge", "two edges", "three edges",
+                                           "all four edges"};
+  return kWords[std::clamp(count, 0, 4)];
+}
+
+/// Why a block must not be confirmed; empty when nothing speaks against it.
+std::string Objection(const BlockEvidence& evidence) {
+  if (evidence.outside > kMaxOutside)
+    return fmt::format("part of a larger patch: {:.0f} % of a block's area lies beyond it",
+                       100.0 * evidence.outside);
+  if (evidence.cover < kMinCover)
+    return fmt::format("only {:.0f} % of its top is seen", 100.0 * evidence.cover);
+  if (evidence.confirmed_edges < kMinEdges)
+    return fmt::format("{} not confirmed", Edges(4 - evidence.confirmed_edges));
+  return {};
+}
+
+std::string WeakestPoint(const TerrainSurface& block, const RectangleEvidence& evidence) {
+  const BlockEvidence& seen = block.evidence;
+  if (seen.confirmed_edges < 4)
+    return fmt::format("{} not confirmed", Edges(4 - seen.confirmed_edges));
+  if (evidence.size_error_m > 0.04)
+    return fmt::format("its extent differs from a block's by {:.0f} mm",
+                       1000.0 * evidence.size_error_m);
+  if (seen.cover < 0.8) return fmt::format("only {:.0f} % of its top is seen", 100.0 * seen.cover);
+  if (seen.see_through > 0.05)
+    return fmt::format("{:.0f} % of the beams on it went through", 100.0 * seen.see_through);
+  return fmt::format("its points scatter by {:.0f} mm", 1000.0 * seen.rms_m);
+}
+
+std::vector<double> FeaturesOf(const RaySet& rays, const TerrainSurface& block,
+                               const RectangleEvidence& evidence) {
+  const BlockEvidence& seen = block.evidence;
+  const double range_m = (block.base_from_object.translation() - rays.viewpoint).norm();
+  double least_inner = 1.0, most_outer = 0.0;
+  for (const BlockEdge& edge : evidence.edges) {
+    least_inner = std::min(least_inner, edge.inner_support);
+    most_outer = std::max(most_outer, edge.outer_support);
+  }
+  return {seen.cover,
+          seen.see_through,
+          seen.outside,
+          seen.confirmed_edges >= 3 ? 1.0 : 0.0,
+          seen.confirmed_edges >= 4 ? 1.0 : 0.0,
+          static_cast<double>(evidence.dropping_edges),
+          least_inner,
+          most_outer,
+          std::min(0.1, evidence.size_error_m),
+          std::log(std::max(1, seen.points)),
+          seen.rms_m,
+          block.toehold.slope_rad,
+          range_m,
+          rays.sigma_m,
+          std::log(std::max(1e-4, block.toehold.sigma_tilt_rad))};
+}
+
+}  // namespace
+
+std::vector<std::string> TerrainFeatureNames() {
+  return {"cover", "see_through", "outside",    "three_edges", "four_edges",
+          "drops", "least_inner", "most_outer", "size_error",  "log_points",
+          "rms",   "tilt",        "range",      "sigma",       "log_sigma_tilt"};
+}
+
+Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
+                    const RectangleEvidence& evidence) {
+  Verdict verdict;
+  verdict.features = FeaturesOf(rays, block, evidence);
+  verdict.probability = ShippedVerdictModel("terrain", rays.dense).Probability(verdict.features);
+  const std::string objection = Objection(block.evidence);
+  if (!objection.empty())
+    verdict.probability = std::min(verdict.probability, Verdict::kConfirmed - 0.01);
+  if (block.evidence.confirmed_edges <= kUnsureEdges)
+    verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
+  verdict.level = LevelFor(verdict.probability, !objection.empty());
+  if (!objection.empty())
+    verdict.reason = objection;
+  else if (verdict.level == VerdictLevel::kConfirmed)
+    verdict.reason =
+        fmt::format("{} confirmed, {:.0f} % of its top seen", Edges(block.evidence.confirmed_edges),
+                    100.0 * block.evidence.cover);
+  else
+    verdict.reason = WeakestPoint(block, evidence);
+  return verdict;
+}
+
+Verdict AssessTerrain(const std::vector<TerrainSurface>& surfaces) {
+  Verdict verdict;
+  int offered = 0, blocks = 0;
+  for (const TerrainSurface& surface : surfaces) {
+    if (surface.kind != TerrainSurface::Kind::kBlock) continue;
+    ++blocks;
+    if (surface.verdict.level == VerdictLevel::kUnsure) continue;
+    if (offered++ == 0 || surface.verdict.probability < verdict.probability)
+      verdict = surface.verdict;
+  }
+  verdict.features.clear();
+  if (offered == 0)
+    verdict.reason = blocks == 0 ? "no block was found"
+                                 : fmt::format("none of {} blocks is sure enough", blocks);
+  else
+    verdict.reason = fmt::format("{} of {} blocks can be stood on; the least sure one: {}", offered,
+                                 blocks, verdict.reason);
+  return verdict;
+}
+
+}  // namespace foresight

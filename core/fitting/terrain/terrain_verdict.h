@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/fitting/ray_set.h"
+#include "core/fitting/terrain/block_evidence.h"
+
+namespace foresight {
+
+/// What the probability of a block is computed from, in the order of Verdict::features.
+std::vector<std::string> TerrainFeatureNames();
+
+/// How far an operator may trust a block whose pose, covariance and evidence are filled in: the
+/// probability that its centre is right within 25 mm and its normal within 2.5 deg. Never CONFIRMED
+/// with fewer than 3 confirmed edges, cover below 0.6, more than a tenth of support beyond it (it
+/// is part of something larger), or with an extent that is not a block's.
+Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
+                    const RectangleEvidence& evidence);
+
+/// Of the whole: the verdict of its worst block that is offered as a foothold; UNSURE without one.
+Verdict AssessTerrain(const std::vector<TerrainSurface>& surfaces);
+
+}  // namespace foresight
