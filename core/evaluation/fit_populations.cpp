@@ -2,6 +2,8 @@
 
 #include <functional>
 
+#include "core/evaluation/terrain_population.h"
+
 namespace foresight {
 namespace {
 
@@ -11,7 +13,9 @@ struct Entry {
 };
 
 const std::vector<Entry>& Entries() {
-  static const std::vector<Entry> entries = {};
+  static const std::vector<Entry> entries = {
+      {"terrain", [] { return std::make_unique<TerrainPopulation>(); }},
+  };
   return entries;
 }
 

@@ -1,0 +1,114 @@
+#include "core/evaluation/terrain_scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/evaluation/terrain_look_alikes.h"
+#include "core/evaluation/terrain_stage.h"
+#include "core/geometry/angles.h"
+#include "core/simulation/scene_objects.h"
+
+namespace foresight {
+namespace {
+
+constexpr std::uint64_t kSceneStream = 4343;
+constexpr int kColumns = 3;
+constexpr double kLayer_m = 0.19;
+constexpr int kLayers = 3;
+constexpr double kTilt_rad = RadiansFromDegrees(15.0);
+constexpr double kFlatShare = 0.15;
+constexpr double kJitter_m = 0.008;
+constexpr int kNegativeEvery = 6;
+
+/// Stands on its lowest edge: tilted about x (towards y or away) or y, or flat.
+Eigen::Quaterniond BlockTilt(int row, int column, Random& random) {
+  if (random.Uniform() < kFlatShare) return Eigen::Quaterniond::Identity();
+  const double tilt = kTilt_rad * random.Uniform(0.9, 1.1);
+  const int way = (2 * row + column + (row % 2)) % 4;
+  const Eigen::Vector3d axis = way % 2 == 0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(way < 2 ? tilt : -tilt, axis));
+}
+
+void AddCell(const TerrainStage& stage, const Eigen::Vector2d& at, int layer,
+             const Eigen::Quaterniond& tilt, const Material& material, Random& random,
+             Scene& scene) {
+  const double base_m = layer * kLayer_m;
+  if (layer > 0)
+    AddBox("base", {0.38, 0.38, base_m}, stage.At({at.x(), at.y(), 0.5 * base_m}, 0.0), material,
+           scene);
+  BlockObject block;
+  block.name = "block";
+  block.material = material;
+  // How far the top's middle is above the lowest corner of the block.
+  double height_m = 0.0;
+  for (const double x : {-0.5, 0.5})
+    for (const double y : {-0.5, 0.5})
+      height_m = std::max(
+          height_m,
+          -(tilt * Eigen::Vector3d(x * block.size_m.x(), y * block.size_m.y(), -block.size_m.z()))
+               .z());
+  const Eigen::Vector3d shift(random.Uniform(-kJitter_m, kJitter_m),
+                              random.Uniform(-kJitter_m, kJitter_m), 0.0);
+  const auto cell = stage.At(Eigen::Vector3d(at.x(), at.y(), base_m + height_m) + shift,
+                             RadiansFromDegrees(random.Uniform(-1.5, 1.5)));
+  block.robot_from_object = {cell.rotation() * tilt, cell.translation()};
+  AddBlock(block, scene);
+}
+
+/// A field of blocks that rises away from the robot.
+void AddField(const TerrainStage& stage, int rows, Random& random, Scene& scene) {
+  const double pitch_m = random.Uniform(0.405, 0.440);
+  const Material one = RandomConcrete(random), other = RandomConcrete(random);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < kColumns; ++column) {
+      const double rise = static_cast<double>(row) / rows * kLayers + random.Uniform(-1.0, 0.6);
+      const int layer = std::clamp(static_cast<int>(std::floor(rise)), 0, kLayers - 1);
+      const Eigen::Vector2d at((row - 0.5 * (rows - 1)) * pitch_m,
+                               (column - 0.5 * (kColumns - 1)) * pitch_m);
+      const Eigen::Quaterniond tilt = BlockTilt(row, column, random);
+      AddCell(stage, at, layer, tilt, random.Uniform() < 0.7 ? one : other, random, scene);
+    }
+}
+
+ScanPlan RandomPlan(Random& random) {
+  constexpr double kLinesPerSecond = 40.0;
+  ScanPlan plan;
+  plan.from_rad = RadiansFromDegrees(-75.0);
+  plan.to_rad = RadiansFromDegrees(0.0);
+  plan.speed_rad_s = RadiansFromDegrees(kLinesPerSecond * random.Uniform(0.25, 1.0));
+  plan.image_angles_rad = {RadiansFromDegrees(random.Uniform(-42.0, -34.0))};
+  return plan;
+}
+
+}  // namespace
+
+FitTrialScene RandomTerrainScene(std::uint64_t seed) {
+  Random random(seed, kSceneStream);
+  const int rows = 3 + random.Index(3);
+  TerrainStage stage;
+  stage.ground_m = random.Uniform(-0.20, 0.30);  // 1.6 to 1.1 m below the head
+  stage.yaw_rad = RadiansFromDegrees(random.Uniform(-20.0, 20.0));
+  const double near_m = random.Uniform(0.75, 1.05);
+  stage.middle_m = {near_m + 0.21 * rows, random.Uniform(-0.15, 0.15)};
+
+  auto scene = std::make_shared<Scene>();
+  FitTrialScene trial;
+  AddHall(stage, random, *scene);
+  trial.positive = random.Index(kNegativeEvery) != 0;
+  if (trial.positive) {
+    AddField(stage, rows, random, *scene);
+    trial.what = fmt::format("field of {} x {} blocks", rows, kColumns);
+  } else {
+    trial.what = AddTerrainLookAlike(stage, random, *scene);
+  }
+  scene->name = trial.what;
+  trial.scene = scene;
+  trial.plan = RandomPlan(random);
+  trial.world.lidar.sigma_base_m = random.Uniform(0.004, 0.020);
+  trial.focus_m = {stage.middle_m.x(), stage.middle_m.y(), stage.ground_m + 0.2};
+  trial.focus_radius_m = 0.5 * std::hypot(0.42 * rows, 0.42 * kColumns);
+  return trial;
+}
+
+}  // namespace foresight
