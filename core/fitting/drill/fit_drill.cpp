@@ -143,7 +143,7 @@ class DrillFit {
       detection.rivals.push_back(CandidateOf(modes[i], base_from_table_));
     SetSigmas(InformationOf(likelihood_.rays(), best, base_from_table_, prior_), best, detection);
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
-    SetMargins(modes, detection);
+    SetMargins(modes, PolishedFlip(best).log_likelihood, detection);
     SetRivalMargin(best, detection);
     detection.verdict = AssessDrill(likelihood_.rays(), detection, best, prior_);
     return detection;
@@ -180,7 +180,8 @@ class DrillFit {
     modes = std::move(kept);
   }
 
-  void SetMargins(const std::vector<DrillState>& modes, DrillDetection& detection) const {
+  void SetMargins(const std::vector<DrillState>& modes, double flipped_log_likelihood,
+                  DrillDetection& detection) const {
     const DrillState& best = modes.front();
     DrillEvidence& evidence = detection.evidence;
     double other_way = Nothing();
@@ -188,7 +189,7 @@ class DrillFit {
       if (TurnBetween(mode.yaw(), best.yaw()) > kOtherWay_rad)
         other_way = std::max(other_way, mode.log_likelihood);
     evidence.yaw_margin_nats = best.log_likelihood - other_way;
-    evidence.flip_margin_nats = best.log_likelihood - PolishedFlip(best).log_likelihood;
+    evidence.flip_margin_nats = best.log_likelihood - flipped_log_likelihood;
     evidence.yaw_margin_nats = std::min(evidence.yaw_margin_nats, evidence.flip_margin_nats);
     evidence.gain_nats = best.log_likelihood - Nothing();
     std::vector<SolidPart> headless = detection.best.model.parts;

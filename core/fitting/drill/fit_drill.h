@@ -16,7 +16,7 @@ struct FitDrillOptions {
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
   double max_table_tilt_rad = 0.2617993877991494;  ///< 15 deg from level
   double max_body_tilt_rad = 0.2617993877991494;
-  int max_rays = 1500;  ///< a denser region is thinned to this many
+  int max_rays = 1200;  ///< a denser region is thinned to this many
   std::uint64_t seed = 1;
 
   Status Check() const;

@@ -139,7 +139,7 @@ std::vector<SolidPart> PartsOf(Kind kind, const Eigen::VectorXd& v) {
 PatternSearchResult Climb(const SolidLikelihood& likelihood, const TableFrame& base_from_table,
                           Kind kind, const Eigen::VectorXd& start) {
   PatternSearchOptions options;
-  options.rounds = 4;
+  options.rounds = 3;
   if (kind != Kind::kBox) AppendCylinderSteps(options.steps, start.size(), 0);
   if (kind != Kind::kCylinder) {
     const Eigen::Index at = start.size() - kBoxParameters;

@@ -20,10 +20,12 @@ constexpr double kMinWallShare = 0.12;
 constexpr int kMinWallPoints = 25;
 constexpr int kMaxWalls = 3;
 constexpr double kMinWallWidth_m = 0.36;   // no drill is
-constexpr double kMaxBehindShare = 0.10;   // of the points: a wall hides what is behind it
+constexpr double kMinWallHeight_m = 0.10;  // of the middle four fifths
+constexpr double kMaxBehindShare = 0.04;   // of the points: a wall hides what is behind it
 constexpr double kWallUpright = 0.3;       // |normal . up|
 constexpr double kLevelSigma_rad = 0.035;  // how level tables are: 2 deg
 constexpr double kFloorBehind_m = 0.6;     // a level surface this much further is no table
+constexpr double kShelfBelow_m = 0.15;
 constexpr double kNearestShare = 0.08;
 
 double Tolerance(const RaySet& rays) {
@@ -67,14 +69,18 @@ void EraseNear(Points& points, const Plane& plane, double tolerance_m) {
   });
 }
 
+Eigen::Vector3d Mean(const Points& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
 /// Least squares with a prior: two scan lines at a grazing angle fix a table's height, but hardly
 /// its tilt.
 Plane LevelPlane(const Points& points, const Eigen::Vector3d& up, double sigma_m) {
   const Eigen::Vector3d x = up.unitOrthogonal();
   const Eigen::Vector3d y = up.cross(x);
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
+  const Eigen::Vector3d mean = Mean(points);
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   information(0, 0) = information(1, 1) = 1.0 / (kLevelSigma_rad * kLevelSigma_rad);
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -100,6 +106,7 @@ struct LevelSurface {
   Plane plane;
   std::size_t points = 0;
   double distance_m = 0.0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
 };
 
 /// Level planes, the table first: the largest, but not the floor that shows beyond its edge.
@@ -122,7 +129,7 @@ std::vector<Plane> FindTables(const RaySet& rays, Points points, const Surroundi
     near = Near(points, plane, Tolerance(rays));
     if (near.size() < least) break;
     plane = LevelPlane(near, options.up, rays.sigma_m);
-    found.push_back({plane, near.size(), MedianDistance(near, rays.viewpoint)});
+    found.push_back({plane, near.size(), MedianDistance(near, rays.viewpoint), Mean(near)});
     EraseNear(points, plane, 1.5 * Tolerance(rays));
   }
   double nearest = std::numeric_limits<double>::infinity();
@@ -132,8 +139,13 @@ std::vector<Plane> FindTables(const RaySet& rays, Points points, const Surroundi
   std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     return far(a) != far(b) ? far(b) : a.points > b.points;
   });
+  // Above the table a level slab is a cut through what stands there; below, a shelf or the floor.
   std::vector<Plane> tables;
-  for (const LevelSurface& level_surface : found) tables.push_back(level_surface.plane);
+  for (const LevelSurface& level_surface : found) {
+    const double below =
+        tables.empty() ? kShelfBelow_m : tables.front().Distance(level_surface.middle) * -1.0;
+    if (below >= kShelfBelow_m) tables.push_back(level_surface.plane);
+  }
   return tables;
 }
 
@@ -146,6 +158,15 @@ double WidthAlong(const Points& points, const Eigen::Vector3d& along) {
   return high - low;
 }
 
+/// Whether it stands up: the strip of a table that an upright slab cuts out does not.
+bool Tall(const Points& points, const Eigen::Vector3d& up) {
+  std::vector<double> heights;
+  for (const Eigen::Vector3d& point : points) heights.push_back(up.dot(point));
+  std::sort(heights.begin(), heights.end());
+  const std::size_t tenth = heights.size() / 10;
+  return heights[heights.size() - 1 - tenth] - heights[tenth] > kMinWallHeight_m;
+}
+
 bool HidesAll(const Plane& plane, const Points& points, double tolerance_m) {
   std::size_t behind = 0;
   for (const Eigen::Vector3d& point : points)
@@ -153,7 +174,7 @@ bool HidesAll(const Plane& plane, const Points& points, double tolerance_m) {
   return static_cast<double>(behind) < kMaxBehindShare * static_cast<double>(points.size());
 }
 
-/// Walls among the points above the table; takes their points away.
+/// Walls among the points; takes their points away, and the few behind them.
 std::vector<Plane> TakeWalls(const RaySet& rays, const Eigen::Vector3d& up, Points& points,
                              Random& random) {
   std::vector<Plane> walls;
@@ -172,7 +193,7 @@ std::vector<Plane> TakeWalls(const RaySet& rays, const Eigen::Vector3d& up, Poin
     if (wall.Distance(rays.viewpoint) < 0.0) wall = {-wall.normal, -wall.offset};
     EraseNear(all, wall, 1.5 * Tolerance(rays));
     const bool wide = WidthAlong(near, up.cross(wall.normal).normalized()) > kMinWallWidth_m;
-    if (!wide || !HidesAll(wall, points, Tolerance(rays))) continue;
+    if (!wide || !Tall(near, up) || !HidesAll(wall, points, Tolerance(rays))) continue;
     walls.push_back(wall);
     EraseNear(points, wall, 3.0 * rays.sigma_m + 0.006);
     std::erase_if(points, [&](const Eigen::Vector3d& p) { return wall.Distance(p) < 0.0; });
@@ -203,16 +224,18 @@ Surroundings FindSurroundings(const RaySet& rays, const SurroundingsOptions& opt
                               Random& random) {
   Points points;
   for (const RangeRay& ray : rays.rays) points.push_back(ray.Point());
+  // Walls first: a level slab through a large wall can hold more points than a table seen at a
+  // grazing angle.
+  const std::vector<Plane> walls = TakeWalls(rays, options.up, points, random);
   Surroundings found;
   found.planes = FindTables(rays, points, options, random);
   if (!found.planes.empty()) found.table = found.planes.front();
   const double above = std::max(0.015, 2.5 * rays.sigma_m);
-  for (const Plane& level : found.planes) EraseNear(points, level, above);
   if (found.table)
     std::erase_if(points,
                   [&](const Eigen::Vector3d& p) { return found.table->Distance(p) < above; });
+  found.planes.insert(found.planes.end(), walls.begin(), walls.end());
   const Eigen::Vector3d up = found.table ? found.table->normal : options.up;
-  for (const Plane& wall : TakeWalls(rays, up, points, random)) found.planes.push_back(wall);
   KeepNearest(rays, up, options.depth_m, points);
   found.foreground = std::move(points);
   return found;

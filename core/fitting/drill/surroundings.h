@@ -23,9 +23,9 @@ struct SurroundingsOptions {
   double depth_m = 0.36;                           ///< of what stands there, at most
 };
 
-/// Finds the table first, with gravity's direction as a prior; then upright walls, which must be
-/// wider than any drill and have nothing behind them; only then what is nearest: a wall at the end
-/// of a region would otherwise pass for the thing that stands before it.
+/// Finds upright walls first, which must be wider than any drill and have nothing behind them; then
+/// the table, with gravity's direction as a prior; only then what is nearest: a wall at the end of
+/// a region would otherwise pass for the thing that stands before it.
 Surroundings FindSurroundings(const RaySet& rays, const SurroundingsOptions& options,
                               Random& random);
 
