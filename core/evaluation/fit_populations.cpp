@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "core/evaluation/drill_population.h"
 #include "core/evaluation/terrain_population.h"
 
 namespace foresight {
@@ -14,6 +15,7 @@ struct Entry {
 
 const std::vector<Entry>& Entries() {
   static const std::vector<Entry> entries = {
+      {"drill", [] { return std::make_unique<DrillPopulation>(); }},
       {"terrain", [] { return std::make_unique<TerrainPopulation>(); }},
   };
   return entries;
