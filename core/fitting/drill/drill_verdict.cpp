@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/drill/surroundings.h"
 #include "core/fitting/verdict_model.h"
 #include "core/geometry/angles.h"
 
@@ -19,7 +20,6 @@ constexpr double kMinHits = 40.0;  // independent measurements on the drill
 constexpr double kMaxSeeThrough = 0.15;
 constexpr double kMinYawMargin_nats = 10.0;
 constexpr double kMinHead_nats = 10.0;
-constexpr double kMaxOffCenter_m = 0.15;
 constexpr double kBound = 0.01;  // of the range of a scale
 
 double Compressed(double nats) {
@@ -44,14 +44,6 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           std::log(std::max(1e-3, detection.sigma_yaw_rad)),
           std::abs(std::log(detection.best.model.scale)),
           detection.best.model.body_tilt_rad.norm()};
-}
-
-double DistanceFromRegionCenter(const RaySet& rays, const Eigen::Vector3d& center) {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  for (const RangeRay& ray : rays.rays) direction += ray.direction;
-  direction.normalize();
-  const Eigen::Vector3d to_center = center - rays.viewpoint;
-  return (to_center - to_center.dot(direction) * direction).norm();
 }
 
 /// Why the drill must not be confirmed; empty when nothing speaks against it.

@@ -111,7 +111,11 @@ class DrillFit {
   /// Modes of all templates, polished, best first; at least one has been turned by 180 deg.
   Result<std::vector<DrillState>> Search(const RunContext& context) const {
     context.Report(0.2, "looking for the body");
-    const auto bodies = FindBodies(coarse_, around_.foreground, base_from_table_, kBodyRadius_m);
+    std::vector<Eigen::Vector3d> central = around_.foreground;
+    std::erase_if(central, [&](const Eigen::Vector3d& point) {
+      return DistanceFromRegionCenter(likelihood_.rays(), point) > kMaxOffCenter_m;
+    });
+    const auto bodies = FindBodies(coarse_, central, base_from_table_, kBodyRadius_m);
     if (bodies.empty())
       return Fail(ErrorCode::kNoConvergence,
                   "nothing as tall as a drill stands in the region: draw it around the drill");
