@@ -1,0 +1,209 @@
+#include "core/fitting/drill/fit_drill.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/fitting/drill/drill_search.h"
+#include "core/fitting/drill/rival_shapes.h"
+#include "core/fitting/drill/surroundings.h"
+#include "core/geometry/angles.h"
+#include "tests/support/drill_rays.h"
+
+namespace foresight {
+namespace {
+
+using testing::DrillRays;
+using testing::DrillView;
+using testing::MakeDrillRays;
+
+double YawError(const Rigid<frame::Base, frame::Object>& found,
+                const Rigid<frame::Base, frame::Object>& truth) {
+  const Eigen::Vector3d x = (truth.Inverse() * found).Rotate(Eigen::Vector3d::UnitX());
+  return DegreesFromRadians(std::abs(std::atan2(x.y(), x.x())));
+}
+
+double PlaceError(const Rigid<frame::Base, frame::Object>& found,
+                  const Rigid<frame::Base, frame::Object>& truth) {
+  return (found.translation() - truth.translation()).norm();
+}
+
+/// What a fit works on, with the true pose as a state on the table.
+struct Bench {
+  explicit Bench(const DrillRays& scene) : templates(ShippedDrillTemplates()) {
+    Random random(1);
+    around = FindSurroundings(scene.rays, {}, random);
+    frame = FrameOf(around.table.value(), scene.base_from_object.translation());
+    const Eigen::Vector3d x =
+        (frame.Inverse() * scene.base_from_object).Rotate(Eigen::Vector3d::UnitX());
+    truth.kind = &templates.front();
+    truth.values[kDrillScale] = 1.0;
+    truth.values[kDrillYaw] = std::atan2(x.y(), x.x());
+    truth.values[kDrillBit] = 0.07;
+  }
+
+  std::vector<DrillTemplate> templates;
+  Surroundings around;
+  TableFrame frame;
+  DrillState truth;
+  DrillPrior prior;
+};
+
+TEST(FitDrill, FindsWhereItStandsAndTheWayItPoints) {
+  for (const double yaw : {0.3, 1.7, 2.9, 4.4, 5.6}) {
+    DrillView view;
+    view.yaw_rad = yaw;
+    const DrillRays scene = MakeDrillRays(view);
+    const auto found = FitDrill(scene.rays, {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_LT(PlaceError(found->best.base_from_object, scene.base_from_object), 0.020) << yaw;
+    EXPECT_LT(YawError(found->best.base_from_object, scene.base_from_object), 10.0) << yaw;
+    EXPECT_TRUE(found->table.has_value());
+    EXPECT_TRUE(found->best.model.Check());
+  }
+}
+
+TEST(FitDrill, GivesTheSameAnswerTwice) {
+  const DrillRays scene = MakeDrillRays({});
+  const auto a = FitDrill(scene.rays, {}, {});
+  const auto b = FitDrill(scene.rays, {}, {});
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->best.log_likelihood, b->best.log_likelihood);
+  EXPECT_EQ(a->best.base_from_object.translation(), b->best.base_from_object.translation());
+  EXPECT_EQ(a->verdict.reason, b->verdict.reason);
+}
+
+TEST(FitDrill, PolishNeverLowersTheLikelihood) {
+  const DrillRays scene = MakeDrillRays({});
+  const Bench bench(scene);
+  const SolidLikelihood likelihood(scene.rays, bench.around.planes);
+  Random random(3);
+  for (int i = 0; i < 5; ++i) {
+    DrillState start = bench.truth;
+    for (const int p : {int{kDrillX}, int{kDrillY}}) start.values[p] += random.Uniform(-0.02, 0.02);
+    start.values[kDrillYaw] += random.Uniform(-0.3, 0.3);
+    start.values[kDrillScale] = random.Uniform(0.9, 1.1);
+    start.log_likelihood = Score(likelihood, start, bench.frame, bench.prior);
+    for (const PolishEffort effort : {PolishEffort::kCoarse, PolishEffort::kFine})
+      EXPECT_GE(Polish(likelihood, start, bench.frame, bench.prior, effort).log_likelihood,
+                start.log_likelihood);
+  }
+}
+
+TEST(FitDrill, TheFlippedDrillExplainsTheRaysWorse) {
+  // Fed with a drill that points backwards, the explicit flip turns it round.
+  const DrillRays scene = MakeDrillRays({});
+  const Bench bench(scene);
+  const SolidLikelihood likelihood(scene.rays, bench.around.planes);
+  const auto polished = [&](const DrillState& state) {
+    return Polish(likelihood, state, bench.frame, bench.prior, PolishEffort::kFine);
+  };
+  const DrillState wrong = polished(Flipped(bench.truth));
+  const DrillState turned = polished(Flipped(wrong));
+  EXPECT_GT(turned.log_likelihood, wrong.log_likelihood + 10.0);
+  EXPECT_LT(TurnBetween(turned.yaw(), bench.truth.yaw()), 0.2);
+}
+
+TEST(FitDrill, AFlippedDrillLeansTheSameWayInSpace) {
+  const std::vector<DrillTemplate> templates = ShippedDrillTemplates();
+  DrillState state;
+  state.kind = &templates.front();
+  state.values << 0.1, 0.2, 0.0, 0.7, 1.0, 0.05, -0.1, 0.0;
+  const auto axis = [](const DrillState& it) -> Eigen::Vector3d {
+    return it.Pose({}).Rotate(BodyTurn(it.Model().body_tilt_rad) * Eigen::Vector3d::UnitZ());
+  };
+  EXPECT_LT((axis(state) - axis(Flipped(state))).norm(), 1e-12);
+}
+
+TEST(FitDrill, LookAlikesAreNotConfirmed) {
+  using Object = DrillView::Object;
+  for (const Object object : {Object::kBox, Object::kBottle, Object::kBoxOnCylinder}) {
+    DrillView view;
+    view.object = object;
+    const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
+    if (!found) continue;
+    EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << static_cast<int>(object);
+  }
+}
+
+TEST(FitDrill, ABoxIsExplainedBetterByABox) {
+  DrillView view;
+  view.object = DrillView::Object::kBox;
+  const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
+  if (found) {
+    EXPECT_LT(found->evidence.rival_margin_nats, 0.0);
+  }
+}
+
+TEST(FitDrill, AWallPatchIsNotADrill) {
+  DrillView view;
+  view.object = DrillView::Object::kNothing;
+  const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
+  EXPECT_TRUE(!found || found->verdict.level == VerdictLevel::kUnsure);
+  view.table = false;
+  const auto wall_alone = FitDrill(MakeDrillRays(view).rays, {}, {});
+  EXPECT_TRUE(!wall_alone || wall_alone->verdict.level == VerdictLevel::kUnsure);
+}
+
+TEST(FitDrill, WithoutATableNothingIsConfirmed) {
+  DrillView view;
+  view.table = false;
+  view.wall_m = 0.0;
+  const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
+  EXPECT_TRUE(!found || found->verdict.level != VerdictLevel::kConfirmed);
+}
+
+TEST(FitDrill, BadInputIsAnError) {
+  const DrillRays scene = MakeDrillRays({});
+  RaySet none = scene.rays;
+  none.rays.clear();
+  EXPECT_EQ(FitDrill(none, {}, {}).error().code, ErrorCode::kTooFewPoints);
+  RaySet three = scene.rays;
+  three.rays.resize(3);
+  EXPECT_EQ(FitDrill(three, {}, {}).error().code, ErrorCode::kTooFewPoints);
+  RaySet unknown = scene.rays;
+  for (RangeRay& ray : unknown.rays) ray.range_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(FitDrill(unknown, {}, {}).error().code, ErrorCode::kTooFewPoints);
+  RaySet noiseless = scene.rays;
+  noiseless.sigma_m = 0.0;
+  EXPECT_EQ(FitDrill(noiseless, {}, {}).error().code, ErrorCode::kInvalidInput);
+}
+
+TEST(FitDrill, UpsideDownNothingIsConfirmed) {
+  FitDrillOptions options;
+  options.up = Eigen::Vector3d::UnitY();
+  const auto found = FitDrill(MakeDrillRays({}).rays, options, {});
+  EXPECT_TRUE(!found || found->verdict.level != VerdictLevel::kConfirmed);
+}
+
+TEST(FitDrill, ASecondThoughtStopsIt) {
+  std::stop_source source;
+  source.request_stop();
+  RunContext context;
+  context.stop = source.get_token();
+  const auto found = FitDrill(MakeDrillRays({}).rays, {}, context);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
+}
+
+TEST(FitDrill, OptionsNameWhatIsWrong) {
+  FitDrillOptions options;
+  options.templates.clear();
+  EXPECT_NE(options.Check().error().message.find("templates"), std::string::npos);
+  options = {};
+  options.up *= 2.0;
+  EXPECT_NE(options.Check().error().message.find("up"), std::string::npos);
+}
+
+TEST(Surroundings, FindsTheTableUnderAndTheWallBehind) {
+  const DrillRays scene = MakeDrillRays({});
+  Random random(1);
+  const Surroundings around = FindSurroundings(scene.rays, {}, random);
+  ASSERT_TRUE(around.table.has_value());
+  EXPECT_NEAR(around.table->Distance(scene.base_from_object.translation()), 0.0, 0.005);
+  EXPECT_EQ(around.planes.size(), 2u);
+  EXPECT_GT(around.foreground.size(), 100u);
+}
+
+}  // namespace
+}  // namespace foresight
