@@ -11,9 +11,8 @@
 namespace foresight {
 namespace {
 
-// Bands along an edge, in metres from it.
-constexpr double kInnerFrom_m = 0.005, kInnerTo_m = 0.035;
-constexpr double kOuterFrom_m = 0.010, kOuterTo_m = 0.045;
+constexpr double kInnerFrom_m = 0.005, kOuterFrom_m = 0.010;  // where bands along an edge begin
+constexpr double kMinBand_m = 0.032, kMaxBand_m = 0.080;
 constexpr double kCorner_m = 0.025;  // left out at both ends
 constexpr double kMinInner = 0.50;
 constexpr double kMaxOuter = 0.20;
@@ -27,6 +26,14 @@ constexpr double kTiltFloor_rad = RadiansFromDegrees(0.15);
 constexpr double kUnknownPlace_m = 0.030;
 constexpr double kUnknownYaw_rad = RadiansFromDegrees(6.0);
 
+/// A band must be wide enough for beams to fall into it.
+double BandWidth(const SurfaceGrid& grid, const PlaneView& view) {
+  const Eigen::Vector3d sight = view.surface.center - grid.viewpoint();
+  const double closing = std::abs(view.surface.plane.normal.dot(sight.normalized()));
+  const double spacing_m = sight.norm() * grid.step_rad().maxCoeff() / std::max(0.1, closing);
+  return std::clamp(1.2 * spacing_m, kMinBand_m, kMaxBand_m);
+}
+
 /// Distance beyond edge `e` (negative inside) and place along it.
 Eigen::Vector2d AtEdge(const Eigen::Vector2d& local, const Eigen::Vector2d& half, int e) {
   const double sign = e < 2 ? 1.0 : -1.0;
@@ -35,22 +42,24 @@ Eigen::Vector2d AtEdge(const Eigen::Vector2d& local, const Eigen::Vector2d& half
 }
 
 void AddToBands(const Eigen::Vector2d& local, double area_m2, const Eigen::Vector2d& half,
-                double BlockEdge::*outer, bool support, std::array<BlockEdge, 4>& edges) {
+                double band_m, double BlockEdge::*outer, bool support,
+                std::array<BlockEdge, 4>& edges) {
   for (int e = 0; e < 4; ++e) {
     const Eigen::Vector2d at = AtEdge(local, half, e);
     if (std::abs(at[1]) > half[1 - e % 2] - kCorner_m) continue;
     BlockEdge& edge = edges[static_cast<std::size_t>(e)];
-    if (at[0] > kOuterFrom_m && at[0] < kOuterTo_m) edge.*outer += area_m2;
-    if (support && -at[0] > kInnerFrom_m && -at[0] < kInnerTo_m) edge.inner_support += area_m2;
+    if (at[0] > kOuterFrom_m && at[0] < kOuterFrom_m + band_m) edge.*outer += area_m2;
+    if (support && -at[0] > kInnerFrom_m && -at[0] < kInnerFrom_m + band_m)
+      edge.inner_support += area_m2;
   }
 }
 
-void ToShares(const Eigen::Vector2d& half, std::array<BlockEdge, 4>& edges) {
+void ToShares(const Eigen::Vector2d& half, double band_m, std::array<BlockEdge, 4>& edges) {
   for (int e = 0; e < 4; ++e) {
     const double length = 2.0 * (half[1 - e % 2] - kCorner_m);
-    const double outer = length * (kOuterTo_m - kOuterFrom_m);
+    const double outer = length * band_m;
     BlockEdge& edge = edges[static_cast<std::size_t>(e)];
-    edge.inner_support /= length * (kInnerTo_m - kInnerFrom_m);
+    edge.inner_support /= length * band_m;
     edge.outer_support /= outer;
     edge.outer_through /= outer;
     edge.outer_occupied /= outer;
@@ -85,12 +94,14 @@ RectangleEvidence GatherEvidence(const SurfaceGrid& grid, const PlaneView& view,
   RectangleEvidence evidence;
   BlockEvidence& block = evidence.block;
   const Eigen::Vector2d half = 0.5 * rectangle.size_m;
+  const double band_m = BandWidth(grid, view);
   std::vector<double> along, across;
   double squares = 0.0;
   for (const auto& sample : view.support) {
     const Eigen::Vector2d local = rectangle.Local(sample.at);
     const double inside = (half - local.cwiseAbs()).minCoeff();
-    AddToBands(local, sample.area_m2, half, &BlockEdge::outer_support, true, evidence.edges);
+    AddToBands(local, sample.area_m2, half, band_m, &BlockEdge::outer_support, true,
+               evidence.edges);
     if (inside < -kNearEdge_m && inside > -kAround_m) block.outside += sample.area_m2;
     if (inside > -kAround_m) {
       if (std::abs(local.y()) < half.y() - kCorner_m) along.push_back(local.x());
@@ -104,13 +115,14 @@ RectangleEvidence GatherEvidence(const SurfaceGrid& grid, const PlaneView& view,
   }
   for (const auto& sample : view.through) {
     const Eigen::Vector2d local = rectangle.Local(sample.at);
-    AddToBands(local, sample.area_m2, half, &BlockEdge::outer_through, false, evidence.edges);
+    AddToBands(local, sample.area_m2, half, band_m, &BlockEdge::outer_through, false,
+               evidence.edges);
     if ((half - local.cwiseAbs()).minCoeff() > kNearEdge_m) block.see_through += sample.area_m2;
   }
   for (const auto& sample : view.occupied)
-    AddToBands(rectangle.Local(sample.at), sample.area_m2, half, &BlockEdge::outer_occupied, false,
-               evidence.edges);
-  ToShares(half, evidence.edges);
+    AddToBands(rectangle.Local(sample.at), sample.area_m2, half, band_m, &BlockEdge::outer_occupied,
+               false, evidence.edges);
+  ToShares(half, band_m, evidence.edges);
   const double area = rectangle.size_m.prod();
   block.cover = std::min(1.0, block.cover / area);
   block.see_through /= area;

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kBand_m = 0.120;  // around a rectangle, where support speaks against it
 constexpr double kOutsideWeight = 0.7;
-constexpr double kGateSigmas = 3.0;  // a return this far behind a plane went through
-constexpr double kGate_m = 0.010;
 constexpr double kOccupied_m = 0.300;  // nothing this low above a top lets it be seen and free
 
 constexpr double kOneBlock = 1.25;       // a patch of more area may hold several
@@ -150,6 +148,12 @@ std::vector<BlockRectangle> Starts(const std::vector<PlaneView::Sample>& support
   return starts;
 }
 
+/// How surely a point that belongs to no plane is not of this one: from 0 at a deviation to 1 at
+/// three.
+double CertainlyOff(double distance_sigmas) {
+  return std::clamp(0.5 * (std::abs(distance_sigmas) - 1.0), 0.0, 1.0);
+}
+
 double AreaOf(const std::vector<PlaneView::Sample>& samples) {
   double area = 0.0;
   for (const auto& sample : samples) area += sample.area_m2;
@@ -207,14 +211,15 @@ PlaneView ViewOfPlane(const SurfaceGrid& grid, const SurfacePlanes& surfaces, in
   for (int i = 0; i < grid.size(); ++i) {
     const int label = surfaces.labels[static_cast<std::size_t>(i)];
     if (label == plane) continue;
-    const double area = AreaOn(surface, grid[i]);
     const double above = surface.Distance(grid[i].point);
-    const double gate_m = kGate_m + kGateSigmas * DistanceSigma(grid, i, surface);
-    const double range_m = RangeTo(surface, grid[i].origin, grid[i].direction);
-    if (above < -gate_m && std::isfinite(range_m)) {
+    const double certainty =
+        label >= 0 ? 1.0 : CertainlyOff(above / DistanceSigma(grid, i, surface));
+    const double area = certainty * AreaOn(surface, grid[i]);
+    if (above < 0.0) {
+      const double range_m = RangeTo(surface, grid[i].origin, grid[i].direction);
       const Eigen::Vector2d at = view.Flat(grid[i].origin + range_m * grid[i].direction);
-      if (bounds.contains(at)) view.through.push_back({at, area, i});
-    } else if (above < kOccupied_m && (label >= 0 || above > gate_m)) {
+      if (std::isfinite(range_m) && bounds.contains(at)) view.through.push_back({at, area, i});
+    } else if (above < kOccupied_m) {
       const Eigen::Vector2d at = view.Flat(grid[i].point);
       if (bounds.contains(at)) view.occupied.push_back({at, area, i});
     }

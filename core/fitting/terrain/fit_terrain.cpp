@@ -113,9 +113,7 @@ class SurfaceCollector {
     if (slope > options_.max_tilt_rad) return;
     for (const BlockRectangle& rectangle : FitRectangles(view, size_m_, kMinCover, blur_m)) {
       const RectangleEvidence seen = GatherEvidence(grid_, view, rectangle);
-      if (seen.block.cover < kMinCover || seen.block.see_through > kMaxSeeThrough ||
-          seen.block.confirmed_edges == 0)
-        continue;
+      if (seen.block.cover < kMinCover || seen.block.see_through > kMaxSeeThrough) continue;
       TerrainSurface block = PlainSurface(view, rectangle, options_.up);
       block.kind = TerrainSurface::Kind::kBlock;
       block.evidence = seen.block;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/geometry/angles.h"
 
@@ -16,8 +17,12 @@ constexpr int kMeanShifts = 5;
 constexpr double kLeastShare = 0.004;  // of all normals, within a cone
 constexpr int kBinsAcross = 61;        // of the tangent plane; 1.7 deg each at 45 deg of tilt
 constexpr int kReach = 2;              // cells that a component may jump
+constexpr double kFarSteps = 8.0;  // between neighbours seen at a grazing angle, in beam spacings
 constexpr double kMinArea_m2 = 0.01;
-constexpr double kMergeAngle_rad = RadiansFromDegrees(6.0);
+constexpr double kMergeAngle_rad = RadiansFromDegrees(14.0);
+constexpr double kMergeSigmas = 2.5;
+constexpr double kMergeShare = 0.75;
+constexpr double kMergeOffset_m = 0.010;
 constexpr double kMergeGap_m = 0.06;
 
 /// Where a direction falls on the map of directions around up, in bins.
@@ -85,6 +90,7 @@ int Grow(const SurfaceGrid& grid, const std::vector<int>& direction,
          const std::vector<Eigen::Vector3d>& directions, int start, int label,
          std::vector<int>& labels) {
   const double gate_m = std::max(0.020, 2.0 * grid.sigma_m());
+  const double far_steps = kFarSteps * grid.step_rad().maxCoeff();
   const int k = direction[static_cast<std::size_t>(start)];
   const Eigen::Vector3d& normal = directions[static_cast<std::size_t>(k)];
   std::vector<int> front = {start};
@@ -102,7 +108,9 @@ int Grow(const SurfaceGrid& grid, const std::vector<int>& direction,
             direction[static_cast<std::size_t>(j)] != k)
           continue;
         const Eigen::Vector3d step = grid[j].point - grid[i].point;
-        if (std::abs(step.dot(normal)) > gate_m || step.norm() > 4.0 * gate_m) continue;
+        if (std::abs(step.dot(normal)) > gate_m ||
+            step.norm() > std::max(4.0 * gate_m, far_steps * grid[i].range_m))
+          continue;
         labels[static_cast<std::size_t>(j)] = label;
         front.push_back(j);
       }
@@ -115,29 +123,23 @@ double GapBetween(const SurfacePlane& a, const SurfacePlane& b) {
   return (a.center - b.center).norm() - 0.5 * (std::sqrt(a.area_m2) + std::sqrt(b.area_m2));
 }
 
-bool Coplanar(const SurfaceGrid& grid, const SurfacePlane& a, const SurfacePlane& b) {
-  const double gate_m = std::max(0.012, 0.8 * grid.sigma_m());
-  return a.plane.normal.dot(b.plane.normal) > std::cos(kMergeAngle_rad) &&
-         std::abs(a.plane.Distance(b.center)) < gate_m &&
-         std::abs(b.plane.Distance(a.center)) < gate_m;
-}
-
-/// Puts parts of one plane together, the largest first.
-void MergeParts(const SurfaceGrid& grid, SurfacePlanes& surfaces) {
-  const std::size_t count = surfaces.planes.size();
-  std::vector<int> target(count);
-  for (std::size_t a = 0; a < count; ++a) {
-    target[a] = static_cast<int>(a);
-    for (std::size_t b = 0; b < a; ++b)
-      if (target[b] == static_cast<int>(b) &&
-          GapBetween(surfaces.planes[a], surfaces.planes[b]) < kMergeGap_m &&
-          Coplanar(grid, surfaces.planes[a], surfaces.planes[b])) {
-        target[a] = static_cast<int>(b);
-        break;
-      }
+/// Whether most of a part's own points lie on a larger plane. The direction of a narrow part is
+/// known too badly to be asked for more than a rough agreement.
+bool LiesOn(const SurfaceGrid& grid, const std::vector<int>& points, const SurfacePlane& part,
+            const SurfacePlane& larger) {
+  if (GapBetween(part, larger) > kMergeGap_m ||
+      part.plane.normal.dot(larger.plane.normal) < std::cos(kMergeAngle_rad))
+    return false;
+  int near = 0;
+  double sum = 0.0;
+  for (const int i : points) {
+    const double off = larger.plane.Distance(grid[i].point);
+    sum += off;
+    near += std::abs(off) < kMergeSigmas * DistanceSigma(grid, i, larger.plane) ? 1 : 0;
   }
-  for (int& label : surfaces.labels)
-    if (label >= 0) label = target[static_cast<std::size_t>(label)];
+  const auto count = static_cast<double>(points.size());
+  return near > kMergeShare * count &&
+         std::abs(sum / count) < std::max(kMergeOffset_m, 0.8 * grid.sigma_m());
 }
 
 }  // namespace
@@ -174,6 +176,34 @@ std::vector<Eigen::Vector3d> FrequentDirections(std::span<const Eigen::Vector3d>
   return directions;
 }
 
+void MergeParts(const SurfaceGrid& grid, double min_area_m2, SurfacePlanes& surfaces) {
+  const std::size_t count = surfaces.planes.size();
+  std::vector<std::vector<int>> points(count);
+  for (int i = 0; i < grid.size(); ++i)
+    if (const int label = surfaces.labels[static_cast<std::size_t>(i)]; label >= 0)
+      points[static_cast<std::size_t>(label)].push_back(i);
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return surfaces.planes[a].area_m2 > surfaces.planes[b].area_m2;
+  });
+  std::vector<int> target(count);
+  for (std::size_t a = 0; a < count; ++a) {
+    target[order[a]] = static_cast<int>(order[a]);
+    for (std::size_t b = 0; b < a; ++b) {
+      const std::size_t part = order[a], larger = order[b];
+      if (target[larger] != static_cast<int>(larger) ||
+          !LiesOn(grid, points[part], surfaces.planes[part], surfaces.planes[larger]))
+        continue;
+      target[part] = static_cast<int>(larger);
+      break;
+    }
+  }
+  for (int& label : surfaces.labels)
+    if (label >= 0) label = target[static_cast<std::size_t>(label)];
+  RefitPlanes(grid, min_area_m2, surfaces);
+}
+
 SurfacePlanes GroupPlanes(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> normals,
                           const Eigen::Vector3d& up, double max_tilt_rad) {
   const std::vector<Eigen::Vector3d> directions = FrequentDirections(normals, up, max_tilt_rad);
@@ -192,8 +222,7 @@ SurfacePlanes GroupPlanes(const SurfaceGrid& grid, std::span<const Eigen::Vector
           Grow(grid, direction, directions, i, static_cast<int>(members.size()), surfaces.labels));
   surfaces.planes.resize(members.size());
   RefitPlanes(grid, kMinArea_m2, surfaces);
-  MergeParts(grid, surfaces);
-  RefitPlanes(grid, kMinArea_m2, surfaces);
+  MergeParts(grid, kMinArea_m2, surfaces);
   return surfaces;
 }
 

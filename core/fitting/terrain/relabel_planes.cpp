@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/terrain/plane_grouping.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -11,6 +12,7 @@ namespace {
 constexpr double kNoPlaneCost = 4.0;
 constexpr double kMaxCost = 9.0;
 constexpr double kAngleSigma_rad = RadiansFromDegrees(12.0);
+constexpr double kMaxAngleCost = 3.0;  // normals bend near every edge
 constexpr double kUnknownNormalCost = 0.5;
 constexpr double kSmoothness = 1.2;
 constexpr double kLeastSmoothness = 0.05;
@@ -28,7 +30,7 @@ double CostOf(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> normals,
   if (normal.allFinite()) {
     const double turn =
         std::acos(std::clamp(normal.dot(plane.normal), -1.0, 1.0)) / kAngleSigma_rad;
-    cost += 0.5 * turn * turn;
+    cost += std::min(0.5 * turn * turn, kMaxAngleCost);
   } else {
     cost += kUnknownNormalCost;
   }
@@ -106,6 +108,7 @@ Status RelabelPlanes(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> n
     for (int& label : labels) --label;
     surfaces.labels = std::move(labels);
     RefitPlanes(grid, min_area_m2, surfaces);
+    MergeParts(grid, min_area_m2, surfaces);
   }
   return {};
 }

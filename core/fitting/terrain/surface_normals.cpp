@@ -13,11 +13,20 @@ namespace {
 constexpr double kWindowSigmas = 5.5;
 constexpr double kMinWindow_m = 0.035;
 constexpr double kMaxWindow_m = 0.075;
+// Where beams are far apart, seen at a grazing angle more so, a window must still hold some.
+constexpr double kWindowSteps = 5.0;
+constexpr double kMaxSparseWindow_m = 0.150;
 constexpr double kDepthGateWindows = 1.5;
 constexpr int kFarthestCell = 24;      // in a window, of each direction
 constexpr int kCellsAcross = 5;        // looked at to each side; wider windows skip cells
 constexpr double kLeastWeight = 5.0;   // points that agree
 constexpr double kMostOblique = 0.05;  // cosine between ray and normal
+
+double WindowRadius(const SurfaceGrid& grid, int i) {
+  const double by_noise = std::clamp(kWindowSigmas * grid.sigma_m(), kMinWindow_m, kMaxWindow_m);
+  const double by_steps = kWindowSteps * grid[i].range_m * grid.step_rad().maxCoeff();
+  return std::max(by_noise, std::min(by_steps, kMaxSparseWindow_m));
+}
 
 std::vector<int> WindowAround(const SurfaceGrid& grid, int i, double radius_m) {
   const GridPoint& here = grid[i];
@@ -41,10 +50,10 @@ std::vector<int> WindowAround(const SurfaceGrid& grid, int i, double radius_m) {
   return window;
 }
 
-Eigen::Vector3d NormalAt(const SurfaceGrid& grid, int i, double radius_m) {
+Eigen::Vector3d NormalAt(const SurfaceGrid& grid, int i) {
   const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   const GridPoint& here = grid[i];
-  const std::vector<int> window = WindowAround(grid, i, radius_m);
+  const std::vector<int> window = WindowAround(grid, i, WindowRadius(grid, i));
   RangePlaneSums sums(here.origin, here.direction);
   for (const int j : window) sums.Add(grid[j].point, 1.0);
   if (sums.weight() < kLeastWeight) return none;
@@ -69,11 +78,10 @@ Eigen::Vector3d NormalAt(const SurfaceGrid& grid, int i, double radius_m) {
 
 std::vector<Eigen::Vector3d> SurfaceNormals(const SurfaceGrid& grid, const RunContext& context) {
   constexpr int kBatch = 512;
-  const double radius_m = std::clamp(kWindowSigmas * grid.sigma_m(), kMinWindow_m, kMaxWindow_m);
   std::vector<Eigen::Vector3d> normals(static_cast<std::size_t>(grid.size()));
   const bool finished = ParallelFor((grid.size() + kBatch - 1) / kBatch, context, [&](int batch) {
     for (int i = batch * kBatch; i < std::min(grid.size(), (batch + 1) * kBatch); ++i)
-      normals[static_cast<std::size_t>(i)] = NormalAt(grid, i, radius_m);
+      normals[static_cast<std::size_t>(i)] = NormalAt(grid, i);
   });
   return finished ? normals : std::vector<Eigen::Vector3d>();
 }
