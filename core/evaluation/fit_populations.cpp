@@ -4,6 +4,7 @@
 
 #include "core/evaluation/drill_population.h"
 #include "core/evaluation/terrain_population.h"
+#include "core/evaluation/valve_population.h"
 
 namespace foresight {
 namespace {
@@ -15,6 +16,7 @@ struct Entry {
 
 const std::vector<Entry>& Entries() {
   static const std::vector<Entry> entries = {
+      {"valve", [] { return std::make_unique<ValvePopulation>(); }},
       {"drill", [] { return std::make_unique<DrillPopulation>(); }},
       {"terrain", [] { return std::make_unique<TerrainPopulation>(); }},
   };

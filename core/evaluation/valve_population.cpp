@@ -19,6 +19,7 @@ constexpr double kPhaseOk_deg = 6.0;
 
 struct ValveErrors {
   double center_mm = 0.0;
+  double along_mm = 0.0;  ///< of it along the axis
   double axis_deg = 0.0;
   double radius_mm = 0.0;
   double phase_deg = 0.0;
@@ -44,6 +45,7 @@ ValveErrors Compare(const ValveCandidate& found,
                                         : found.model.rim_radius_m - truth.rim_radius_m;
   ValveErrors errors;
   errors.center_mm = 1000.0 * truth_from_found.translation().norm();
+  errors.along_mm = 1000.0 * truth_from_found.translation().z();
   errors.axis_deg = DegreesFromRadians(std::acos(std::clamp(cosine, -1.0, 1.0)));
   errors.radius_mm = 1000.0 * std::abs(size_m);
   errors.phase_deg = DegreesFromRadians(PhaseError(truth_from_found, truth));
@@ -79,11 +81,9 @@ std::vector<FitOutcome> ValvePopulation::Judge(const FitTrial& trial,
   const ValveTruth& truth = trial.scene.scene->valves.front();
   const ValveErrors errors =
       Compare(detection.best, trial.TrueBaseFromRobot() * truth.robot_from_object, truth.model);
-  outcome.errors = {{"center_mm", errors.center_mm},
-                    {"axis_deg", errors.axis_deg},
-                    {"radius_mm", errors.radius_mm},
-                    {"phase_deg", errors.phase_deg},
-                    {"spokes", errors.spokes_right ? 0.0 : 1.0}};
+  outcome.errors = {{"center_mm", errors.center_mm}, {"along_mm", errors.along_mm},
+                    {"axis_deg", errors.axis_deg},   {"radius_mm", errors.radius_mm},
+                    {"phase_deg", errors.phase_deg}, {"spokes", errors.spokes_right ? 0.0 : 1.0}};
   const double size_ok_mm = truth.model.IsLever() ? kLengthOk_mm : kRadiusOk_mm;
   outcome.pose_ok = detection.best.model.kind == truth.model.kind &&
                     errors.center_mm < kCenterOk_mm && errors.axis_deg < kAxisOk_deg &&

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/fitting/valve/lever_search.h"
 #include "core/fitting/valve/polish.h"
 #include "core/fitting/valve/ray_likelihood.h"
 #include "core/fitting/valve/refine.h"
@@ -28,7 +29,7 @@ constexpr int kRivals = 3;
 constexpr double kTubeRadius_m = 0.012;  // where the search starts
 
 /// Streams of the seed: each stage draws its own numbers.
-enum Stream : std::uint64_t { kThinning, kWall, kRims };
+enum Stream : std::uint64_t { kThinning, kWall, kRims, kLevers };
 
 template <class T>
 std::vector<T> RandomSubset(const std::vector<T>& values, int count, Random& random) {
@@ -73,6 +74,12 @@ Status CheckRays(const RaySet& rays) {
   return {};
 }
 
+void SortByLikelihood(std::vector<ValveCandidate>& valves) {
+  std::stable_sort(valves.begin(), valves.end(), [](const auto& a, const auto& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+}
+
 /// Rims as valves without spokes, fitted to the rays, the best few first.
 std::vector<ValveCandidate> FitRims(const RaySet& rays, const std::optional<Plane>& wall,
                                     const RayLikelihood& likelihood,
@@ -88,9 +95,7 @@ std::vector<ValveCandidate> FitRims(const RaySet& rays, const std::optional<Plan
     valve.log_likelihood = likelihood(valve, ValveParts::kRim);
     fitted.push_back(valve);
   }
-  std::stable_sort(fitted.begin(), fitted.end(), [](const auto& a, const auto& b) {
-    return a.log_likelihood > b.log_likelihood;
-  });
+  SortByLikelihood(fitted);
   if (fitted.size() > kKeptRims) fitted.resize(kKeptRims);
   return fitted;
 }
@@ -101,31 +106,57 @@ std::vector<int> SpokeCounts(const FitValveOptions& options) {
   return counts;
 }
 
-Result<std::vector<RimHypothesis>> SearchRims(const RaySet& rays, const WallSplit& split,
-                                              const FitValveOptions& options) {
-  if (std::ssize(split.foreground) < kMinForeground)
-    return Fail(ErrorCode::kNoConvergence,
-                "only {} of {} measurements stand in front of the wall: draw the region around the "
-                "wheel",
-                split.foreground.size(), rays.rays.size());
+Status CheckForeground(const RaySet& rays, const WallSplit& split) {
+  if (std::ssize(split.foreground) >= kMinForeground) return {};
+  return Fail(ErrorCode::kNoConvergence,
+              "only {} of {} measurements stand in front of the wall: draw the region around the "
+              "valve",
+              split.foreground.size(), rays.rays.size());
+}
+
+/// Where a valve's axis points, roughly.
+Eigen::Vector3d Facing(const RaySet& rays, const WallSplit& split) {
+  if (split.wall) return split.wall->normal;
+  const Eigen::Vector3d middle = std::accumulate(split.foreground.begin(), split.foreground.end(),
+                                                 Eigen::Vector3d(Eigen::Vector3d::Zero())) /
+                                 static_cast<double>(split.foreground.size());
+  return (rays.viewpoint - middle).normalized();
+}
+
+std::vector<RimHypothesis> SearchRims(const RaySet& rays, const WallSplit& split,
+                                      const FitValveOptions& options) {
   Random random(options.seed, kRims);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
   RimSearchOptions search;
-  const Eigen::Vector3d middle =
-      std::accumulate(points.begin(), points.end(), Eigen::Vector3d(Eigen::Vector3d::Zero())) /
-      static_cast<double>(points.size());
-  search.facing = split.wall ? split.wall->normal : (rays.viewpoint - middle).normalized();
+  search.facing = Facing(rays, split);
   search.min_radius_m = options.min_rim_radius_m;
   search.max_radius_m = options.max_rim_radius_m;
   search.tolerance_m = 2.0 * rays.sigma_m + 0.008;
   search.trials = options.circle_trials;
-  std::vector<RimHypothesis> rims = FindRims(points, search, random);
-  if (rims.empty())
-    return Fail(ErrorCode::kNoConvergence,
-                "nothing round of {:.0f} to {:.0f} mm radius stands in the region: draw it around "
-                "the wheel",
-                1000.0 * options.min_rim_radius_m, 1000.0 * options.max_rim_radius_m);
-  return rims;
+  return FindRims(points, search, random);
+}
+
+/// The best lever, if there is a bar at all.
+std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& split,
+                                       const RayLikelihood& likelihood,
+                                       const FitValveOptions& options) {
+  Random random(options.seed, kLevers);
+  const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
+  LeverSearchOptions search;
+  search.facing = Facing(rays, split);
+  search.tolerance_m = 1.5 * rays.sigma_m + 0.012;
+  RefineOptions refine;
+  refine.wall = split.wall;
+  std::optional<ValveCandidate> best;
+  const auto consider = [&](ValveCandidate lever) {
+    lever.log_likelihood = likelihood(lever);
+    if (!best || lever.log_likelihood > best->log_likelihood) best = lever;
+  };
+  for (const ValveCandidate& start : FindLevers(points, search, random)) {
+    consider(start);
+    consider(Refine(rays, start, refine).valve);
+  }
+  return best;
 }
 
 /// Polishes the leading candidates and puts them back in order.
@@ -135,9 +166,7 @@ Status PolishLeaders(const RayLikelihood& likelihood, std::vector<ValveCandidate
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
     valves[i] = Polish(likelihood, valves[i]);
   }
-  std::stable_sort(valves.begin(), valves.end(), [](const auto& a, const auto& b) {
-    return a.log_likelihood > b.log_likelihood;
-  });
+  SortByLikelihood(valves);
   return {};
 }
 
@@ -178,7 +207,8 @@ Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& o
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
 
   context.Report(0.1, "looking for the rim");
-  FORESIGHT_TRY(const std::vector<RimHypothesis> hypotheses, SearchRims(rays, split, options));
+  FORESIGHT_CHECK(CheckForeground(rays, split));
+  const std::vector<RimHypothesis> hypotheses = SearchRims(rays, split, options);
   const RayLikelihood likelihood(rays, split.wall);
   const RayLikelihood coarse(few_rays, split.wall);
   const std::vector<ValveCandidate> rims = FitRims(rays, split.wall, likelihood, hypotheses);
@@ -187,6 +217,13 @@ Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& o
   FORESIGHT_TRY(
       std::vector<ValveCandidate> valves,
       FindSpokes(rays, split.wall, coarse, likelihood, rims, SpokeCounts(options), context));
+  if (const auto lever = FitLever(rays, split, likelihood, options)) valves.push_back(*lever);
+  if (valves.empty())
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing round of {:.0f} to {:.0f} mm radius and no lever stands in the region: "
+                "draw it around the valve",
+                1000.0 * options.min_rim_radius_m, 1000.0 * options.max_rim_radius_m);
+  SortByLikelihood(valves);
   context.Report(0.7, "improving the pose");
   FORESIGHT_CHECK(PolishLeaders(likelihood, valves, context));
 
@@ -202,8 +239,9 @@ Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& o
   at_end.wall = split.wall;
   at_end.rounds = at_end.steps = 1;
   SetSigmas(Refine(rays, detection.best, at_end).information, detection);
-  detection.evidence = GatherEvidence(rays, detection.best);
-  detection.evidence.margin_nats = valves[0].log_likelihood - valves[1].log_likelihood;
+  detection.evidence = GatherEvidence(rays, split.wall, detection.best);
+  detection.evidence.margin_nats =
+      valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
   detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
   detection.verdict = AssessValve(rays, detection, options);
   detection.origin.seconds =

@@ -8,8 +8,13 @@ constexpr int kPasses = 2;
 
 ValveStep FirstSteps() {
   ValveStep steps;
-  steps << 0.010, 0.010, 0.010, 0.052, 0.052, 0.052, 0.010, 0.003, 0.010;
+  steps << 0.010, 0.010, 0.010, 0.052, 0.052, 0.052, 0.010, 0.003, 0.010, 0.400;
   return steps;
+}
+
+/// Whether a parameter changes nothing.
+bool Blind(const ValveModel& model, int parameter) {
+  return model.IsLever() ? parameter == kDish : parameter == kPhase && model.spokes == 0;
 }
 
 }  // namespace
@@ -20,7 +25,7 @@ ValveCandidate Polish(const RayLikelihood& likelihood, const ValveCandidate& sta
   for (int round = 0; round < kRounds; ++round, steps *= 0.5) {
     for (int pass = 0; pass < kPasses; ++pass) {
       for (int p = 0; p < kValveParameters; ++p) {
-        if (p == kPhase && best.model.spokes == 0) continue;
+        if (Blind(best.model, p)) continue;
         for (const double sign : {1.0, -1.0}) {
           ValveCandidate tried = Moved(best, sign * steps[p] * ValveStep::Unit(p));
           tried.log_likelihood = likelihood(tried);

@@ -1,20 +1,18 @@
 #include "core/fitting/valve/ray_likelihood.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/fitting/valve/valve_tracer.h"
-#include "core/fitting/wall.h"
 
 namespace foresight {
 namespace {
 
-constexpr double kUniform = 1.0 / 3.0;       // per metre: a return from anywhere within 3 m
-constexpr double kHit = 0.93;                // a ray that meets the template returns from it
-constexpr double kGrazing = 0.5;             // ... that just misses it
-constexpr double kGoodReturn = 0.9;          // ... and has no other reason to be wrong
-constexpr double kWallShare = 0.7;           // of the rays that miss
-constexpr double kTemplateError_m = 0.0045;  // no real wheel is a torus with capsules
-constexpr double kEdgeError_m = 0.00275;
+constexpr double kUniform = 1.0 / 3.0;  // per metre: a return from anywhere within 3 m
+constexpr double kHit = 0.93;           // a spot on the template returns from it
+constexpr double kGoodReturn = 0.9;     // ... and has no other reason to be wrong
+constexpr double kWallShare = 0.7;      // of the rays that miss
+constexpr double kMixing = 0.75;        // a spot on two surfaces reads in between, else one of them
 
 double NormalDensity(double error, double sigma) {
   const double ratio = error / sigma;
@@ -23,52 +21,62 @@ double NormalDensity(double error, double sigma) {
 
 }  // namespace
 
-RayLikelihood::RayLikelihood(const RaySet& rays, const std::optional<Plane>& wall) : rays_(rays) {
-  noise_.reserve(rays.rays.size());
-  const double sigma = std::hypot(rays.sigma_m, kTemplateError_m);
-  for (const RangeRay& ray : rays.rays) {
-    RayNoise noise;
-    noise.sigma_m = sigma;
-    noise.width_m = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
-    noise.background = kUniform;
+RayLikelihood::RayLikelihood(const RaySet& rays, const std::optional<Plane>& wall)
+    : rays_(rays), wall_(wall), spots_(rays, wall) {
+  backgrounds_.reserve(rays.rays.size());
+  for (std::size_t i = 0; i < rays.rays.size(); ++i) {
+    Background background;
+    background.density = kUniform;
     if (wall)
-      noise.background = kWallShare * NormalDensity(ray.range_m - RangeToPlane(ray, *wall), sigma) +
-                         (1.0 - kWallShare) * kUniform;
-    noise.log_background = std::log(noise.background);
-    noise_.push_back(noise);
+      background.density =
+          kWallShare * NormalDensity(rays.rays[i].range_m - spots_.WallRange(i), spots_.Sigma()) +
+          (1.0 - kWallShare) * kUniform;
+    background.log_density = std::log(background.density);
+    background.reach_m = spots_.Reach(i);
+    backgrounds_.push_back(background);
   }
+}
+
+double RayLikelihood::DensityOn(std::size_t i, const ExpectedRange& expected) const {
+  const double range_m = rays_.rays[i].range_m;
+  const double background = backgrounds_[i].density;
+  if (expected.gap_m <= 0.0) {
+    // The stronger of two returns is reported: that of the larger part of the spot.
+    const double hit = kHit * std::clamp(1.5 * expected.share - 0.1, 0.0, 1.0);
+    const double on_valve =
+        kGoodReturn * NormalDensity(range_m - expected.range_m, expected.sigma_m) +
+        (1.0 - kGoodReturn) * kUniform;
+    return hit * on_valve + (1.0 - hit) * background;
+  }
+  const double between = NormalDensity(range_m - expected.range_m, expected.sigma_m);
+  const double either =
+      expected.share * NormalDensity(range_m - expected.valve_m, spots_.Sigma()) +
+      (1.0 - expected.share) * NormalDensity(range_m - spots_.WallRange(i), spots_.Sigma());
+  // From the share of good returns beside the template to that on it, without a step.
+  const double good = kWallShare + (kHit * kGoodReturn - kWallShare) * expected.share;
+  const double missed = (1.0 - kHit) * expected.share;
+  return good * (kMixing * between + (1.0 - kMixing) * either) + missed * background +
+         (1.0 - good - missed) * kUniform;
 }
 
 double RayLikelihood::operator()(const ValveCandidate& valve, ValveParts parts) const {
   const ValveTracer tracer(valve, parts);
   double sum = 0.0;
-  for (std::size_t i = 0; i < noise_.size(); ++i) {
+  for (std::size_t i = 0; i < backgrounds_.size(); ++i) {
     const RangeRay& ray = rays_.rays[i];
-    const RayNoise& noise = noise_[i];
-    const double reach = 4.0 * noise.width_m;
-    if (!tracer.Near(ray, reach)) {
-      sum += noise.log_background;
-      continue;
+    double log_density = backgrounds_[i].log_density;
+    if (tracer.Near(ray, backgrounds_[i].reach_m)) {
+      const ExpectedRange expected = spots_.Expect(i, tracer.Meet(ray), valve.brightness);
+      if (expected.share > 0.0) log_density = std::log(DensityOn(i, expected));
     }
-    const ValveMeeting meeting = tracer.Meet(ray);
-    const double clearance = meeting.Clearance();
-    if (clearance > reach) {
-      sum += noise.log_background;
-      continue;
-    }
-    const double ratio = clearance / noise.width_m;
-    const double hit = clearance <= 0.0 ? kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
-    const double on_valve =
-        kGoodReturn * NormalDensity(ray.range_m - meeting.Range(), noise.sigma_m) +
-        (1.0 - kGoodReturn) * kUniform;
-    sum += std::log(hit * on_valve + (1.0 - hit) * noise.background);
+    sum += log_density;
   }
-  return rays_.samples_per_ray * sum + LogPrior(valve.model);
+  return rays_.samples_per_ray * sum + LogPrior(valve, wall_);
 }
 
 double RayLikelihood::Nothing() const {
   double sum = 0.0;
-  for (const RayNoise& noise : noise_) sum += noise.log_background;
+  for (const Background& background : backgrounds_) sum += background.log_density;
   return rays_.samples_per_ray * sum;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fitting/ray_set.h"
+#include "core/fitting/valve/beam_spots.h"
 #include "core/fitting/valve/valve_state.h"
 #include "core/geometry/plane.h"
 
@@ -12,8 +13,8 @@ namespace foresight {
 /// How well a valve explains every ray of a region: those that should meet it, and those that went
 /// past or through it. The same rays score every template, so scores compare directly.
 ///
-/// A ray that meets the template returns its range (or something nearer, or nonsense) with
-/// probability 0.93; one that passes at a distance may have touched it with its footprint; all
+/// A beam whose spot lies on the template returns its range (or something nearer, or nonsense) with
+/// probability 0.93; a spot that is half on the wall returns a range in between, or either one; all
 /// others return the wall or anything. Points alone could not tell: more spokes always explain more
 /// of them, and a template hanging in empty space costs nothing.
 class RayLikelihood {
@@ -27,15 +28,19 @@ class RayLikelihood {
   double Nothing() const;
 
  private:
-  struct RayNoise {
-    double sigma_m = 0.0;     ///< of the range, with the template's own inaccuracy
-    double width_m = 0.0;     ///< how far beside the ray its footprint still touches
-    double background = 0.0;  ///< density of the measured range without a valve
-    double log_background = 0.0;
+  /// Density of the measured range of a ray without a valve.
+  struct Background {
+    double density = 0.0;
+    double log_density = 0.0;
+    double reach_m = 0.0;  ///< a valve further from the ray than this changes nothing
   };
 
+  double DensityOn(std::size_t i, const ExpectedRange& expected) const;
+
   const RaySet& rays_;
-  std::vector<RayNoise> noise_;
+  std::optional<Plane> wall_;
+  BeamSpots spots_;
+  std::vector<Background> backgrounds_;
 };
 
 }  // namespace foresight

@@ -3,26 +3,25 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
-#include "core/fitting/valve/valve_tracer.h"
-#include "core/fitting/wall.h"
+#include "core/fitting/valve/beam_spots.h"
 
 namespace foresight {
 namespace {
 
-constexpr double kCauchyScale2 = 4.0;   // of the squared pair of residuals: 2 sigma
-constexpr double kGate = 2.5;           // sigmas of range within which a ray saw the template
-constexpr double kEdgeError_m = 0.004;  // across the ray, added to half the footprint
-constexpr double kStep = 1e-5;          // of the numeric derivative, metres and radians
-constexpr int kPriors = 2;
+constexpr double kCauchyScale2 = 4.0;  // of the squared pair of residuals: 2 sigma
+constexpr double kGate = 2.5;          // sigmas of range within which a ray saw the template
+constexpr double kStep = 1e-5;         // of the numeric derivative, metres and radians
+constexpr int kPriors = 4;
+
+constexpr double kLeastShare = 0.5;  // of the spot of a ray that saw the template
 
 /// What a ray says about the template while a round lasts.
 enum class Role { kSurface, kFree, kNothing };
 
 struct RoledRay {
-  const RangeRay* ray;
+  std::size_t index;
   Role role;
 };
 
@@ -38,12 +37,12 @@ double StepTowardsUsual(const ValveModel& model, int parameter) {
 class Problem {
  public:
   Problem(const RaySet& rays, const RefineOptions& options)
-      : rays_(rays), options_(options), sigma_m_(std::hypot(rays.sigma_m, kEdgeError_m)) {
+      : rays_(rays), options_(options), spots_(rays, options.wall) {
     const std::size_t stride = std::max<std::size_t>(
         1, (rays.rays.size() + static_cast<std::size_t>(options.max_rays) - 1) /
                static_cast<std::size_t>(options.max_rays));
     for (std::size_t i = 0; i < rays.rays.size(); i += stride)
-      roled_.push_back({&rays.rays[i], Role::kNothing});
+      roled_.push_back({i, Role::kNothing});
     weight_ = std::min(1.0, rays.samples_per_ray) * static_cast<double>(rays.rays.size()) /
               static_cast<double>(roled_.size());
   }
@@ -51,9 +50,16 @@ class Problem {
   void AssignRoles(const ValveCandidate& valve) {
     const ValveTracer tracer(valve, options_.parts);
     for (RoledRay& roled : roled_) {
-      const double behind = roled.ray->range_m - tracer.Meet(*roled.ray).middle_m;
-      const double gate_m = std::min(kGate * sigma_m_, RangeFromWall(*roled.ray));
-      roled.role = std::abs(behind) < gate_m             ? Role::kSurface
+      const double range_m = rays_.rays[roled.index].range_m;
+      const ValveMeeting meeting = tracer.Meet(rays_.rays[roled.index]);
+      const ExpectedRange expected = spots_.Expect(roled.index, meeting, valve.brightness);
+      const double behind = range_m - meeting.middle_m;
+      // A range nearer to the wall's than to the template's says nothing of the template.
+      const double from_wall = std::abs(range_m - spots_.WallRange(roled.index));
+      const bool on_template = std::abs(behind) < std::min(kGate * spots_.Sigma(), from_wall);
+      const bool between = expected.share > kLeastShare && expected.gap_m > 0.0 &&
+                           std::abs(range_m - expected.range_m) < kGate * expected.sigma_m;
+      roled.role = on_template || between                ? Role::kSurface
                    : behind > 0.0 && options_.free_space ? Role::kFree
                                                          : Role::kNothing;
     }
@@ -66,10 +72,13 @@ class Problem {
     for (Eigen::Index i = 0; i < std::ssize(roled_); ++i) {
       const RoledRay& roled = roled_[static_cast<std::size_t>(i)];
       if (roled.role == Role::kNothing) continue;
-      const ValveMeeting meeting = tracer.Meet(*roled.ray);
-      const double lateral_m = kEdgeError_m + 0.5 * rays_.footprint_rad * roled.ray->range_m;
+      const RangeRay& ray = rays_.rays[roled.index];
+      const ValveMeeting meeting = tracer.Meet(ray);
+      const double lateral_m = spots_.HalfWidth(roled.index, meeting.across);
       if (roled.role == Role::kSurface) {
-        residuals[2 * i] = (roled.ray->range_m - meeting.Range()) / sigma_m_;
+        const ExpectedRange expected =
+            spots_.Expect(roled.index, meeting, valve.brightness, kLeastShare);
+        residuals[2 * i] = (ray.range_m - expected.range_m) / expected.sigma_m;
         residuals[2 * i + 1] = std::max(0.0, meeting.Clearance()) / lateral_m;
       } else {
         residuals[2 * i] = std::max(0.0, -meeting.Clearance()) / lateral_m;
@@ -77,7 +86,9 @@ class Problem {
     }
     residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
                                      ValvePrior::kTubeRadiusSigma_m,
-        (valve.model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m;
+        (valve.model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m,
+        LeverTilt(valve, options_.wall) / ValvePrior::kLeverTiltSigma_rad,
+        std::log(valve.brightness) / ValvePrior::kBrightnessSigma;
     return residuals;
   }
 
@@ -112,15 +123,9 @@ class Problem {
   }
 
  private:
-  /// How far a measured range is from the wall's, along the ray.
-  double RangeFromWall(const RangeRay& ray) const {
-    if (!options_.wall) return std::numeric_limits<double>::infinity();
-    return std::abs(ray.range_m - RangeToPlane(ray, *options_.wall));
-  }
-
   const RaySet& rays_;
   const RefineOptions& options_;
-  double sigma_m_;
+  BeamSpots spots_;
   std::vector<RoledRay> roled_;
   double weight_ = 1.0;  ///< measurements that one used ray stands for
 };

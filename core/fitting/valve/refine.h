@@ -10,12 +10,11 @@ namespace foresight {
 
 struct RefineOptions {
   ValveParts parts = ValveParts::kAll;
-  std::optional<Plane>
-      wall;  ///< a range nearer to it than to the template says nothing of the template
-  bool free_space = true;  ///< rays that went through the template push it away
-  int max_rays = 500;      ///< thinned evenly
-  int rounds = 4;          ///< of deciding what each ray saw
-  int steps = 4;           ///< of Levenberg-Marquardt in a round
+  std::optional<Plane> wall;  ///< behind the valve
+  bool free_space = true;     ///< rays that went through the template push it away
+  int max_rays = 500;         ///< thinned evenly
+  int rounds = 4;             ///< of deciding what each ray saw
+  int steps = 4;              ///< of Levenberg-Marquardt in a round
 };
 
 struct RefinedValve {
@@ -23,7 +22,7 @@ struct RefinedValve {
   ValveInformation information;  ///< J^T J at the end: the inverse of the covariance
 };
 
-/// Levenberg-Marquardt on all nine parameters. A ray whose range agrees with the template pulls its
+/// Levenberg-Marquardt on all parameters. A ray whose range agrees with the template pulls its
 /// surface along the ray and towards it across; a ray that ended behind the template pushes it
 /// aside. The result depends on a start within a few centimetres.
 RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const RefineOptions& options);

@@ -40,6 +40,7 @@ Result<std::vector<ValveCandidate>> FindSpokes(const RaySet& rays, const std::op
                                                const std::vector<ValveCandidate>& rims,
                                                const std::vector<int>& spoke_counts,
                                                const RunContext& context) {
+  if (rims.empty()) return std::vector<ValveCandidate>();
   const int jobs = static_cast<int>(rims.size() * spoke_counts.size());
   std::vector<ValveCandidate> refined(static_cast<std::size_t>(jobs));
   RefineOptions refine;

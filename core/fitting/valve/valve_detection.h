@@ -31,6 +31,9 @@ struct ValveCandidate {
   Rigid<frame::Base, frame::Object> base_from_object;
   ValveModel model;
   double log_likelihood = 0.0;
+  /// How strongly the valve returns light compared with the wall: a beam on both reads a range
+  /// nearer to the brighter one.
+  double brightness = 1.0;
 };
 
 /// A fitted valve.

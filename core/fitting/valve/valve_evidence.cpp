@@ -7,14 +7,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fitting/valve/valve_tracer.h"
+#include "core/fitting/valve/beam_spots.h"
 
 namespace foresight {
 namespace {
 
 constexpr int kBins = 24;
 constexpr double kAgreeSigmas = 3.0;
-constexpr double kTemplateError_m = 0.0045;
+constexpr double kMetShare = 0.5;
 constexpr double kMaxPhaseSigma_rad = 0.15;
 
 /// Of the rays that meet one part, those whose range agrees.
@@ -28,7 +28,8 @@ struct PartSupport {
 /// Of the rays that cross the plane z = 0 inside the rim (beside a lever: within half its length of
 /// its middle) and touch nothing of the valve, the share that ends there all the same: a valve is
 /// open, a box or a ball is not.
-double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveTracer& tracer) {
+double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveTracer& tracer,
+                   const BeamSpots& spots) {
   const ValveModel& model = valve.model;
   const Eigen::Vector3d axis = valve.base_from_object.Rotate(Eigen::Vector3d::UnitZ());
   const double reach = model.IsLever() ? 0.5 * model.lever_length_m + 4.0 * model.tube_radius_m
@@ -38,13 +39,14 @@ double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveT
       Eigen::Vector3d(model.IsLever() ? 0.5 * model.lever_length_m : 0.0, 0.0, 0.0);
   int gaps = 0;
   int blocked = 0;
-  for (const RangeRay& ray : rays.rays) {
+  for (std::size_t i = 0; i < rays.rays.size(); ++i) {
+    const RangeRay& ray = rays.rays[i];
     const double closing = -axis.dot(ray.direction);
     if (closing < 0.1) continue;
     const double crossing_m = axis.dot(ray.origin - middle) / closing;
     const Eigen::Vector3d crossing = ray.origin + crossing_m * ray.direction;
     if ((crossing - middle).norm() > reach) continue;
-    if (tracer.Meet(ray).Clearance() < rays.footprint_rad * ray.range_m) continue;
+    if (tracer.Meet(ray).Clearance() < spots.Reach(i)) continue;
     ++gaps;
     if (ray.range_m < crossing_m + rays.sigma_m) ++blocked;
   }
@@ -60,9 +62,10 @@ int BinOf(const ValveMeeting& meeting, const ValveModel& model) {
 
 }  // namespace
 
-ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve) {
+ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wall,
+                             const ValveCandidate& valve) {
   const ValveTracer tracer(valve, ValveParts::kAll);
-  const double agree_m = kAgreeSigmas * std::hypot(rays.sigma_m, kTemplateError_m);
+  const BeamSpots spots(rays, wall);
   const ValvePart outline = valve.model.IsLever() ? ValvePart::kLever : ValvePart::kRim;
   ValveEvidence evidence;
   std::bitset<kBins> covered;
@@ -70,13 +73,16 @@ ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve) {
   int agreeing = 0;
   int behind = 0;
   double square_sum = 0.0;
-  for (const RangeRay& ray : rays.rays) {
+  for (std::size_t i = 0; i < rays.rays.size(); ++i) {
+    const RangeRay& ray = rays.rays[i];
     ++evidence.rays;
     if (!tracer.Near(ray, 0.0)) continue;
     const ValveMeeting meeting = tracer.Meet(ray);
-    if (meeting.Clearance() >= 0.0) continue;
+    const ExpectedRange expected = spots.Expect(i, meeting, valve.brightness);
+    if (meeting.Clearance() >= 0.0 || expected.share < kMetShare) continue;
     ++evidence.hits;
-    const double error = ray.range_m - meeting.Range();
+    const double error = ray.range_m - expected.range_m;
+    const double agree_m = kAgreeSigmas * expected.sigma_m;
     const bool agrees = std::abs(error) <= agree_m;
     if (error > agree_m) ++behind;
     if (meeting.part == ValvePart::kSpoke) {
@@ -92,7 +98,7 @@ ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve) {
   const double hits = std::max(1, evidence.hits);
   evidence.inlier_share = agreeing / hits;
   evidence.see_through = behind / hits;
-  evidence.blocked_gaps = BlockedGaps(rays, valve, tracer);
+  evidence.blocked_gaps = BlockedGaps(rays, valve, tracer, spots);
   evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
   evidence.arc_coverage = static_cast<double>(covered.count()) / kBins;
   evidence.weakest_spoke = 1.0;

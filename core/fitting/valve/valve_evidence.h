@@ -1,15 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/fitting/ray_set.h"
 #include "core/fitting/valve/valve_state.h"
+#include "core/geometry/plane.h"
 
 namespace foresight {
 
-/// What the rays of a region say about a valve. The two likelihoods are left at 0.
-ValveEvidence GatherEvidence(const RaySet& rays, const ValveCandidate& valve);
+/// What the rays of a region say about a valve before a wall. A ray meets it where half of its spot
+/// lies on it. The two likelihoods are left at 0.
+ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wall,
+                             const ValveCandidate& valve);
 
 /// Fills the covariance and the deviations of a detection from the information of its best
 /// candidate. A direction that no ray sees has a deviation of about a turn or a metre; the phase of

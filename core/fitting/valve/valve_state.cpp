@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSpokePerTube = 0.67;
 constexpr double kHubPerRim = 0.20;
+constexpr double kLeverHubPerTube = 2.0;
 
 double Squared(double value) {
   return value * value;
@@ -27,6 +28,16 @@ ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, dou
   return model;
 }
 
+ValveModel UsualLever(double length_m, double tube_radius_m) {
+  ValveModel model;
+  model.kind = ValveModel::Kind::kLever;
+  model.lever_length_m = std::clamp(length_m, 0.060, 0.450);
+  model.tube_radius_m = std::clamp(tube_radius_m, 0.005, 0.025);
+  model.hub_radius_m = kLeverHubPerTube * model.tube_radius_m;
+  model.spokes = 0;
+  return model;
+}
+
 ValveCandidate Moved(const ValveCandidate& valve, const ValveStep& step) {
   const Eigen::Quaterniond& rotation = valve.base_from_object.rotation();
   const Eigen::Vector3d turn = step.segment<3>(kTiltX);
@@ -35,20 +46,35 @@ ValveCandidate Moved(const ValveCandidate& valve, const ValveStep& step) {
       angle > 0.0 ? rotation * Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle))
                   : rotation;
   const ValveModel& model = valve.model;
+  const double tube_radius_m = model.tube_radius_m + step[kTubeRadius];
   return {Rigid<frame::Base, frame::Object>(
               turned, valve.base_from_object.translation() + rotation * step.segment<3>(kMoveX)),
-          UsualValve(model.rim_radius_m + step[kRimRadius], model.tube_radius_m + step[kTubeRadius],
-                     model.spokes, model.dish_m + step[kDish]),
-          valve.log_likelihood};
+          model.IsLever() ? UsualLever(model.lever_length_m + step[kRimRadius], tube_radius_m)
+                          : UsualValve(model.rim_radius_m + step[kRimRadius], tube_radius_m,
+                                       model.spokes, model.dish_m + step[kDish]),
+          valve.log_likelihood,
+          std::clamp(valve.brightness * std::exp(step[kBrightness]), 0.1, 10.0)};
 }
 
-double LogPrior(const ValveModel& model) {
-  return -0.5 * Squared((model.tube_radius_m - ValvePrior::kTubeRadius_m) /
-                        ValvePrior::kTubeRadiusSigma_m) -
-         0.5 * Squared((model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m);
+double LeverTilt(const ValveCandidate& valve, const std::optional<Plane>& wall) {
+  if (!wall || !valve.model.IsLever()) return 0.0;
+  return valve.base_from_object.Rotate(Eigen::Vector3d::UnitY()).dot(wall->normal);
+}
+
+double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall) {
+  const ValveModel& model = valve.model;
+  const double tube =
+      (model.tube_radius_m - ValvePrior::kTubeRadius_m) / ValvePrior::kTubeRadiusSigma_m;
+  const double common =
+      Squared(tube) + Squared(std::log(valve.brightness) / ValvePrior::kBrightnessSigma);
+  const double own = model.IsLever()
+                         ? Squared(LeverTilt(valve, wall) / ValvePrior::kLeverTiltSigma_rad)
+                         : Squared((model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m);
+  return -0.5 * (common + own);
 }
 
 ValveCandidate WithUpwardSpoke(const ValveCandidate& valve) {
+  if (valve.model.IsLever()) return valve;
   const auto& pose = valve.base_from_object;
   const Eigen::Vector3d up = pose.rotation().conjugate() * Eigen::Vector3d(0.0, -1.0, 0.0);
   double turn = std::atan2(up.y(), up.x());

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "core/fitting/valve/valve_detection.h"
+#include "core/geometry/plane.h"
 
 namespace foresight {
 
@@ -14,9 +16,10 @@ enum ValveParameter {
   kTiltX,
   kTiltY,
   kPhase,
-  kRimRadius,
+  kRimRadius,  ///< or a lever's length
   kTubeRadius,
-  kDish,
+  kDish,        ///< a lever has none
+  kBrightness,  ///< its logarithm
   kValveParameters
 };
 using ValveStep = Eigen::Matrix<double, kValveParameters, 1>;
@@ -31,16 +34,26 @@ struct ValvePrior {
   static constexpr double kTubeRadiusSigma_m = 0.004;
   static constexpr double kDish_m = 0.020;
   static constexpr double kDishSigma_m = 0.050;
+  static constexpr double kBrightnessSigma = 0.4;  ///< of the logarithm
+  /// A straight bar looks the same turned about itself: its axis is taken to be the wall's normal.
+  static constexpr double kLeverTiltSigma_rad = 0.03;
 };
 
 /// A valve of usual proportions: spokes thinner than the rim's tube, a hub of a fifth of the rim.
 ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, double dish_m);
 
+/// A lever of usual proportions.
+ValveModel UsualLever(double length_m, double tube_radius_m);
+
 /// The valve after a step. Radii and dish stay within what is built.
 ValveCandidate Moved(const ValveCandidate& valve, const ValveStep& step);
 
+/// Sine of the angle by which a lever is turned about its bar from the wall's normal; 0 without a
+/// wall, and for a wheel.
+double LeverTilt(const ValveCandidate& valve, const std::optional<Plane>& wall);
+
 /// Log of the prior's density, without its constant.
-double LogPrior(const ValveModel& model);
+double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall);
 
 /// The same wheel with x along the spoke that points most nearly up (-y of base), so that a fit's
 /// answer does not jump between equivalent spokes.

@@ -10,23 +10,33 @@ namespace {
 // A ray along a tube would enter it infinitely early; real spokes are short.
 constexpr double kMaxStretch = 3.0;
 
-/// The ray's closest approach to a point of a middle line that runs along `tangent` there.
+/// The ray's closest approach to a point of a middle line that runs along `tangent` there; a point
+/// of a sphere or an end has none.
 ValveMeeting Approach(ValvePart part, const Eigen::Vector3d& origin,
                       const Eigen::Vector3d& direction, const Eigen::Vector3d& point,
-                      double cosine_to_line, double radius) {
+                      const Eigen::Vector3d& tangent, double radius) {
   ValveMeeting meeting;
   meeting.part = part;
   meeting.radius_m = radius;
   meeting.middle_m = (point - origin).dot(direction);
-  meeting.offset_m = (origin + meeting.middle_m * direction - point).norm();
-  const double sine2 = 1.0 - cosine_to_line * cosine_to_line;
+  const Eigen::Vector3d offset = origin + meeting.middle_m * direction - point;
+  meeting.offset_m = offset.norm();
+  const double cosine = tangent.dot(direction);
+  const double sine2 = 1.0 - cosine * cosine;
+  const Eigen::Vector3d across = tangent.cross(direction);
+  const double length = across.norm();
+  if (length > 1e-3)
+    meeting.across = across / length;
+  else if (meeting.offset_m > 1e-9)
+    meeting.across = offset / meeting.offset_m;
   meeting.stretch = 1.0 / std::sqrt(std::max(sine2, 1.0 / (kMaxStretch * kMaxStretch)));
   return meeting;
 }
 
 /// Where along a line (point, unit direction) it is closest to a ray.
 double ClosestAlongLine(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                        const Eigen::Vector3d& point, const Eigen::Vector3d& along, double cosine) {
+                        const Eigen::Vector3d& point, const Eigen::Vector3d& along) {
+  const double cosine = along.dot(direction);
   const Eigen::Vector3d from_ray = point - origin;
   const double sine2 = std::max(1.0 - cosine * cosine, 1e-6);
   return (cosine * from_ray.dot(direction) - from_ray.dot(along)) / sine2;
@@ -89,34 +99,33 @@ ValveMeeting ValveTracer::MeetRim(const LocalRay& ray) const {
       crosses ? -ray.origin.z() / ray.direction.z() : -ray.origin.dot(ray.direction);
   Eigen::Vector3d point = ray.origin + start * ray.direction;
   Eigen::Vector3d on_rim;
-  double cosine = 0.0;
+  Eigen::Vector3d tangent;
   // The circle is nearly straight over the distance of one step: two steps leave micrometres.
   for (int step = 0; step < 3; ++step) {
     const double radial = std::max(std::hypot(point.x(), point.y()), 1e-9);
     on_rim = {radius * point.x() / radial, radius * point.y() / radial, 0.0};
-    const Eigen::Vector3d tangent(-on_rim.y() / radius, on_rim.x() / radius, 0.0);
-    cosine = tangent.dot(ray.direction);
+    tangent = {-on_rim.y() / radius, on_rim.x() / radius, 0.0};
     if (step < 2)
-      point =
-          on_rim + ClosestAlongLine(ray.origin, ray.direction, on_rim, tangent, cosine) * tangent;
+      point = on_rim + ClosestAlongLine(ray.origin, ray.direction, on_rim, tangent) * tangent;
   }
   ValveMeeting meeting =
-      Approach(ValvePart::kRim, ray.origin, ray.direction, on_rim, cosine, model_.tube_radius_m);
+      Approach(ValvePart::kRim, ray.origin, ray.direction, on_rim, tangent, model_.tube_radius_m);
   meeting.azimuth_rad = std::atan2(on_rim.y(), on_rim.x());
   return meeting;
 }
 
 ValveMeeting ValveTracer::MeetHub(const LocalRay& ray) const {
-  return Approach(ValvePart::kHub, ray.origin, ray.direction, hub_, 0.0, model_.hub_radius_m);
+  return Approach(ValvePart::kHub, ray.origin, ray.direction, hub_, Eigen::Vector3d::Zero(),
+                  model_.hub_radius_m);
 }
 
 ValveMeeting ValveTracer::MeetBar(ValvePart part, const LocalRay& ray, const Bar& bar) {
-  const double cosine = bar.direction.dot(ray.direction);
-  const double along =
-      std::clamp(ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction, cosine), 0.0,
-                 bar.length_m);
+  const double along = std::clamp(
+      ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction), 0.0, bar.length_m);
+  const bool at_end = part == ValvePart::kLever && along == bar.length_m;
+  const Eigen::Vector3d tangent = at_end ? Eigen::Vector3d::Zero() : bar.direction;
   ValveMeeting meeting = Approach(part, ray.origin, ray.direction,
-                                  bar.begin + along * bar.direction, cosine, bar.radius_m);
+                                  bar.begin + along * bar.direction, tangent, bar.radius_m);
   meeting.along_m = along;
   return meeting;
 }
@@ -162,7 +171,9 @@ ValveMeeting ValveTracer::MeetLever(const LocalRay& ray) const {
 ValveMeeting ValveTracer::Meet(const RangeRay& ray) const {
   const LocalRay local{object_from_base_ * (ray.origin - center_),
                        object_from_base_ * ray.direction};
-  return model_.IsLever() ? MeetLever(local) : MeetWheel(local);
+  ValveMeeting meeting = model_.IsLever() ? MeetLever(local) : MeetWheel(local);
+  meeting.across = object_from_base_.transpose() * meeting.across;
+  return meeting;
 }
 
 }  // namespace foresight

@@ -14,10 +14,12 @@ enum class ValvePart { kRim, kHub, kSpoke, kDisc, kLever, kStem };
 /// is a tube of some radius around its middle line.
 struct ValveMeeting {
   ValvePart part = ValvePart::kRim;
-  double middle_m = 0.0;     ///< range at which the ray is closest to the middle line
-  double offset_m = 0.0;     ///< how close that is
-  double radius_m = 0.0;     ///< of the tube
-  double stretch = 1.0;      ///< 1 / sine of the angle between ray and middle line
+  double middle_m = 0.0;  ///< range at which the ray is closest to the middle line
+  double offset_m = 0.0;  ///< how close that is
+  double radius_m = 0.0;  ///< of the tube
+  double stretch = 1.0;   ///< 1 / sine of the angle between ray and middle line
+  /// In base, length 1: across both ray and middle line. 0 for a disc, which has no sides.
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
   double azimuth_rad = 0.0;  ///< of the closest point of a rim, in the object's frame
   double along_m = 0.0;      ///< of the closest point of a spoke, lever or stem, from its beginning
   int spoke = 0;             ///< which one

@@ -7,11 +7,11 @@ namespace foresight {
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
 ///
-/// The probability is a logistic function of the evidence; its weights are provisional, set on
-/// synthetic views (tests/core/fitting) until they are calibrated on recorded ones. Hard gates
-/// keep what no probability should: a confirmed wheel was fitted to lidar returns, has enough rays
-/// on it, is not seen through, lies near the region's centre, has spokes, no rival number of spokes
-/// close behind, and no parameter at a bound.
+/// The probability is that of the shipped verdict model of lidar returns or of dense maps. Hard
+/// gates keep what no probability should: a confirmed valve has enough measurements on it, is not
+/// seen through and open where it should be, lies near the region's centre, has spokes, no rival
+/// close behind and no size at a bound. Discs and levers are never confirmed: too many things are
+/// round or straight. See-through beyond a quarter, or a rim out of range, is never even likely.
 Verdict AssessValve(const RaySet& rays, const ValveDetection& detection,
                     const FitValveOptions& options);
 

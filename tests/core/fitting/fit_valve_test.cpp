@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/geometry/angles.h"
@@ -58,6 +59,75 @@ TEST(FitValve, ADiscHasNoPhase) {
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->best.model.spokes, 0);
   EXPECT_FALSE(found->phase_observable);
+  EXPECT_TRUE(std::isnan(found->covariance(5, 5)));
+}
+
+TEST(FitValve, ALeverIsFoundByItsPivot) {
+  ValveView view;
+  view.model.kind = ValveModel::Kind::kLever;
+  view.model.lever_length_m = 0.22;
+  view.model.tube_radius_m = 0.014;
+  view.model.hub_radius_m = 0.028;
+  view.pipe = false;
+  view.distance_m = 1.1;
+  view.half_angle_rad = 0.27;
+  view.sigma_m = 0.006;
+  const ValveScene scene = MakeValveScene(view);
+  const auto found = FitValve(scene.rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_TRUE(found->best.model.IsLever());
+  const ValveError error = CompareValves(found->best, scene.truth);
+  EXPECT_LT(error.center_m, 0.020);
+  EXPECT_LT(DegreesFromRadians(error.axis_rad), 5.0);
+  EXPECT_NEAR(found->best.model.lever_length_m, 0.22, 0.020);
+  // Any bar looks like a lever.
+  EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed);
+}
+
+TEST(FitValve, ASmallWheelIsFoundUpClose) {
+  ValveView view = RandomValveView(4);
+  view.model = ValveModel{0.050, 0.008, 4, 0.006, 0.012, 0.005};
+  view.distance_m = 0.7;
+  view.view_rad = 0.2;
+  view.sigma_m = 0.005;
+  view.line_spacing_rad = 0.0044;
+  const ValveScene scene = MakeValveScene(view);
+  const auto found = FitValve(scene.rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  const ValveError error = CompareValves(found->best, scene.truth);
+  EXPECT_LT(error.center_m, 0.010);
+  EXPECT_LT(error.radius_m, 0.006);
+}
+
+TEST(FitValve, ItsCovarianceHoldsWhatItsSigmasSay) {
+  const ValveScene scene = MakeValveScene(RandomValveView(3));
+  const auto found = FitValve(scene.rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  ASSERT_TRUE(found->covariance.allFinite());
+  EXPECT_TRUE(found->covariance.isApprox(found->covariance.transpose(), 1e-6));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(std::sqrt(found->covariance(i, i)), found->sigma_position_m[i], 1e-12);
+  EXPECT_NEAR(std::sqrt(found->covariance(5, 5)), found->sigma_phase_rad, 1e-12);
+}
+
+TEST(FitValve, RaysThatEndAnywhereAreNoValve) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    RaySet rays = MakeValveScene(RandomValveView(seed)).rays;
+    Random random(seed);
+    for (RangeRay& ray : rays.rays) ray.range_m = random.Uniform(0.8, 2.0);
+    const auto found = FitValve(rays, {}, {});
+    if (found) {
+      EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->verdict.reason;
+    }
+  }
+}
+
+TEST(FitValve, ThreeReturnsAreNotEnough) {
+  RaySet rays = MakeValveScene(RandomValveView(1)).rays;
+  rays.rays.resize(3);
+  const auto found = FitValve(rays, {}, {});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kTooFewPoints);
 }
 
 TEST(FitValve, AFlatWallIsNoValve) {

@@ -1,0 +1,108 @@
+#include "core/fitting/valve/beam_spots.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/fitting/wall.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kTemplateError_m = 0.0045;  // no real wheel is a torus with capsules
+constexpr double kEdgeError_m = 0.00275;
+constexpr double kPulse_m = 0.5;            // surfaces closer than this merge into one return
+constexpr double kShareError = 0.08;        // of the part of a spot that lies on the valve
+constexpr double kBrightnessSpread = 0.15;  // of the logarithm, over one valve
+
+/// Normals of the planes that scan lines lie in: two beams of a line span it.
+std::map<int, Eigen::Vector3d> LineNormals(const RaySet& set) {
+  std::map<int, const RangeRay*> first;
+  std::map<int, Eigen::Vector3d> widest;
+  for (const RangeRay& ray : set.rays) {
+    const auto [entry, is_first] = first.emplace(ray.cell.y(), &ray);
+    if (is_first) continue;
+    const RangeRay& other = *entry->second;
+    const double side = ray.cell.x() > other.cell.x() ? 1.0 : -1.0;
+    const Eigen::Vector3d normal = side * other.direction.cross(ray.direction);
+    Eigen::Vector3d& best = widest.try_emplace(ray.cell.y(), Eigen::Vector3d::Zero()).first->second;
+    if (normal.squaredNorm() > best.squaredNorm()) best = normal;
+  }
+  return widest;
+}
+
+/// Integral of sqrt(1 - x^2) from 0 to x.
+double CircleArea(double x) {
+  x = std::clamp(x, -1.0, 1.0);
+  return 0.5 * (x * std::sqrt(1.0 - x * x) + std::asin(x));
+}
+
+}  // namespace
+
+BeamSpots::BeamSpots(const RaySet& rays, const std::optional<Plane>& wall)
+    : rays_(rays), sigma_m_(std::hypot(rays.sigma_m, kTemplateError_m)) {
+  const bool on_lines =
+      rays.spot_height_rad > 0.0 && !rays.rays.empty() && rays.rays.front().cell.x() >= 0;
+  const std::map<int, Eigen::Vector3d> normals =
+      on_lines ? LineNormals(rays) : std::map<int, Eigen::Vector3d>();
+  Eigen::Vector3d usual = Eigen::Vector3d::Zero();
+  for (const auto& [line, normal] : normals) usual += normal;
+  spots_.resize(rays.rays.size());
+  for (std::size_t i = 0; i < spots_.size(); ++i) {
+    const RangeRay& ray = rays.rays[i];
+    if (wall) spots_[i].wall_m = RangeToPlane(ray, *wall);
+    Eigen::Vector3d normal = usual;
+    if (const auto own = normals.find(ray.cell.y()); own != normals.end()) normal = own->second;
+    if (!(normal.norm() > 0.0)) continue;
+    normal.normalize();
+    spots_[i].across_line = 0.5 * rays.spot_height_rad * normal;
+    spots_[i].along_line = 0.5 * rays.footprint_rad * normal.cross(ray.direction);
+  }
+}
+
+double BeamSpots::HalfWidth(std::size_t i, const Eigen::Vector3d& across) const {
+  const Spot& spot = spots_[i];
+  const double range_m = rays_.rays[i].range_m;
+  if (spot.across_line.isZero())
+    return std::hypot(0.5 * rays_.footprint_rad * range_m, kEdgeError_m);
+  // As wide as an even spot of the same variance.
+  const Eigen::Vector2d half(spot.along_line.dot(across), spot.across_line.dot(across));
+  return std::hypot(range_m * half.norm(), kEdgeError_m);
+}
+
+double BeamSpots::Reach(std::size_t i) const {
+  const double widest = rays_.footprint_rad + rays_.spot_height_rad;
+  return 0.5 * widest * rays_.rays[i].range_m + kEdgeError_m;
+}
+
+ExpectedRange BeamSpots::Expect(std::size_t i, const ValveMeeting& meeting, double brightness,
+                                double least_share) const {
+  ExpectedRange expected{0.0, meeting.Range(), sigma_m_, meeting.Range(), 0.0};
+  if (meeting.part == ValvePart::kDisc) {
+    expected.share = 1.0;
+    return expected;
+  }
+  const double half = HalfWidth(i, meeting.across);
+  const double low = std::max(-meeting.radius_m, meeting.offset_m - half);
+  const double high = std::min(meeting.radius_m, meeting.offset_m + half);
+  if (high > low) {
+    expected.share = (high - low) / (2.0 * half);
+    // The mean depth of the covered part of the round front.
+    const double r = meeting.radius_m;
+    const double front = r * r * (CircleArea(high / r) - CircleArea(low / r)) / (high - low);
+    expected.valve_m = expected.range_m = meeting.middle_m - meeting.stretch * front;
+  }
+  expected.share = std::max(expected.share, least_share);
+  const double gap = spots_[i].wall_m - expected.range_m;
+  if (!(gap > 0.0) || gap > kPulse_m || expected.share <= 0.0) return expected;
+  const double light = brightness * expected.share;
+  const double beside = (1.0 - expected.share) / (light + 1.0 - expected.share);
+  expected.gap_m = gap;
+  expected.range_m += beside * gap;
+  const double unsure = std::min(beside, kShareError) + kBrightnessSpread * beside * (1.0 - beside);
+  expected.sigma_m = std::hypot(sigma_m_, gap * unsure);
+  return expected;
+}
+
+}  // namespace foresight

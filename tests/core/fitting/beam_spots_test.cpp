@@ -1,0 +1,79 @@
+#include "core/fitting/valve/beam_spots.h"
+
+#include <gtest/gtest.h>
+
+namespace foresight {
+namespace {
+
+/// Two beams of one scan line from the origin, their spot 10 mm along the line and 24 mm across it
+/// at 2 m; a wall 150 mm behind.
+class BeamSpotsAtTwoMetres : public ::testing::Test {
+ protected:
+  BeamSpotsAtTwoMetres() {
+    rays_.footprint_rad = 0.005;
+    rays_.spot_height_rad = 0.012;
+    for (int beam = 0; beam < 2; ++beam)
+      rays_.rays.push_back({Eigen::Vector3d::Zero(),
+                            Eigen::Vector3d(0.004 * beam, 0.0, 1.0).normalized(),
+                            2.0,
+                            {beam, 0}});
+  }
+
+  /// A tube that the first ray meets at 2 m.
+  static ValveMeeting Tube(double radius_m, double offset_m, const Eigen::Vector3d& across) {
+    ValveMeeting meeting;
+    meeting.middle_m = 2.0;
+    meeting.radius_m = radius_m;
+    meeting.offset_m = offset_m;
+    meeting.across = across;
+    return meeting;
+  }
+
+  RaySet rays_;
+  const Plane wall_{-Eigen::Vector3d::UnitZ(), -2.15};
+};
+
+TEST_F(BeamSpotsAtTwoMetres, AreTallerThanWide) {
+  const BeamSpots spots(rays_, wall_);
+  EXPECT_NEAR(spots.HalfWidth(0, Eigen::Vector3d::UnitX()), 0.005, 0.001);
+  EXPECT_NEAR(spots.HalfWidth(0, Eigen::Vector3d::UnitY()), 0.012, 0.001);
+  EXPECT_NEAR(spots.WallRange(0), 2.15, 1e-9);
+}
+
+TEST_F(BeamSpotsAtTwoMetres, OnAThickTubeReadItsFront) {
+  const ExpectedRange expected =
+      BeamSpots(rays_, wall_).Expect(0, Tube(0.05, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_EQ(expected.share, 1.0);
+  EXPECT_NEAR(expected.range_m, 1.95, 0.001);
+}
+
+TEST_F(BeamSpotsAtTwoMetres, OnAThinTubeReadBetweenItAndTheWall) {
+  const ExpectedRange expected =
+      BeamSpots(rays_, wall_).Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_NEAR(expected.share, 0.5, 0.03);
+  EXPECT_NEAR(expected.range_m, 2.0 + 0.075, 0.010);
+  // Nobody knows exactly how much of the spot is on it.
+  EXPECT_GT(expected.sigma_m, 1.5 * BeamSpots(rays_, wall_).Sigma());
+}
+
+TEST_F(BeamSpotsAtTwoMetres, ReadNearerToTheBrighterSurface) {
+  const BeamSpots spots(rays_, wall_);
+  const ValveMeeting tube = Tube(0.006, 0.0, Eigen::Vector3d::UnitY());
+  EXPECT_LT(spots.Expect(0, tube, 3.0).range_m, spots.Expect(0, tube, 1.0).range_m - 0.02);
+}
+
+TEST_F(BeamSpotsAtTwoMetres, BesideATubeHaveNoShareInIt) {
+  const ExpectedRange expected =
+      BeamSpots(rays_, wall_).Expect(0, Tube(0.01, 0.03, Eigen::Vector3d::UnitX()), 1.0);
+  EXPECT_EQ(expected.share, 0.0);
+}
+
+TEST_F(BeamSpotsAtTwoMetres, DoNotMixWithoutAWall) {
+  const ExpectedRange expected =
+      BeamSpots(rays_, std::nullopt).Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_EQ(expected.gap_m, 0.0);
+  EXPECT_LT(expected.range_m, 2.0);
+}
+
+}  // namespace
+}  // namespace foresight
