@@ -21,6 +21,7 @@ constexpr double kNearEdge_m = 0.010;  // support this near outside is the edge'
 constexpr double kAround_m = 0.120;
 
 // What no number of points averages away: of a plane fitted to lidar ranges or to a dense map.
+constexpr double kEdgeFloor_m = 0.010;  // where a top ends: creases and flying points shift it
 constexpr double kHeightFloor_m = 0.001;
 constexpr double kTiltFloor_rad = RadiansFromDegrees(0.15);
 constexpr double kUnknownPlace_m = 0.030;
@@ -171,7 +172,7 @@ PoseCovariance BlockCovariance(const SurfaceGrid& grid, const PlaneView& view,
       const double samples =
           std::max(1.0, grid.samples_per_point() * length / std::max(1e-4, spacing_m));
       const double variance =
-          (spacing_m * spacing_m / 12.0 + blur_m * blur_m) / samples + blur_m * blur_m / 4.0;
+          (spacing_m * spacing_m / 12.0 + blur_m * blur_m) / samples + kEdgeFloor_m * kEdgeFloor_m;
       place_information += 1.0 / variance;
       yaw_information += length * length / 12.0 / variance;
     }

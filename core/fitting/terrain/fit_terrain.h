@@ -26,7 +26,8 @@ struct FitTerrainOptions {
 /// blocks that moved since that accepted detection are marked (both in base, the robot unmoved).
 /// The same rays, options and seed give the same answer on any number of threads. A region without
 /// a block is no error: it has ground and unknown surfaces only. Fails with kTooFewPoints,
-/// kNoConvergence (no plane at all), kInvalidOptions and kCancelled. Below a second at 276 x 222.
+/// kNoConvergence (no plane at all), kInvalidInput, kInvalidOptions and kCancelled. Below a second
+/// at 276 x 222.
 Result<TerrainDetection> FitTerrain(const RaySet& rays, const FitTerrainOptions& options,
                                     const TerrainDetection* last, const RunContext& context);
 

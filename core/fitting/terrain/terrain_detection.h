@@ -26,7 +26,8 @@ struct BlockEvidence {
 struct Toehold {
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< along the surface's x and y; 0 = none
   double slope_rad = 0.0;                            ///< of the surface against level
-  /// Height of its centre above the nearest neighbouring surface's plane there; NaN = no neighbour.
+  /// Height of its centre above that of the nearest other block, within 0.7 m, else above the
+  /// ground below it; NaN = neither.
   double step_m = std::nan("");
   double sigma_height_m = 0.0;
   double sigma_tilt_rad = 0.0;
@@ -36,12 +37,14 @@ struct Toehold {
 struct TerrainSurface {
   enum class Kind {
     kBlock,    ///< the top of a block of the known size
-    kGround,   ///< level and large, or under the blocks
+    kGround,   ///< level, and nothing level that is as large as a block's top lies below it
     kUnknown,  ///< a plane that is neither; never a foothold
   };
 
   Kind kind = Kind::kUnknown;
-  /// The origin is the middle of the top, z its normal (up), x along its long side. In base.
+  /// The origin is the middle of the top, z its normal (up), x along its long side,
+  /// pointing right. Which side is the long one cannot be seen where they differ by little. In
+  /// base.
   Rigid<frame::Base, frame::Object> base_from_object;
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< along x and y
   PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));

@@ -13,6 +13,8 @@ constexpr int kMinEdges = 3;     // of a confirmed block
 constexpr int kUnsureEdges = 1;  // no more than this: UNSURE
 constexpr double kMinCover = 0.6;
 constexpr double kMaxOutside = 0.1;
+// A foot is bet on it: at 0.95, 33 of 35 blocks of raw returns were right on scenes of other seeds.
+constexpr double kSureEnough = 0.97;
 
 std::string Edges(int count) {
   static constexpr const char* kWords[] = {"no edge", "one edge", "two edges", "three edges",
@@ -89,7 +91,8 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
     verdict.probability = std::min(verdict.probability, Verdict::kConfirmed - 0.01);
   if (block.evidence.confirmed_edges <= kUnsureEdges)
     verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
-  verdict.level = LevelFor(verdict.probability, !objection.empty());
+  const bool objected = !objection.empty() || verdict.probability < kSureEnough;
+  verdict.level = LevelFor(verdict.probability, objected);
   if (!objection.empty())
     verdict.reason = objection;
   else if (verdict.level == VerdictLevel::kConfirmed)

@@ -13,8 +13,8 @@ std::vector<std::string> TerrainFeatureNames();
 
 /// How far an operator may trust a block whose pose, covariance and evidence are filled in: the
 /// probability that its centre is right within 25 mm and its normal within 2.5 deg. Never CONFIRMED
-/// with fewer than 3 confirmed edges, cover below 0.6, more than a tenth of support beyond it (it
-/// is part of something larger), or with an extent that is not a block's.
+/// below a probability of 0.97, with fewer than 3 confirmed edges, cover below 0.6, or more than a
+/// tenth of support beyond it (it is part of something larger).
 Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
                     const RectangleEvidence& evidence);
 
