@@ -4,7 +4,7 @@
 #include "app/common/simulated_site.h"
 #include "app/ctl/command.h"
 #include "app/ctl/demo_report.h"
-#include "app/ctl/save_valve.h"
+#include "app/ctl/save_detection.h"
 #include "core/depth/depth_method.h"
 #include "core/detection/fit_in_scan.h"
 #include "core/geometry/angles.h"
@@ -85,7 +85,7 @@ Result<ExitCode> Demo(const DemoArguments& arguments, const RunContext& context)
   FORESIGHT_TRY(outcome.scan, mission->LoadScan(flown.id));
   fmt::print(stderr, "computing depth and fitting the valve\n");
   FORESIGHT_CHECK(Process(*site.world, site.world->scene().valves.front(), outcome, context));
-  FORESIGHT_CHECK(SaveValve(*mission, flown.id, outcome.valve, outcome.scan.rig));
+  FORESIGHT_CHECK(SaveDetection(*mission, flown.id, outcome.valve, outcome.scan.rig));
   FORESIGHT_CHECK(mission->Close());
   FORESIGHT_CHECK(WriteHtmlReport(ReportOf(outcome), arguments.out));
   PrintOutcome(arguments, outcome);

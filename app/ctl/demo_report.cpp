@@ -3,15 +3,14 @@
 #include "core/geometry/angles.h"
 #include "core/pictures/cloud_picture.h"
 #include "core/pictures/depth_picture.h"
+#include "core/pictures/detection_picture.h"
 #include "core/pictures/draw.h"
-#include "core/pictures/projected_wireframe.h"
 #include "core/pictures/sample_picture.h"
 
 namespace foresight {
 namespace {
 
 constexpr Rgb8 kTemplate{0, 255, 200};
-constexpr Rgb8 kRegion{240, 228, 66};
 
 HtmlReport::Table ScanTable(const DemoOutcome& o) {
   const ScanPlan& plan = o.scan.plan;
@@ -104,9 +103,7 @@ ColorImage CloudPicture(const DemoOutcome& o) {
 }
 
 ColorImage WithOverlay(ColorImage picture, const DemoOutcome& o) {
-  DrawPolygon(picture, std::get<ImageRoi>(o.valve.origin.roi).polygon, kRegion, 2);
-  DrawPolylines(picture, ProjectValve(o.valve.best, o.scan.rig, o.frame.motor_angle_rad), kTemplate,
-                2);
+  DrawDetection(picture, o.valve, 0, o.scan.rig, o.frame.motor_angle_rad);
   return picture;
 }
 

@@ -1,66 +1,32 @@
 #include <memory>
 
 #include "app/ctl/command.h"
-#include "app/ctl/depth_files.h"
-#include "app/ctl/open_scan.h"
-#include "app/ctl/save_valve.h"
+#include "app/ctl/fit_gallery.h"
+#include "app/ctl/fit_subject.h"
+#include "app/ctl/save_detection.h"
 #include "core/detection/detection_json.h"
-#include "core/detection/fit_in_scan.h"
-#include "core/registration/register_scan.h"
+#include "core/detection/facts.h"
+#include "core/io/png.h"
 
 namespace foresight {
 namespace {
 
-struct FitArguments {
-  ScanArguments scan;
-  DepthArguments depth;
-  std::vector<double> roi;
-  std::string source = "raw";
-  std::uint64_t seed = 1;
-  bool save = false;
-  bool json = false;
-};
-
-/// The scan up to the point that the source needs, and the fit in it.
-Result<ValveDetection> FitIn(const FitArguments& arguments, const OpenedScan& opened,
-                             const RunContext& context) {
-  const SensorRig& rig = opened.scan.rig;
-  const double motor_rad = opened.frame.motor_angle_rad;
-  const ImageRoi roi = ImageRoi::Rectangle(motor_rad, {arguments.roi[0], arguments.roi[1]},
-                                           {arguments.roi[2], arguments.roi[3]});
-  FORESIGHT_CHECK(roi.Check());
-  FORESIGHT_TRY(const DepthOptions depth_options, DepthOptionsFrom(arguments.depth));
-  FitValveOptions options;
-  options.seed = arguments.seed;
-  FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(opened.scan, context.Part(0.0, 0.1)));
-  if (arguments.source == "raw")
-    return FitValveInScan({rig, cloud}, FitSource::kRaw, roi, options, context.Part(0.1, 1.0));
-  FORESIGHT_TRY(
-      const DepthResult depth,
-      ComputeDepthInFrame(cloud, rig, opened.frame, depth_options, context.Part(0.1, 0.6)));
-  return FitValveInScan({rig, cloud, &depth}, FitSource::kDepth, roi, options,
-                        context.Part(0.6, 1.0));
-}
-
-Status Save(const FitArguments& arguments, std::int64_t scan_id, const ValveDetection& detection,
-            const SensorRig& rig) {
+Status Save(const FitArguments& arguments, const FitSubject& subject, const Detection& detection) {
   FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
                 MissionFile::Open(arguments.scan.mission));
-  FORESIGHT_CHECK(SaveValve(*mission, scan_id, detection, rig));
+  FORESIGHT_CHECK(SaveDetection(*mission, subject.scan->id, detection, subject.rig));
   return mission->Close();
 }
 
-void PrintSummary(const ValveDetection& d, const SensorRig& rig) {
-  const Eigen::Vector3d centre = rig.robot_from_base * d.best.base_from_object.translation();
-  const Eigen::Vector3d axis =
-      rig.robot_from_base.Rotate(d.best.base_from_object.Rotate(Eigen::Vector3d::UnitZ()));
-  PrintLine(fmt::format("{} ({:.0f} %): {}", ToString(d.verdict.level),
-                        100.0 * d.verdict.probability, d.verdict.reason));
-  PrintLine(fmt::format("centre in robot  {:.1f} {:.1f} {:.1f} mm, axis {:.4f} {:.4f} {:.4f}",
-                        1000.0 * centre.x(), 1000.0 * centre.y(), 1000.0 * centre.z(), axis.x(),
-                        axis.y(), axis.z()));
-  PrintLine(fmt::format("rim diameter     {:.1f} mm, {} spokes", 2000.0 * d.best.model.rim_radius_m,
-                        d.best.model.spokes));
+void PrintSummary(const Detection& detection, const SensorRig& rig) {
+  const Verdict& verdict = VerdictOf(detection);
+  PrintLine(fmt::format("{} ({:.0f} %): {}", ToString(verdict.level), 100.0 * verdict.probability,
+                        verdict.reason));
+  const auto* terrain = std::get_if<TerrainDetection>(&detection);
+  const int parts = terrain == nullptr ? 1 : static_cast<int>(terrain->surfaces.size());
+  for (int part = 0; part < parts; ++part)
+    for (const Fact& fact : FactsOf(detection, part, rig.robot_from_base))
+      PrintLine(fmt::format("{:<15} {}", fact.name, fact.value));
 }
 
 /// There is an answer, and it is no: whoever reads JSON wants it as JSON.
@@ -68,51 +34,48 @@ bool IsNegative(const Error& error) {
   return error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kNoConvergence;
 }
 
-Result<ExitCode> FitValveCommand(const FitArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(const OpenedScan opened, OpenScan(arguments.scan));
-  const auto found = FitIn(arguments, opened, context);
-  if (!found && arguments.json && IsNegative(found.error()))
-    PrintJson({{"kind", "valve"},
+Result<ExitCode> Fit(const FitArguments& arguments, const RunContext& context) {
+  FORESIGHT_CHECK(CheckFitArguments(arguments));
+  FORESIGHT_TRY(const FitSubject subject, OpenFitSubject(arguments, context.Part(0.0, 0.1)));
+  const double all = arguments.gallery.empty() ? 1.0 : 0.3;
+  const FitAnswer answer = FitIn(subject, arguments, arguments.source, context.Part(0.1, all));
+  if (!arguments.gallery.empty())
+    FORESIGHT_CHECK(
+        WriteFitGallery(subject, arguments, answer, arguments.gallery, context.Part(all, 1.0)));
+  if (!answer.detection && arguments.json && IsNegative(answer.detection.error()))
+    PrintJson({{"kind", ToString(arguments.kind)},
                {"verdict", "UNSURE"},
                {"probability", 0.0},
-               {"reason", found.error().message}});
-  FORESIGHT_TRY(const ValveDetection detection, found);
-  if (arguments.save) FORESIGHT_CHECK(Save(arguments, opened.id, detection, opened.scan.rig));
+               {"reason", answer.detection.error().message}});
+  FORESIGHT_TRY(const Detection detection, answer.detection);
+  if (arguments.save) FORESIGHT_CHECK(Save(arguments, subject, detection));
+  if (!arguments.picture.empty())
+    FORESIGHT_CHECK(WritePng(arguments.picture, PictureOf(subject, detection)));
   if (arguments.json)
-    PrintLine(DetectionToJson(detection, opened.scan.rig.robot_from_base));
+    PrintLine(DetectionToJson(detection, subject.rig.robot_from_base));
   else
-    PrintSummary(detection, opened.scan.rig);
-  return detection.verdict.level == VerdictLevel::kUnsure ? ExitCode::kNegative : ExitCode::kDone;
+    PrintSummary(detection, subject.rig);
+  return VerdictOf(detection).level == VerdictLevel::kUnsure ? ExitCode::kNegative
+                                                             : ExitCode::kDone;
 }
 
 }  // namespace
 
 void AddFitCommand(CLI::App& app, Invocation& invocation) {
-  CLI::App* fit = app.add_subcommand("fit", "Fit a known object in a region of a scan");
+  CLI::App* fit = app.add_subcommand(
+      "fit", "Fit a known object in a region of a scan, a depth map or a point cloud");
   fit->require_subcommand(1);
-  const auto arguments = std::make_shared<FitArguments>();
-  CLI::App* valve = fit->add_subcommand("valve", "Fit a wheel valve");
-  AddScanArguments(*valve, arguments->scan);
-  AddDepthArguments(*valve, arguments->depth);
-  valve
-      ->add_option("--roi", arguments->roi,
-                   "Region in the picture: left top right bottom, in pixels")
-      ->expected(4)
-      ->delimiter(',')
-      ->required();
-  valve
-      ->add_option("--source", arguments->source,
-                   "What to fit: raw (lidar returns) or depth (masked dense depth)")
-      ->check(CLI::IsMember({"raw", "depth"}))
-      ->capture_default_str();
-  valve->add_option("--seed", arguments->seed, "Seed of the random search")->capture_default_str();
-  valve->add_flag("--save", arguments->save, "Write the answer into the mission file");
-  valve->add_flag("--json", arguments->json, "Print the answer as JSON");
-  valve->callback([&invocation, arguments] {
-    invocation = [arguments](const RunContext& context) {
-      return FitValveCommand(*arguments, context);
-    };
-  });
+  constexpr const char* kHelp[] = {"Fit a valve: a wheel or a lever", "Fit a standing drill",
+                                   "Fit blocks that can be stood on"};
+  for (const ObjectKind kind : kObjectKinds) {
+    const auto arguments = std::make_shared<FitArguments>();
+    arguments->kind = kind;
+    CLI::App* command = fit->add_subcommand(ToString(kind), kHelp[static_cast<std::size_t>(kind)]);
+    AddFitArguments(*command, *arguments);
+    command->callback([&invocation, arguments] {
+      invocation = [arguments](const RunContext& context) { return Fit(*arguments, context); };
+    });
+  }
 }
 
 }  // namespace foresight

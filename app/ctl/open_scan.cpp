@@ -18,8 +18,9 @@ Result<std::int64_t> ChooseScan(const MissionFile& mission, std::int64_t wanted)
 
 }  // namespace
 
-void AddScanArguments(CLI::App& command, ScanArguments& arguments) {
-  command.add_option("mission,--mission", arguments.mission, "Mission file")->required();
+void AddScanArguments(CLI::App& command, ScanArguments& arguments, NeedMission need) {
+  command.add_option("mission,--mission", arguments.mission, "Mission file")
+      ->required(need == NeedMission::kYes);
   command.add_option("--scan", arguments.scan_id, "Number of the scan; default: the last one");
   command
       .add_option("--image", arguments.image_deg,

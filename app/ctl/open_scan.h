@@ -14,7 +14,10 @@ struct ScanArguments {
   double image_deg = 1000.0;  ///< beyond any angle = the picture nearest to the middle of the scope
 };
 
-void AddScanArguments(CLI::App& command, ScanArguments& arguments);
+/// kNo: the command can work on something else too.
+enum class NeedMission { kYes, kNo };
+void AddScanArguments(CLI::App& command, ScanArguments& arguments,
+                      NeedMission need = NeedMission::kYes);
 
 struct OpenedScan {
   std::int64_t id = 0;

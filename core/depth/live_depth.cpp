@@ -87,6 +87,7 @@ Result<DepthResult> LiveDepth::Update(const RegisteredScan& scan, const RunConte
     return ComputeDepth(aligned_, frame_.image, options_, context.Part(0.05, 1.0));
   }
   DepthResult result;
+  result.method = options_.method;
   result.samples = aligned_;
   FORESIGHT_CHECK(result.samples.Check());
   FORESIGHT_CHECK(RejectOutliers(result.samples, options_, context.Part(0.05, 0.1)));

@@ -50,6 +50,7 @@ Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide
   FORESIGHT_CHECK(RejectOutliers(samples, options, context));
 
   DepthResult result;
+  result.method = options.method;
   FORESIGHT_TRY(result.dense, Densify(samples, guide, options, context.Part(0.1, 1.0)));
   FORESIGHT_TRY(result.mask, MaskLowConfidence(result.dense, options.mask));
   result.density = LocalDensity(samples);

@@ -38,6 +38,7 @@ struct DepthOptions {
 
 /// Everything the pipeline made on the way, so that any stage can be looked at.
 struct DepthResult {
+  DepthMethod method = DepthMethod::kPaper;
   AlignedSamples samples;  ///< with the reason of each rejection
   DenseDepth dense;
   MaskImage mask;

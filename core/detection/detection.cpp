@@ -2,9 +2,17 @@
 
 namespace foresight {
 
-const char* KindOf(const Detection& detection) {
+const char* ToString(ObjectKind kind) {
   constexpr const char* kKinds[] = {"valve", "drill", "terrain"};
-  return kKinds[detection.index()];
+  return kKinds[static_cast<std::size_t>(kind)];
+}
+
+ObjectKind ObjectKindOf(const Detection& detection) {
+  return kObjectKinds[detection.index()];
+}
+
+const char* KindOf(const Detection& detection) {
+  return ToString(ObjectKindOf(detection));
 }
 
 const Verdict& VerdictOf(const Detection& detection) {
@@ -13,6 +21,10 @@ const Verdict& VerdictOf(const Detection& detection) {
 
 const FitOrigin& OriginOf(const Detection& detection) {
   return std::visit([](const auto& d) -> const FitOrigin& { return d.origin; }, detection);
+}
+
+FitOrigin& OriginOf(Detection& detection) {
+  return std::visit([](auto& d) -> FitOrigin& { return d.origin; }, detection);
 }
 
 }  // namespace foresight

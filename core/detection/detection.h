@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <variant>
 
@@ -12,9 +13,17 @@ namespace foresight {
 /// What was found in a region: one of the known objects.
 using Detection = std::variant<ValveDetection, DrillDetection, TerrainDetection>;
 
+/// The known objects, in the order of Detection's alternatives.
+enum class ObjectKind { kValve, kDrill, kTerrain };
+inline constexpr std::array kObjectKinds = {ObjectKind::kValve, ObjectKind::kDrill,
+                                            ObjectKind::kTerrain};
 /// "valve", "drill", "terrain": the kind in files and on command lines.
+const char* ToString(ObjectKind kind);
+
+ObjectKind ObjectKindOf(const Detection& detection);
 const char* KindOf(const Detection& detection);
 const Verdict& VerdictOf(const Detection& detection);
 const FitOrigin& OriginOf(const Detection& detection);
+FitOrigin& OriginOf(Detection& detection);
 
 }  // namespace foresight

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/depth/depth_method.h"
 #include "core/fitting/range_noise.h"
 
 namespace foresight {
@@ -18,7 +19,30 @@ RaySet WithOwnSigma(RaySet rays) {
   return rays;
 }
 
+std::string NameOf(const ProcessedScan& scan, FitSource source) {
+  return source == FitSource::kRaw ? "raw" : InfoOf(scan.depth->method).name;
+}
+
 }  // namespace
+
+FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base) {
+  const Eigen::Vector3d up = robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
+  switch (kind) {
+    case ObjectKind::kValve:
+      break;
+    case ObjectKind::kDrill: {
+      FitDrillOptions options;
+      options.up = up;
+      return options;
+    }
+    case ObjectKind::kTerrain: {
+      FitTerrainOptions options;
+      options.up = up;
+      return options;
+    }
+  }
+  return FitValveOptions();
+}
 
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi) {
   if (source == FitSource::kRaw)
@@ -27,17 +51,38 @@ Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi
     return Fail(ErrorCode::kState,
                 "there is no depth map yet; compute it first, or fit to the raw returns");
   const MaskImage& mask = scan.mask != nullptr ? *scan.mask : scan.depth->mask;
-  return RaysFromDepth(ApplyMask(scan.depth->dense.depth_m, mask), scan.rig,
-                       scan.depth->samples.motor_rad, roi, kDepthStride_px, kRangeSigma_m,
-                       LocalDensity(scan.depth->samples));
+  return RaysInDepthMap(ApplyMask(scan.depth->dense.depth_m, mask), scan.rig,
+                        scan.depth->samples.motor_rad, roi, LocalDensity(scan.depth->samples));
+}
+
+Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig& rig,
+                              double motor_rad, const Roi& roi, double density) {
+  return RaysFromDepth(masked_depth_m, rig, motor_rad, roi, kDepthStride_px, kRangeSigma_m,
+                       density);
+}
+
+Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
+                            const RunContext& context) {
+  if (const auto* drill = std::get_if<FitDrillOptions>(&options))
+    return FitDrill(rays, *drill, context);
+  if (const auto* terrain = std::get_if<FitTerrainOptions>(&options))
+    return FitTerrain(rays, *terrain, nullptr, context);
+  return FitValve(rays, std::get<FitValveOptions>(options), context);
+}
+
+Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
+                            const FitOptions& options, const RunContext& context) {
+  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
+  FORESIGHT_TRY(Detection detection, FitInRays(rays, options, context));
+  OriginOf(detection).roi = roi;
+  OriginOf(detection).source = NameOf(scan, source);
+  return detection;
 }
 
 Result<ValveDetection> FitValveInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                                       const FitValveOptions& options, const RunContext& context) {
-  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
-  FORESIGHT_TRY(ValveDetection detection, FitValve(rays, options, context));
-  detection.origin.roi = roi;
-  return detection;
+  FORESIGHT_TRY(Detection detection, FitInScan(scan, source, roi, options, context));
+  return std::get<ValveDetection>(std::move(detection));
 }
 
 }  // namespace foresight

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <variant>
+
 #include "core/depth/pipeline.h"
+#include "core/detection/detection.h"
+#include "core/fitting/drill/fit_drill.h"
+#include "core/fitting/terrain/fit_terrain.h"
 #include "core/fitting/valve/fit_valve.h"
 
 namespace foresight {
@@ -19,14 +24,33 @@ struct ProcessedScan {
   const MaskImage* mask = nullptr;     ///< instead of depth->mask, where a threshold was moved
 };
 
+/// What to look for, and how; in the order of Detection's alternatives.
+using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOptions>;
+
+/// The defaults for an object seen by a head that is mounted as `robot_from_base` says: up is the
+/// robot's z.
+FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base);
+
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
 /// RaysFromScan and RaysFromDepth do, and with kState for kDepth without a depth.
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi);
 
-/// From a region to a valve, with the noise and the thinning that belong to the source: the one way
-/// that every program takes, so that a number never differs between them. The region is noted in
-/// the result. Fails as RaysFromScan, RaysFromDepth and FitValve do, and with kState for kDepth
-/// without a depth.
+/// The rays of a masked depth map that comes without a scan, thinned and weighed as RaysInScan does
+/// it. Fails as RaysFromDepth does.
+Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig& rig,
+                              double motor_rad, const Roi& roi, double density);
+
+/// The fit that belongs to the options. Fails as FitValve, FitDrill and FitTerrain do.
+Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
+                            const RunContext& context);
+
+/// From a region to a detection, with the noise and the thinning that belong to the source: the one
+/// way that every program takes, so that a number never differs between them. Region and source are
+/// noted in the result. Fails as RaysInScan and FitInRays do.
+Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
+                            const FitOptions& options, const RunContext& context);
+
+/// The same for one kind of object.
 Result<ValveDetection> FitValveInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                                       const FitValveOptions& options, const RunContext& context);
 

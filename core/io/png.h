@@ -16,10 +16,13 @@ namespace foresight {
 Result<ColorImage> ReadPng(const std::filesystem::path& path);
 /// Same; colours become luminance.
 Result<GrayImage> ReadPngGray(const std::filesystem::path& path);
+/// Numbers of a one-channel PNG of 16 bits as they are; any other PNG is refused.
+Result<Image<std::uint16_t>> ReadPng16(const std::filesystem::path& path);
 
 /// Same, from bytes in memory; `source` names them in an error.
 Result<ColorImage> DecodePng(std::string_view bytes, const std::string& source);
 Result<GrayImage> DecodePngGray(std::string_view bytes, const std::string& source);
+Result<Image<std::uint16_t>> DecodePng16(std::string_view bytes, const std::string& source);
 
 /// Lossless. Fails with kInvalidInput for an empty image or a side longer than 20000 pixels.
 Result<std::string> EncodePng(const ColorImage& image);

@@ -1,6 +1,7 @@
 #include <png.h>
 
 #include <array>
+#include <bit>
 #include <csetjmp>
 #include <cstring>
 #include <vector>
@@ -47,9 +48,9 @@ void OnRead(png_structp png, png_bytep target, std::size_t count) {
   decoder->offset += count;
 }
 
-enum class Layout { kColor, kGray };
+enum class Layout { kColor, kGray, kGray16 };
 
-/// Reads the header and asks libpng for 8-bit rows in `layout`. False leaves the reason in message.
+/// Reads the header and asks libpng for rows in `layout`. False leaves the reason in message.
 bool Start(Decoder& decoder, Layout layout) {
   decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, OnError, OnWarning);
   if (decoder.png == nullptr) return false;
@@ -60,6 +61,17 @@ bool Start(Decoder& decoder, Layout layout) {
   png_set_user_limits(decoder.png, kMaxSide, kMaxSide);
   png_read_info(decoder.png, decoder.info);
 
+  if (layout == Layout::kGray16) {
+    // Numbers, not a picture: nothing is scaled or converted.
+    if (png_get_color_type(decoder.png, decoder.info) != PNG_COLOR_TYPE_GRAY ||
+        png_get_bit_depth(decoder.png, decoder.info) != 16)
+      png_error(decoder.png, "not one channel of 16 bits");
+    static_assert(std::endian::native == std::endian::little);
+    png_set_swap(decoder.png);
+    png_set_interlace_handling(decoder.png);
+    png_read_update_info(decoder.png, decoder.info);
+    return true;
+  }
   const bool has_color =
       (png_get_color_type(decoder.png, decoder.info) & PNG_COLOR_MASK_COLOR) != 0;
   png_set_expand(decoder.png);
@@ -121,6 +133,10 @@ Result<GrayImage> DecodePngGray(std::string_view bytes, const std::string& sourc
   return Decode<std::uint8_t>(bytes, source, Layout::kGray);
 }
 
+Result<Image<std::uint16_t>> DecodePng16(std::string_view bytes, const std::string& source) {
+  return Decode<std::uint16_t>(bytes, source, Layout::kGray16);
+}
+
 Result<ColorImage> ReadPng(const std::filesystem::path& path) {
   FORESIGHT_TRY(const std::string bytes, ReadFile(path));
   return DecodePng(bytes, path.string());
@@ -129,6 +145,11 @@ Result<ColorImage> ReadPng(const std::filesystem::path& path) {
 Result<GrayImage> ReadPngGray(const std::filesystem::path& path) {
   FORESIGHT_TRY(const std::string bytes, ReadFile(path));
   return DecodePngGray(bytes, path.string());
+}
+
+Result<Image<std::uint16_t>> ReadPng16(const std::filesystem::path& path) {
+  FORESIGHT_TRY(const std::string bytes, ReadFile(path));
+  return DecodePng16(bytes, path.string());
 }
 
 }  // namespace foresight

@@ -50,6 +50,17 @@ constexpr NineColors kCividis = {{{0, 34, 78},
                                   {222, 203, 94},
                                   {254, 232, 56}}};
 
+/// Blue and orange of Okabe and Ito, as far from white as from each other.
+Rgb8 Balance(double x) {
+  constexpr std::array<double, 3> kBelow = {0, 114, 178}, kAbove = {230, 120, 0};
+  const std::array<double, 3>& end = x < 0.5 ? kBelow : kAbove;
+  const double share = std::abs(2.0 * x - 1.0);
+  const auto mix = [&](std::size_t channel) {
+    return Byte(((1.0 - share) * 255.0 + share * end[channel]) / 255.0);
+  };
+  return {mix(0), mix(1), mix(2)};
+}
+
 /// A map through nine of its published colours, straight lines between them.
 Rgb8 Between(const NineColors& colors, double x) {
   const double place = x * 8.0;
@@ -73,6 +84,8 @@ Rgb8 ColorOf(ColorMap map, double value) {
   switch (map) {
     case ColorMap::kTurbo:
       return Turbo(x);
+    case ColorMap::kBalance:
+      return Balance(x);
     case ColorMap::kViridis:
       return Between(kViridis, x);
     case ColorMap::kCividis:

@@ -12,6 +12,7 @@ enum class ColorMap {
   kViridis,  ///< even steps, brighter all the way
   kCividis,  ///< confidence: the same to the colour-blind
   kGray,     ///< intensity
+  kBalance,  ///< residuals: blue below 0.5, white there, orange above
 };
 
 Rgb8 ColorOf(ColorMap map, double value);

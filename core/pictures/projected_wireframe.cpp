@@ -45,16 +45,15 @@ Wireframe Moved(Wireframe wireframe, const Transform& transform) {
 
 }  // namespace
 
-PixelLines ProjectValve(const ValveCandidate& valve, const SensorRig& rig, double motor_rad) {
+PixelLines ProjectWireframe(const Wireframe& in_base, const SensorRig& rig, double motor_rad) {
   PixelLines pixels;
-  const auto camera_from_object = rig.CameraFromBase(motor_rad) * valve.base_from_object;
-  for (const auto& line : Moved(WireframeOf(valve.model), camera_from_object))
+  for (const auto& line : Moved(in_base, rig.CameraFromBase(motor_rad)))
     AppendProjected(line, rig.camera, &pixels);
   return pixels;
 }
 
-Wireframe ValveInRobot(const ValveCandidate& valve, const SensorRig& rig) {
-  return Moved(WireframeOf(valve.model), rig.robot_from_base * valve.base_from_object);
+Wireframe WireframeInRobot(const Wireframe& in_base, const SensorRig& rig) {
+  return Moved(in_base, rig.robot_from_base);
 }
 
 }  // namespace foresight

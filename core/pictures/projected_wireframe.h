@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/fitting/valve/valve_detection.h"
+#include "core/objects/solid_part.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
@@ -11,12 +11,11 @@ namespace foresight {
 /// Open or closed polylines in pixels of an image.
 using PixelLines = std::vector<std::vector<Eigen::Vector2d>>;
 
-/// The template of a valve as the camera sees it at a motor angle. Segments longer than a
-/// centimetre are subdivided, because the lens bends straight lines; parts the lens cannot see are
-/// left out.
-PixelLines ProjectValve(const ValveCandidate& valve, const SensorRig& rig, double motor_rad);
+/// Lines of base as the camera sees them at a motor angle. Segments longer than a centimetre are
+/// subdivided, because the lens bends straight lines; parts the lens cannot see are left out.
+PixelLines ProjectWireframe(const Wireframe& in_base, const SensorRig& rig, double motor_rad);
 
-/// The template of a valve in the robot's frame, metres.
-Wireframe ValveInRobot(const ValveCandidate& valve, const SensorRig& rig);
+/// The same lines in the robot's frame, metres.
+Wireframe WireframeInRobot(const Wireframe& in_base, const SensorRig& rig);
 
 }  // namespace foresight

@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
+
+#include "core/objects/drill_template.h"
 
 namespace foresight {
 namespace {
@@ -24,13 +27,18 @@ ValveDetection Sample() {
   detection.rivals[0].model.spokes = 2;
   detection.origin.roi = ImageRoi::Rectangle(0.25, {10.0, 20.0}, {30.5, 40.0});
   detection.origin.seconds = 0.4;
+  detection.origin.source = "jbu";
+  detection.verdict.features = {0.5, -3.25};
+  detection.covariance = PoseCovariance::Identity() * 1e-6;
   return detection;
 }
 
 TEST(DetectionJson, SurvivesTheRoundTrip) {
   const ValveDetection sample = Sample();
-  const auto read = ValveDetectionFromJson(DetectionToJson(sample, {}));
-  ASSERT_TRUE(read) << read.error().message;
+  const auto any = DetectionFromJson(DetectionToJson(sample, {}));
+  ASSERT_TRUE(any) << any.error().message;
+  const auto* read = std::get_if<ValveDetection>(&*any);
+  ASSERT_NE(read, nullptr);
   EXPECT_TRUE(read->best.base_from_object.Matrix() == sample.best.base_from_object.Matrix());
   EXPECT_EQ(read->best.model.spokes, 4);
   EXPECT_EQ(read->best.model.dish_m, sample.best.model.dish_m);
@@ -42,10 +50,91 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->verdict.reason, sample.verdict.reason);
   ASSERT_EQ(read->rivals.size(), 1U);
   EXPECT_EQ(read->rivals[0].model.spokes, 2);
+  EXPECT_EQ(read->origin.source, "jbu");
+  EXPECT_EQ(read->verdict.features, sample.verdict.features);
+  EXPECT_EQ(read->covariance, sample.covariance);
   EXPECT_EQ(std::get<ImageRoi>(read->origin.roi).polygon,
             std::get<ImageRoi>(sample.origin.roi).polygon);
   // And the text itself is stable.
   EXPECT_EQ(DetectionToJson(*read, {}), DetectionToJson(sample, {}));
+}
+
+DrillDetection SampleDrill() {
+  DrillDetection drill;
+  drill.best.base_from_object = {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.1, 0.2, 1.0}};
+  drill.best.model = ShippedDrillTemplates().front().Make(1.05, {0.02, -0.03}, 0.06);
+  drill.best.log_likelihood = 90.0;
+  drill.sigma_yaw_rad = 0.04;
+  drill.table = Plane{-Eigen::Vector3d::UnitY(), 0.2};
+  drill.evidence.best_rival = "box";
+  drill.evidence.flip_margin_nats = 21.0;
+  drill.rivals = {drill.best};
+  drill.rivals[0].log_likelihood = 80.0;
+  drill.verdict = {VerdictLevel::kConfirmed, 0.97, "drill", {1.0}};
+  drill.origin.roi = BoxRoi{drill.best.base_from_object, {0.3, 0.4, 0.5}};
+  return drill;
+}
+
+TEST(DetectionJson, ADrillSurvivesTheRoundTrip) {
+  const DrillDetection sample = SampleDrill();
+  const auto any = DetectionFromJson(DetectionToJson(sample, {}));
+  ASSERT_TRUE(any) << any.error().message;
+  const auto* read = std::get_if<DrillDetection>(&*any);
+  ASSERT_NE(read, nullptr);
+  EXPECT_EQ(read->best.model.parts.size(), sample.best.model.parts.size());
+  EXPECT_EQ(read->table->offset, 0.2);
+  EXPECT_EQ(std::get<BoxRoi>(read->origin.roi).size_m, Eigen::Vector3d(0.3, 0.4, 0.5));
+  EXPECT_EQ(DetectionToJson(*read, {}), DetectionToJson(sample, {}));
+}
+
+TEST(DetectionJson, ADrillSaysWhereToGraspAndByHowMuchItBeatsItsRivals) {
+  const Rigid<frame::Robot, frame::Base> mounted(Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.5});
+  const auto json = nlohmann::json::parse(DetectionToJson(SampleDrill(), mounted));
+  const double in_base = json["grasp"]["bit_tip_in_base_m"][2];
+  EXPECT_NEAR(json["grasp"]["bit_tip_in_robot_m"][2].get<double>(), in_base + 1.5, 1e-12);
+  EXPECT_EQ(json["rivals"][0]["margin_nats"], 10.0);
+  // Turned by 180 deg about x.
+  EXPECT_EQ(json["best"]["base_from_object"]["z_axis"], nlohmann::json({0.0, 0.0, -1.0}));
+}
+
+TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
+  TerrainDetection sample;
+  TerrainSurface block;
+  block.kind = TerrainSurface::Kind::kBlock;
+  block.base_from_object = {Eigen::Quaterniond::Identity(), {0.5, 0.6, 2.0}};
+  block.size_m = {0.397, 0.390};
+  block.evidence = {400, 0.9, 0.01, 0.02, 4, 0.004};
+  block.toehold = {{0.357, 0.350}, 0.26, 0.19, 0.002, 0.004};
+  block.verdict = {VerdictLevel::kConfirmed, 0.98, "four edges", {}};
+  block.shift_m = 0.031;
+  TerrainSurface ground;
+  ground.kind = TerrainSurface::Kind::kGround;
+  sample.surfaces = {block, ground};
+  sample.origin.roi = ImageRoi::Rectangle(0.0, {0, 0}, {9, 9});
+  const auto any = DetectionFromJson(DetectionToJson(sample, {}));
+  ASSERT_TRUE(any) << any.error().message;
+  const auto* read = std::get_if<TerrainDetection>(&*any);
+  ASSERT_NE(read, nullptr);
+  ASSERT_EQ(read->surfaces.size(), 2U);
+  EXPECT_EQ(read->surfaces[0].evidence.confirmed_edges, 4);
+  EXPECT_EQ(read->surfaces[0].toehold.step_m, 0.19);
+  EXPECT_TRUE(std::isnan(read->surfaces[1].toehold.step_m));
+  EXPECT_EQ(read->surfaces[1].kind, TerrainSurface::Kind::kGround);
+  EXPECT_EQ(DetectionToJson(*read, {}), DetectionToJson(sample, {}));
+}
+
+TEST(DetectionJson, AValveOfAnOlderRecordIsStillRead) {
+  auto json = nlohmann::json::parse(DetectionToJson(Sample(), {}));
+  for (const char* added_later : {"source", "features", "covariance"}) json.erase(added_later);
+  for (const char* added_later : {"kind", "lever_length_m"})
+    json["best"]["model"].erase(added_later);
+  const auto any = DetectionFromJson(json.dump());
+  ASSERT_TRUE(any) << any.error().message;
+  const auto& read = std::get<ValveDetection>(*any);
+  EXPECT_EQ(read.origin.source, "raw");
+  EXPECT_TRUE(read.verdict.features.empty());
+  EXPECT_TRUE(read.covariance.hasNaN());
+  EXPECT_FALSE(read.best.model.IsLever());
 }
 
 TEST(DetectionJson, TellsThePoseInTheRobotsFrameToo) {
@@ -58,9 +147,9 @@ TEST(DetectionJson, TellsThePoseInTheRobotsFrameToo) {
 TEST(DetectionJson, AnUnknownLikelihoodStaysUnknown) {
   ValveDetection sample = Sample();
   sample.evidence.margin_nats = std::numeric_limits<double>::quiet_NaN();
-  const auto read = ValveDetectionFromJson(DetectionToJson(sample, {}));
+  const auto read = DetectionFromJson(DetectionToJson(sample, {}));
   ASSERT_TRUE(read);
-  EXPECT_TRUE(std::isnan(read->evidence.margin_nats));
+  EXPECT_TRUE(std::isnan(std::get<ValveDetection>(*read).evidence.margin_nats));
 }
 
 TEST(DetectionJson, RefusesDamagedText) {
@@ -68,7 +157,7 @@ TEST(DetectionJson, RefusesDamagedText) {
   for (const std::string& text :
        {std::string(), std::string("[]"), std::string("{\"kind\": \"valve\"}"),
         whole.substr(0, whole.size() / 2)}) {
-    const auto read = ValveDetectionFromJson(text);
+    const auto read = DetectionFromJson(text);
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::kBadData);
   }

@@ -146,5 +146,22 @@ TEST(Png, AnEmptyPictureCannotBeWritten) {
   EXPECT_EQ(EncodePng(ColorImage()).error().code, ErrorCode::kInvalidInput);
 }
 
+TEST(Png, SixteenBitsSurviveTheRoundTripAndOtherPicturesAreNoNumbers) {
+  const TemporaryFolder folder;
+  Image<std::uint16_t> depth_mm(3, 2, 0);
+  depth_mm(0, 0) = 1234;
+  depth_mm(2, 1) = 65535;
+  ASSERT_TRUE(WritePng16(folder / "depth.png", depth_mm));
+  const auto read = ReadPng16(folder / "depth.png");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ((*read)(0, 0), 1234);
+  EXPECT_EQ((*read)(1, 0), 0);
+  EXPECT_EQ((*read)(2, 1), 65535);
+  ASSERT_TRUE(WritePng(folder / "picture.png", GrayImage(3, 2, 7)));
+  const auto refused = ReadPng16(folder / "picture.png");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadData);
+}
+
 }  // namespace
 }  // namespace foresight

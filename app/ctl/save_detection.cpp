@@ -1,4 +1,4 @@
-#include "app/ctl/save_valve.h"
+#include "app/ctl/save_detection.h"
 
 #include <chrono>
 
@@ -6,11 +6,11 @@
 
 namespace foresight {
 
-Status SaveValve(MissionFile& mission, std::int64_t scan_id, const ValveDetection& detection,
-                 const SensorRig& rig) {
+Status SaveDetection(MissionFile& mission, std::int64_t scan_id, const Detection& detection,
+                     const SensorRig& rig) {
   DetectionRecord record;
   record.scan_id = scan_id;
-  record.kind = "valve";
+  record.kind = KindOf(detection);
   record.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
                       std::chrono::system_clock::now().time_since_epoch())
                       .count();

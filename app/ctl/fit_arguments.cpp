@@ -1,0 +1,162 @@
+#include "app/ctl/fit_arguments.h"
+
+#include "core/depth/depth_method.h"
+
+namespace foresight {
+namespace {
+
+/// The word for the dense map of `--method`, from when there was one.
+constexpr const char* kDepthAlias = "depth";
+
+void AddRegionArguments(CLI::App& command, RegionArguments& region) {
+  constexpr const char* kGroup = "Region, one of";
+  command.add_option("--roi", region.rectangle, "Rectangle: left,top,right,bottom in pixels")
+      ->expected(4)
+      ->delimiter(',')
+      ->group(kGroup);
+  command.add_option("--polygon", region.polygon, "Polygon: x,y,x,y,x,y,... in pixels")
+      ->expected(6, 2000)
+      ->delimiter(',')
+      ->group(kGroup);
+  command
+      .add_option("--two-clicks", region.two_clicks,
+                  "Two points on opposite sides of the object: x,y,x,y in pixels")
+      ->expected(4)
+      ->delimiter(',')
+      ->group(kGroup);
+  command
+      .add_option("--box", region.box,
+                  "Box in the robot's frame: middle x,y,z and size x,y,z in metres")
+      ->expected(6)
+      ->delimiter(',')
+      ->group(kGroup);
+}
+
+void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
+  std::vector<std::string> names = SourceNames();
+  names.push_back(kDepthAlias);
+  command
+      .add_option("--source", arguments.source,
+                  "What to fit to: raw (lidar returns), or the depth map of a method")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  constexpr const char* kGroup = "Instead of a mission";
+  command
+      .add_option("--depth", arguments.depth_file,
+                  "Depth map: PFM, or PNG of 16 bits, in millimetres along the camera's axis")
+      ->group(kGroup);
+  command
+      .add_option("--density", arguments.density,
+                  "With --depth: share of its pixels with a measurement of their own")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str()
+      ->group(kGroup);
+  command.add_option("--cloud", arguments.cloud_file, "Point cloud: PLY or PCD, in metres")
+      ->group(kGroup);
+  command
+      .add_option("--viewpoint", arguments.viewpoint,
+                  "With --cloud: where it was seen from, x,y,z in metres")
+      ->expected(3)
+      ->delimiter(',')
+      ->group(kGroup);
+  command.add_option("--up", arguments.up, "With --cloud: which way is up, x,y,z")
+      ->expected(3)
+      ->delimiter(',')
+      ->group(kGroup);
+  command
+      .add_option("--rig", arguments.rig,
+                  "Calibration of the head whose camera took the picture (YAML)")
+      ->group(kGroup);
+}
+
+}  // namespace
+
+std::vector<std::string> SourceNames() {
+  std::vector<std::string> names = {"raw"};
+  for (const DepthMethodInfo& method : DepthMethods()) names.emplace_back(method.name);
+  return names;
+}
+
+void AddFitArguments(CLI::App& command, FitArguments& arguments) {
+  AddScanArguments(command, arguments.scan, NeedMission::kNo);
+  AddDepthArguments(command, arguments.depth);
+  AddRegionArguments(command, arguments.region);
+  AddSourceArguments(command, arguments);
+  if (arguments.kind == ObjectKind::kDrill)
+    command.add_option("--template", arguments.drill_template,
+                       "Template of the drill (YAML); default: the built-in ones");
+  if (arguments.kind == ObjectKind::kTerrain)
+    command
+        .add_option("--block-size", arguments.block_size_mm,
+                    "Length and width of a block's top in millimetres; default: 397,390")
+        ->expected(2)
+        ->delimiter(',');
+  command.add_option("--seed", arguments.seed, "Seed of the random search")->capture_default_str();
+  command.add_flag("--save", arguments.save, "Write the answer into the mission file");
+  command.add_flag("--json", arguments.json, "Print the answer as JSON");
+  command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
+  command.add_option("--gallery", arguments.gallery,
+                     "Fit to every source and set the answers side by side in this folder");
+}
+
+Status CheckFitArguments(const FitArguments& a) {
+  const int subjects =
+      int(!a.scan.mission.empty()) + int(!a.depth_file.empty()) + int(!a.cloud_file.empty());
+  if (subjects != 1)
+    return Fail(ErrorCode::kInvalidOptions, "give one of: a mission file, --depth, --cloud");
+  const RegionArguments& r = a.region;
+  const int regions = int(!r.rectangle.empty()) + int(!r.polygon.empty()) +
+                      int(!r.two_clicks.empty()) + int(!r.box.empty());
+  if (regions > 1 || (regions == 0 && a.cloud_file.empty()))
+    return Fail(ErrorCode::kInvalidOptions,
+                "give one region: --roi, --polygon, --two-clicks or --box");
+  if (!a.depth_file.empty() && a.rig.empty())
+    return Fail(ErrorCode::kInvalidOptions, "--depth needs the camera's calibration: --rig");
+  if (!a.cloud_file.empty() && a.viewpoint.empty())
+    return Fail(ErrorCode::kInvalidOptions, "--cloud needs where it was seen from: --viewpoint");
+  if (!a.cloud_file.empty() && regions == 1 && r.box.empty() && a.rig.empty())
+    return Fail(ErrorCode::kInvalidOptions,
+                "a region in a picture of a cloud needs the camera's calibration: --rig");
+  if (a.scan.mission.empty() && (a.save || !a.gallery.empty()))
+    return Fail(ErrorCode::kInvalidOptions, "--save and --gallery need a mission file");
+  return {};
+}
+
+Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
+                       const Rigid<frame::Robot, frame::Base>& robot_from_base) {
+  Roi roi;
+  if (const auto& r = arguments.rectangle; !r.empty())
+    roi = ImageRoi::Rectangle(motor_rad, {r[0], r[1]}, {r[2], r[3]});
+  if (const auto& c = arguments.two_clicks; !c.empty())
+    roi = ImageRoi::AroundTwoClicks(motor_rad, {c[0], c[1]}, {c[2], c[3]});
+  if (const auto& p = arguments.polygon; !p.empty()) {
+    if (p.size() % 2 != 0)
+      return Fail(ErrorCode::kInvalidOptions, "--polygon: {} numbers are no x,y pairs", p.size());
+    ImageRoi image{motor_rad, {}};
+    for (std::size_t i = 0; i < p.size(); i += 2) image.polygon.emplace_back(p[i], p[i + 1]);
+    roi = image;
+  }
+  if (const auto& b = arguments.box; !b.empty()) {
+    const Rigid<frame::Robot, frame::Object> robot_from_box(Eigen::Quaterniond::Identity(),
+                                                            {b[0], b[1], b[2]});
+    roi = BoxRoi{robot_from_base.Inverse() * robot_from_box, {b[3], b[4], b[5]}};
+  }
+  const Status sound = CheckRoi(roi);
+  if (!sound) return Fail(ErrorCode::kInvalidOptions, "{}", sound.error().message);
+  return roi;
+}
+
+Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
+                                  const Rigid<frame::Robot, frame::Base>& robot_from_base) {
+  FitOptions options = FitOptionsFor(arguments.kind, robot_from_base);
+  std::visit([&](auto& o) { o.seed = arguments.seed; }, options);
+  if (auto* drill = std::get_if<FitDrillOptions>(&options); !arguments.drill_template.empty()) {
+    FORESIGHT_TRY(DrillTemplate wanted, LoadDrillTemplate(arguments.drill_template));
+    drill->templates = {std::move(wanted)};
+  }
+  if (const auto& size = arguments.block_size_mm; !size.empty())
+    std::get<FitTerrainOptions>(options).block_size_m = 1e-3 * Eigen::Vector2d(size[0], size[1]);
+  return options;
+}
+
+}  // namespace foresight

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/ctl/depth_files.h"
+#include "app/ctl/open_scan.h"
+#include "core/detection/fit_in_scan.h"
+
+namespace foresight {
+
+/// A region as the command line gives it, one of these.
+struct RegionArguments {
+  std::vector<double> rectangle;   ///< left, top, right, bottom, px
+  std::vector<double> polygon;     ///< x, y, x, y, ... px
+  std::vector<double> two_clicks;  ///< x, y, x, y, px
+  std::vector<double> box;         ///< centre x, y, z, size x, y, z: metres, robot
+};
+
+struct FitArguments {
+  ObjectKind kind = ObjectKind::kValve;
+  ScanArguments scan;
+  DepthArguments depth;
+  RegionArguments region;
+  std::string source = "raw";
+
+  std::string depth_file;  ///< instead of a mission, with `rig`
+  double density = 0.02;
+  std::string cloud_file;  ///< instead of a mission, with `viewpoint`
+  std::vector<double> viewpoint;
+  std::vector<double> up = {0.0, 0.0, 1.0};
+  std::string rig;
+
+  std::string drill_template;
+  std::vector<double> block_size_mm;
+  std::uint64_t seed = 1;
+
+  bool save = false;
+  bool json = false;
+  std::string picture;
+  std::string gallery;
+};
+
+/// Adds what belongs to the kind of object in `arguments`.
+void AddFitArguments(CLI::App& command, FitArguments& arguments);
+
+/// Options that contradict each other or lack one another. Fails with kInvalidOptions.
+Status CheckFitArguments(const FitArguments& arguments);
+
+/// The region on the picture at `motor_rad`. Fails with kInvalidOptions: none, or no region.
+Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
+                       const Rigid<frame::Robot, frame::Base>& robot_from_base);
+
+/// The fit's options as the command line wants them. Fails as LoadDrillTemplate does.
+Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
+                                  const Rigid<frame::Robot, frame::Base>& robot_from_base);
+
+/// "raw", "foresight", "paper", ...: raw, then the depth methods, the default first.
+std::vector<std::string> SourceNames();
+
+}  // namespace foresight

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "app/ctl/fit_arguments.h"
+#include "core/registration/register_scan.h"
+
+namespace foresight {
+
+/// What a fit is made in: a scan of a mission, a depth map, or a point cloud.
+struct FitSubject {
+  SensorRig rig;
+  double motor_rad = 0.0;  ///< of the picture that regions are drawn on
+  Roi roi;
+
+  std::optional<OpenedScan> scan;
+  RegisteredScan cloud;                 ///< of the scan
+  DepthImage depth_m;                   ///< of a depth map
+  std::vector<Eigen::Vector3d> points;  ///< of a point cloud, in base; only finite ones
+  Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+};
+
+/// A detection, with the depth map that it was made on where there is one.
+struct FitAnswer {
+  Result<Detection> detection;
+  std::optional<DepthResult> depth;
+};
+
+/// Reads what the arguments name. Fails with kBadData, kIo, and kInvalidOptions for a region that
+/// is none.
+Result<FitSubject> OpenFitSubject(const FitArguments& arguments, const RunContext& context);
+
+/// Fits to one source; a scan's depth map is made by its method.
+FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const std::string& source,
+                const RunContext& context);
+
+/// The answer drawn into what was looked at: the camera's picture, the depth map in colours, or
+/// the cloud as seen from its viewpoint.
+ColorImage PictureOf(const FitSubject& subject, const Detection& detection);
+
+}  // namespace foresight

@@ -1,0 +1,107 @@
+#include "core/detection/candidates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+/// The candidate of a detection that has one best answer and rivals.
+template <class Found>
+const auto& Chosen(const Found& found, int candidate) {
+  const int last = static_cast<int>(found.rivals.size());
+  const int index = std::clamp(candidate, 0, last);
+  return index == 0 ? found.best : found.rivals[static_cast<std::size_t>(index - 1)];
+}
+
+const TerrainSurface* Chosen(const TerrainDetection& terrain, int candidate) {
+  if (terrain.surfaces.empty()) return nullptr;
+  const int last = static_cast<int>(terrain.surfaces.size()) - 1;
+  return &terrain.surfaces[static_cast<std::size_t>(std::clamp(candidate, 0, last))];
+}
+
+std::string Describe(const ValveModel& model) {
+  if (model.IsLever()) return fmt::format("lever, {:.0f} mm long", 1000.0 * model.lever_length_m);
+  const double across_mm = 2000.0 * model.rim_radius_m;
+  if (model.spokes == 0) return fmt::format("disc, {:.0f} mm across", across_mm);
+  return fmt::format("{} spokes, rim {:.0f} mm across", model.spokes, across_mm);
+}
+
+std::string Describe(const DrillModel& model) {
+  return fmt::format("{}, scale {:.2f}", model.template_name, model.scale);
+}
+
+std::string Describe(const TerrainSurface& surface) {
+  constexpr const char* kKinds[] = {"block", "ground", "unknown surface"};
+  return fmt::format("{}, {:.0f} x {:.0f} mm, slope {:.0f} deg",
+                     kKinds[static_cast<std::size_t>(surface.kind)], 1000.0 * surface.size_m.x(),
+                     1000.0 * surface.size_m.y(), DegreesFromRadians(surface.toehold.slope_rad));
+}
+
+const char* MarginInWords(double nats) {
+  if (!(nats >= 0.0)) return "not comparable";
+  if (nats < 3.0) return "about as likely";
+  if (nats < 10.0) return "a little less likely";
+  if (nats < 50.0) return "clearly less likely";
+  return "far less likely";
+}
+
+template <class Found>
+std::string TextOf(const Found& found, int candidate) {
+  const auto& chosen = Chosen(found, candidate);
+  if (candidate <= 0 || found.rivals.empty()) return Describe(chosen.model);
+  const double nats = found.best.log_likelihood - chosen.log_likelihood;
+  const int count = static_cast<int>(found.rivals.size());
+  return fmt::format("rival {} of {}: {}, {} ({:.0f} nats)", std::min(candidate, count), count,
+                     Describe(chosen.model), MarginInWords(nats), nats);
+}
+
+std::string TextOf(const TerrainDetection& terrain, int candidate) {
+  const TerrainSurface* surface = Chosen(terrain, candidate);
+  if (surface == nullptr) return "no surface";
+  const int count = static_cast<int>(terrain.surfaces.size());
+  return fmt::format("surface {} of {}: {}", std::clamp(candidate, 0, count - 1) + 1, count,
+                     Describe(*surface));
+}
+
+template <class Found>
+Rigid<frame::Base, frame::Object> PoseOf(const Found& found, int candidate) {
+  return Chosen(found, candidate).base_from_object;
+}
+
+Rigid<frame::Base, frame::Object> PoseOf(const TerrainDetection& terrain, int candidate) {
+  const TerrainSurface* surface = Chosen(terrain, candidate);
+  return surface == nullptr ? Rigid<frame::Base, frame::Object>() : surface->base_from_object;
+}
+
+}  // namespace
+
+int CandidateCount(const Detection& detection) {
+  if (const auto* valve = std::get_if<ValveDetection>(&detection))
+    return 1 + static_cast<int>(valve->rivals.size());
+  if (const auto* drill = std::get_if<DrillDetection>(&detection))
+    return 1 + static_cast<int>(drill->rivals.size());
+  return static_cast<int>(std::get<TerrainDetection>(detection).surfaces.size());
+}
+
+Rigid<frame::Base, frame::Object> CandidatePose(const Detection& detection, int candidate) {
+  return std::visit([candidate](const auto& found) { return PoseOf(found, candidate); }, detection);
+}
+
+VerdictLevel CandidateLevel(const Detection& detection, int candidate) {
+  if (const auto* terrain = std::get_if<TerrainDetection>(&detection)) {
+    const TerrainSurface* surface = Chosen(*terrain, candidate);
+    return surface == nullptr ? VerdictLevel::kUnsure : surface->verdict.level;
+  }
+  const VerdictLevel best = VerdictOf(detection).level;
+  return candidate > 0 ? std::min(best, VerdictLevel::kLikely) : best;
+}
+
+std::string CandidateText(const Detection& detection, int candidate) {
+  return std::visit([candidate](const auto& found) { return TextOf(found, candidate); }, detection);
+}
+
+}  // namespace foresight

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/fitting/fit_origin.h"
+#include "core/fitting/verdict.h"
+#include "core/geometry/rigid.h"
+
+namespace foresight {
+
+/// What the detections' JSON is made of. Readers throw std::exception that names the fault;
+/// DetectionFromJson turns it into an error. NaN is written as null.
+using Json = nlohmann::json;
+
+Json ToJson(const Eigen::Vector2d& v);
+Json ToJson(const Eigen::Vector3d& v);
+double NumberFrom(const Json& value);
+Eigen::Vector2d Vector2From(const Json& value);
+Eigen::Vector3d Vector3From(const Json& value);
+
+/// A frame as `position_m`, `quaternion_wxyz`, and its axes as directions in the outer frame:
+/// `x_axis`, `y_axis`, `z_axis`.
+Json ToJson(const Rigid<frame::Robot, frame::Object>& pose);
+Json ToJson(const Rigid<frame::Base, frame::Object>& pose);
+Json ToJson(const Rigid<frame::Object, frame::Object>& pose);
+/// Position and rotation; the axes follow from them.
+Rigid<frame::Base, frame::Object> PoseFrom(const Json& value);
+Rigid<frame::Object, frame::Object> PartPoseFrom(const Json& value);
+
+/// Six rows of six numbers. A record without the member has an unknown one.
+Json ToJson(const PoseCovariance& covariance);
+PoseCovariance CovarianceFrom(const Json& object);
+
+/// `verdict`, `probability`, `reason`, `features`: members of what the verdict is about.
+void AddVerdict(const Verdict& verdict, Json& object);
+Verdict VerdictFrom(const Json& object);
+
+/// `roi`, `source`, `seconds`.
+void AddOrigin(const FitOrigin& origin, Json& object);
+FitOrigin OriginFrom(const Json& object);
+
+}  // namespace foresight

@@ -1,0 +1,106 @@
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/detection/json_values.h"
+#include "core/detection/object_json.h"
+
+namespace foresight {
+namespace {
+
+const char* NameOf(TerrainSurface::Kind kind) {
+  constexpr const char* kNames[] = {"block", "ground", "unknown"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+TerrainSurface::Kind KindFrom(const std::string& name) {
+  using enum TerrainSurface::Kind;
+  for (const auto kind : {kBlock, kGround, kUnknown})
+    if (name == NameOf(kind)) return kind;
+  throw std::invalid_argument("surface '" + name + "' is not known");
+}
+
+Json EvidenceJson(const BlockEvidence& evidence) {
+  return {{"points", evidence.points},
+          {"cover", evidence.cover},
+          {"see_through", evidence.see_through},
+          {"outside", evidence.outside},
+          {"confirmed_edges", evidence.confirmed_edges},
+          {"rms_m", evidence.rms_m}};
+}
+
+BlockEvidence EvidenceFrom(const Json& value) {
+  BlockEvidence evidence;
+  evidence.points = value.at("points");
+  evidence.cover = NumberFrom(value.at("cover"));
+  evidence.see_through = NumberFrom(value.at("see_through"));
+  evidence.outside = NumberFrom(value.at("outside"));
+  evidence.confirmed_edges = value.at("confirmed_edges");
+  evidence.rms_m = NumberFrom(value.at("rms_m"));
+  return evidence;
+}
+
+Json ToeholdJson(const Toehold& toehold) {
+  return {{"size_m", ToJson(toehold.size_m)},
+          {"slope_rad", toehold.slope_rad},
+          {"step_m", toehold.step_m},
+          {"sigma_height_m", toehold.sigma_height_m},
+          {"sigma_tilt_rad", toehold.sigma_tilt_rad}};
+}
+
+Toehold ToeholdFrom(const Json& value) {
+  Toehold toehold;
+  toehold.size_m = Vector2From(value.at("size_m"));
+  toehold.slope_rad = NumberFrom(value.at("slope_rad"));
+  toehold.step_m = NumberFrom(value.at("step_m"));
+  toehold.sigma_height_m = NumberFrom(value.at("sigma_height_m"));
+  toehold.sigma_tilt_rad = NumberFrom(value.at("sigma_tilt_rad"));
+  return toehold;
+}
+
+Json SurfaceJson(const TerrainSurface& surface,
+                 const Rigid<frame::Robot, frame::Base>& robot_from_base) {
+  Json value = {{"kind", NameOf(surface.kind)},
+                {"base_from_object", ToJson(surface.base_from_object)},
+                {"robot_from_object", ToJson(robot_from_base * surface.base_from_object)},
+                {"size_m", ToJson(surface.size_m)},
+                {"covariance", ToJson(surface.covariance)},
+                {"evidence", EvidenceJson(surface.evidence)},
+                {"toehold", ToeholdJson(surface.toehold)},
+                {"shift_m", surface.shift_m},
+                {"turn_rad", surface.turn_rad}};
+  AddVerdict(surface.verdict, value);
+  return value;
+}
+
+TerrainSurface SurfaceFrom(const Json& value) {
+  TerrainSurface surface;
+  surface.kind = KindFrom(value.at("kind"));
+  surface.base_from_object = PoseFrom(value.at("base_from_object"));
+  surface.size_m = Vector2From(value.at("size_m"));
+  surface.covariance = CovarianceFrom(value);
+  surface.evidence = EvidenceFrom(value.at("evidence"));
+  surface.toehold = ToeholdFrom(value.at("toehold"));
+  surface.verdict = VerdictFrom(value);
+  surface.shift_m = NumberFrom(value.at("shift_m"));
+  surface.turn_rad = NumberFrom(value.at("turn_rad"));
+  return surface;
+}
+
+}  // namespace
+
+Json ToJson(const TerrainDetection& detection,
+            const Rigid<frame::Robot, frame::Base>& robot_from_base) {
+  Json surfaces = Json::array();
+  for (const TerrainSurface& surface : detection.surfaces)
+    surfaces.push_back(SurfaceJson(surface, robot_from_base));
+  return {{"surfaces", surfaces}};
+}
+
+TerrainDetection TerrainFrom(const Json& value) {
+  TerrainDetection detection;
+  for (const Json& surface : value.at("surfaces"))
+    detection.surfaces.push_back(SurfaceFrom(surface));
+  return detection;
+}
+
+}  // namespace foresight

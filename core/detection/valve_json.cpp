@@ -1,0 +1,112 @@
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/detection/json_values.h"
+#include "core/detection/object_json.h"
+
+namespace foresight {
+namespace {
+
+Json ModelJson(const ValveModel& model) {
+  return {{"kind", ToString(model.kind)},
+          {"lever_length_m", model.lever_length_m},
+          {"rim_radius_m", model.rim_radius_m},
+          {"tube_radius_m", model.tube_radius_m},
+          {"spokes", model.spokes},
+          {"spoke_radius_m", model.spoke_radius_m},
+          {"hub_radius_m", model.hub_radius_m},
+          {"dish_m", model.dish_m}};
+}
+
+Json CandidateJson(const ValveCandidate& valve,
+                   const Rigid<frame::Robot, frame::Base>& robot_from_base) {
+  return {{"base_from_object", ToJson(valve.base_from_object)},
+          {"robot_from_object", ToJson(robot_from_base * valve.base_from_object)},
+          {"model", ModelJson(valve.model)},
+          {"log_likelihood", valve.log_likelihood}};
+}
+
+Json EvidenceJson(const ValveEvidence& evidence) {
+  return {{"rays", evidence.rays},
+          {"hits", evidence.hits},
+          {"inlier_share", evidence.inlier_share},
+          {"see_through", evidence.see_through},
+          {"blocked_gaps", evidence.blocked_gaps},
+          {"rms_m", evidence.rms_m},
+          {"arc_coverage", evidence.arc_coverage},
+          {"margin_nats", evidence.margin_nats},
+          {"gain_nats", evidence.gain_nats}};
+}
+
+ValveModel::Kind KindFrom(const std::string& name) {
+  for (const auto kind : {ValveModel::Kind::kWheel, ValveModel::Kind::kLever})
+    if (name == ToString(kind)) return kind;
+  throw std::invalid_argument("valve '" + name + "' is not known");
+}
+
+ValveModel ModelFrom(const Json& value) {
+  ValveModel model;
+  model.rim_radius_m = value.at("rim_radius_m");
+  model.tube_radius_m = value.at("tube_radius_m");
+  model.spokes = value.at("spokes");
+  model.spoke_radius_m = value.at("spoke_radius_m");
+  model.hub_radius_m = value.at("hub_radius_m");
+  model.dish_m = value.at("dish_m");
+  // Records older than levers hold wheels.
+  model.kind = KindFrom(value.value("kind", ToString(ValveModel::Kind::kWheel)));
+  if (value.contains("lever_length_m")) model.lever_length_m = NumberFrom(value["lever_length_m"]);
+  return model;
+}
+
+ValveCandidate CandidateFrom(const Json& value) {
+  return {PoseFrom(value.at("base_from_object")), ModelFrom(value.at("model")),
+          NumberFrom(value.at("log_likelihood"))};
+}
+
+ValveEvidence EvidenceFrom(const Json& value) {
+  ValveEvidence evidence;
+  evidence.rays = value.at("rays");
+  evidence.hits = value.at("hits");
+  evidence.inlier_share = NumberFrom(value.at("inlier_share"));
+  evidence.see_through = NumberFrom(value.at("see_through"));
+  evidence.blocked_gaps = NumberFrom(value.at("blocked_gaps"));
+  evidence.rms_m = NumberFrom(value.at("rms_m"));
+  evidence.arc_coverage = NumberFrom(value.at("arc_coverage"));
+  evidence.margin_nats = NumberFrom(value.at("margin_nats"));
+  evidence.gain_nats = NumberFrom(value.at("gain_nats"));
+  return evidence;
+}
+
+}  // namespace
+
+Json ToJson(const ValveDetection& detection,
+            const Rigid<frame::Robot, frame::Base>& robot_from_base) {
+  Json rivals = Json::array();
+  for (const ValveCandidate& rival : detection.rivals) {
+    rivals.push_back(CandidateJson(rival, robot_from_base));
+    rivals.back()["margin_nats"] = detection.best.log_likelihood - rival.log_likelihood;
+  }
+  return {{"best", CandidateJson(detection.best, robot_from_base)},
+          {"phase_observable", detection.phase_observable},
+          {"sigma_position_m", ToJson(detection.sigma_position_m)},
+          {"sigma_axis_rad", detection.sigma_axis_rad},
+          {"sigma_phase_rad", detection.sigma_phase_rad},
+          {"covariance", ToJson(detection.covariance)},
+          {"evidence", EvidenceJson(detection.evidence)},
+          {"rivals", rivals}};
+}
+
+ValveDetection ValveFrom(const Json& value) {
+  ValveDetection detection;
+  detection.best = CandidateFrom(value.at("best"));
+  detection.phase_observable = value.at("phase_observable");
+  detection.sigma_position_m = Vector3From(value.at("sigma_position_m"));
+  detection.sigma_axis_rad = NumberFrom(value.at("sigma_axis_rad"));
+  detection.sigma_phase_rad = NumberFrom(value.at("sigma_phase_rad"));
+  detection.covariance = CovarianceFrom(value);
+  detection.evidence = EvidenceFrom(value.at("evidence"));
+  for (const Json& rival : value.at("rivals")) detection.rivals.push_back(CandidateFrom(rival));
+  return detection;
+}
+
+}  // namespace foresight

@@ -1,0 +1,121 @@
+#include "core/detection/candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/detection/facts.h"
+#include "core/detection/outline.h"
+
+namespace foresight {
+namespace {
+
+ValveDetection ValveWithARival() {
+  ValveDetection valve;
+  valve.best.model.spokes = 4;
+  valve.best.model.rim_radius_m = 0.120;
+  valve.best.base_from_object = {Eigen::Quaterniond::Identity(), {0.1, 0.2, 1.5}};
+  valve.best.log_likelihood = 100.0;
+  valve.rivals = {valve.best};
+  valve.rivals[0].model.spokes = 3;
+  valve.rivals[0].log_likelihood = 62.0;
+  valve.verdict = {VerdictLevel::kConfirmed, 0.97, "a valve", {}};
+  return valve;
+}
+
+TerrainDetection TwoSurfaces() {
+  TerrainDetection terrain;
+  terrain.surfaces.resize(2);
+  terrain.surfaces[0].kind = TerrainSurface::Kind::kBlock;
+  terrain.surfaces[0].size_m = {0.4, 0.3};
+  terrain.surfaces[0].toehold.size_m = {0.36, 0.26};
+  terrain.surfaces[0].verdict.level = VerdictLevel::kConfirmed;
+  terrain.surfaces[1].kind = TerrainSurface::Kind::kGround;
+  terrain.surfaces[1].size_m = {1.0, 1.0};
+  return terrain;
+}
+
+TEST(Candidates, ARivalSaysByHowMuchItIsWorse) {
+  const Detection valve = ValveWithARival();
+  EXPECT_EQ(CandidateCount(valve), 2);
+  EXPECT_EQ(CandidateText(valve, 0), "4 spokes, rim 240 mm across");
+  EXPECT_EQ(CandidateText(valve, 1),
+            "rival 1 of 1: 3 spokes, rim 240 mm across, clearly less likely (38 nats)");
+}
+
+TEST(Candidates, ARivalIsNeverConfirmed) {
+  const Detection valve = ValveWithARival();
+  EXPECT_EQ(CandidateLevel(valve, 0), VerdictLevel::kConfirmed);
+  EXPECT_EQ(CandidateLevel(valve, 1), VerdictLevel::kLikely);
+}
+
+TEST(Candidates, ThoseOfTerrainAreItsSurfaces) {
+  const Detection terrain = TwoSurfaces();
+  EXPECT_EQ(CandidateCount(terrain), 2);
+  EXPECT_EQ(CandidateLevel(terrain, 1), VerdictLevel::kUnsure);
+  EXPECT_EQ(CandidateText(terrain, 0), "surface 1 of 2: block, 400 x 300 mm, slope 0 deg");
+}
+
+TEST(Candidates, TerrainWithoutASurfaceHasNoneAndDrawsNothing) {
+  const Detection nothing = TerrainDetection();
+  EXPECT_EQ(CandidateCount(nothing), 0);
+  EXPECT_TRUE(OutlinesOf(nothing, 0).empty());
+  EXPECT_EQ(CandidateText(nothing, 0), "no surface");
+  EXPECT_EQ(FactsOf(nothing, 0, {}).size(), 1U);
+}
+
+TEST(Outlines, ATemplateLiesWhereItsPoseIs) {
+  const auto outlines = OutlinesOf(ValveWithARival(), 0);
+  ASSERT_EQ(outlines.size(), 1U);
+  double farthest = 0.0;
+  for (const auto& line : outlines[0].lines)
+    for (const auto& point : line)
+      farthest = std::max(farthest, (point - Eigen::Vector3d(0.1, 0.2, 1.5)).norm());
+  // Rim and tube.
+  EXPECT_NEAR(farthest, 0.120 + 0.012, 0.005);
+}
+
+TEST(Outlines, EverySurfaceIsDrawnAndTheToeholdInsideIt) {
+  const auto outlines = OutlinesOf(TwoSurfaces(), 1);
+  ASSERT_EQ(outlines.size(), 2U);
+  EXPECT_FALSE(outlines[0].chosen);
+  EXPECT_TRUE(outlines[1].chosen);
+  EXPECT_EQ(outlines[0].lines.size(), 2U);
+  EXPECT_EQ(outlines[1].lines.size(), 1U) << "no toehold, no rectangle";
+  EXPECT_EQ(outlines[0].level, VerdictLevel::kConfirmed);
+}
+
+TEST(Outlines, DashesCoverTheirShareOfTheLine) {
+  const Wireframe line = {{{0, 0, 0}, {0.5, 0, 0}, {1.0, 0, 0}}};
+  const Wireframe dashes = Dashed(line, 0.06, 0.04);
+  EXPECT_EQ(dashes.size(), 10U);
+  double length = 0.0;
+  for (const auto& dash : dashes)
+    for (std::size_t i = 1; i < dash.size(); ++i) length += (dash[i] - dash[i - 1]).norm();
+  EXPECT_NEAR(length, 0.6, 1e-9);
+}
+
+TEST(Facts, APositionIsToldInTheRobotsFrameInMillimetres) {
+  const Rigid<frame::Robot, frame::Base> mounted(Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0});
+  const auto facts = FactsOf(ValveWithARival(), 0, mounted);
+  ASSERT_GT(facts.size(), 3U);
+  EXPECT_EQ(facts[1].name, "Centre");
+  EXPECT_EQ(facts[1].value.rfind("x 100, y 200, z 2500 mm", 0), 0U) << facts[1].value;
+}
+
+TEST(Facts, ADirectionThatIsNotObservableIsNotTold) {
+  ValveDetection valve = ValveWithARival();
+  valve.phase_observable = false;
+  const auto facts = FactsOf(valve, 0, {});
+  EXPECT_EQ(facts[3].value, "angle not observable");
+}
+
+TEST(Facts, AdviceFollowsTheVerdict) {
+  ValveDetection valve = ValveWithARival();
+  EXPECT_EQ(AdviceOn(valve).rfind("Good", 0), 0U);
+  valve.verdict.level = VerdictLevel::kUnsure;
+  EXPECT_EQ(AdviceOn(valve).rfind("Do not act", 0), 0U);
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,218 @@
+// `foresightctl fit` on scans, depth maps and point clouds; whatever it is fed, one clear line.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/base/atomic_file.h"
+#include "core/detection/detection_json.h"
+#include "core/io/pfm.h"
+#include "core/io/png.h"
+#include "core/mission/mission_file.h"
+#include "core/sensor/sensor_rig.h"
+#include "tests/support/run_program.h"
+
+namespace foresight {
+namespace {
+
+const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
+const std::string kRegion = "534,413,721,602";  // around the scene's valve
+
+Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
+  const auto& p = answer["best"]["robot_from_object"]["position_m"];
+  return {p[0], p[1], p[2]};
+}
+
+/// One scan of the valve scene for all tests.
+class FitCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    mission_ = *folder_ / "mission.foresight";
+    const ProgramResult scanned = Run({"scan", "--scene", kScene, "--from", "-12", "--to", "12",
+                                       "--speed", "20", "--out", mission_});
+    ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static ProgramResult Run(const std::vector<std::string>& arguments) {
+    return RunProgram(FORESIGHTCTL, arguments);
+  }
+  static ProgramResult Fit(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"fit", "valve", mission_};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Run(arguments);
+  }
+  /// The scene rendered: depth.pfm, rig.yaml.
+  static std::string Rendered() {
+    const std::string out = *folder_ / "rendered";
+    if (!std::filesystem::exists(out))
+      EXPECT_EQ(Run({"render", kScene, "--out", out}).exit_code, 0);
+    return out;
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::string mission_;
+};
+
+TEST_F(FitCommand, EveryWayToDrawTheRegionFindsTheSameValve) {
+  const ProgramResult rectangle = Fit({"--roi", kRegion, "--json"});
+  ASSERT_EQ(rectangle.exit_code, 0) << rectangle.errors << rectangle.output;
+  const auto reference = nlohmann::json::parse(rectangle.output);
+  EXPECT_EQ(reference["source"], "raw");
+  const Eigen::Vector3d at = PositionIn(reference);
+  const std::string box = fmt::format("{},{},{},0.5,0.5,0.5", at.x(), at.y(), at.z());
+  for (const auto& region :
+       std::vector<std::vector<std::string>>{{"--polygon", "534,413,721,413,721,602,534,602"},
+                                             {"--two-clicks", "556,508,699,508"},
+                                             {"--box", box}}) {
+    const ProgramResult result = Fit({region[0], region[1], "--json"});
+    ASSERT_EQ(result.exit_code, 0) << region[0] << result.errors << result.output;
+    // Other rays at the region's rim, another random search: the same valve to a few millimetres.
+    EXPECT_LT((PositionIn(nlohmann::json::parse(result.output)) - at).norm(), 0.010) << region[0];
+  }
+}
+
+TEST_F(FitCommand, TheSourceIsNotedAndDepthIsAnOldNameOfTheDefaultMethod) {
+  const ProgramResult paper = Fit({"--roi", kRegion, "--source", "paper", "--json"});
+  ASSERT_LE(paper.exit_code, 1) << paper.errors;
+  EXPECT_EQ(nlohmann::json::parse(paper.output)["source"], "paper");
+  const ProgramResult depth = Fit({"--roi", kRegion, "--source", "depth", "--json"});
+  ASSERT_LE(depth.exit_code, 1) << depth.errors;
+  EXPECT_EQ(nlohmann::json::parse(depth.output)["source"], "foresight");
+  EXPECT_EQ(Fit({"--roi", kRegion, "--source", "guess"}).exit_code, 2);
+}
+
+TEST_F(FitCommand, ThePictureShowsTheAnswer) {
+  const std::string file = *folder_ / "answer.png";
+  ASSERT_EQ(Fit({"--roi", kRegion, "--picture", file}).exit_code, 0);
+  const auto picture = ReadPng(file);
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->width(), 1288);
+  // Green or orange lines: saturated, which nothing in this grey scene of bricks is at this level.
+  int strong = 0;
+  for (const Rgb8& p : picture->values())
+    strong += std::max({p.r, p.g, p.b}) - std::min({p.r, p.g, p.b}) > 150 ? 1 : 0;
+  EXPECT_GT(strong, 200);
+}
+
+TEST_F(FitCommand, TheGallerySetsAllSixSourcesSideBySide) {
+  const std::filesystem::path out = *folder_ / "gallery";
+  const ProgramResult result = Fit({"--roi", kRegion, "--gallery", out.string()});
+  ASSERT_LE(result.exit_code, 1) << result.errors;
+  const std::string page = ReadFile(out / "index.html").value();
+  for (const std::string source : {"raw", "foresight", "paper", "jbu", "tgv", "nonlocal"}) {
+    EXPECT_TRUE(std::filesystem::exists(out / (source + ".png"))) << source;
+    EXPECT_NE(page.find(source + ".png"), std::string::npos) << source;
+  }
+}
+
+TEST_F(FitCommand, AnAnswerThatIsSavedStaysInTheMission) {
+  const std::string copy = *folder_ / "copy.foresight";
+  std::filesystem::copy_file(mission_, copy);
+  EXPECT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
+  const auto detections = MissionFile::OpenReadOnly(copy).value()->ListDetections();
+  ASSERT_TRUE(detections) << detections.error().message;
+  ASSERT_EQ(detections->size(), 1U);
+  EXPECT_EQ(detections->front().kind, "valve");
+  EXPECT_TRUE(DetectionFromJson(detections->front().json));
+}
+
+TEST_F(FitCommand, ADepthMapIsFittedWithItsCamera) {
+  const std::string out = Rendered();
+  const std::vector<std::string> fit = {"fit",    "valve",           "--depth", out + "/depth.pfm",
+                                        "--rig",  out + "/rig.yaml", "--roi",   kRegion,
+                                        "--json", "--density",       "0.2"};
+  const ProgramResult result = Run(fit);
+  ASSERT_LE(result.exit_code, 1) << result.errors;
+  const auto answer = nlohmann::json::parse(result.output);
+  ASSERT_TRUE(answer.contains("best")) << result.output;
+  const auto scanned = nlohmann::json::parse(Fit({"--roi", kRegion, "--json"}).output);
+  // The true depth of the same scene against a noisy scan of it.
+  EXPECT_LT((PositionIn(answer) - PositionIn(scanned)).norm(), 0.020);
+}
+
+TEST_F(FitCommand, APointCloudWithoutAValveIsANegativeAnswer) {
+  const std::string file = *folder_ / "wall.ply";
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 900\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  for (int i = 0; i < 900; ++i) ply += fmt::format("2 {} {}\n", 0.02 * (i % 30), 0.02 * (i / 30));
+  ASSERT_TRUE(WriteFileAtomically(file, ply));
+  const ProgramResult result =
+      Run({"fit", "valve", "--cloud", file, "--viewpoint", "0,0.3,0.3", "--json"});
+  EXPECT_EQ(result.exit_code, 1) << result.errors << result.output;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
+}
+
+TEST_F(FitCommand, ThreePointsAreTooFew) {
+  const std::string file = *folder_ / "three.ply";
+  ASSERT_TRUE(WriteFileAtomically(
+      file,
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n1 0 0\n1 0.1 0\n1 0 0.1\n"));
+  const ProgramResult result =
+      Run({"fit", "valve", "--cloud", file, "--viewpoint", "0,0,0", "--json"});
+  EXPECT_EQ(result.exit_code, 1) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
+}
+
+/// One line on standard error that holds `what`, and this exit code.
+void ExpectRefused(const ProgramResult& result, int exit_code, const std::string& what) {
+  EXPECT_EQ(result.exit_code, exit_code) << result.errors;
+  EXPECT_EQ(result.ErrorLines(), 1) << result.errors;
+  EXPECT_NE(result.errors.find(what), std::string::npos) << result.errors;
+}
+
+TEST_F(FitCommand, ARegionThatIsNoneIsWrongUsage) {
+  ExpectRefused(Fit({}), 2, "region");
+  ExpectRefused(Fit({"--roi", kRegion, "--two-clicks", "1,1,9,9"}), 2, "one region");
+  ExpectRefused(Fit({"--roi", "500,500,501,501"}), 2, "too small");
+  ExpectRefused(Fit({"--roi", "5000,5000,6000,6000"}), 2, "outside the picture");
+  ExpectRefused(Fit({"--box", "1,0,1,-1,1,1"}), 2, "box");
+  ExpectRefused(Fit({"--polygon", "1,1,9,9,1,9,4"}), 2, "x,y pairs");
+  ExpectRefused(Run({"fit", "valve", "--roi", kRegion}), 2, "mission");
+}
+
+TEST_F(FitCommand, ABoxWithNothingInItIsANegativeAnswer) {
+  const ProgramResult result = Fit({"--box", "-5,0,1,0.3,0.3,0.3", "--json"});
+  EXPECT_EQ(result.exit_code, 1) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
+}
+
+TEST_F(FitCommand, ADepthMapWithoutANumberIsANegativeAnswer) {
+  const std::string out = Rendered(), file = *folder_ / "nan.pfm";
+  const SensorRig rig = LoadSensorRig(out + "/rig.yaml").value();
+  ASSERT_TRUE(WritePfm(file, FloatImage(rig.camera.width, rig.camera.height,
+                                        std::numeric_limits<float>::quiet_NaN())));
+  const ProgramResult result = Run(
+      {"fit", "valve", "--depth", file, "--rig", out + "/rig.yaml", "--roi", kRegion, "--json"});
+  EXPECT_EQ(result.exit_code, 1) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
+}
+
+TEST_F(FitCommand, DamagedFilesAndACameraThatMirrorsAreBadData) {
+  const std::string out = Rendered(), cloud = *folder_ / "nan.ply";
+  ASSERT_TRUE(WriteFileAtomically(
+      cloud,
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\nnan nan nan\n"));
+  ExpectRefused(Run({"fit", "valve", "--cloud", cloud, "--viewpoint", "0,0,0"}), 3, "nan.ply");
+  ASSERT_TRUE(WritePfm(*folder_ / "small.pfm", FloatImage(64, 48, 1000.0f)));
+  ExpectRefused(Run({"fit", "valve", "--depth", *folder_ / "small.pfm", "--rig", out + "/rig.yaml",
+                     "--roi", "1,1,40,40"}),
+                3, "64 x 48");
+  std::string rig = ReadFile(out + "/rig.yaml").value();
+  const auto at = rig.find("fx: ");
+  ASSERT_NE(at, std::string::npos);
+  rig.insert(at + 4, "-");
+  ASSERT_TRUE(WriteFileAtomically(*folder_ / "mirrored.yaml", rig));
+  ExpectRefused(Run({"fit", "valve", "--depth", out + "/depth.pfm", "--rig",
+                     *folder_ / "mirrored.yaml", "--roi", kRegion}),
+                3, "mirrored.yaml");
+}
+
+}  // namespace
+}  // namespace foresight
