@@ -17,10 +17,21 @@ Actions::Actions(Workbench* bench, QObject* parent) : QObject(parent), bench_(be
   home = Add("home", tr("Home head"), QKeySequence(QStringLiteral("Ctrl+H")),
              tr("Connect and search the zero reference"));
   stop = Add("stop", tr("Stop head"), Qt::Key_F12, tr("Stop the scanner's motor at once"));
-  region_tool = Add("region", tr("Region"), Qt::Key_R, tr("Drag a rectangle to choose a region"));
-  valve_tool = Add("valve", tr("Valve"), Qt::Key_V, tr("Drag a rectangle over a valve to fit it"));
+  region_tool = Add("region", tr("Region"), Qt::Key_R, tr("Draw to choose a region"));
+  valve_tool = Add("valve", tr("Valve"), Qt::Key_V, tr("Draw a region over a valve to fit it"));
+  drill_tool = Add("drill", tr("Drill"), Qt::Key_D, tr("Draw a region over a drill to fit it"));
+  terrain_tool =
+      Add("terrain", tr("Terrain"), Qt::Key_T, tr("Draw a region over blocks to fit them"));
   leave_tool = Add(nullptr, tr("Leave tool"), Qt::Key_Escape, tr("Back to moving the view"));
-  fit = Add("fit", tr("Fit valve"), Qt::Key_F, tr("Fit a valve into the region again"));
+  fit = Add("fit", tr("Fit"), Qt::Key_F, tr("Fit the object into the region again"));
+  compare_sources = Add("compare", tr("Compare sources"), QKeySequence(QStringLiteral("Shift+F")),
+                        tr("Fit to the lidar returns and every depth method, side by side"));
+  next_candidate = Add(nullptr, tr("Next answer"), Qt::Key_Tab,
+                       tr("In a pane: the next rival, or the next surface"));
+  previous_candidate =
+      Add(nullptr, tr("Previous answer"), QKeySequence(QStringLiteral("Shift+Tab")),
+          tr("In a pane: the rival or surface before"));
+  for (QAction* action : OfPanes()) action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   undo_region = Add("undo", tr("Undo region"), QKeySequence::Undo, tr("Back to the last region"));
   reset_view = Add(nullptr, tr("Reset view"), Qt::Key_Home, tr("Show everything again"));
   toggle_mask = Add(nullptr, tr("Mask on or off"), Qt::Key_M, tr("Hatch the uncertain depths"));
@@ -31,8 +42,8 @@ Actions::Actions(Workbench* bench, QObject* parent) : QObject(parent), bench_(be
   reset_layout = Add(nullptr, tr("Reset layout"), QKeySequence(QStringLiteral("Ctrl+Shift+L")),
                      tr("Put every pane back to its place"));
   shortcuts = Add("help", tr("Shortcuts"), Qt::Key_F1, tr("List all keys"));
-  region_tool->setCheckable(true);
-  valve_tool->setCheckable(true);
+  for (QAction* tool : {region_tool, valve_tool, drill_tool, terrain_tool})
+    tool->setCheckable(true);
   BindToBench();
   Refresh();
 }
@@ -53,8 +64,14 @@ void Actions::BindToBench() {
   connect(abort, &QAction::triggered, &bench_->head, &HeadViewModel::abort);
   connect(home, &QAction::triggered, &bench_->head, &HeadViewModel::home);
   connect(stop, &QAction::triggered, &bench_->head, &HeadViewModel::stop);
-  connect(region_tool, &QAction::triggered, &bench_->fit, &FitViewModel::setRoiTool);
-  connect(valve_tool, &QAction::triggered, &bench_->fit, &FitViewModel::setValveTool);
+  connect(region_tool, &QAction::triggered, &bench_->fit, &FitViewModel::setRegionTool);
+  for (const auto& [tool, kind] : Tools())
+    connect(tool, &QAction::triggered, &bench_->fit,
+            [this, object = kind](bool on) { bench_->fit.SetTool(object, on); });
+  connect(compare_sources, &QAction::triggered, &bench_->gallery, &SourceGalleryModel::start);
+  connect(next_candidate, &QAction::triggered, &bench_->session, &SessionModel::nextCandidate);
+  connect(previous_candidate, &QAction::triggered, &bench_->session,
+          &SessionModel::previousCandidate);
   connect(leave_tool, &QAction::triggered, &bench_->fit, &FitViewModel::leaveTools);
   connect(fit, &QAction::triggered, &bench_->fit, &FitViewModel::fit);
   connect(undo_region, &QAction::triggered, &bench_->session, &SessionModel::undoRoi);
@@ -69,9 +86,11 @@ void Actions::Refresh() {
   scan->setEnabled(bench_->head.CanScan());
   abort->setEnabled(bench_->head.CanAbort());
   home->setEnabled(bench_->head.CanHome());
-  region_tool->setChecked(bench_->fit.RoiTool() && !bench_->fit.ValveTool());
-  valve_tool->setChecked(bench_->fit.ValveTool());
+  const auto chosen = bench_->fit.Tool();
+  region_tool->setChecked(bench_->fit.Drawing() && !chosen);
+  for (const auto& [tool, kind] : Tools()) tool->setChecked(chosen == kind);
   fit->setEnabled(bench_->fit.CanFit());
+  compare_sources->setEnabled(bench_->gallery.CanStart());
   undo_region->setEnabled(bench_->session.CanUndoRoi());
   export_cloud->setEnabled(bench_->exporter.CanExport());
 }

@@ -3,6 +3,8 @@
 #include <QAction>
 #include <QObject>
 #include <QVector>
+#include <array>
+#include <utility>
 
 #include "app/workstation/workbench.h"
 
@@ -16,6 +18,8 @@ class Actions : public QObject {
   explicit Actions(Workbench* bench, QObject* parent = nullptr);
 
   const QVector<QAction*>& All() const { return all_; }
+  /// Keys that act only while a pane has the focus, where the same key means something elsewhere.
+  QList<QAction*> OfPanes() const { return {next_candidate, previous_candidate}; }
 
   QAction* open;
   QAction* save;
@@ -27,8 +31,13 @@ class Actions : public QObject {
   QAction* stop;
   QAction* region_tool;
   QAction* valve_tool;
+  QAction* drill_tool;
+  QAction* terrain_tool;
   QAction* leave_tool;
   QAction* fit;
+  QAction* compare_sources;
+  QAction* next_candidate;
+  QAction* previous_candidate;
   QAction* undo_region;
   QAction* reset_view;
   QAction* toggle_mask;
@@ -40,6 +49,11 @@ class Actions : public QObject {
  private:
   QAction* Add(const char* icon, const QString& text, const QKeySequence& key, const QString& tip);
   void BindToBench();
+  std::array<std::pair<QAction*, ObjectKind>, 3> Tools() const {
+    return {{{valve_tool, ObjectKind::kValve},
+             {drill_tool, ObjectKind::kDrill},
+             {terrain_tool, ObjectKind::kTerrain}}};
+  }
   void Refresh();
 
   Workbench* bench_;

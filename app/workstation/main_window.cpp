@@ -20,6 +20,7 @@
 #include "ui/panels/mission_panel.h"
 #include "ui/panels/notice_strip.h"
 #include "ui/panels/objects_panel.h"
+#include "ui/panels/source_gallery.h"
 #include "ui/panels/task_strip.h"
 #include "ui/views/cloud_pane.h"
 #include "ui/views/depth_pane.h"
@@ -69,7 +70,8 @@ void MainWindow::ResetLayout() {
 }
 
 void MainWindow::BuildBars() {
-  addActions(actions_->All().toList());
+  for (QAction* action : actions_->All())
+    if (!actions_->OfPanes().contains(action)) addAction(action);
   auto* file = menuBar()->addMenu(tr("&File"));
   file->addActions({actions_->open, actions_->save, actions_->export_cloud});
   file->addSeparator();
@@ -77,8 +79,10 @@ void MainWindow::BuildBars() {
   auto* head = menuBar()->addMenu(tr("&Head"));
   head->addActions({actions_->scan, actions_->abort, actions_->home, actions_->stop});
   auto* object = menuBar()->addMenu(tr("&Object"));
-  object->addActions({actions_->region_tool, actions_->valve_tool, actions_->leave_tool,
-                      actions_->fit, actions_->undo_region});
+  object->addActions({actions_->region_tool, actions_->valve_tool, actions_->drill_tool,
+                      actions_->terrain_tool, actions_->leave_tool, actions_->fit,
+                      actions_->compare_sources, actions_->next_candidate,
+                      actions_->previous_candidate, actions_->undo_region});
   view_menu_ = menuBar()->addMenu(tr("&View"));
   view_menu_->addActions({actions_->reset_view, actions_->toggle_mask, actions_->toggle_layer,
                           actions_->toggle_rejected});
@@ -94,12 +98,13 @@ void MainWindow::BuildBars() {
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->addActions({actions_->open, actions_->save, actions_->export_cloud});
   bar->addSeparator();
-  bar->addActions(
-      {actions_->region_tool, actions_->valve_tool, actions_->fit, actions_->undo_region});
+  bar->addActions({actions_->region_tool, actions_->valve_tool, actions_->drill_tool,
+                   actions_->terrain_tool, actions_->fit, actions_->undo_region});
 
   statusBar()->addPermanentWidget(
       new TaskStrip({bench_->depth.Runner(), bench_->compare.Runner(), bench_->fit.Runner(),
-                     bench_->mission.Runner(), bench_->exporter.Runner()}),
+                     bench_->gallery.Runner(), bench_->mission.Runner(),
+                     bench_->exporter.Runner()}),
       1);
   statusBar()->setSizeGripEnabled(false);
 }
@@ -149,9 +154,14 @@ void MainWindow::BuildDocks() {
 
 void MainWindow::BindViews() {
   connect(&bench_->session, &SessionModel::noticed, notices_, &NoticeStrip::show);
+  for (QWidget* pane : {static_cast<QWidget*>(image_), static_cast<QWidget*>(depth_),
+                        static_cast<QWidget*>(cloud_)})
+    pane->addActions(actions_->OfPanes());
   connect(actions_->reset_view, &QAction::triggered, cloud_->Canvas(), &CloudCanvas::ResetView);
   connect(actions_->reset_view, &QAction::triggered, image_->Canvas(), &ImageCanvas::ShowAll);
   connect(actions_->reset_view, &QAction::triggered, depth_->Canvas(), &DepthCanvas::ShowAll);
+  connect(&bench_->gallery, &SourceGalleryModel::finished, this,
+          [this] { ShowSourceGallery(bench_->gallery.Answers(), this); });
   connect(actions_->reset_layout, &QAction::triggered, this, &MainWindow::ResetLayout);
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
   connect(actions_->shortcuts, &QAction::triggered, this,

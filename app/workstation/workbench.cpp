@@ -8,18 +8,20 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
       depth(&session),
       compare(&session, &depth),
       fit(&session),
+      gallery(&session, &fit),
       mission(&session),
       exporter(&session),
       flow(&head, &session, mode),
       live(&head, &session) {
   head.SetRecorderSource([this] { return mission.Recorder(); });
   QObject::connect(&head, &HeadViewModel::scanEnded, &mission, &MissionViewModel::keepScan);
-  QObject::connect(&fit, &FitViewModel::valveFound, &mission, &MissionViewModel::keepValve);
+  QObject::connect(&fit, &FitViewModel::objectFound, &mission, &MissionViewModel::keepObject);
 }
 
 bool Workbench::Idle() {
   return !head.Scanning() && !depth.Runner()->Busy() && !compare.Runner()->Busy() &&
-         !fit.Runner()->Busy() && !mission.Runner()->Busy() && !exporter.Runner()->Busy();
+         !fit.Runner()->Busy() && !gallery.Runner()->Busy() && !mission.Runner()->Busy() &&
+         !exporter.Runner()->Busy();
 }
 
 }  // namespace foresight

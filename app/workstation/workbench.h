@@ -12,6 +12,7 @@
 #include "ui/viewmodels/mission_view_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/session_model.h"
+#include "ui/viewmodels/source_gallery_model.h"
 
 namespace foresight {
 
@@ -25,6 +26,7 @@ struct Workbench {
   LayersViewModel layers;
   CompareViewModel compare;
   FitViewModel fit;
+  SourceGalleryModel gallery;
   MissionViewModel mission;
   ExportViewModel exporter;
   ScanFlow flow;

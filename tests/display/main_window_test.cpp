@@ -1,13 +1,19 @@
 #include <gtest/gtest.h>
 #include <qtadvanceddocking/DockWidget.h>
 
+#include <QDialog>
+#include <QLabel>
 #include <QPushButton>
 #include <QSettings>
 #include <QSlider>
 #include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
 
+#include "core/detection/candidates.h"
 #include "tests/display/mouse.h"
 #include "tests/display/workstation_fixture.h"
+#include "ui/panels/detection_card.h"
 #include "ui/views/color_bar.h"
 
 namespace foresight {
@@ -55,33 +61,88 @@ TEST_F(Workstation, ThePictureIsShownAsAWhole) {
 }
 
 TEST_F(Workstation, DraggingARegionOverTheValveInThePictureFindsItAndDrawsItInEveryPane) {
-  const double before = TemplateShare(DepthPixels());
-  running->bench().fit.setValveTool(true);
+  const QImage before = DepthPixels();
+  running->bench().fit.SetTool(ObjectKind::kValve, true);
   ImageCanvas* canvas = running->window().Image()->Canvas();
   const auto [a, b] = running->AroundValve();
   Drag(canvas->viewport(), canvas->WidgetFromPixel(a), canvas->WidgetFromPixel(b));
-  ASSERT_TRUE(WaitForValve(1));
-  const FoundValve& valve = running->bench().session.Valves()[0];
+  ASSERT_TRUE(WaitForObject(1));
+  const FoundObject& valve = running->bench().session.Objects()[0];
   const Eigen::Vector3d found =
-      valve.rig.robot_from_base * valve.detection.best.base_from_object.translation();
+      valve.rig.robot_from_base * CandidatePose(valve.detection, 0).translation();
   // Half the rim's radius: "that valve", not how well; the fit's own tests are strict.
   EXPECT_LT((found - running->ValveInRobot()).norm(), 0.075);
-  EXPECT_GT(TemplateShare(PicturePixels()), 0.001);
-  EXPECT_GT(TemplateShare(DepthPixels()), before + 0.001);
-  EXPECT_GT(TemplateShare(CloudPixels()), 0.0002);
+  EXPECT_GT(OutlineShare(PicturePixels()), 0.001);
+  EXPECT_GT(ShareOfChanges(before, DepthPixels()), 0.001);
+  EXPECT_GT(OutlineShare(CloudPixels()), 0.0002);
+}
+
+TEST_F(Workstation, TabInAPaneShowsTheNextAnswerOnTheCardAndInThePicture) {
+  SessionModel& session = running->bench().session;
+  running->bench().fit.leaveTools();
+  FoundObject object;
+  ValveDetection valve;
+  valve.best.model.spokes = 4;
+  valve.best.base_from_object = session.Rig().robot_from_base.Inverse() *
+                                Rigid<frame::Robot, frame::Object>({}, running->ValveInRobot());
+  valve.rivals = {valve.best};
+  valve.rivals[0].model.rim_radius_m *= 1.5;
+  valve.rivals[0].log_likelihood = -12.0;
+  valve.verdict = {VerdictLevel::kConfirmed, 0.97, "made for this test", {}};
+  object.detection = valve;
+  object.rig = session.Rig();
+  object.scan_uuid = session.CurrentScan()->uuid;
+  session.AddObject(object);
+  running->Settle();
+  const QImage best = PicturePixels();
+  auto* answer = running->window().findChild<DetectionCard*>()->findChild<QLabel*>("answer");
+  ASSERT_NE(answer, nullptr);
+  EXPECT_TRUE(answer->text().startsWith("4 spokes")) << answer->text().toStdString();
+
+  running->window().Image()->Canvas()->setFocus();
+  QTest::keyClick(running->window().Image()->Canvas(), Qt::Key_Tab);
+  running->Settle();
+  EXPECT_EQ(session.Candidate(), 1);
+  EXPECT_TRUE(answer->text().startsWith("rival 1 of 1")) << answer->text().toStdString();
+  EXPECT_GT(ShareOfChanges(best, PicturePixels()), 0.001);
+}
+
+TEST_F(Workstation, ResidualsColourTheRegionsPointsWhiteWhereTheyAgree) {
+  running->bench().session.SelectObject(0);  // the valve that was dragged over
+  CloudPane* pane = running->window().Cloud();
+  ASSERT_TRUE(pane->ResidualButton()->isEnabled());
+  const QImage before = CloudPixels();
+  pane->ResidualButton()->setChecked(true);
+  running->Settle();
+  EXPECT_GT(ShareOfChanges(before, CloudPixels()), 0.0005);
+  pane->ResidualButton()->setChecked(false);
+  running->Settle();
+  EXPECT_LT(ShareOfChanges(before, CloudPixels()), 0.0001);
+}
+
+TEST_F(Workstation, ComparingSourcesSetsSixAnswersSideBySide) {
+  running->bench().session.SelectObject(0);
+  ASSERT_TRUE(running->bench().gallery.CanStart());
+  running->bench().gallery.start();
+  ASSERT_TRUE(WaitFor([] { return !running->bench().gallery.Runner()->Busy(); }, 60'000));
+  auto* gallery = running->window().findChild<QDialog*>("source_gallery");
+  ASSERT_NE(gallery, nullptr);
+  EXPECT_EQ(gallery->findChildren<QFrame*>("card").size(), 6);
+  EXPECT_FALSE(gallery->isModal());
+  delete gallery;
 }
 
 TEST_F(Workstation, DraggingOverTheValveInTheDepthMapFindsItToo) {
-  const std::size_t before = running->bench().session.Valves().size();
-  running->bench().fit.setValveTool(true);
+  const std::size_t before = running->bench().session.Objects().size();
+  running->bench().fit.SetTool(ObjectKind::kValve, true);
   DepthCanvas* canvas = running->window().Depth()->Canvas();
   const auto [a, b] = running->AroundValve();
   Drag(canvas, canvas->WidgetFromPixel(a), canvas->WidgetFromPixel(b));
-  EXPECT_TRUE(WaitForValve(before + 1));
+  EXPECT_TRUE(WaitForObject(before + 1));
 }
 
 TEST_F(Workstation, EscapeCancelsADrag) {
-  running->bench().fit.setRoiTool(true);
+  running->bench().fit.setRegionTool(true);
   DepthCanvas* canvas = running->window().Depth()->Canvas();
   const auto roi_before = running->bench().session.Roi();
   SendMouse(canvas, QEvent::MouseButtonPress, {30, 30}, Qt::LeftButton);

@@ -17,6 +17,20 @@ double ShareOf(const QImage& picture, const Matches& matches) {
   return static_cast<double>(count) / std::max(1, picture.width() * picture.height());
 }
 
+/// The share of pixels that differ clearly between two pictures of one size.
+inline double ShareOfChanges(const QImage& a, const QImage& b) {
+  constexpr int kClearly = 60;
+  qint64 count = 0;
+  for (int y = 0; y < std::min(a.height(), b.height()); ++y)
+    for (int x = 0; x < std::min(a.width(), b.width()); ++x) {
+      const QColor from = a.pixelColor(x, y), to = b.pixelColor(x, y);
+      const int way = std::abs(from.red() - to.red()) + std::abs(from.green() - to.green()) +
+                      std::abs(from.blue() - to.blue());
+      count += way > kClearly ? 1 : 0;
+    }
+  return static_cast<double>(count) / std::max(1, a.width() * a.height());
+}
+
 /// Neither grey nor nearly black.
 inline bool IsColoured(const QColor& color) {
   return color.value() > 50 && color.saturation() > 90;

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/pictures/detection_picture.h"
 #include "tests/display/pixels.h"
 #include "tests/display/running_window.h"
 #include "tests/ui/wait_for.h"
 #include "ui/views/cloud_pane.h"
 #include "ui/views/depth_pane.h"
 #include "ui/views/image_pane.h"
-#include "ui/views/overlay_style.h"
 
 namespace foresight {
 
@@ -26,12 +26,16 @@ struct Workstation : testing::Test {
   static QImage DepthPixels() { return running->window().Depth()->Canvas()->grabFramebuffer(); }
   static QImage CloudPixels() { return running->window().Cloud()->Canvas()->grabFramebuffer(); }
   static QImage PicturePixels() { return running->window().Image()->Canvas()->grab().toImage(); }
-  static double TemplateShare(const QImage& picture) {
-    return ShareOf(picture, [](const QColor& color) { return IsNear(color, kTemplateColor); });
+  /// Of the outlines of objects that are more than UNSURE.
+  static double OutlineShare(const QImage& picture) {
+    return ShareOf(picture, [](const QColor& color) {
+      return IsNear(color, ColorOf(VerdictLevel::kConfirmed)) ||
+             IsNear(color, ColorOf(VerdictLevel::kLikely));
+    });
   }
   /// Waits for a fit after a region was drawn; false when it found no valve.
-  static bool WaitForValve(std::size_t count) {
-    const bool found = WaitFor([&] { return running->bench().session.Valves().size() >= count; });
+  static bool WaitForObject(std::size_t count) {
+    const bool found = WaitFor([&] { return running->bench().session.Objects().size() >= count; });
     running->Settle();
     return found;
   }

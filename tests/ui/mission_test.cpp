@@ -15,10 +15,12 @@ struct MissionTest : testing::Test {
   std::shared_ptr<const Scan> scan = std::make_shared<const Scan>(
       WallAndValveScan({.from_rad = -0.02, .to_rad = 0.02, .speed_rad_s = 0.1}));
 
-  FoundValve Valve() const {
-    FoundValve valve;
-    valve.detection.best.model.rim_radius_m = 0.123;
-    valve.detection.origin.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
+  FoundObject Valve() const {
+    FoundObject valve;
+    ValveDetection detection;
+    detection.best.model.rim_radius_m = 0.123;
+    detection.origin.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
+    valve.detection = detection;
     valve.rig = scan->rig;
     valve.scan_uuid = scan->uuid;
     return valve;
@@ -29,7 +31,7 @@ struct MissionTest : testing::Test {
     QObject::connect(&session, &SessionModel::noticed,
                      [](const Notice& notice) { ADD_FAILURE() << notice.what.toStdString(); });
     mission.keepScan(scan);
-    mission.keepValve(Valve());
+    mission.keepObject(Valve());
     EXPECT_EQ(mission.UnsavedScans(), 1);
     mission.SaveAs(path);
     ASSERT_TRUE(WaitFor([&] { return !mission.Runner()->Busy(); }));
@@ -46,9 +48,10 @@ TEST_F(MissionTest, WhatWasSavedOpensAgainAsAReplay) {
   EXPECT_EQ(session.Mode(), SessionMode::kReplay);
   ASSERT_NE(session.CurrentScan(), nullptr);
   EXPECT_EQ(session.CurrentScan()->lines, scan->lines);
-  ASSERT_EQ(session.Valves().size(), 1u);
-  EXPECT_EQ(session.Valves()[0].detection.best.model.rim_radius_m, 0.123);
-  EXPECT_TRUE(session.IsCurrent(session.Valves()[0]));
+  ASSERT_EQ(session.Objects().size(), 1u);
+  EXPECT_EQ(std::get<ValveDetection>(session.Objects()[0].detection).best.model.rim_radius_m,
+            0.123);
+  EXPECT_TRUE(session.IsCurrent(session.Objects()[0]));
 }
 
 TEST_F(MissionTest, AScanThatWasRecordedWhileItArrivedIsSavedOnce) {

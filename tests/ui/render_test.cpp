@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/detection/outline.h"
 #include "core/pictures/color_map.h"
 #include "core/pictures/depth_picture.h"
 #include "core/pictures/projected_wireframe.h"
@@ -61,10 +62,11 @@ TEST(PaintDepth, AKeptPixelHasTheColourOfItsDepth) {
   EXPECT_EQ(picture(5, 5), ColorOf(ColorMap::kTurbo, 128.0 / 255.0));
 }
 
-TEST(ProjectValve, TheRimLandsAroundTheProjectedCentre) {
+TEST(ProjectWireframe, TheRimLandsAroundTheProjectedCentre) {
   const SensorRig rig = DefaultSensorRig();
-  const ValveCandidate valve{SyntheticValvePose(), SyntheticValve(), 0.0};
-  const PixelLines lines = ProjectValve(valve, rig, 0.1);
+  ValveDetection valve;
+  valve.best = {SyntheticValvePose(), SyntheticValve(), 0.0};
+  const PixelLines lines = ProjectWireframe(OutlinesOf(valve, 0)[0].lines, rig, 0.1);
   const auto center =
       rig.camera.Project(rig.CameraFromBase(0.1) * SyntheticValvePose().translation());
   double farthest = 0.0;

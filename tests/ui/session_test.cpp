@@ -89,7 +89,7 @@ TEST_F(SessionTest, NoSignalOfANewScanLetsTheOldPictureOrDepthBeSeen) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
   int heard = 0;
   for (auto signal : {&SessionModel::scanChanged, &SessionModel::cloudChanged,
-                      &SessionModel::roiChanged, &SessionModel::valvesChanged})
+                      &SessionModel::roiChanged, &SessionModel::objectsChanged})
     QObject::connect(&session, signal, [&] {
       ++heard;
       EXPECT_EQ(session.Picture(), nullptr);
@@ -101,10 +101,10 @@ TEST_F(SessionTest, NoSignalOfANewScanLetsTheOldPictureOrDepthBeSeen) {
 
 TEST_F(SessionTest, AFailedFitIsReportedAndListedNowhere) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
-  fit.setValveTool(true);
-  fit.DrawRoi({20, 20}, {60, 60});  // nothing but wall
+  fit.SetTool(ObjectKind::kValve, true);
+  fit.DrawRegion({{20, 20}, {60, 60}});  // nothing but wall
   ASSERT_TRUE(WaitFor([&] { return !fit.Runner()->Busy(); }));
-  EXPECT_TRUE(session.Valves().empty());
+  EXPECT_TRUE(session.Objects().empty());
   ASSERT_FALSE(notices.empty());
   EXPECT_EQ(notices.back().level, Notice::Level::kError);
   EXPECT_FALSE(notices.back().next.isEmpty());
@@ -112,12 +112,12 @@ TEST_F(SessionTest, AFailedFitIsReportedAndListedNowhere) {
 
 TEST_F(SessionTest, DrawingOverAValveWithTheToolFindsIt) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
-  fit.setValveTool(true);
+  fit.SetTool(ObjectKind::kValve, true);
   const auto [a, b] = AroundValve();
-  fit.DrawRoi(a, b);
+  fit.DrawRegion({a, b});
   ASSERT_TRUE(WaitFor([&] { return !fit.Runner()->Busy(); }));
-  ASSERT_EQ(session.Valves().size(), 1u) << (notices.empty() ? "" : notices[0].what.toStdString());
-  const ValveDetection& found = session.Valves()[0].detection;
+  ASSERT_EQ(session.Objects().size(), 1u) << (notices.empty() ? "" : notices[0].what.toStdString());
+  const auto& found = std::get<ValveDetection>(session.Objects()[0].detection);
   const double miss_m =
       (found.best.base_from_object.translation() - SyntheticValvePose().translation()).norm();
   EXPECT_LT(miss_m, 0.02);  // the tool's own accuracy is tested with the fit: here only "the valve"
@@ -125,15 +125,15 @@ TEST_F(SessionTest, DrawingOverAValveWithTheToolFindsIt) {
 
 TEST_F(SessionTest, AClickIsNotARegion) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
-  fit.DrawRoi({100, 100}, {101, 101});
+  fit.DrawRegion({{100, 100}, {101, 101}});
   EXPECT_FALSE(session.Roi());
 }
 
 TEST_F(SessionTest, UndoBringsTheRegionBeforeBack) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
-  fit.DrawRoi({10, 10}, {50, 50});
+  fit.DrawRegion({{10, 10}, {50, 50}});
   const auto first = session.Roi()->polygon;
-  fit.DrawRoi({60, 60}, {90, 90});
+  fit.DrawRegion({{60, 60}, {90, 90}});
   session.undoRoi();
   EXPECT_EQ(session.Roi()->polygon, first);
   session.undoRoi();
@@ -143,14 +143,14 @@ TEST_F(SessionTest, UndoBringsTheRegionBeforeBack) {
 
 TEST_F(SessionTest, AValveOfAnEarlierScanIsNotCurrent) {
   session.SetScan(SharedScan());
-  FoundValve valve;
+  FoundObject valve;
   valve.scan_uuid = SharedScan()->uuid;
-  session.AddValve(valve);
-  EXPECT_TRUE(session.IsCurrent(session.Valves()[0]));
+  session.AddObject(valve);
+  EXPECT_TRUE(session.IsCurrent(session.Objects()[0]));
   Scan another = *SharedScan();
   another.uuid = NewUuid();
   session.SetScan(std::make_shared<const Scan>(std::move(another)));
-  EXPECT_FALSE(session.IsCurrent(session.Valves()[0]));
+  EXPECT_FALSE(session.IsCurrent(session.Objects()[0]));
 }
 
 struct ScanFlowTest : SessionTest {
@@ -235,6 +235,58 @@ TEST_F(LiveDepthTest, APictureOfAnotherAngleIsNotUsed) {
   fake->Deliver(*SharedScan(), 60);
   ASSERT_TRUE(WaitFor([&] { return session.Cloud() != nullptr; }));
   EXPECT_FALSE(live.Runner()->Busy());
+}
+
+/// A wheel with two rivals, found in the shared scan.
+FoundObject ValveWithTwoRivals() {
+  ValveDetection valve;
+  valve.verdict = {VerdictLevel::kConfirmed, 0.97, "a valve", {}};
+  valve.rivals.resize(2);
+  FoundObject object;
+  object.detection = valve;
+  object.scan_uuid = SharedScan()->uuid;
+  return object;
+}
+
+TEST_F(SessionTest, TabGoesThroughTheAnswersRoundAndRound) {
+  session.AddObject(ValveWithTwoRivals());
+  int changes = 0;
+  QObject::connect(&session, &SessionModel::objectsChanged, [&] { ++changes; });
+  for (const int expected : {1, 2, 0}) {
+    session.nextCandidate();
+    EXPECT_EQ(session.Candidate(), expected);
+  }
+  session.previousCandidate();
+  EXPECT_EQ(session.Candidate(), 2);
+  EXPECT_EQ(changes, 4);
+}
+
+TEST_F(SessionTest, AnotherObjectIsShownWithItsBestAnswer) {
+  session.AddObject(ValveWithTwoRivals());
+  session.nextCandidate();
+  session.AddObject(ValveWithTwoRivals());
+  EXPECT_EQ(session.Candidate(), 0);
+  EXPECT_EQ(session.CandidateOf(0), 0);
+}
+
+TEST_F(SessionTest, WithoutAnObjectThereIsNoAnswerToStepTo) {
+  session.nextCandidate();
+  EXPECT_EQ(session.Candidate(), 0);
+  EXPECT_EQ(session.Selected(), nullptr);
+}
+
+TEST(RegionThrough, TwoPointsAreARectangleOrACircleAndManyAPolygon) {
+  const std::vector<Eigen::Vector2d> two = {{10, 20}, {50, 60}};
+  EXPECT_EQ(RegionThrough(RegionShape::kRectangle, 0.1, two)->polygon.size(), 4U);
+  const auto circle = RegionThrough(RegionShape::kTwoClicks, 0.1, two);
+  ASSERT_TRUE(circle);
+  EXPECT_TRUE(circle->Contains({30, 40}));
+  EXPECT_TRUE(circle->Contains({8, 18})) << "three tenths wider than the clicks are apart";
+  const auto triangle = RegionThrough(RegionShape::kPolygon, 0.1, {{0, 0}, {40, 0}, {0, 40}});
+  ASSERT_TRUE(triangle);
+  EXPECT_EQ(triangle->polygon.size(), 3U);
+  EXPECT_EQ(triangle->motor_rad, 0.1);
+  EXPECT_FALSE(RegionThrough(RegionShape::kPolygon, 0.1, two));
 }
 
 }  // namespace

@@ -10,19 +10,36 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "ui/panels/detection_card.h"
 #include "ui/panels/theme.h"
-#include "ui/panels/valve_card.h"
 
 namespace foresight {
+namespace {
+
+/// "Valve", "Drill", "Terrain".
+QString TitleOf(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::kValve:
+      return ObjectsPanel::tr("Valve");
+    case ObjectKind::kDrill:
+      return ObjectsPanel::tr("Drill");
+    case ObjectKind::kTerrain:
+      break;
+  }
+  return ObjectsPanel::tr("Terrain");
+}
+
+}  // namespace
 
 ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, QWidget* parent)
     : QWidget(parent),
       session_(session),
       fit_(fit),
       list_(new QListWidget),
-      empty_(new QLabel(tr("No objects yet. Choose the valve tool (V) and drag a rectangle over a "
-                           "valve in the picture or the depth map."))),
-      card_(new ValveCard) {
+      empty_(
+          new QLabel(tr("No objects yet. Choose a tool, valve (V), drill (D) or terrain (T), and "
+                        "draw a region over it in the picture or the depth map."))),
+      card_(new DetectionCard) {
   empty_->setWordWrap(true);
   empty_->setAlignment(Qt::AlignCenter);
   empty_->setObjectName(QStringLiteral("faint"));
@@ -47,64 +64,83 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, QWidget* pa
   layout->addWidget(scroll, 3);
   setMinimumWidth(300);
 
-  connect(session_, &SessionModel::valvesChanged, this, &ObjectsPanel::ShowValves);
-  connect(list_, &QListWidget::currentRowChanged, session_, &SessionModel::SelectValve);
+  connect(session_, &SessionModel::objectsChanged, this, &ObjectsPanel::ShowObjects);
+  connect(list_, &QListWidget::currentRowChanged, session_, &SessionModel::SelectObject);
+  connect(card_, &DetectionCard::nextAsked, session_, &SessionModel::nextCandidate);
+  connect(card_, &DetectionCard::previousAsked, session_, &SessionModel::previousCandidate);
   connect(fit_, &FitViewModel::changed, this, &ObjectsPanel::ShowFit);
   connect(&age_timer_, &QTimer::timeout, this, &ObjectsPanel::ShowAge);
   age_timer_.start(1000);
-  ShowValves();
+  ShowObjects();
   ShowFit();
 }
 
 QWidget* ObjectsPanel::BuildFitRow() {
   auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
+  auto* layout = new QGridLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
+  layout->setColumnStretch(0, 1);
+  layout->setColumnStretch(1, 1);
+  shape_ = new QComboBox;
+  shape_->setAccessibleName(tr("Shape of the region"));
+  shape_->addItem(tr("Rectangle"));
+  shape_->setItemData(0, tr("Drag from corner to corner"), Qt::ToolTipRole);
+  shape_->addItem(tr("Polygon"));
+  shape_->setItemData(1,
+                      tr("Click the corners; Enter or a double click closes, Backspace takes "
+                         "one back, Esc ends"),
+                      Qt::ToolTipRole);
+  shape_->addItem(tr("Two clicks"));
+  shape_->setItemData(2, tr("Click two points on opposite sides of the object"), Qt::ToolTipRole);
+  shape_->setToolTip(tr("How a region is drawn"));
   source_ = new QComboBox;
   source_->addItem(tr("to lidar points"));
   source_->addItem(tr("to depth map"));
   source_->setToolTip(tr("Which measurements the template is fitted to"));
-  fit_button_ = new QPushButton(Icon("fit"), tr("Fit valve"));
-  layout->addWidget(fit_button_, 1);
-  layout->addWidget(source_);
+  fit_button_ = new QPushButton(Icon("fit"), {});
+  layout->addWidget(shape_, 0, 0);
+  layout->addWidget(source_, 0, 1);
+  layout->addWidget(fit_button_, 1, 0, 1, 2);
+  connect(shape_, QOverload<int>::of(&QComboBox::activated), this,
+          [this](int index) { fit_->SetShape(static_cast<RegionShape>(index)); });
   connect(fit_button_, &QPushButton::clicked, fit_, &FitViewModel::fit);
-  connect(source_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) {
-    fit_->SetSource(index == 0 ? FitSource::kRaw : FitSource::kDepth);
-  });
+  connect(source_, QOverload<int>::of(&QComboBox::activated), this,
+          [this](int index) { fit_->SetSource(index == 0 ? FitSource::kRaw : FitSource::kDepth); });
   return row;
 }
 
-void ObjectsPanel::ShowValves() {
-  const auto& valves = session_->Valves();
+void ObjectsPanel::ShowObjects() {
+  const auto& objects = session_->Objects();
   const QSignalBlocker blocker(list_);
   list_->clear();
-  for (std::size_t i = 0; i < valves.size(); ++i) {
-    const Verdict& verdict = valves[i].detection.verdict;
-    QString text = tr("Valve %1, %2").arg(i + 1).arg(QString::fromUtf8(ToString(verdict.level)));
-    if (!session_->IsCurrent(valves[i])) text += tr(" (earlier scan)");
-    list_->addItem(new QListWidgetItem(Icon("valve"), text));
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Detection& found = objects[i].detection;
+    QString text = tr("%1 %2, %3")
+                       .arg(TitleOf(ObjectKindOf(found)))
+                       .arg(i + 1)
+                       .arg(QString::fromUtf8(ToString(VerdictOf(found).level)));
+    if (!session_->IsCurrent(objects[i])) text += tr(" (earlier scan)");
+    list_->addItem(new QListWidgetItem(Icon(KindOf(found)), text));
   }
-  list_->setCurrentRow(session_->SelectedValve());
+  list_->setCurrentRow(session_->SelectedObject());
   const int rows = std::min(6, list_->count());
   list_->setFixedHeight(rows * std::max(24, list_->sizeHintForRow(0)) + 2 * list_->frameWidth());
-  const bool chosen = session_->SelectedValve() >= 0;
-  empty_->setVisible(valves.empty());
-  list_->setVisible(!valves.empty());
-  card_->setVisible(chosen);
-  if (!chosen) return;
-  const FoundValve& valve = valves[static_cast<std::size_t>(session_->SelectedValve())];
-  card_->Show(valve, session_->IsCurrent(valve));
+  const FoundObject* chosen = session_->Selected();
+  empty_->setVisible(objects.empty());
+  list_->setVisible(!objects.empty());
+  card_->setVisible(chosen != nullptr);
+  if (chosen != nullptr) card_->Show(*chosen, session_->Candidate(), session_->IsCurrent(*chosen));
 }
 
 void ObjectsPanel::ShowFit() {
   fit_button_->setEnabled(fit_->CanFit());
-  fit_button_->setToolTip(fit_->CanFit() ? tr("Fit a valve into the drawn region")
-                                         : tr("Draw a region over a valve first"));
+  fit_button_->setText(tr("Fit %1").arg(TitleOf(fit_->Kind()).toLower()));
+  fit_button_->setToolTip(fit_->CanFit() ? tr("Fit the object into the drawn region")
+                                         : tr("Draw a region over the object first"));
 }
 
 void ObjectsPanel::ShowAge() {
-  if (session_->SelectedValve() >= 0)
-    card_->ShowAge(session_->Valves()[static_cast<std::size_t>(session_->SelectedValve())]);
+  if (const FoundObject* chosen = session_->Selected()) card_->ShowAge(*chosen);
 }
 
 }  // namespace foresight

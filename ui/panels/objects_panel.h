@@ -12,7 +12,7 @@ class QPushButton;
 
 namespace foresight {
 
-class ValveCard;
+class DetectionCard;
 
 /// What was found: a list, and a card for the chosen one.
 class ObjectsPanel : public QWidget {
@@ -23,17 +23,18 @@ class ObjectsPanel : public QWidget {
 
  private:
   QWidget* BuildFitRow();
-  void ShowValves();
+  void ShowObjects();
   void ShowFit();
   void ShowAge();
 
   SessionModel* session_;
   FitViewModel* fit_;
+  QComboBox* shape_;
   QComboBox* source_;
   QPushButton* fit_button_;
   QListWidget* list_;
   QLabel* empty_;
-  ValveCard* card_;
+  DetectionCard* card_;
   QTimer age_timer_;
 };
 

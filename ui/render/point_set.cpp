@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/pictures/color_map.h"
 
 namespace foresight {
 namespace {
@@ -50,6 +51,16 @@ PointSet PointsOf(const RegisteredScan& scan, const SensorRig& rig, PointColor c
   if (!scan.origins.empty())
     set.viewpoint = rotation * scan.origins[scan.origins.size() / 2] + translation;
   Shuffle(&set);
+  return set;
+}
+
+PointSet PointsOf(const std::vector<Residual>& residuals, const SensorRig& rig) {
+  PointSet set;
+  for (const Residual& residual : residuals) {
+    set.points.push_back((rig.robot_from_base * residual.point).cast<float>());
+    set.colors.push_back(
+        ColorOf(ColorMap::kBalance, 0.5 + 0.5 * residual.ahead_m / kFullResidual_m));
+  }
   return set;
 }
 

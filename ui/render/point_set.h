@@ -6,6 +6,7 @@
 #include "core/base/image.h"
 #include "core/base/result.h"
 #include "core/depth/upsample.h"
+#include "core/detection/residuals.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/camera_frame.h"
 #include "core/sensor/sensor_rig.h"
@@ -26,6 +27,11 @@ struct PointSet {
 
 /// The lidar's returns. kPicture is taken as kHeight.
 PointSet PointsOf(const RegisteredScan& scan, const SensorRig& rig, PointColor color);
+
+/// Points of a region coloured by how far they are from what was fitted: blue = the template lies
+/// nearer, white = they agree, orange = it lies further away, full colour at 30 mm.
+PointSet PointsOf(const std::vector<Residual>& residuals, const SensorRig& rig);
+inline constexpr double kFullResidual_m = 0.030;
 
 /// The depths that the mask keeps, every `stride`-th pixel, unprojected.
 PointSet PointsOf(const DepthImage& depth_m, const MaskImage* mask, const CameraFrame& picture,

@@ -1,6 +1,18 @@
 #include "ui/viewmodels/fit_view_model.h"
 
 namespace foresight {
+
+Result<ImageRoi> RegionThrough(RegionShape shape, double motor_rad,
+                               const std::vector<Eigen::Vector2d>& points) {
+  ImageRoi roi{motor_rad, points};
+  if (shape != RegionShape::kPolygon && points.size() == 2)
+    roi = shape == RegionShape::kRectangle
+              ? ImageRoi::Rectangle(motor_rad, points[0], points[1])
+              : ImageRoi::AroundTwoClicks(motor_rad, points[0], points[1]);
+  FORESIGHT_CHECK(roi.Check());
+  return roi;
+}
+
 FitViewModel::FitViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {
   for (auto signal : {&SessionModel::cloudChanged, &SessionModel::depthChanged,
@@ -10,25 +22,37 @@ FitViewModel::FitViewModel(SessionModel* session, QObject* parent)
   connect(&runner_, &TaskRunner::changed, this, &FitViewModel::changed);
 }
 
+std::optional<ObjectKind> FitViewModel::Tool() const {
+  return object_tool_ ? std::optional(kind_) : std::nullopt;
+}
+
+void FitViewModel::SetShape(RegionShape shape) {
+  shape_ = shape;
+  Q_EMIT changed();
+}
+
 void FitViewModel::SetSource(FitSource source) {
   source_ = source;
   Q_EMIT changed();
 }
 
-void FitViewModel::setValveTool(bool on) {
-  valve_tool_ = on;
-  if (on) roi_tool_ = false;
+void FitViewModel::SetTool(ObjectKind kind, bool on) {
+  object_tool_ = on;
+  if (on) {
+    kind_ = kind;
+    region_tool_ = false;
+  }
   Q_EMIT changed();
 }
 
-void FitViewModel::setRoiTool(bool on) {
-  roi_tool_ = on;
-  if (on) valve_tool_ = false;
+void FitViewModel::setRegionTool(bool on) {
+  region_tool_ = on;
+  if (on) object_tool_ = false;
   Q_EMIT changed();
 }
 
 void FitViewModel::leaveTools() {
-  valve_tool_ = roi_tool_ = false;
+  object_tool_ = region_tool_ = false;
   Q_EMIT changed();
 }
 
@@ -38,47 +62,61 @@ bool FitViewModel::CanFit() const {
   return session_->CurrentScan() && session_->Roi() && has_points && !runner_.Busy();
 }
 
-void FitViewModel::DrawRoi(const Eigen::Vector2d& corner_a, const Eigen::Vector2d& corner_b) {
+void FitViewModel::DrawRegion(const std::vector<Eigen::Vector2d>& points) {
   const CameraFrame* picture = session_->Picture();
   if (picture == nullptr) return;
-  const ImageRoi roi = ImageRoi::Rectangle(picture->motor_angle_rad, corner_a, corner_b);
-  if (!roi.Check()) return;
-  session_->SetRoi(roi);
-  if (valve_tool_) fit();
+  const auto roi = RegionThrough(shape_, picture->motor_angle_rad, points);
+  if (!roi) return;
+  session_->SetRoi(*roi);
+  if (object_tool_) fit();
+}
+
+QString FitViewModel::Doing() const {
+  switch (kind_) {
+    case ObjectKind::kValve:
+      return tr("Fitting the valve");
+    case ObjectKind::kDrill:
+      return tr("Fitting the drill");
+    case ObjectKind::kTerrain:
+      break;
+  }
+  return tr("Fitting the terrain");
 }
 
 void FitViewModel::fit() {
   if (!session_->CurrentScan() || !session_->Roi()) return;
   if (!CanFit() && !runner_.Busy()) {
     session_->Report({Notice::Level::kWarning, tr("There are no points to fit to yet."),
-                      tr("Wait until the depth is computed, then press Fit valve.")});
+                      tr("Wait until the depth is computed, then press Fit.")});
     return;
   }
+  const auto options = FitOptionsFor(kind_, session_->CurrentScan()->rig.robot_from_base);
   const auto work = [scan = session_->CurrentScan(), cloud = session_->Cloud(),
                      depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Roi(),
-                     source = source_](const RunContext& context) -> Result<ValveDetection> {
+                     source = source_, options](const RunContext& context) -> Result<Detection> {
     const ProcessedScan processed{scan->rig, *cloud, depth.get(), mask.get()};
-    return FitValveInScan(processed, source, roi, FitValveOptions(), context);
+    return FitInScan(processed, source, roi, options, context);
   };
-  runner_.Run<ValveDetection>(tr("Fitting the valve"), work,
-                              [this, scan = session_->CurrentScan()](
-                                  const Result<ValveDetection>& found) { Accept(scan, found); });
+  runner_.Run<Detection>(Doing(), work,
+                         [this, scan = session_->CurrentScan()](const Result<Detection>& found) {
+                           Accept(scan, found);
+                         });
 }
 
 void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan,
-                          const Result<ValveDetection>& detection) {
+                          const Result<Detection>& detection) {
   if (!detection) {
-    session_->Report(NoticeOf(tr("Fitting the valve"), detection.error()));
+    session_->Report(NoticeOf(Doing(), detection.error()));
     return;
   }
   if (scan != session_->CurrentScan()) return;
-  FoundValve valve;
-  valve.detection = *detection;
-  valve.rig = scan->rig;
-  valve.scan_uuid = scan->uuid;
-  valve.scan_time = session_->ScanTime();
-  session_->AddValve(valve);
-  Q_EMIT valveFound(valve);
+  FoundObject object;
+  object.detection = *detection;
+  object.rig = scan->rig;
+  object.scan_uuid = scan->uuid;
+  object.scan_time = session_->ScanTime();
+  session_->AddObject(object);
+  Q_EMIT objectFound(object);
 }
 
 }  // namespace foresight

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <QObject>
+#include <optional>
+#include <vector>
 
 #include "core/detection/fit_in_scan.h"
 #include "ui/viewmodels/session_model.h"
@@ -9,44 +11,64 @@
 
 namespace foresight {
 
-/// From a region the operator drew to a found valve.
+/// How a region is drawn with the mouse.
+enum class RegionShape {
+  kRectangle,  ///< dragged: two opposite corners
+  kPolygon,    ///< clicked: its corners
+  kTwoClicks,  ///< two points on opposite sides of the object
+};
+
+/// The region that points in pixels of a picture mean; fails as ImageRoi::Check does.
+Result<ImageRoi> RegionThrough(RegionShape shape, double motor_rad,
+                               const std::vector<Eigen::Vector2d>& points);
+
+/// From a region the operator drew to a found object.
 class FitViewModel : public QObject {
   Q_OBJECT
 
  public:
   explicit FitViewModel(SessionModel* session, QObject* parent = nullptr);
 
-  bool ValveTool() const { return valve_tool_; }
-  bool RoiTool() const { return roi_tool_ || valve_tool_; }
+  /// Whether the mouse draws regions.
+  bool Drawing() const { return region_tool_ || object_tool_; }
+  /// The tool that fits as soon as a region is drawn; nullopt = none is on.
+  std::optional<ObjectKind> Tool() const;
+  /// What `fit` looks for: the last tool's.
+  ObjectKind Kind() const { return kind_; }
+  RegionShape Shape() const { return shape_; }
+  void SetShape(RegionShape shape);
   FitSource From() const { return source_; }
   void SetSource(FitSource source);
   bool CanFit() const;
   TaskRunner* Runner() { return &runner_; }
 
-  /// Two opposite corners in pixels of the current picture. Fits at once while the valve tool is
-  /// on. A region too small to be meant is ignored.
-  void DrawRoi(const Eigen::Vector2d& corner_a, const Eigen::Vector2d& corner_b);
+  /// Drawing a region also fits an object of this kind into it.
+  void SetTool(ObjectKind kind, bool on);
+  /// Points in pixels of the current picture, as many as the shape asks for. Fits at once while an
+  /// object's tool is on. A region too small to be meant is ignored.
+  void DrawRegion(const std::vector<Eigen::Vector2d>& points);
 
  public Q_SLOTS:
-  /// Drawing a region also fits a valve into it.
-  void setValveTool(bool on);
   /// Drawing a region only selects it.
-  void setRoiTool(bool on);
+  void setRegionTool(bool on);
   void leaveTools();
   void fit();
 
  Q_SIGNALS:
   void changed();
-  void valveFound(const foresight::FoundValve& valve);
+  void objectFound(const foresight::FoundObject& object);
 
  private:
-  void Accept(const std::shared_ptr<const Scan>& scan, const Result<ValveDetection>& detection);
+  QString Doing() const;
+  void Accept(const std::shared_ptr<const Scan>& scan, const Result<Detection>& detection);
 
   SessionModel* session_;
   TaskRunner runner_;
   FitSource source_ = FitSource::kRaw;
-  bool valve_tool_ = false;
-  bool roi_tool_ = false;
+  RegionShape shape_ = RegionShape::kRectangle;
+  ObjectKind kind_ = ObjectKind::kValve;
+  bool object_tool_ = false;
+  bool region_tool_ = false;
 };
 
 }  // namespace foresight

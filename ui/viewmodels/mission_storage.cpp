@@ -9,8 +9,6 @@
 namespace foresight {
 namespace {
 
-constexpr const char* kValveKind = "valve";
-
 std::int64_t NowUtc_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::system_clock::now().time_since_epoch())
@@ -43,43 +41,43 @@ Result<std::optional<std::int64_t>> IdOf(const MissionFile& file, const std::str
 }  // namespace
 
 Status AppendToMission(MissionFile* file, const std::vector<std::shared_ptr<const Scan>>& scans,
-                       const std::vector<FoundValve>& valves, const RunContext& context) {
+                       const std::vector<FoundObject>& objects, const RunContext& context) {
   for (const auto& scan : scans) {
     FORESIGHT_TRY(const auto id, IdOf(*file, scan->uuid));
     if (!id) FORESIGHT_CHECK(AppendScan(file, *scan, context));
   }
-  for (const FoundValve& valve : valves) {
-    FORESIGHT_TRY(const auto id, IdOf(*file, valve.scan_uuid));
+  for (const FoundObject& object : objects) {
+    FORESIGHT_TRY(const auto id, IdOf(*file, object.scan_uuid));
     if (!id)
-      return Fail(ErrorCode::kInvalidInput, "mission file {}: no scan {} for a valve",
-                  file->path().string(), valve.scan_uuid);
+      return Fail(ErrorCode::kInvalidInput, "mission file {}: no scan {} for an object",
+                  file->path().string(), object.scan_uuid);
     DetectionRecord record;
     record.scan_id = *id;
-    record.kind = kValveKind;
+    record.kind = KindOf(object.detection);
     record.utc_ns = NowUtc_ns();
-    record.json = DetectionToJson(valve.detection, valve.rig.robot_from_base);
+    record.json = DetectionToJson(object.detection, object.rig.robot_from_base);
     FORESIGHT_CHECK(file->AddDetection(record));
   }
   return {};
 }
 
-Result<std::vector<FoundValve>> ValvesInMission(const MissionFile& file, std::int64_t scan_id,
-                                                const Scan& scan) {
-  std::vector<FoundValve> valves;
+Result<std::vector<FoundObject>> ObjectsInMission(const MissionFile& file, std::int64_t scan_id,
+                                                  const Scan& scan) {
+  std::vector<FoundObject> objects;
   FORESIGHT_TRY(const std::vector<DetectionRecord> records, file.ListDetections());
   for (const DetectionRecord& record : records) {
-    if (record.scan_id != scan_id || record.kind != kValveKind) continue;
-    FoundValve valve;
-    FORESIGHT_TRY(valve.detection, ValveDetectionFromJson(record.json));
-    valve.rig = scan.rig;
-    valve.scan_uuid = scan.uuid;
-    valve.scan_time = QDateTime::fromMSecsSinceEpoch(scan.start_utc_ns / 1'000'000);
+    if (record.scan_id != scan_id) continue;
+    FoundObject object;
+    FORESIGHT_TRY(object.detection, DetectionFromJson(record.json));
+    object.rig = scan.rig;
+    object.scan_uuid = scan.uuid;
+    object.scan_time = QDateTime::fromMSecsSinceEpoch(scan.start_utc_ns / 1'000'000);
     // An age that goes on where the mission's clock left it.
-    valve.found = std::chrono::steady_clock::now() -
-                  std::chrono::nanoseconds(std::max<std::int64_t>(0, NowUtc_ns() - record.utc_ns));
-    valves.push_back(std::move(valve));
+    object.found = std::chrono::steady_clock::now() -
+                   std::chrono::nanoseconds(std::max<std::int64_t>(0, NowUtc_ns() - record.utc_ns));
+    objects.push_back(std::move(object));
   }
-  return valves;
+  return objects;
 }
 
 }  // namespace foresight

@@ -9,7 +9,7 @@ struct MissionViewModel::Opened {
   std::vector<ScanSummary> scans;
   int index = -1;
   std::shared_ptr<const Scan> scan;
-  std::vector<FoundValve> valves;
+  std::vector<FoundObject> objects;
 };
 
 MissionViewModel::MissionViewModel(SessionModel* session, QObject* parent)
@@ -37,7 +37,7 @@ void MissionViewModel::Open(const QString& path) {
     opened.index = static_cast<int>(opened.scans.size()) - 1;
     const std::int64_t id = opened.scans.back().id;
     FORESIGHT_TRY(Scan scan, opened.file->LoadScan(id));
-    FORESIGHT_TRY(opened.valves, ValvesInMission(*opened.file, id, scan));
+    FORESIGHT_TRY(opened.objects, ObjectsInMission(*opened.file, id, scan));
     opened.scan = std::make_shared<const Scan>(std::move(scan));
     return opened;
   };
@@ -51,7 +51,7 @@ void MissionViewModel::showScan(int index) {
     Opened opened{file, scans, index, nullptr, {}};
     const std::int64_t id = scans[static_cast<std::size_t>(index)].id;
     FORESIGHT_TRY(Scan scan, file->LoadScan(id));
-    FORESIGHT_TRY(opened.valves, ValvesInMission(*file, id, scan));
+    FORESIGHT_TRY(opened.objects, ObjectsInMission(*file, id, scan));
     opened.scan = std::make_shared<const Scan>(std::move(scan));
     return opened;
   };
@@ -69,9 +69,9 @@ void MissionViewModel::ShowOpened(Result<Opened> opened) {
   scans_ = opened->scans;
   scan_index_ = opened->index;
   session_->SetMode(SessionMode::kReplay);
-  session_->ClearValves();
+  session_->ClearObjects();
   session_->SetScan(opened->scan);
-  for (const FoundValve& valve : opened->valves) session_->AddValve(valve);
+  for (const FoundObject& object : opened->objects) session_->AddObject(object);
   Q_EMIT changed();
 }
 
@@ -124,30 +124,30 @@ void MissionViewModel::keepScan(const std::shared_ptr<const Scan>& scan) {
   Save();
 }
 
-void MissionViewModel::keepValve(const FoundValve& valve) {
+void MissionViewModel::keepObject(const FoundObject& object) {
   if (session_->Mode() == SessionMode::kReplay) return;
-  unsaved_valves_.push_back(valve);
+  unsaved_objects_.push_back(object);
   Save();
 }
 
 void MissionViewModel::Save() {
   Q_EMIT changed();
   if (!recorder_ || runner_.Busy()) return;  // what comes meanwhile is saved afterwards
-  if (unsaved_scans_.empty() && unsaved_valves_.empty()) return;
+  if (unsaved_scans_.empty() && unsaved_objects_.empty()) return;
   const auto scans = unsaved_scans_;
-  const auto valves = unsaved_valves_;
+  const auto objects = unsaved_objects_;
   runner_.Run<bool>(
       tr("Saving the mission"),
       [file = file_, recorder = recorder_, scans,
-       valves](const RunContext& context) -> Result<bool> {
+       objects](const RunContext& context) -> Result<bool> {
         // kState: this recorder has not had a scan yet.
         const auto written = recorder->WaitUntilWritten();
         if (!written && written.error().code != ErrorCode::kState)
           return tl::unexpected(written.error());
-        FORESIGHT_CHECK(AppendToMission(file.get(), scans, valves, context));
+        FORESIGHT_CHECK(AppendToMission(file.get(), scans, objects, context));
         return true;
       },
-      [this, scan_count = scans.size(), valve_count = valves.size()](const Result<bool>& saved) {
+      [this, scan_count = scans.size(), object_count = objects.size()](const Result<bool>& saved) {
         if (!saved) {
           recorder_.reset();  // what was not saved stays in memory for another Save as
           session_->Report(NoticeOf(tr("Saving the mission"), saved.error()));
@@ -155,8 +155,9 @@ void MissionViewModel::Save() {
         }
         unsaved_scans_.erase(unsaved_scans_.begin(),
                              unsaved_scans_.begin() + static_cast<std::ptrdiff_t>(scan_count));
-        unsaved_valves_.erase(unsaved_valves_.begin(),
-                              unsaved_valves_.begin() + static_cast<std::ptrdiff_t>(valve_count));
+        unsaved_objects_.erase(
+            unsaved_objects_.begin(),
+            unsaved_objects_.begin() + static_cast<std::ptrdiff_t>(object_count));
         Save();
       });
 }

@@ -41,7 +41,7 @@ class MissionViewModel : public QObject {
   void showScan(int index);
   /// Keeps a scan that the head has brought home.
   void keepScan(const std::shared_ptr<const foresight::Scan>& scan);
-  void keepValve(const foresight::FoundValve& valve);
+  void keepObject(const foresight::FoundObject& object);
 
  Q_SIGNALS:
   void changed();
@@ -58,7 +58,7 @@ class MissionViewModel : public QObject {
   std::vector<ScanSummary> scans_;
   int scan_index_ = -1;
   std::vector<std::shared_ptr<const Scan>> unsaved_scans_;
-  std::vector<FoundValve> unsaved_valves_;
+  std::vector<FoundObject> unsaved_objects_;
 };
 
 }  // namespace foresight

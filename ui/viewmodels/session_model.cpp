@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/detection/candidates.h"
+
 namespace foresight {
 
 SessionModel::SessionModel(SessionMode mode, QObject* parent) : QObject(parent), mode_(mode) {
@@ -25,7 +27,7 @@ void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
   Q_EMIT scanChanged();
   Q_EMIT cloudChanged();
   Q_EMIT roiChanged();
-  Q_EMIT valvesChanged();  // those of the scan before are no longer current
+  Q_EMIT objectsChanged();  // those of the scan before are no longer current
   SelectPicture(scan_ && !scan_->frames.empty() ? 0 : -1);
 }
 
@@ -86,23 +88,37 @@ void SessionModel::undoRoi() {
   Q_EMIT roiChanged();
 }
 
-void SessionModel::AddValve(FoundValve valve) {
-  valves_.push_back(std::move(valve));
-  SelectValve(static_cast<int>(valves_.size()) - 1);
+void SessionModel::AddObject(FoundObject object) {
+  objects_.push_back(std::move(object));
+  SelectObject(static_cast<int>(objects_.size()) - 1);
 }
 
-void SessionModel::ClearValves() {
-  valves_.clear();
-  SelectValve(-1);
+void SessionModel::ClearObjects() {
+  objects_.clear();
+  SelectObject(-1);
 }
 
-void SessionModel::SelectValve(int index) {
-  selected_valve_ = index >= 0 && index < static_cast<int>(valves_.size()) ? index : -1;
-  Q_EMIT valvesChanged();
+void SessionModel::SelectObject(int index) {
+  selected_object_ = index >= 0 && index < static_cast<int>(objects_.size()) ? index : -1;
+  candidate_ = 0;
+  Q_EMIT objectsChanged();
 }
 
-bool SessionModel::IsCurrent(const FoundValve& valve) const {
-  return scan_ && scan_->uuid == valve.scan_uuid;
+const FoundObject* SessionModel::Selected() const {
+  return selected_object_ < 0 ? nullptr : &objects_[static_cast<std::size_t>(selected_object_)];
+}
+
+void SessionModel::StepCandidate(int by) {
+  const FoundObject* object = Selected();
+  if (object == nullptr) return;
+  const int count = CandidateCount(object->detection);
+  if (count < 2) return;
+  candidate_ = (candidate_ + by + count) % count;
+  Q_EMIT objectsChanged();
+}
+
+bool SessionModel::IsCurrent(const FoundObject& object) const {
+  return scan_ && scan_->uuid == object.scan_uuid;
 }
 
 }  // namespace foresight

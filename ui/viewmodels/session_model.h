@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/depth/pipeline.h"
-#include "core/fitting/valve/valve_detection.h"
+#include "core/detection/detection.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/scan.h"
 #include "ui/viewmodels/notice.h"
@@ -21,9 +21,9 @@ namespace foresight {
 /// Where the data on the screen come from.
 enum class SessionMode { kLive, kSimulation, kReplay };
 
-/// A valve that was found, with where it comes from.
-struct FoundValve {
-  ValveDetection detection;
+/// An object that was found, with where it comes from.
+struct FoundObject {
+  Detection detection;
   SensorRig rig;  ///< of the scan it was found in
   std::string scan_uuid;
   QDateTime scan_time;
@@ -70,18 +70,29 @@ class SessionModel : public QObject {
   const std::optional<ImageRoi>& Roi() const { return roi_; }
   bool CanUndoRoi() const { return !roi_history_.empty(); }
 
-  void AddValve(FoundValve valve);
-  void ClearValves();
-  const std::vector<FoundValve>& Valves() const { return valves_; }
-  int SelectedValve() const { return selected_valve_; }
-  void SelectValve(int index);
-  /// Whether a found valve belongs to the scan on the screen.
-  bool IsCurrent(const FoundValve& valve) const;
+  void AddObject(FoundObject object);
+  void ClearObjects();
+  const std::vector<FoundObject>& Objects() const { return objects_; }
+  int SelectedObject() const { return selected_object_; }
+  void SelectObject(int index);
+  /// The selected object; nullptr = none.
+  const FoundObject* Selected() const;
+  /// Which answer of the selected object is looked at: 0 = the best (core/detection/candidates.h).
+  int Candidate() const { return candidate_; }
+  /// The candidate that is drawn of an object.
+  int CandidateOf(std::size_t index) const {
+    return static_cast<int>(index) == selected_object_ ? candidate_ : 0;
+  }
+  /// Whether a found object belongs to the scan on the screen.
+  bool IsCurrent(const FoundObject& object) const;
 
   void Report(const Notice& notice) { Q_EMIT noticed(notice); }
 
  public Q_SLOTS:
   void undoRoi();
+  /// The next or the last candidate of the selected object, round and round.
+  void nextCandidate() { StepCandidate(1); }
+  void previousCandidate() { StepCandidate(-1); }
 
  Q_SIGNALS:
   void modeChanged();
@@ -91,10 +102,12 @@ class SessionModel : public QObject {
   void depthChanged();
   void maskChanged();
   void roiChanged();
-  void valvesChanged();
+  void objectsChanged();
   void noticed(const foresight::Notice& notice);
 
  private:
+  void StepCandidate(int by);
+
   SessionMode mode_;
   std::shared_ptr<const Scan> scan_;
   bool expects_scan_ = false;
@@ -105,8 +118,9 @@ class SessionModel : public QObject {
   std::shared_ptr<const MaskImage> mask_;
   std::optional<ImageRoi> roi_;
   std::vector<std::optional<ImageRoi>> roi_history_;
-  std::vector<FoundValve> valves_;
-  int selected_valve_ = -1;
+  std::vector<FoundObject> objects_;
+  int selected_object_ = -1;
+  int candidate_ = 0;
 };
 
 }  // namespace foresight

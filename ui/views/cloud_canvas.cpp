@@ -12,7 +12,6 @@
 #include <cmath>
 
 #include "ui/render/vtk_data.h"
-#include "ui/views/overlay_style.h"
 
 namespace foresight {
 namespace {
@@ -80,20 +79,20 @@ CloudCanvas::CloudCanvas(QWidget* parent)
       overlay_(vtkSmartPointer<vtkRenderer>::New()),
       points_(MakeActor(VtkPointsOf(OnePoint(), 1))),
       sample_(MakeActor(VtkPointsOf({}, 0))),
-      templates_(MakeActor(VtkLinesOf({}))),
+      residuals_(MakeActor(VtkPointsOf(OnePoint(), 1))),
+      outlines_(overlay_, 0.0),
       compass_(vtkSmartPointer<vtkOrientationMarkerWidget>::New()) {
   renderWindow()->AddRenderer(renderer_);
   renderer_->SetBackground(0.07, 0.08, 0.10);
   renderer_->SetBackground2(0.15, 0.17, 0.20);
   renderer_->GradientBackgroundOn();
-  templates_->GetProperty()->SetColor(kTemplateColor.r / 255.0, kTemplateColor.g / 255.0,
-                                      kTemplateColor.b / 255.0);
-  templates_->GetProperty()->SetLineWidth(2.0f);
   sample_->VisibilityOff();
   renderer_->AddActor(points_);
   renderer_->AddActor(sample_);
-  // Templates lie among the points they were fitted to: a layer of their own keeps them visible.
-  overlay_->AddActor(templates_);
+  // Outlines lie among the points they were fitted to: a layer of their own keeps them visible.
+  residuals_->VisibilityOff();
+  residuals_->GetProperty()->SetPointSize(5.0f);
+  overlay_->AddActor(residuals_);
   overlay_->SetLayer(1);
   overlay_->SetActiveCamera(renderer_->GetActiveCamera());
   overlay_->InteractiveOff();
@@ -126,8 +125,15 @@ void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const ValueRange&
   Redraw();
 }
 
-void CloudCanvas::SetTemplates(const Wireframe& lines) {
-  MapperOf(templates_)->SetInputData(VtkLinesOf(lines));
+void CloudCanvas::SetOutlines(const std::vector<RobotOutline>& outlines) {
+  outlines_.Clear();
+  for (const RobotOutline& outline : outlines) outlines_.Add(outline.lines, outline.style);
+  Redraw();
+}
+
+void CloudCanvas::SetResiduals(const PointSet& set) {
+  residuals_->SetVisibility(set.points.empty() ? 0 : 1);
+  if (!set.points.empty()) MapperOf(residuals_)->SetInputData(VtkPointsOf(set, set.points.size()));
   Redraw();
 }
 

@@ -5,10 +5,10 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
-#include "core/objects/valve_model.h"
 #include "core/pictures/color_map.h"
 #include "ui/render/point_set.h"
 #include "ui/views/orbit_camera.h"
+#include "ui/views/outline_actors.h"
 #include "ui/views/vtk_canvas.h"
 
 namespace foresight {
@@ -22,7 +22,9 @@ class CloudCanvas : public VtkCanvas {
   explicit CloudCanvas(QWidget* parent = nullptr);
 
   void SetPoints(const PointSet& set, ColorMap map, const ValueRange& range);
-  void SetTemplates(const Wireframe& lines);
+  void SetOutlines(const std::vector<RobotOutline>& outlines);
+  /// Larger points over the others, with colours of their own; none = an empty set.
+  void SetResiduals(const PointSet& set);
   /// Looks at the middle of what lies ahead of the robot.
   void ResetView();
   /// Whether the operator has moved the camera since the last reset.
@@ -45,7 +47,8 @@ class CloudCanvas : public VtkCanvas {
   vtkSmartPointer<vtkRenderer> overlay_;
   vtkSmartPointer<vtkActor> points_;
   vtkSmartPointer<vtkActor> sample_;
-  vtkSmartPointer<vtkActor> templates_;
+  vtkSmartPointer<vtkActor> residuals_;
+  OutlineActors outlines_;
   vtkSmartPointer<vtkOrientationMarkerWidget> compass_;
   OrbitCamera camera_;
   OrbitCamera home_;

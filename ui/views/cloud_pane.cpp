@@ -6,8 +6,8 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 
+#include "core/detection/fit_in_scan.h"
 #include "ui/views/color_bar.h"
-#include "ui/views/templates_in_picture.h"
 
 namespace foresight {
 namespace {
@@ -21,7 +21,8 @@ CloudPane::CloudPane(SessionModel* session, QWidget* parent)
       session_(session),
       canvas_(static_cast<CloudCanvas*>(Pane::Canvas())),
       source_(new QComboBox),
-      color_(new QComboBox) {
+      color_(new QComboBox),
+      residuals_(new QToolButton) {
   BuildControls();
   connect(session_, &SessionModel::scanChanged, this, [this] {
     SetHint(session_->ExpectsScan()   ? tr("Scanning …")
@@ -33,10 +34,13 @@ CloudPane::CloudPane(SessionModel* session, QWidget* parent)
     connect(session_, signal, this, [this] {
       if (!ShowsLidar()) Prepare();
     });
-  connect(session_, &SessionModel::valvesChanged, this,
-          [this] { canvas_->SetTemplates(TemplatesInRobot(*session_)); });
+  connect(session_, &SessionModel::objectsChanged, this,
+          [this] { canvas_->SetOutlines(OutlinesInRobot(*session_)); });
+  for (auto signal : {&SessionModel::objectsChanged, &SessionModel::cloudChanged})
+    connect(session_, signal, this, &CloudPane::PrepareResiduals);
+  PrepareResiduals();
   connect(session_, &SessionModel::scanChanged, this,
-          [this] { canvas_->SetTemplates(TemplatesInRobot(*session_)); });
+          [this] { canvas_->SetOutlines(OutlinesInRobot(*session_)); });
 }
 
 void CloudPane::BuildControls() {
@@ -50,7 +54,14 @@ void CloudPane::BuildControls() {
   reset->setToolTip(tr("Look ahead of the robot again (Home)"));
   Controls()->addWidget(source_);
   Controls()->addWidget(color_);
+  residuals_->setText(tr("Residuals"));
+  residuals_->setCheckable(true);
+  residuals_->setToolTip(
+      tr("Colour the region's points by how far they are from the outline: blue "
+         "behind it, orange in front of it, 30 mm at full colour"));
+  Controls()->addWidget(residuals_);
   Controls()->addWidget(reset);
+  connect(residuals_, &QToolButton::toggled, this, &CloudPane::PrepareResiduals);
   connect(source_, QOverload<int>::of(&QComboBox::activated), this, [this] {
     FillColors();
     Prepare();
@@ -79,6 +90,30 @@ bool CloudPane::ShowsLidar() const {
 bool CloudPane::HasData() const {
   if (ShowsLidar()) return session_->Cloud() != nullptr;
   return session_->Depth() && session_->Picture() != nullptr;
+}
+
+void CloudPane::PrepareResiduals() {
+  const FoundObject* object = session_->Selected();
+  const bool possible = object != nullptr && session_->IsCurrent(*object) && session_->Cloud();
+  residuals_->setEnabled(possible);
+  const bool raw = possible && OriginOf(object->detection).source == "raw";
+  if (!possible || !residuals_->isChecked() || (!raw && !session_->Depth())) {
+    residual_runner_.cancel();
+    canvas_->SetResiduals({});
+    return;
+  }
+  const auto work = [object = *object, candidate = session_->Candidate(), cloud = session_->Cloud(),
+                     depth = session_->Depth(), mask = session_->Mask(),
+                     raw](const RunContext&) -> Result<PointSet> {
+    FORESIGHT_TRY(const RaySet rays, RaysInScan({object.rig, *cloud, depth.get(), mask.get()},
+                                                raw ? FitSource::kRaw : FitSource::kDepth,
+                                                OriginOf(object.detection).roi));
+    return PointsOf(ResidualsOf(object.detection, candidate, rays), object.rig);
+  };
+  residual_runner_.Run<PointSet>(
+      tr("Colouring the residuals"), work, [this](const Result<PointSet>& set) {
+        canvas_->SetResiduals(set && residuals_->isChecked() ? *set : PointSet());
+      });
 }
 
 void CloudPane::Prepare() {

@@ -7,6 +7,7 @@
 #include "ui/views/pane.h"
 
 class QComboBox;
+class QToolButton;
 
 namespace foresight {
 
@@ -18,6 +19,7 @@ class CloudPane : public Pane {
   explicit CloudPane(SessionModel* session, QWidget* parent = nullptr);
 
   CloudCanvas* Canvas() { return canvas_; }
+  QToolButton* ResidualButton() { return residuals_; }
   /// How many points are drawn.
   std::size_t PointCount() const { return point_count_; }
 
@@ -27,6 +29,7 @@ class CloudPane : public Pane {
   void BuildControls();
   void FillColors();
   void Prepare();
+  void PrepareResiduals();
   void Show(const PointSet& set);
   PointColor Color() const;
   bool ShowsLidar() const;
@@ -35,8 +38,10 @@ class CloudPane : public Pane {
   SessionModel* session_;
   CloudCanvas* canvas_;
   TaskRunner runner_;
+  TaskRunner residual_runner_;
   QComboBox* source_;
   QComboBox* color_;
+  QToolButton* residuals_;
   bool outdated_ = false;  ///< newer data came while the last were being prepared
   std::size_t point_count_ = 0;
 };

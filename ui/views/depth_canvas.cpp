@@ -45,15 +45,15 @@ DepthCanvas::DepthCanvas(QWidget* parent)
       wipe_(renderer_),
       marks_(renderer_),
       second_marks_(renderer_),
-      templates_(LineActor(kTemplateColor, 2.0f)),
+      outlines_(renderer_, 0.9),
       roi_(LineActor(kRoiColor, 2.0f)),
-      drag_actor_(LineActor(kRoiColor, 2.0f)) {
+      gesture_actor_(LineActor(kRoiColor, 2.0f)) {
   renderWindow()->AddRenderer(renderer_);
   renderer_->SetBackground(0.09, 0.10, 0.12);
   renderer_->GetActiveCamera()->ParallelProjectionOn();
   picture_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
   renderer_->AddActor(picture_);
-  for (const auto& actor : {templates_, roi_, drag_actor_}) renderer_->AddActor(actor);
+  for (const auto& actor : {roi_, gesture_actor_}) renderer_->AddActor(actor);
   PartMarks();
   setMinimumSize(160, 120);
   setMouseTracking(true);
@@ -106,34 +106,39 @@ void DepthCanvas::PartMarks() {
 }
 
 void DepthCanvas::SetRoi(const std::optional<ImageRoi>& roi) {
-  SetLines(roi_, roi ? Outline(*roi) : Polylines());
+  SetLines(roi_, roi ? Outline(roi->polygon) : Polylines());
   Redraw();
 }
 
-Polylines DepthCanvas::Outline(const ImageRoi& roi) const {
+Polylines DepthCanvas::Outline(const std::vector<Eigen::Vector2d>& corners) const {
+  if (corners.empty()) return {};
   std::vector<Eigen::Vector3d> line;
-  for (const auto& corner : roi.polygon)
+  for (const auto& corner : corners)
     line.emplace_back(corner.x(), image_height_ - 1 - corner.y(), 0.0);
   line.push_back(line.front());
   return {line};
 }
 
-void DepthCanvas::SetTemplates(const PixelLines& pixel_lines) {
-  Polylines lines;
-  for (const auto& pixel_line : pixel_lines) {
-    auto& line = lines.emplace_back();
-    for (const auto& pixel : pixel_line)
-      line.emplace_back(pixel.x(), image_height_ - 1 - pixel.y(), 0.0);
+void DepthCanvas::SetOutlines(const std::vector<PixelOutline>& outlines) {
+  outlines_.Clear();
+  for (const PixelOutline& outline : outlines) {
+    Polylines lines;
+    for (const auto& pixel_line : outline.lines) {
+      auto& line = lines.emplace_back();
+      for (const auto& pixel : pixel_line)
+        line.emplace_back(pixel.x(), image_height_ - 1 - pixel.y(), 0.0);
+    }
+    outlines_.Add(lines, outline.style);
   }
-  SetLines(templates_, lines);
   Redraw();
 }
 
-void DepthCanvas::SetDrawing(bool drawing) {
+void DepthCanvas::SetDrawing(bool drawing, RegionShape shape) {
+  if (drawing != drawing_) gesture_.Cancel();
   drawing_ = drawing;
+  gesture_.SetShape(shape);
   setCursor(drawing ? Qt::CrossCursor : Qt::OpenHandCursor);
-  drag_.Cancel();
-  DrawDrag();
+  DrawGesture();
 }
 
 void DepthCanvas::ShowAll() {
@@ -182,6 +187,9 @@ bool DepthCanvas::event(QEvent* event) {
     case QEvent::MouseButtonRelease:
       if (OnRelease(*static_cast<QMouseEvent*>(event))) return true;
       break;
+    case QEvent::MouseButtonDblClick:
+      if (drawing_) Finish(gesture_.Close());
+      return true;
     case QEvent::Wheel:
       OnWheel(*static_cast<QWheelEvent*>(event));
       return true;
@@ -196,9 +204,8 @@ bool DepthCanvas::event(QEvent* event) {
 }
 
 bool DepthCanvas::OnKey(const QKeyEvent& event) {
-  if (event.key() == Qt::Key_Escape && drag_.Active()) {
-    drag_.Cancel();
-    DrawDrag();
+  if (const auto handled = gesture_.Key(event.key())) {
+    Finish(*handled);
     return true;
   }
   const bool left = event.key() == Qt::Key_Left, right = event.key() == Qt::Key_Right;
@@ -229,7 +236,7 @@ bool DepthCanvas::OnPress(const QMouseEvent& event) {
   if (event.button() == Qt::LeftButton && OnWipeLine(event.localPos())) {
     wiping_ = true;
   } else if (drawing_ && event.button() == Qt::LeftButton) {
-    drag_.Begin(PixelAt(event.localPos()));
+    Finish(gesture_.Press(PixelAt(event.localPos())));
   } else {
     panning_ = true;
     pan_from_ = event.localPos();
@@ -240,9 +247,9 @@ bool DepthCanvas::OnPress(const QMouseEvent& event) {
 bool DepthCanvas::OnMove(const QMouseEvent& event) {
   if (wiping_) {
     WipeTo(event.localPos());
-  } else if (drag_.Active()) {
-    drag_.Move(PixelAt(event.localPos()));
-    DrawDrag();
+  } else if (gesture_.Active()) {
+    gesture_.Move(PixelAt(event.localPos()));
+    DrawGesture();
   } else if (panning_) {
     const QPointF way = event.localPos() - pan_from_;
     pan_from_ = event.localPos();
@@ -258,11 +265,7 @@ bool DepthCanvas::OnMove(const QMouseEvent& event) {
 
 bool DepthCanvas::OnRelease(const QMouseEvent& event) {
   panning_ = wiping_ = false;
-  drag_.Move(PixelAt(event.localPos()));
-  if (const auto corners = drag_.End()) {
-    DrawDrag();
-    Q_EMIT roiDrawn(corners->first, corners->second);
-  }
+  if (event.button() == Qt::LeftButton) Finish(gesture_.Release(PixelAt(event.localPos())));
   return true;
 }
 
@@ -286,10 +289,13 @@ void DepthCanvas::resizeEvent(QResizeEvent* event) {
     PlaceCamera();
 }
 
-void DepthCanvas::DrawDrag() {
-  const auto& corners = drag_.Current();
-  SetLines(drag_actor_, corners ? Outline(ImageRoi::Rectangle(0.0, corners->first, corners->second))
-                                : Polylines());
+void DepthCanvas::Finish(const std::optional<RegionGesture::Points>& points) {
+  DrawGesture();
+  if (points) Q_EMIT regionDrawn(*points);
+}
+
+void DepthCanvas::DrawGesture() {
+  SetLines(gesture_actor_, Outline(gesture_.Preview()));
   Redraw();
 }
 

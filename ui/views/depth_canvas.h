@@ -7,10 +7,10 @@
 
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
-#include "core/pictures/projected_wireframe.h"
 #include "ui/render/vtk_data.h"
 #include "ui/views/mark_actors.h"
-#include "ui/views/roi_drag.h"
+#include "ui/views/outline_actors.h"
+#include "ui/viewmodels/region_gesture.h"
 #include "ui/views/vtk_canvas.h"
 #include "ui/views/wipe_actors.h"
 
@@ -33,14 +33,14 @@ class DepthCanvas : public VtkCanvas {
   /// The marks right of the line; nullopt = the first ones go on there.
   void SetSecondMarks(std::optional<std::vector<SampleMark>> marks);
   void SetRoi(const std::optional<ImageRoi>& roi);
-  void SetTemplates(const PixelLines& lines);
-  void SetDrawing(bool drawing);
+  void SetOutlines(const std::vector<PixelOutline>& outlines);
+  void SetDrawing(bool drawing, RegionShape shape);
   void ShowAll();
   /// Where a pixel of the picture is on this widget.
   QPoint WidgetFromPixel(const Eigen::Vector2d& pixel) const;
 
  Q_SIGNALS:
-  void roiDrawn(const Eigen::Vector2d& corner_a, const Eigen::Vector2d& corner_b);
+  void regionDrawn(const std::vector<Eigen::Vector2d>& points);
   void pixelPointedAt(const Eigen::Vector2d& pixel);
   /// The operator moves the line there.
   void wiped(double share);
@@ -61,9 +61,10 @@ class DepthCanvas : public VtkCanvas {
   Eigen::Vector2d PixelAt(const QPointF& position) const;
   /// World units (pixels of the picture) in a pixel of the widget.
   double Scale() const;
-  Polylines Outline(const ImageRoi& roi) const;
+  Polylines Outline(const std::vector<Eigen::Vector2d>& corners) const;
   void PlaceCamera();
-  void DrawDrag();
+  void Finish(const std::optional<RegionGesture::Points>& points);
+  void DrawGesture();
   void PartMarks();
 
   vtkSmartPointer<vtkRenderer> renderer_;
@@ -72,10 +73,10 @@ class DepthCanvas : public VtkCanvas {
   MarkActors marks_;
   MarkActors second_marks_;
   bool second_has_marks_ = false;
-  vtkSmartPointer<vtkActor> templates_;
+  OutlineActors outlines_;
   vtkSmartPointer<vtkActor> roi_;
-  vtkSmartPointer<vtkActor> drag_actor_;
-  RoiDrag drag_;
+  vtkSmartPointer<vtkActor> gesture_actor_;
+  RegionGesture gesture_;
   QPointF pan_from_;
   bool panning_ = false;
   bool wiping_ = false;

@@ -15,7 +15,6 @@
 #include "ui/views/compare_menu.h"
 #include "ui/views/iteration_bar.h"
 #include "ui/views/layers_menu.h"
-#include "ui/views/templates_in_picture.h"
 
 namespace foresight {
 namespace {
@@ -46,8 +45,9 @@ DepthPane::DepthPane(const DepthModels& models, QWidget* parent)
   BuildFooter();
   Bind();
   FitViewModel* fit = models.fit;
-  connect(fit, &FitViewModel::changed, this, [this, fit] { canvas_->SetDrawing(fit->RoiTool()); });
-  connect(canvas_, &DepthCanvas::roiDrawn, fit, &FitViewModel::DrawRoi);
+  connect(fit, &FitViewModel::changed, this,
+          [this, fit] { canvas_->SetDrawing(fit->Drawing(), fit->Shape()); });
+  connect(canvas_, &DepthCanvas::regionDrawn, fit, &FitViewModel::DrawRegion);
   ShowMethod();
   ShowThreshold();
   ShowState();
@@ -117,10 +117,10 @@ QWidget* DepthPane::BuildWarning() {
 }
 
 void DepthPane::Bind() {
-  const auto show_templates = [this] { canvas_->SetTemplates(TemplatesInPicture(*session_)); };
+  const auto show_outlines = [this] { canvas_->SetOutlines(OutlinesInPicture(*session_)); };
   connect(session_, &SessionModel::depthChanged, this, &DepthPane::ShowNewDepth);
-  connect(session_, &SessionModel::depthChanged, this, show_templates);
-  connect(session_, &SessionModel::valvesChanged, this, show_templates);
+  connect(session_, &SessionModel::depthChanged, this, show_outlines);
+  connect(session_, &SessionModel::objectsChanged, this, show_outlines);
   connect(session_, &SessionModel::maskChanged, this, &DepthPane::Paint);
   connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
   connect(layers_, &LayersViewModel::changed, this, [this] {

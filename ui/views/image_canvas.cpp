@@ -50,11 +50,9 @@ ImageCanvas::ImageCanvas(QWidget* parent) : QGraphicsView(parent) {
   picture_ = scene()->addPixmap({});
   picture_->setTransformationMode(Qt::SmoothTransformation);
   picture_->setOffset(-0.5, -0.5);
-  templates_shadow_ = scene()->addPath({}, CosmeticPen(QColor(0, 0, 0, 160), 4.0));
-  templates_ = scene()->addPath({}, CosmeticPen(ColorFrom(kTemplateColor), 2.0));
   roi_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5));
-  drag_item_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5, Qt::DashLine),
-                                QColor(255, 255, 255, 40));
+  gesture_item_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5, Qt::DashLine),
+                                   QColor(255, 255, 255, 40));
 }
 
 void ImageCanvas::SetPicture(const ColorImage& picture) {
@@ -68,11 +66,16 @@ void ImageCanvas::SetRoi(const std::optional<ImageRoi>& roi) {
   roi_->setPath(roi ? PathThrough(roi->polygon, true) : QPainterPath());
 }
 
-void ImageCanvas::SetTemplates(const PixelLines& lines) {
-  QPainterPath path;
-  for (const auto& line : lines) path.addPath(PathThrough(line, false));
-  templates_->setPath(path);
-  templates_shadow_->setPath(path);
+void ImageCanvas::SetOutlines(const std::vector<PixelOutline>& outlines) {
+  for (QGraphicsPathItem* item : outlines_) delete item;
+  outlines_.clear();
+  for (const PixelOutline& outline : outlines) {
+    QPainterPath path;
+    for (const auto& line : outline.lines) path.addPath(PathThrough(line, false));
+    const double width = outline.style.width_px;
+    outlines_.push_back(scene()->addPath(path, CosmeticPen(QColor(12, 14, 18), width + 2.0)));
+    outlines_.push_back(scene()->addPath(path, CosmeticPen(ColorFrom(outline.style.color), width)));
+  }
 }
 
 void ImageCanvas::SetMarks(std::vector<SampleMark> marks) {
@@ -94,12 +97,13 @@ void ImageCanvas::drawForeground(QPainter* painter, const QRectF&) {
   painter->restore();
 }
 
-void ImageCanvas::SetDrawing(bool drawing) {
+void ImageCanvas::SetDrawing(bool drawing, RegionShape shape) {
+  if (drawing != drawing_) gesture_.Cancel();
   drawing_ = drawing;
+  gesture_.SetShape(shape);
   setDragMode(drawing ? NoDrag : ScrollHandDrag);
   viewport()->setCursor(drawing ? Qt::CrossCursor : Qt::OpenHandCursor);
-  drag_.Cancel();
-  DrawDrag();
+  DrawGesture();
 }
 
 void ImageCanvas::ShowAll() {
@@ -122,35 +126,42 @@ void ImageCanvas::mousePressEvent(QMouseEvent* event) {
     return;
   }
   setFocus();
-  drag_.Begin(PixelAt(event->pos()));
+  Finish(gesture_.Press(PixelAt(event->pos())));
 }
 
 void ImageCanvas::mouseMoveEvent(QMouseEvent* event) {
-  if (drag_.Active()) {
-    drag_.Move(PixelAt(event->pos()));
-    DrawDrag();
+  if (gesture_.Active()) {
+    gesture_.Move(PixelAt(event->pos()));
+    DrawGesture();
   } else {
     QGraphicsView::mouseMoveEvent(event);
   }
 }
 
 void ImageCanvas::mouseReleaseEvent(QMouseEvent* event) {
-  drag_.Move(PixelAt(event->pos()));
-  if (const auto corners = drag_.End()) {
-    DrawDrag();
-    Q_EMIT roiDrawn(corners->first, corners->second);
-  } else {
+  if (drawing_ && event->button() == Qt::LeftButton)
+    Finish(gesture_.Release(PixelAt(event->pos())));
+  else
     QGraphicsView::mouseReleaseEvent(event);
-  }
+}
+
+void ImageCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (drawing_)
+    Finish(gesture_.Close());
+  else
+    QGraphicsView::mouseDoubleClickEvent(event);
 }
 
 void ImageCanvas::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Escape && drag_.Active()) {
-    drag_.Cancel();
-    DrawDrag();
-  } else {
+  if (const auto handled = gesture_.Key(event->key()))
+    Finish(*handled);
+  else
     event->ignore();  // arrows and letters belong to the window's shortcuts
-  }
+}
+
+void ImageCanvas::Finish(const std::optional<RegionGesture::Points>& points) {
+  DrawGesture();
+  if (points) Q_EMIT regionDrawn(*points);
 }
 
 void ImageCanvas::wheelEvent(QWheelEvent* event) {
@@ -169,13 +180,9 @@ void ImageCanvas::showEvent(QShowEvent* event) {
   if (shows_all_) ShowAll();
 }
 
-void ImageCanvas::DrawDrag() {
-  QPainterPath path;
-  if (const auto& corners = drag_.Current())
-    path.addRect(QRectF(QPointF(corners->first.x(), corners->first.y()),
-                        QPointF(corners->second.x(), corners->second.y()))
-                     .normalized());
-  drag_item_->setPath(path);
+void ImageCanvas::DrawGesture() {
+  const RegionGesture::Points preview = gesture_.Preview();
+  gesture_item_->setPath(preview.empty() ? QPainterPath() : PathThrough(preview, true));
 }
 
 }  // namespace foresight

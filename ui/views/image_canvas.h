@@ -4,9 +4,9 @@
 
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
-#include "core/pictures/projected_wireframe.h"
 #include "core/pictures/sample_marks.h"
-#include "ui/views/roi_drag.h"
+#include "ui/views/outlines.h"
+#include "ui/viewmodels/region_gesture.h"
 
 class QGraphicsPathItem;
 class QGraphicsPixmapItem;
@@ -23,20 +23,21 @@ class ImageCanvas : public QGraphicsView {
 
   void SetPicture(const ColorImage& picture);
   void SetRoi(const std::optional<ImageRoi>& roi);
-  void SetTemplates(const PixelLines& lines);
+  void SetOutlines(const std::vector<PixelOutline>& outlines);
   void SetMarks(std::vector<SampleMark> marks);
-  void SetDrawing(bool drawing);
+  void SetDrawing(bool drawing, RegionShape shape);
   void ShowAll();
   /// Where a pixel of the picture is on this widget.
   QPoint WidgetFromPixel(const Eigen::Vector2d& pixel) const;
 
  Q_SIGNALS:
-  void roiDrawn(const Eigen::Vector2d& corner_a, const Eigen::Vector2d& corner_b);
+  void regionDrawn(const std::vector<Eigen::Vector2d>& points);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
@@ -45,15 +46,15 @@ class ImageCanvas : public QGraphicsView {
 
  private:
   Eigen::Vector2d PixelAt(const QPoint& position) const;
-  void DrawDrag();
+  void Finish(const std::optional<RegionGesture::Points>& points);
+  void DrawGesture();
 
   QGraphicsPixmapItem* picture_;
   std::vector<SampleMark> marks_;
-  QGraphicsPathItem* templates_shadow_;
-  QGraphicsPathItem* templates_;
+  std::vector<QGraphicsPathItem*> outlines_;
   QGraphicsPathItem* roi_;
-  QGraphicsPathItem* drag_item_;
-  RoiDrag drag_;
+  QGraphicsPathItem* gesture_item_;
+  RegionGesture gesture_;
   bool drawing_ = false;
   bool shows_all_ = true;
 };

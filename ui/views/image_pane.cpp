@@ -8,7 +8,6 @@
 
 #include "core/geometry/angles.h"
 #include "ui/viewmodels/age_text.h"
-#include "ui/views/templates_in_picture.h"
 
 namespace foresight {
 namespace {
@@ -36,14 +35,15 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* 
   });
   connect(session_, &SessionModel::scanChanged, this, &ImagePane::FillChoice);
   connect(session_, &SessionModel::pictureChanged, this, &ImagePane::ShowPicture);
-  connect(session_, &SessionModel::valvesChanged, this, &ImagePane::ShowTemplates);
+  connect(session_, &SessionModel::objectsChanged, this, &ImagePane::ShowOutlines);
   connect(session_, &SessionModel::depthChanged, this, &ImagePane::ShowSamples);
   connect(layers_, &LayersViewModel::changed, this, &ImagePane::ShowSamples);
   connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
   connect(choice_, QOverload<int>::of(&QComboBox::activated), session_,
           &SessionModel::SelectPicture);
-  connect(fit, &FitViewModel::changed, this, [this, fit] { canvas_->SetDrawing(fit->RoiTool()); });
-  connect(canvas_, &ImageCanvas::roiDrawn, fit, &FitViewModel::DrawRoi);
+  connect(fit, &FitViewModel::changed, this,
+          [this, fit] { canvas_->SetDrawing(fit->Drawing(), fit->Shape()); });
+  connect(canvas_, &ImageCanvas::regionDrawn, fit, &FitViewModel::DrawRegion);
   connect(&age_timer_, &QTimer::timeout, this, &ImagePane::ShowAge);
   age_timer_.start(1000);
   FillChoice();
@@ -69,7 +69,7 @@ void ImagePane::ShowPicture() {
   choice_->setCurrentIndex(session_->PictureIndex());
   canvas_->SetPicture(picture->image);
   ShowAge();
-  ShowTemplates();
+  ShowOutlines();
 }
 
 void ImagePane::ShowAge() {
@@ -93,8 +93,8 @@ void ImagePane::ShowSamples() {
   tags_->SetLegend(depth != nullptr ? &depth->samples : nullptr, shown);
 }
 
-void ImagePane::ShowTemplates() {
-  canvas_->SetTemplates(TemplatesInPicture(*session_));
+void ImagePane::ShowOutlines() {
+  canvas_->SetOutlines(OutlinesInPicture(*session_));
 }
 
 }  // namespace foresight

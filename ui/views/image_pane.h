@@ -26,7 +26,7 @@ class ImagePane : public Pane {
   void ShowPicture();
   void FillChoice();
   void ShowAge();
-  void ShowTemplates();
+  void ShowOutlines();
   void ShowSamples();
 
   SessionModel* session_;

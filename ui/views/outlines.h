@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/pictures/projected_wireframe.h"
+#include "ui/viewmodels/session_model.h"
+
+namespace foresight {
+
+/// How an outline is drawn: a verdict's colour, and a pattern that tells it without the colour.
+struct OutlineStyle {
+  Rgb8 color;
+  float width_px = 1.0f;
+};
+
+/// Lines of one style. LIKELY is dashed already.
+struct PixelOutline {
+  PixelLines lines;  ///< in the current picture
+  OutlineStyle style;
+};
+struct RobotOutline {
+  Wireframe lines;  ///< in robot, metres
+  OutlineStyle style;
+};
+
+/// All objects of the current scan, each with the candidate that is looked at; of terrain every
+/// surface. The selected object is drawn thicker.
+std::vector<PixelOutline> OutlinesInPicture(const SessionModel& session);
+std::vector<RobotOutline> OutlinesInRobot(const SessionModel& session);
+
+}  // namespace foresight
