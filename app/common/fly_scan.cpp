@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "app/common/interrupt_watcher.h"
 #include "hardware/head/scan_recorder.h"
 
 namespace foresight {
@@ -25,7 +26,8 @@ HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
     if (std::find(states.begin(), states.end(), status.state) == states.end()) return status;
     if (context.Cancelled() && !aborted) {
       aborted = true;
-      head.AbortScan();
+      const std::string reason = InterruptReason();
+      head.EndScan(reason.empty() ? "the scan was cancelled" : reason);
       if (status.state == HeadState::kHoming) head.StopMotor();
     }
     std::this_thread::sleep_for(kPoll);
@@ -37,7 +39,8 @@ Status HomeAndWait(SensorHead& head, const RunContext& context) {
   FORESIGHT_CHECK(head.Home());
   const HeadStatus status = WaitWhile(head, {HeadState::kHoming}, context);
   if (status.state != HeadState::kReady)
-    return Fail(ErrorCode::kDevice, "the head is not ready after homing: {}", status.message);
+    return Fail(ErrorCode::kDevice, "the head is not ready after homing: {}{}{}", InterruptReason(),
+                InterruptReason().empty() ? "" : "; ", status.message);
   return {};
 }
 

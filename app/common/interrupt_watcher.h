@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stop_token>
+#include <string>
 #include <thread>
 
 namespace foresight {
@@ -15,5 +16,8 @@ class InterruptWatcher {
  private:
   std::jthread thread_;
 };
+
+/// "the program was told to end (SIGTERM)"; empty when it was not.
+std::string InterruptReason();
 
 }  // namespace foresight

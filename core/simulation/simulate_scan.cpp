@@ -39,6 +39,10 @@ MotorTrack EncoderTrack(const World& world, const ConstantSpeed& shaft, double d
 
 Result<Scan> SimulateSweep(const World& world, const ScanPlan& plan, const RunContext& context) {
   FORESIGHT_CHECK(plan.Check());
+  if (plan.passes != 1 || plan.picture_mode != ScanPlan::PictureMode::kOnTheFly)
+    return Fail(ErrorCode::kInvalidOptions,
+                "simulated sweep: it has one pass, with pictures on the fly; simulate a head for "
+                "other plans");
   const ConstantSpeed shaft(plan);
   const double duration_s = shaft.TimeOf(plan.to_rad);
   const double period_s = world.true_rig().lidar.period_s;

@@ -61,8 +61,9 @@ class SensorHead {
   /// Fails with kState unless ready, kInvalidOptions for a bad plan. `sink` lives until
   /// OnScanEnded.
   virtual foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) = 0;
-  /// Ends the running scan and keeps what it has; the motor stops.
-  virtual void AbortScan() = 0;
+  /// Ends the running scan as aborted for `reason` and keeps what it has; the motor stops.
+  virtual void EndScan(const std::string& reason) = 0;
+  void AbortScan() { EndScan("the operator ended the scan"); }
   /// Stops the motor at once, in every state.
   virtual void StopMotor() = 0;
   /// Somebody is there and could act. From the first call on a head expects it again and again, and

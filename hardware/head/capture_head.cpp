@@ -84,7 +84,7 @@ Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> si
   request.header.simulated = options_.simulated;
   request.header.plan = plan;
   request.header.rig = rig_;
-  abort_requested_ = false;
+  end_reason_.reset();
   status_.state = HeadState::kSweeping;
   status_.commanded_speed_rad_s = plan.speed_rad_s;
   status_.lines = status_.frames = status_.lost_lines = 0;
@@ -95,8 +95,9 @@ Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> si
   return {};
 }
 
-void CaptureHead::AbortScan() {
-  abort_requested_ = true;
+void CaptureHead::EndScan(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  end_reason_ = reason;
 }
 
 void CaptureHead::StopMotor() {
@@ -188,19 +189,24 @@ Status CaptureHead::ConnectAndHome(const HomeRequest& request, const std::stop_t
   return {};
 }
 
+std::optional<SweepEnd> CaptureHead::Interruption(const ScanRequest& request,
+                                                  const std::stop_token& stop) const {
+  if (stop.stop_requested())
+    return SweepEnd{ScanState::kInterrupted, "the head was switched off", false, true};
+  if (stop_count_ != request.stops_before)
+    return SweepEnd{ScanState::kAborted, "the operator stopped the motor", false, false};
+  {
+    const std::lock_guard lock(mutex_);
+    if (end_reason_) return SweepEnd{ScanState::kAborted, *end_reason_, false, false};
+  }
+  if (const auto lost = OperatorLost())
+    return SweepEnd{ScanState::kInterrupted, *lost + "; the scan ends there", false, false};
+  return std::nullopt;
+}
+
 void CaptureHead::RunScan(ScanRequest& request, const std::stop_token& stop) {
   CaptureSweep::Hooks hooks;
-  hooks.interruption = [&]() -> std::optional<SweepEnd> {
-    if (stop.stop_requested())
-      return SweepEnd{ScanState::kInterrupted, "the head was switched off", false, true};
-    if (stop_count_ != request.stops_before)
-      return SweepEnd{ScanState::kAborted, "the operator stopped the motor", false, false};
-    if (abort_requested_)
-      return SweepEnd{ScanState::kAborted, "the operator ended the scan", false, false};
-    if (const auto lost = OperatorLost())
-      return SweepEnd{ScanState::kInterrupted, *lost + "; the scan ends there", false, false};
-    return std::nullopt;
-  };
+  hooks.interruption = [&] { return Interruption(request, stop); };
   hooks.report = [this](const SweepProgress& progress) {
     Update([&](HeadStatus& status) {
       status.state = progress.state;

@@ -34,7 +34,7 @@ class CaptureHead final : public SensorHead {
   HeadMotion Motion() const override { return options_.Motion(); }
   foresight::Status Home() override;
   foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
-  void AbortScan() override;
+  void EndScan(const std::string& reason) override;
   void StopMotor() override;
   void OperatorSeen() override;
 
@@ -53,6 +53,8 @@ class CaptureHead final : public SensorHead {
   void RunHoming(const HomeRequest& request, const std::stop_token& stop);
   foresight::Status ConnectAndHome(const HomeRequest& request, const std::stop_token& stop);
   void RunScan(ScanRequest& request, const std::stop_token& stop);
+  std::optional<SweepEnd> Interruption(const ScanRequest& request,
+                                       const std::stop_token& stop) const;
   std::optional<std::string> OperatorLost() const;
   void LookAtMotor();
   void EnterFault(const std::string& what);
@@ -63,14 +65,14 @@ class CaptureHead final : public SensorHead {
   const SensorRig rig_;
   const CaptureOptions options_;
 
-  mutable std::mutex mutex_;  ///< guards status_ and request_
+  mutable std::mutex mutex_;  ///< guards status_, request_ and end_reason_
   HeadStatus status_;
   Request request_;
   std::condition_variable_any wake_;
   std::atomic<int> stop_count_{0};
-  std::atomic<bool> abort_requested_{false};
-  std::atomic<double> operator_seen_s_;  ///< infinite until the first time
-  std::jthread thread_;                  ///< last: starts when everything else is there
+  std::optional<std::string> end_reason_;  ///< why the running scan is to end
+  std::atomic<double> operator_seen_s_;    ///< infinite until the first time
+  std::jthread thread_;                    ///< last: starts when everything else is there
 };
 
 }  // namespace foresight

@@ -13,6 +13,8 @@ constexpr std::chrono::microseconds kPoll{5000};
 constexpr double kStandstillTimeout_s = 10.0;
 /// The last lines still arrive after the motor has come to rest.
 constexpr double kLateLines_s = 0.3;
+/// A GigE camera that does not answer is given up after five tries of half a second, twice.
+constexpr double kCameraAnswer_s = 6.0;
 
 std::vector<double> InOrder(std::vector<double> angles_rad, double sign) {
   std::sort(angles_rad.begin(), angles_rad.end(),
@@ -67,7 +69,7 @@ SweepEnd CaptureSweep::RunToTheEnd() {
     const Step pictures = CollectPictures();
     if (!end) end = pictures;
   }
-  if (!end && !pictures_.Missing().empty()) end = ComeToRest(ShootAtRest(pictures_.Missing()));
+  if (!end) end = ShootMissing();
   HandOnPictures(true);
   Report(HeadState::kStopping);
   return end.value_or(JudgePictures());
@@ -318,11 +320,18 @@ CaptureSweep::Step CaptureSweep::StandFor(double seconds) {
 }
 
 /// All lines are there; a picture that is not is worth a word, and a camera that is gone a fault.
-SweepEnd CaptureSweep::JudgePictures() const {
+SweepEnd CaptureSweep::JudgePictures() {
   SweepEnd end;
   end.reason = pictures_.DescribeMissing();
-  const CameraHealth camera = devices_.camera->Health();
-  end.fault = !end.reason.empty() && (!camera.connected || camera.suspect);
+  if (end.reason.empty()) return end;
+  // A camera that was only slow says so when it is asked; one that is gone takes this long to tell.
+  const double deadline_s = Now() + kCameraAnswer_s;
+  CameraHealth camera = devices_.camera->Health();
+  while (camera.connected && camera.suspect && Now() < deadline_s) {
+    if (StandFor(0.05)) break;
+    camera = devices_.camera->Health();
+  }
+  end.fault = !camera.connected || camera.suspect;
   return end;
 }
 

@@ -71,7 +71,7 @@ class CaptureSweep {
   Step ShootMissing();
   Step ShootAtRest(std::size_t picture, bool* taken);
   Step StandFor(double seconds);
-  SweepEnd JudgePictures() const;
+  SweepEnd JudgePictures();
   Step CheckMotor();
   void StopLidar();
   void PumpTrack();

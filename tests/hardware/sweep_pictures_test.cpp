@@ -41,12 +41,14 @@ class TroubledCamera final : public Camera {
   CameraHealth Health() const override {
     CameraHealth health = camera_->Health();
     health.connected = !gone;
+    health.suspect = suspicions > 0 && suspicions-- > 0;
     return health;
   }
 
   std::set<std::int64_t> lost;  ///< reported as such, by seq
   std::set<std::int64_t> late;  ///< come after the next one
   std::atomic<bool> gone{false};
+  mutable std::atomic<int> suspicions{0};  ///< how often Health() still calls the camera suspect
   int triggers = 0;
   std::function<void()> on_trigger;
 
@@ -154,6 +156,30 @@ TEST(SweepPictures, ACameraThatIsGoneIsAFaultButTheLinesAreComplete) {
   EXPECT_THAT(tiny.head->Status().message, HasSubstr(scan->reason));
   EXPECT_THAT(tiny.head->Status().message, HasSubstr("check the device's power and cable"));
   EXPECT_TRUE(tiny.AtRest());
+}
+
+TEST(SweepPictures, ACameraThatAnswersAtLastIsNoFault) {
+  TroubledHead tiny;
+  tiny.camera->lost = {0, 1};
+  ASSERT_TRUE(tiny.Home());
+  tiny.watch->action = [&] { tiny.camera->suspicions = 20; };
+  const auto scan = tiny.Run(TinyPlan());
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->state, ScanState::kComplete);
+  EXPECT_THAT(scan->reason, HasSubstr("did not come"));
+  EXPECT_TRUE(tiny.WaitFor(HeadState::kReady));
+}
+
+TEST(SweepPictures, PlannedStandingStillAPictureIsTriedOnceMoreToo) {
+  TroubledHead tiny;
+  tiny.camera->lost = {0};
+  ASSERT_TRUE(tiny.Home());
+  ScanPlan plan = TinyPlan();
+  plan.picture_mode = ScanPlan::PictureMode::kStopAndShoot;
+  const auto scan = tiny.Run(plan);
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->reason, "");
+  EXPECT_EQ(scan->frames.size(), 1u);
 }
 
 TEST(SweepPictures, AnAbortWhileAPictureIsTakenAgainStopsTheMotor) {

@@ -93,6 +93,7 @@ TEST_F(ForesightHead, ATerminatedSweepIsKeptAndMarkedAndTheMotorStops) {
   EXPECT_FALSE(site_->MotorTurns());
   const Scan scan = RecordedScan();
   EXPECT_EQ(scan.state, ScanState::kAborted);
+  EXPECT_EQ(scan.reason, "the program was told to end (SIGTERM)");
   EXPECT_GE(scan.lines.size(), 30u);
   EXPECT_EQ(scan.frames.size(), 1u);
   EXPECT_FALSE(std::filesystem::exists(mission_ + "-wal"));

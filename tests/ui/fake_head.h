@@ -28,8 +28,8 @@ class FakeHead : public SensorHead {
     status_.state = HeadState::kSweeping;
     return {};
   }
-  void AbortScan() override {
-    if (sink_ && delivered_) sink_->OnScanEnded(ScanState::kAborted, "by the operator");
+  void EndScan(const std::string& reason) override {
+    if (sink_ && delivered_) sink_->OnScanEnded(ScanState::kAborted, reason);
     sink_.reset();
     status_.state = HeadState::kReady;
   }

@@ -43,6 +43,34 @@ TEST_F(HeadTest, WarnsUnderTheFloorOfTwoPercentAndSaysHowFastToScan) {
   EXPECT_TRUE(model.Prediction().warning.isEmpty()) << advised << " deg/s";
 }
 
+TEST_F(HeadTest, TheFastestSpeedIsTakenOverAndKeepsTheFloor) {
+  SetSpeed(100.0);
+  const double fastest = model.Prediction().fastest_deg_s;
+  model.useFastestSpeed();
+  EXPECT_EQ(model.Plan().speed_deg_s, fastest);
+  EXPECT_TRUE(model.Prediction().warning.isEmpty());
+  EXPECT_LT(fastest, 100.0);
+}
+
+TEST_F(HeadTest, APlanForPicturesStandingStillThereAndBack) {
+  PlanFields plan = model.Plan();
+  plan.standing_still = plan.there_and_back = true;
+  model.SetPlan(plan);
+  EXPECT_EQ(plan.ToPlan().picture_mode, ScanPlan::PictureMode::kStopAndShoot);
+  EXPECT_EQ(plan.ToPlan().passes, 2);
+  EXPECT_EQ(model.Prediction().lines.toStdString(), "482");
+}
+
+TEST_F(HeadTest, AnExposureThatWouldBlurIsShortenedAndSaysSo) {
+  PlanFields plan = model.Plan();
+  plan.exposure_ms = 50.0;
+  model.SetPlan(plan);
+  EXPECT_TRUE(model.Prediction().exposure.contains("shortened"));
+  plan.standing_still = true;
+  model.SetPlan(plan);
+  EXPECT_EQ(model.Prediction().exposure.toStdString(), "50.0 ms");
+}
+
 TEST_F(HeadTest, AnImpossiblePlanNamesItsFaultAndCannotBeScanned) {
   PlanFields plan = model.Plan();
   plan.image_angles_deg = {80.0};

@@ -1,12 +1,15 @@
 #include "ui/panels/head_panel.h"
 
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QFrame>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "ui/panels/head_device_rows.h"
 #include "ui/panels/theme.h"
@@ -57,11 +60,21 @@ QWidget* HeadPanel::BuildPlan() {
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   AddField(form, tr("From"), -90, 90, 5, tr("°"), &PlanFields::from_deg);
   AddField(form, tr("To"), -90, 90, 5, tr("°"), &PlanFields::to_deg);
-  AddField(form, tr("Speed"), 0.5, 120, 1, tr(" °/s"), &PlanFields::speed_deg_s);
+  speed_ = AddField(form, tr("Speed"), 0.5, 120, 1, tr(" °/s"), &PlanFields::speed_deg_s);
+  fastest_button_ = new QPushButton;
+  fastest_button_->setObjectName(QStringLiteral("fastestButton"));
+  fastest_button_->setToolTip(
+      tr("The fastest speed at which 2 % of the picture's pixels get a "
+         "lidar point"));
+  connect(fastest_button_, &QPushButton::clicked, head_, &HeadViewModel::useFastestSpeed);
+  form->addRow(QString(), fastest_button_);
+  AddChoice(form, tr("Sweep"), {tr("One way"), tr("There and back")}, &PlanFields::there_and_back);
   angles_ = new QLineEdit(AnglesAsText(head_->Plan().image_angles_deg));
   angles_->setToolTip(tr("Motor angles in degrees, separated by commas, within the scope"));
   form->addRow(tr("Pictures, °"), angles_);
   connect(angles_, &QLineEdit::editingFinished, this, &HeadPanel::TakeAngles);
+  AddChoice(form, tr("Taken"), {tr("In passing"), tr("Standing still, after the sweep")},
+            &PlanFields::standing_still);
   AddField(form, tr("Exposure"), 0.1, 100, 1, tr(" ms"), &PlanFields::exposure_ms);
   return plan;
 }
@@ -83,6 +96,21 @@ QDoubleSpinBox* HeadPanel::AddField(QFormLayout* form, const QString& label, dou
             plan.*field = value;
             head_->SetPlan(plan);
           });
+  return box;
+}
+
+QComboBox* HeadPanel::AddChoice(QFormLayout* form, const QString& label, const QStringList& choices,
+                                bool PlanFields::*field) {
+  auto* box = new QComboBox;
+  box->addItems(choices);
+  box->setCurrentIndex(head_->Plan().*field ? 1 : 0);
+  box->setAccessibleName(label);
+  form->addRow(label, box);
+  connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this, field](int index) {
+    PlanFields plan = head_->Plan();
+    plan.*field = index == 1;
+    head_->SetPlan(plan);
+  });
   return box;
 }
 
@@ -117,6 +145,8 @@ QWidget* HeadPanel::BuildPrediction() {
   lines_ = add(tr("Lidar lines"), {});
   coverage_ = add(tr("Coverage"), tr("Lidar points per picture pixel; at least 2 % is wanted"));
   sigma_ = add(tr("Filter radius σs"), tr("How far the depth filter must reach for points"));
+  exposure_ = add(tr("Exposure"), tr("In passing the head shortens it, so that the turn blurs the "
+                                     "picture by half a pixel at most"));
   sigma_title_ = qobject_cast<QLabel*>(form->labelForField(sigma_));
   layout->addLayout(form);
 
@@ -167,6 +197,14 @@ void HeadPanel::ShowPlan() {
   lines_->setText(prediction.lines);
   coverage_->setText(prediction.coverage);
   sigma_->setText(prediction.sigma);
+  exposure_->setText(prediction.exposure);
+  const double fastest = prediction.fastest_deg_s;
+  fastest_button_->setText(fastest > 0.0 ? tr("Fastest: %1 °/s").arg(fastest, 0, 'f', 1)
+                                         : tr("Fastest: not known"));
+  fastest_button_->setEnabled(fastest > 0.0 &&
+                              std::abs(fastest - head_->Plan().speed_deg_s) > 0.05);
+  const QSignalBlocker quiet(speed_);
+  speed_->setValue(head_->Plan().speed_deg_s);
   if (!prediction.method.isEmpty()) sigma_title_->setText(tr("σs of %1").arg(prediction.method));
   warning_->setText(prediction.warning);
   warning_row_->setVisible(!prediction.warning.isEmpty());

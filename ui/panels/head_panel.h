@@ -4,6 +4,7 @@
 
 #include "ui/viewmodels/head_view_model.h"
 
+class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
@@ -25,18 +26,23 @@ class HeadPanel : public QWidget {
   QWidget* BuildButtons();
   QDoubleSpinBox* AddField(QFormLayout* form, const QString& label, double low, double high,
                            double step, const QString& unit, double PlanFields::*field);
+  QComboBox* AddChoice(QFormLayout* form, const QString& label, const QStringList& choices,
+                       bool PlanFields::*field);
   void TakeAngles();
   void ShowPlan();
   void ShowStatus();
 
   HeadViewModel* head_;
   QWidget* plan_;
+  QDoubleSpinBox* speed_;
   QLineEdit* angles_;
   QLabel* time_;
   QLabel* lines_;
   QLabel* coverage_;
   QLabel* sigma_;
   QLabel* sigma_title_;
+  QLabel* exposure_;
+  QPushButton* fastest_button_;
   QWidget* warning_row_;
   QLabel* warning_;
   QPushButton* scan_button_;

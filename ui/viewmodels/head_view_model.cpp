@@ -1,6 +1,7 @@
 #include "ui/viewmodels/head_view_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/depth/depth_method.h"
 #include "core/depth/local_plane.h"
@@ -21,6 +22,16 @@ void DescribeFilter(double density, PredictionText* text) {
                               : SpatialSigmaForDensity(density);
   text->sigma = HeadViewModel::tr("%1 px").arg(sigma_px, 0, 'f', 1);
   text->method = QString::fromUtf8(method.title);
+}
+
+QString DescribeExposure(double wanted_ms, const ScanPrediction& prediction) {
+  const double used_ms = 1e3 * prediction.exposure_s;
+  const QString text = HeadViewModel::tr("%1 ms").arg(used_ms, 0, 'f', 1);
+  return used_ms < wanted_ms - 0.05 ? HeadViewModel::tr("%1, shortened").arg(text) : text;
+}
+
+double FastestSpeed(const ScanPrediction& prediction) {
+  return std::floor(10.0 * DegreesFromRadians(prediction.fastest_speed_rad_s) + 1e-6) / 10.0;
 }
 
 DeviceRow RowOf(const QString& name, const DeviceDiagnosis& diagnosis, const std::string& numbers) {
@@ -50,6 +61,9 @@ ScanPlan PlanFields::ToPlan() const {
   plan.image_angles_rad.clear();
   for (const double angle : image_angles_deg)
     plan.image_angles_rad.push_back(RadiansFromDegrees(angle));
+  plan.picture_mode =
+      standing_still ? ScanPlan::PictureMode::kStopAndShoot : ScanPlan::PictureMode::kOnTheFly;
+  plan.passes = there_and_back ? 2 : 1;
   return plan;
 }
 
@@ -71,10 +85,10 @@ void HeadViewModel::SetPlan(const PlanFields& plan) {
 }
 
 PredictionText HeadViewModel::Prediction() const {
-  const auto prediction = PredictScan(plan_.ToPlan(), head_->Rig());
+  const auto prediction = PredictScan(plan_.ToPlan(), head_->Rig(), head_->Motion());
   PredictionText text;
   if (!prediction) {
-    text.time = text.lines = text.coverage = text.sigma = QStringLiteral("–");
+    text.time = text.lines = text.coverage = text.sigma = text.exposure = QStringLiteral("–");
     text.warning = QString::fromStdString(prediction.error().message);
     text.usable = false;
     return text;
@@ -83,13 +97,22 @@ PredictionText HeadViewModel::Prediction() const {
   text.lines = QString::number(prediction->lines);
   text.coverage = tr("%1 %").arg(100.0 * prediction->density, 0, 'f', 1);
   DescribeFilter(prediction->density, &text);
+  text.exposure = DescribeExposure(plan_.exposure_ms, *prediction);
+  text.fastest_deg_s = FastestSpeed(*prediction);
   if (prediction->density < ScanPrediction::kMinDensity) {
-    const double enough = plan_.speed_deg_s * prediction->density / ScanPrediction::kMinDensity;
     text.warning = tr("Coverage is under the floor of 2\u00a0%: the depth will be coarse. "
                       "Scan at %1\u00a0°/s or slower.")
-                       .arg(enough, 0, 'f', 1);
+                       .arg(text.fastest_deg_s, 0, 'f', 1);
   }
   return text;
+}
+
+void HeadViewModel::useFastestSpeed() {
+  const double fastest_deg_s = Prediction().fastest_deg_s;
+  if (!CanEditPlan() || !(fastest_deg_s > 0.0)) return;
+  PlanFields plan = plan_;
+  plan.speed_deg_s = fastest_deg_s;
+  SetPlan(plan);
 }
 
 double HeadViewModel::ScanProgress() const {

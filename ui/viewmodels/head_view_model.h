@@ -23,6 +23,8 @@ struct PlanFields {
   double speed_deg_s = 10.0;
   QVector<double> image_angles_deg = {0.0};
   double exposure_ms = 4.0;
+  bool standing_still = false;  ///< pictures after the sweep, not in passing
+  bool there_and_back = false;  ///< two passes in one scan
 
   ScanPlan ToPlan() const;
 };
@@ -34,7 +36,10 @@ struct PredictionText {
   QString coverage;  ///< "2.5 %"
   QString sigma;     ///< "11.2 px", of the method that a new scan is computed with
   QString method;    ///< its name: "Foresight"
-  QString warning;   ///< what is wrong with the plan and what to do; empty when all is well
+  QString exposure;  ///< "4.0 ms", or what the head will shorten it to and why
+  /// Of the fastest speed that keeps the floor of coverage, rounded down to 0.1; 0 = not known.
+  double fastest_deg_s = 0.0;
+  QString warning;  ///< what is wrong with the plan and what to do; empty when all is well
   bool usable = true;
 };
 
@@ -87,6 +92,8 @@ class HeadViewModel : public QObject {
   void StopForGood();
 
  public Q_SLOTS:
+  /// Takes over the fastest speed that keeps the floor of coverage.
+  void useFastestSpeed();
   void scan();
   void abort();
   void home();
