@@ -31,8 +31,8 @@ class FitCommand : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
     mission_ = *folder_ / "mission.foresight";
-    const ProgramResult scanned = Run({"scan", "--scene", kScene, "--from", "-12", "--to", "12",
-                                       "--speed", "20", "--out", mission_});
+    const ProgramResult scanned =
+        Run({"scan", "--scene", kScene, "--from", "-15", "--to", "15", "--out", mission_});
     ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
   }
   static void TearDownTestSuite() { folder_.reset(); }
