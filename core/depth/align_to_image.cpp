@@ -24,10 +24,13 @@ Status AlignMoreLines(const RegisteredScan& scan, int first_line, const SensorRi
       const Eigen::Vector3d point = camera_from_base * in_base;
       if (!AlignedSamples::IsDepth(static_cast<float>(point.z()))) continue;
       const auto pixel = rig.camera.Project(point);
-      if (!pixel || !rig.camera.InImage(*pixel)) continue;
+      if (!pixel) continue;
+      // As it will be kept: a pixel just inside the edge may round to one that is outside.
+      const Eigen::Vector2f kept = pixel->cast<float>();
+      if (!rig.camera.InImage(kept.cast<double>())) continue;
       AlignedSample sample;
-      sample.u = static_cast<float>(pixel->x());
-      sample.v = static_cast<float>(pixel->y());
+      sample.u = kept.x();
+      sample.v = kept.y();
       sample.depth_m = static_cast<float>(point.z());
       sample.line = line;
       sample.beam = beam;

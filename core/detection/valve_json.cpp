@@ -23,7 +23,8 @@ Json CandidateJson(const ValveCandidate& valve,
   return {{"base_from_object", ToJson(valve.base_from_object)},
           {"robot_from_object", ToJson(robot_from_base * valve.base_from_object)},
           {"model", ModelJson(valve.model)},
-          {"log_likelihood", valve.log_likelihood}};
+          {"log_likelihood", valve.log_likelihood},
+          {"brightness", valve.brightness}};
 }
 
 Json EvidenceJson(const ValveEvidence& evidence) {
@@ -35,7 +36,8 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"rms_m", evidence.rms_m},
           {"arc_coverage", evidence.arc_coverage},
           {"margin_nats", evidence.margin_nats},
-          {"gain_nats", evidence.gain_nats}};
+          {"gain_nats", evidence.gain_nats},
+          {"weakest_spoke", evidence.weakest_spoke}};
 }
 
 ValveModel::Kind KindFrom(const std::string& name) {
@@ -59,8 +61,10 @@ ValveModel ModelFrom(const Json& value) {
 }
 
 ValveCandidate CandidateFrom(const Json& value) {
-  return {PoseFrom(value.at("base_from_object")), ModelFrom(value.at("model")),
-          NumberFrom(value.at("log_likelihood"))};
+  ValveCandidate valve{PoseFrom(value.at("base_from_object")), ModelFrom(value.at("model")),
+                       NumberFrom(value.at("log_likelihood"))};
+  if (value.contains("brightness")) valve.brightness = NumberFrom(value["brightness"]);
+  return valve;
 }
 
 ValveEvidence EvidenceFrom(const Json& value) {
@@ -74,6 +78,7 @@ ValveEvidence EvidenceFrom(const Json& value) {
   evidence.arc_coverage = NumberFrom(value.at("arc_coverage"));
   evidence.margin_nats = NumberFrom(value.at("margin_nats"));
   evidence.gain_nats = NumberFrom(value.at("gain_nats"));
+  if (value.contains("weakest_spoke")) evidence.weakest_spoke = NumberFrom(value["weakest_spoke"]);
   return evidence;
 }
 

@@ -48,15 +48,6 @@ FitTrialScene DrillPopulation::MakeScene(std::uint64_t seed) const {
   return RandomDrillScene(seed);
 }
 
-Result<Detection> DrillPopulation::Fit(const ProcessedScan& scan, FitSource source, const Roi& roi,
-                                       const RunContext& context) const {
-  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
-  FitDrillOptions options;
-  options.up = scan.rig.robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
-  FORESIGHT_TRY(DrillDetection drill, FitDrill(rays, options, context));
-  return Detection(std::move(drill));
-}
-
 std::vector<FitOutcome> DrillPopulation::Judge(const FitTrial& trial,
                                                const Result<Detection>& found) const {
   FitOutcome outcome;

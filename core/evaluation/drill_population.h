@@ -20,10 +20,8 @@ namespace foresight {
 /// way, by more than 90 deg).
 class DrillPopulation : public FitPopulation {
  public:
-  const char* Kind() const override { return "drill"; }
+  ObjectKind Kind() const override { return ObjectKind::kDrill; }
   FitTrialScene MakeScene(std::uint64_t seed) const override;
-  Result<Detection> Fit(const ProcessedScan& scan, FitSource source, const Roi& roi,
-                        const RunContext& context) const override;
   std::vector<FitOutcome> Judge(const FitTrial& trial,
                                 const Result<Detection>& found) const override;
   std::vector<std::string> FeatureNames() const override;

@@ -104,7 +104,8 @@ Result<std::vector<FitOutcome>> RunFitTrial(const FitPopulation& population, std
   std::vector<FitOutcome> outcomes;
   const auto fit = [&](const ProcessedScan& scan, FitSource source, const char* name) {
     const double begin = CpuSeconds();
-    const Result<Detection> found = population.Fit(scan, source, trial.roi, one_thread);
+    const Result<Detection> found =
+        FitInScan(scan, source, trial.roi, population.Options(trial.rig), one_thread);
     AddOutcomes(population, trial, name, found, CpuSeconds() - begin, outcomes);
   };
   if (options.raw) fit({trial.rig, trial.cloud}, FitSource::kRaw, "raw");

@@ -59,14 +59,14 @@ struct FitOutcome {
 class FitPopulation {
  public:
   virtual ~FitPopulation() = default;
-  /// "valve", "drill", "terrain".
-  virtual const char* Kind() const = 0;
+  virtual ObjectKind Kind() const = 0;
   /// About one in six is a negative: other things, an empty region, a wall, half an object, a
   /// table's edge, look-alikes.
   virtual FitTrialScene MakeScene(std::uint64_t seed) const = 0;
-  /// As the programs do it.
-  virtual Result<Detection> Fit(const ProcessedScan& scan, FitSource source, const Roi& roi,
-                                const RunContext& context) const = 0;
+  /// What the fit is asked for; the programs' defaults.
+  virtual FitOptions Options(const SensorRig& rig) const {
+    return FitOptionsFor(Kind(), rig.robot_from_base);
+  }
   /// One outcome an answer; terrain has one for each surface that is offered as a block and one,
   /// not found, for each visible block that is missed. `found` is the failure where there is no
   /// answer.

@@ -11,14 +11,10 @@ FitTrialScene TerrainPopulation::MakeScene(std::uint64_t seed) const {
   return RandomTerrainScene(seed);
 }
 
-Result<Detection> TerrainPopulation::Fit(const ProcessedScan& scan, FitSource source,
-                                         const Roi& roi, const RunContext& context) const {
-  FitTerrainOptions options;
-  options.up = scan.rig.robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
-  options.graph_cut = graph_cut_;
-  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
-  FORESIGHT_TRY(TerrainDetection terrain, FitTerrain(rays, options, nullptr, context));
-  return Detection(std::move(terrain));
+FitOptions TerrainPopulation::Options(const SensorRig& rig) const {
+  FitOptions options = FitPopulation::Options(rig);
+  std::get<FitTerrainOptions>(options).graph_cut = graph_cut_;
+  return options;
 }
 
 std::vector<FitOutcome> TerrainPopulation::Judge(const FitTrial& trial,

@@ -23,10 +23,9 @@ class TerrainPopulation : public FitPopulation {
   /// `graph_cut`: false to measure what it is worth.
   explicit TerrainPopulation(bool graph_cut = true) : graph_cut_(graph_cut) {}
 
-  const char* Kind() const override { return "terrain"; }
+  ObjectKind Kind() const override { return ObjectKind::kTerrain; }
   FitTrialScene MakeScene(std::uint64_t seed) const override;
-  Result<Detection> Fit(const ProcessedScan& scan, FitSource source, const Roi& roi,
-                        const RunContext& context) const override;
+  FitOptions Options(const SensorRig& rig) const override;
   std::vector<FitOutcome> Judge(const FitTrial& trial,
                                 const Result<Detection>& found) const override;
   std::vector<std::string> FeatureNames() const override;

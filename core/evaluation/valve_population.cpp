@@ -60,12 +60,6 @@ FitTrialScene ValvePopulation::MakeScene(std::uint64_t seed) const {
   return RandomValveScene(seed);
 }
 
-Result<Detection> ValvePopulation::Fit(const ProcessedScan& scan, FitSource source, const Roi& roi,
-                                       const RunContext& context) const {
-  FORESIGHT_TRY(ValveDetection valve, FitValveInScan(scan, source, roi, {}, context));
-  return Detection(std::move(valve));
-}
-
 std::vector<FitOutcome> ValvePopulation::Judge(const FitTrial& trial,
                                                const Result<Detection>& found) const {
   FitOutcome outcome;

@@ -19,10 +19,8 @@ namespace foresight {
 /// "axis_deg", "radius_mm", "phase_deg", "spokes" (0 = right, 1 = wrong).
 class ValvePopulation : public FitPopulation {
  public:
-  const char* Kind() const override { return "valve"; }
+  ObjectKind Kind() const override { return ObjectKind::kValve; }
   FitTrialScene MakeScene(std::uint64_t seed) const override;
-  Result<Detection> Fit(const ProcessedScan& scan, FitSource source, const Roi& roi,
-                        const RunContext& context) const override;
   std::vector<FitOutcome> Judge(const FitTrial& trial,
                                 const Result<Detection>& found) const override;
   std::vector<std::string> FeatureNames() const override;

@@ -83,8 +83,9 @@ TEST_F(Workstation, TabInAPaneShowsTheNextAnswerOnTheCardAndInThePicture) {
   FoundObject object;
   ValveDetection valve;
   valve.best.model.spokes = 4;
-  valve.best.base_from_object = session.Rig().robot_from_base.Inverse() *
-                                Rigid<frame::Robot, frame::Object>({}, running->ValveInRobot());
+  valve.best.base_from_object =
+      session.Rig().robot_from_base.Inverse() *
+      Rigid<frame::Robot, frame::Object>(Eigen::Quaterniond::Identity(), running->ValveInRobot());
   valve.rivals = {valve.best};
   valve.rivals[0].model.rim_radius_m *= 1.5;
   valve.rivals[0].log_likelihood = -12.0;

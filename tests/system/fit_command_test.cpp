@@ -22,7 +22,7 @@ const std::string kRegion = "534,413,721,602";  // around the scene's valve
 
 Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
   const auto& p = answer["best"]["robot_from_object"]["position_m"];
-  return {p[0], p[1], p[2]};
+  return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
 }
 
 /// One scan of the valve scene for all tests.
@@ -48,8 +48,9 @@ class FitCommand : public testing::Test {
   /// The scene rendered: depth.pfm, rig.yaml.
   static std::string Rendered() {
     const std::string out = *folder_ / "rendered";
-    if (!std::filesystem::exists(out))
+    if (!std::filesystem::exists(out)) {
       EXPECT_EQ(Run({"render", kScene, "--out", out}).exit_code, 0);
+    }
     return out;
   }
 

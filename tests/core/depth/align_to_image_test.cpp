@@ -30,6 +30,20 @@ TEST(AlignToImage, EverySampleProjectsToItsPixel) {
   }
 }
 
+TEST(AlignToImage, ASampleThatRoundsOntoTheEdgeIsLeftOut) {
+  const Scan scan = SweptPlane({Eigen::Vector3d::UnitZ(), 2.0}, -20, 20, 40);
+  const auto registered = RegisterScan(scan, {});
+  SensorRig rig = scan.rig;
+  const auto before = AlignToImage(*registered, rig, 0.0, {});
+  ASSERT_TRUE(before);
+  const auto pixel = rig.camera.Project(before->samples.front().point.cast<double>());
+  // A float next to 1287.5 is 0.0001 px away: this one rounds to the edge itself.
+  rig.camera.cx += rig.camera.width - 0.5 - 1e-5 - pixel->x();
+  const auto aligned = AlignToImage(*registered, rig, 0.0, {});
+  ASSERT_TRUE(aligned);
+  EXPECT_TRUE(aligned->Check());
+}
+
 TEST(AlignToImage, HandsOutTheCamerasRays) {
   const Scan scan = SweptPlane({Eigen::Vector3d(0, 0.3, 1).normalized(), 1.5}, -20, 20, 80);
   const auto registered = RegisterScan(scan, {});

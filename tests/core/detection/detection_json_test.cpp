@@ -17,11 +17,13 @@ ValveDetection Sample() {
   detection.best = {{Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, -0.2, 1.3}},
                     {0.12, 0.013, 4, 0.009, 0.024, 0.031},
                     1234.5};
+  detection.best.brightness = 0.7;
   detection.phase_observable = false;
   detection.sigma_position_m = {0.001, 0.002, 0.003};
   detection.sigma_axis_rad = 0.01;
   detection.sigma_phase_rad = 0.02;
   detection.evidence = {900, 200, 0.9, 0.03, 0.02, 0.006, 0.95, 88.0, 700.0};
+  detection.evidence.weakest_spoke = 0.4;
   detection.verdict = {VerdictLevel::kLikely, 0.83, "only 58 % of the rim is seen", {}};
   detection.rivals = {detection.best};
   detection.rivals[0].model.spokes = 2;
@@ -46,6 +48,8 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->sigma_position_m, sample.sigma_position_m);
   EXPECT_EQ(read->evidence.hits, 200);
   EXPECT_EQ(read->evidence.gain_nats, 700.0);
+  EXPECT_EQ(read->evidence.weakest_spoke, 0.4);
+  EXPECT_EQ(read->best.brightness, 0.7);
   EXPECT_EQ(read->verdict.level, VerdictLevel::kLikely);
   EXPECT_EQ(read->verdict.reason, sample.verdict.reason);
   ASSERT_EQ(read->rivals.size(), 1U);
