@@ -205,11 +205,11 @@ TEST_F(FitCommand, DamagedFilesAndACameraThatMirrorsAreBadData) {
   ExpectRefused(Run({"fit", "valve", "--depth", *folder_ / "small.pfm", "--rig", out + "/rig.yaml",
                      "--roi", "1,1,40,40"}),
                 3, "64 x 48");
-  std::string rig = ReadFile(out + "/rig.yaml").value();
+  const std::string rig = ReadFile(out + "/rig.yaml").value();
   const auto at = rig.find("fx: ");
   ASSERT_NE(at, std::string::npos);
-  rig.insert(at + 4, "-");
-  ASSERT_TRUE(WriteFileAtomically(*folder_ / "mirrored.yaml", rig));
+  const std::string mirrored = rig.substr(0, at + 4).append("-").append(rig.substr(at + 4));
+  ASSERT_TRUE(WriteFileAtomically(*folder_ / "mirrored.yaml", mirrored));
   ExpectRefused(Run({"fit", "valve", "--depth", out + "/depth.pfm", "--rig",
                      *folder_ / "mirrored.yaml", "--roi", kRegion}),
                 3, "mirrored.yaml");
