@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <qtadvanceddocking/DockWidget.h>
 
+#include <QApplication>
 #include <QDialog>
 #include <QLabel>
 #include <QPushButton>
@@ -100,6 +101,7 @@ TEST_F(Workstation, TabInAPaneShowsTheNextAnswerOnTheCardAndInThePicture) {
   ASSERT_NE(answer, nullptr);
   EXPECT_TRUE(answer->text().startsWith("4 spokes")) << answer->text().toStdString();
 
+  QApplication::setActiveWindow(&running->window());  // there is no window manager to do it
   running->window().Image()->Canvas()->setFocus();
   QTest::keyClick(running->window().Image()->Canvas(), Qt::Key_Tab);
   running->Settle();
@@ -110,6 +112,7 @@ TEST_F(Workstation, TabInAPaneShowsTheNextAnswerOnTheCardAndInThePicture) {
 
 TEST_F(Workstation, ResidualsColourTheRegionsPointsWhiteWhereTheyAgree) {
   running->bench().session.SelectObject(0);  // the valve that was dragged over
+  running->Settle();
   CloudPane* pane = running->window().Cloud();
   ASSERT_TRUE(pane->ResidualButton()->isEnabled());
   const QImage before = CloudPixels();

@@ -26,7 +26,7 @@ Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
 }
 
 /// One scan of the valve scene for all tests.
-class FitCommand : public testing::Test {
+class FitOfAScan : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
@@ -58,7 +58,7 @@ class FitCommand : public testing::Test {
   static inline std::string mission_;
 };
 
-TEST_F(FitCommand, EveryWayToDrawTheRegionFindsTheSameValve) {
+TEST_F(FitOfAScan, EveryWayToDrawTheRegionFindsTheSameValve) {
   const ProgramResult rectangle = Fit({"--roi", kRegion, "--json"});
   ASSERT_EQ(rectangle.exit_code, 0) << rectangle.errors << rectangle.output;
   const auto reference = nlohmann::json::parse(rectangle.output);
@@ -76,7 +76,7 @@ TEST_F(FitCommand, EveryWayToDrawTheRegionFindsTheSameValve) {
   }
 }
 
-TEST_F(FitCommand, TheSourceIsNotedAndDepthIsAnOldNameOfTheDefaultMethod) {
+TEST_F(FitOfAScan, TheSourceIsNotedAndDepthIsAnOldNameOfTheDefaultMethod) {
   const ProgramResult paper = Fit({"--roi", kRegion, "--source", "paper", "--json"});
   ASSERT_LE(paper.exit_code, 1) << paper.errors;
   EXPECT_EQ(nlohmann::json::parse(paper.output)["source"], "paper");
@@ -86,7 +86,7 @@ TEST_F(FitCommand, TheSourceIsNotedAndDepthIsAnOldNameOfTheDefaultMethod) {
   EXPECT_EQ(Fit({"--roi", kRegion, "--source", "guess"}).exit_code, 2);
 }
 
-TEST_F(FitCommand, ThePictureShowsTheAnswer) {
+TEST_F(FitOfAScan, ThePictureShowsTheAnswer) {
   const std::string file = *folder_ / "answer.png";
   ASSERT_EQ(Fit({"--roi", kRegion, "--picture", file}).exit_code, 0);
   const auto picture = ReadPng(file);
@@ -99,7 +99,7 @@ TEST_F(FitCommand, ThePictureShowsTheAnswer) {
   EXPECT_GT(strong, 200);
 }
 
-TEST_F(FitCommand, TheGallerySetsAllSixSourcesSideBySide) {
+TEST_F(FitOfAScan, TheGallerySetsAllSixSourcesSideBySide) {
   const std::filesystem::path out = *folder_ / "gallery";
   const ProgramResult result = Fit({"--roi", kRegion, "--gallery", out.string()});
   ASSERT_LE(result.exit_code, 1) << result.errors;
@@ -110,7 +110,7 @@ TEST_F(FitCommand, TheGallerySetsAllSixSourcesSideBySide) {
   }
 }
 
-TEST_F(FitCommand, AnAnswerThatIsSavedStaysInTheMission) {
+TEST_F(FitOfAScan, AnAnswerThatIsSavedStaysInTheMission) {
   const std::string copy = *folder_ / "copy.foresight";
   std::filesystem::copy_file(mission_, copy);
   EXPECT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
@@ -121,7 +121,7 @@ TEST_F(FitCommand, AnAnswerThatIsSavedStaysInTheMission) {
   EXPECT_TRUE(DetectionFromJson(detections->front().json));
 }
 
-TEST_F(FitCommand, ADepthMapIsFittedWithItsCamera) {
+TEST_F(FitOfAScan, ADepthMapIsFittedWithItsCamera) {
   const std::string out = Rendered();
   const std::vector<std::string> fit = {"fit",    "valve",           "--depth", out + "/depth.pfm",
                                         "--rig",  out + "/rig.yaml", "--roi",   kRegion,
@@ -135,7 +135,7 @@ TEST_F(FitCommand, ADepthMapIsFittedWithItsCamera) {
   EXPECT_LT((PositionIn(answer) - PositionIn(scanned)).norm(), 0.020);
 }
 
-TEST_F(FitCommand, APointCloudWithoutAValveIsANegativeAnswer) {
+TEST_F(FitOfAScan, APointCloudWithoutAValveIsANegativeAnswer) {
   const std::string file = *folder_ / "wall.ply";
   std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 900\nproperty float x\nproperty float y\n"
@@ -148,7 +148,7 @@ TEST_F(FitCommand, APointCloudWithoutAValveIsANegativeAnswer) {
   EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
 }
 
-TEST_F(FitCommand, ThreePointsAreTooFew) {
+TEST_F(FitOfAScan, ThreePointsAreTooFew) {
   const std::string file = *folder_ / "three.ply";
   ASSERT_TRUE(WriteFileAtomically(
       file,
@@ -167,7 +167,7 @@ void ExpectRefused(const ProgramResult& result, int exit_code, const std::string
   EXPECT_NE(result.errors.find(what), std::string::npos) << result.errors;
 }
 
-TEST_F(FitCommand, ARegionThatIsNoneIsWrongUsage) {
+TEST_F(FitOfAScan, ARegionThatIsNoneIsWrongUsage) {
   ExpectRefused(Fit({}), 2, "region");
   ExpectRefused(Fit({"--roi", kRegion, "--two-clicks", "1,1,9,9"}), 2, "one region");
   ExpectRefused(Fit({"--roi", "500,500,501,501"}), 2, "too small");
@@ -177,13 +177,13 @@ TEST_F(FitCommand, ARegionThatIsNoneIsWrongUsage) {
   ExpectRefused(Run({"fit", "valve", "--roi", kRegion}), 2, "mission");
 }
 
-TEST_F(FitCommand, ABoxWithNothingInItIsANegativeAnswer) {
+TEST_F(FitOfAScan, ABoxWithNothingInItIsANegativeAnswer) {
   const ProgramResult result = Fit({"--box", "-5,0,1,0.3,0.3,0.3", "--json"});
   EXPECT_EQ(result.exit_code, 1) << result.errors;
   EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
 }
 
-TEST_F(FitCommand, ADepthMapWithoutANumberIsANegativeAnswer) {
+TEST_F(FitOfAScan, ADepthMapWithoutANumberIsANegativeAnswer) {
   const std::string out = Rendered(), file = *folder_ / "nan.pfm";
   const SensorRig rig = LoadSensorRig(out + "/rig.yaml").value();
   ASSERT_TRUE(WritePfm(file, FloatImage(rig.camera.width, rig.camera.height,
@@ -194,7 +194,7 @@ TEST_F(FitCommand, ADepthMapWithoutANumberIsANegativeAnswer) {
   EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
 }
 
-TEST_F(FitCommand, DamagedFilesAndACameraThatMirrorsAreBadData) {
+TEST_F(FitOfAScan, DamagedFilesAndACameraThatMirrorsAreBadData) {
   const std::string out = Rendered(), cloud = *folder_ / "nan.ply";
   ASSERT_TRUE(WriteFileAtomically(
       cloud,

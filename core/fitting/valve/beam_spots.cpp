@@ -15,6 +15,10 @@ constexpr double kEdgeError_m = 0.00275;
 constexpr double kPulse_m = 0.5;            // surfaces closer than this merge into one return
 constexpr double kShareError = 0.08;        // of the part of a spot that lies on the valve
 constexpr double kBrightnessSpread = 0.15;  // of the logarithm, over one valve
+// A spoke is narrower than this neighbourhood, so that some of it ends behind the spoke.
+constexpr double kNeighbourhood_rad = 0.015;
+constexpr double kFarShare = 0.8;
+constexpr double kWallSigmas = 4.0;
 
 /// Normals of the planes that scan lines lie in: two beams of a line span it.
 std::map<int, Eigen::Vector3d> LineNormals(const RaySet& set) {
@@ -59,6 +63,23 @@ BeamSpots::BeamSpots(const RaySet& rays, const std::optional<Plane>& wall)
     spots_[i].across_line = 0.5 * rays.spot_height_rad * normal;
     spots_[i].along_line = 0.5 * rays.footprint_rad * normal.cross(ray.direction);
   }
+  if (wall) LookBehind();
+}
+
+// A spoke that is not there would explain every return from a pipe or a body between wheel and wall
+// as a spot on itself and the wall. What such a body mixes with is not known.
+void BeamSpots::LookBehind() {
+  const double cosine = std::cos(kNeighbourhood_rad);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < spots_.size(); ++i) {
+    ranges.clear();
+    for (const RangeRay& other : rays_.rays)
+      if (other.direction.dot(rays_.rays[i].direction) > cosine) ranges.push_back(other.range_m);
+    const auto far = ranges.begin() + static_cast<std::ptrdiff_t>(
+                                          kFarShare * static_cast<double>(ranges.size() - 1));
+    std::nth_element(ranges.begin(), far, ranges.end());
+    spots_[i].before_wall = *far > spots_[i].wall_m - kWallSigmas * sigma_m_;
+  }
 }
 
 double BeamSpots::HalfWidth(std::size_t i, const Eigen::Vector3d& across) const {
@@ -94,7 +115,7 @@ ExpectedRange BeamSpots::Expect(std::size_t i, const ValveMeeting& meeting, doub
     expected.valve_m = expected.range_m = meeting.middle_m - meeting.stretch * front;
   }
   expected.share = std::max(expected.share, least_share);
-  const double gap = spots_[i].wall_m - expected.range_m;
+  const double gap = spots_[i].before_wall ? spots_[i].wall_m - expected.range_m : 0.0;
   if (!(gap > 0.0) || gap > kPulse_m || expected.share <= 0.0) return expected;
   const double light = brightness * expected.share;
   const double beside = (1.0 - expected.share) / (light + 1.0 - expected.share);

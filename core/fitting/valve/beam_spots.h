@@ -46,7 +46,10 @@ class BeamSpots {
     Eigen::Vector3d along_line = Eigen::Vector3d::Zero();
     Eigen::Vector3d across_line = Eigen::Vector3d::Zero();
     double wall_m = 1e9;
+    bool before_wall = true;  ///< the rays next to it end on the wall, not on something before it
   };
+
+  void LookBehind();
 
   const RaySet& rays_;
   double sigma_m_;

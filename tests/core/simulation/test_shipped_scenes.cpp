@@ -81,7 +81,7 @@ TEST_P(ShippedScene, ShowsItsObjectsToTheHead) {
   }
   for (const DrillTruth& drill : scene_.drills) {
     const Eigen::Vector3d in_head(0.0, 0.0, 0.208 * drill.scale);
-    EXPECT_EQ(look.FirstMeshTowards(drill.robot_from_object * in_head), drill.name);
+    EXPECT_EQ(look.FirstMeshTowards(drill.robot_from_object * in_head), drill.name + " head");
   }
   for (const BlockTruth& block : scene_.blocks)
     EXPECT_TRUE(look.Sees(block.robot_from_object * Eigen::Vector3d(0.0, 0.05, 0.0), 0.002))
