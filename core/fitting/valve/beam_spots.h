@@ -38,6 +38,9 @@ class BeamSpots {
                        double least_share = 0.0) const;
   /// 1e9 without a wall.
   double WallRange(std::size_t i) const { return spots_[i].wall_m; }
+  /// False where the rays next to this one end on something before the wall: what a spot mixes with
+  /// there is not known.
+  bool BeforeWall(std::size_t i) const { return spots_[i].before_wall; }
   double Sigma() const { return sigma_m_; }
 
  private:
@@ -46,7 +49,7 @@ class BeamSpots {
     Eigen::Vector3d along_line = Eigen::Vector3d::Zero();
     Eigen::Vector3d across_line = Eigen::Vector3d::Zero();
     double wall_m = 1e9;
-    bool before_wall = true;  ///< the rays next to it end on the wall, not on something before it
+    bool before_wall = true;
   };
 
   void LookBehind();

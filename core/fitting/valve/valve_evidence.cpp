@@ -15,6 +15,7 @@ namespace {
 constexpr int kBins = 24;
 constexpr double kAgreeSigmas = 3.0;
 constexpr double kMetShare = 0.5;
+constexpr double kWholeShare = 0.9;
 constexpr double kMaxPhaseSigma_rad = 0.15;
 
 /// Of the rays that meet one part, those whose range agrees.
@@ -80,16 +81,18 @@ ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wal
     const ValveMeeting meeting = tracer.Meet(ray);
     const ExpectedRange expected = spots.Expect(i, meeting, valve.brightness);
     if (meeting.Clearance() >= 0.0 || expected.share < kMetShare) continue;
-    ++evidence.hits;
     const double error = ray.range_m - expected.range_m;
     const double agree_m = kAgreeSigmas * expected.sigma_m;
     const bool agrees = std::abs(error) <= agree_m;
-    if (error > agree_m) ++behind;
     if (meeting.part == ValvePart::kSpoke) {
       PartSupport& spoke = spokes[static_cast<std::size_t>(meeting.spoke)];
       ++spoke.hits;
       spoke.agreeing += agrees ? 1 : 0;
     }
+    // A spot that is partly on something unknown may read anything in between.
+    if (!agrees && !spots.BeforeWall(i) && expected.share < kWholeShare) continue;
+    ++evidence.hits;
+    if (error > agree_m) ++behind;
     if (!agrees) continue;
     ++agreeing;
     square_sum += error * error;
