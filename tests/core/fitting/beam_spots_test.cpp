@@ -6,16 +6,16 @@ namespace foresight {
 namespace {
 
 /// Two beams of one scan line from the origin, their spot 10 mm along the line and 24 mm across it
-/// at 2 m; a wall 150 mm behind.
+/// at 2 m; two more that end on a wall 150 mm behind.
 class BeamSpotsAtTwoMetres : public ::testing::Test {
  protected:
   BeamSpotsAtTwoMetres() {
     rays_.footprint_rad = 0.005;
     rays_.spot_height_rad = 0.012;
-    for (int beam = 0; beam < 2; ++beam)
+    for (int beam = 0; beam < 4; ++beam)
       rays_.rays.push_back({Eigen::Vector3d::Zero(),
                             Eigen::Vector3d(0.004 * beam, 0.0, 1.0).normalized(),
-                            2.0,
+                            beam < 2 ? 2.0 : 2.15,
                             {beam, 0}});
   }
 
@@ -60,6 +60,16 @@ TEST_F(BeamSpotsAtTwoMetres, ReadNearerToTheBrighterSurface) {
   const BeamSpots spots(rays_, wall_);
   const ValveMeeting tube = Tube(0.006, 0.0, Eigen::Vector3d::UnitY());
   EXPECT_LT(spots.Expect(0, tube, 3.0).range_m, spots.Expect(0, tube, 1.0).range_m - 0.02);
+}
+
+TEST_F(BeamSpotsAtTwoMetres, DoNotMixWithTheWallWhereABodyIsBeforeIt) {
+  for (RangeRay& ray : rays_.rays)
+    if (ray.range_m > 2.1) ray.range_m = 2.07;
+  const BeamSpots spots(rays_, wall_);
+  EXPECT_FALSE(spots.BeforeWall(0));
+  const ExpectedRange expected = spots.Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_EQ(expected.gap_m, 0.0);
+  EXPECT_NEAR(expected.range_m, expected.valve_m, 1e-12);
 }
 
 TEST_F(BeamSpotsAtTwoMetres, BesideATubeHaveNoShareInIt) {
