@@ -73,6 +73,12 @@ double VerdictModel::Probability(std::span<const double> values) const {
   return 1.0 / (1.0 + std::exp(-sum));
 }
 
+std::string VerdictModel::Reservation() const {
+  if (fits >= kLeastFits) return {};
+  return fmt::format("nobody knows yet how often such an answer is right: only {} were tried",
+                     fits);
+}
+
 std::string VerdictModel::ToYaml() const {
   std::string yaml = fmt::format(
       "# Made by `foresightctl verdict fit`, docs/verdicts.md; not by hand.\n"

@@ -35,6 +35,11 @@ struct VerdictModel {
   /// known out there. Throws ContractViolation for another number of values than features.
   double Probability(std::span<const double> values) const;
 
+  /// Why nothing may be CONFIRMED by this model: its population is too small to promise 98 of 100.
+  /// Empty when it is large enough.
+  std::string Reservation() const;
+  static constexpr int kLeastFits = 150;
+
   std::string ToYaml() const;
 };
 

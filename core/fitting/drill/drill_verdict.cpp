@@ -205,10 +205,12 @@ std::vector<std::string> DrillFeatureNames() {
 
 Verdict AssessDrill(const RaySet& rays, const DrillDetection& detection, const DrillState& drill,
                     const DrillPrior& prior) {
+  const VerdictModel& model = ShippedVerdictModel("drill", rays.dense);
   Verdict verdict;
   verdict.features = FeaturesOf(rays, detection);
-  verdict.probability = ShippedVerdictModel("drill", rays.dense).Probability(verdict.features);
-  const std::string objection = Objection(rays, detection, drill, prior);
+  verdict.probability = model.Probability(verdict.features);
+  std::string objection = Objection(rays, detection, drill, prior);
+  if (objection.empty()) objection = model.Reservation();
   verdict.level = LevelFor(verdict.probability, !objection.empty());
   if (!objection.empty())
     verdict.reason = objection;

@@ -83,10 +83,12 @@ std::vector<std::string> TerrainFeatureNames() {
 
 Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
                     const RectangleEvidence& evidence) {
+  const VerdictModel& model = ShippedVerdictModel("terrain", rays.dense);
   Verdict verdict;
   verdict.features = FeaturesOf(rays, block, evidence);
-  verdict.probability = ShippedVerdictModel("terrain", rays.dense).Probability(verdict.features);
-  const std::string objection = Objection(block.evidence);
+  verdict.probability = model.Probability(verdict.features);
+  std::string objection = Objection(block.evidence);
+  if (objection.empty()) objection = model.Reservation();
   if (!objection.empty())
     verdict.probability = std::min(verdict.probability, Verdict::kConfirmed - 0.01);
   if (block.evidence.confirmed_edges <= kUnsureEdges)

@@ -101,11 +101,13 @@ std::string WeakestPoint(const ValveDetection& detection) {
 
 Verdict AssessValve(const RaySet& rays, const ValveDetection& detection,
                     const FitValveOptions& options) {
+  const VerdictModel& model = ShippedVerdictModel("valve", rays.dense);
   const std::string disbelief = Disbelief(detection, options);
-  const std::string objection = Objection(rays, detection, options);
+  std::string objection = Objection(rays, detection, options);
+  if (objection.empty()) objection = model.Reservation();
   Verdict verdict;
   verdict.features = ValveFeatures(rays, detection);
-  verdict.probability = ShippedVerdictModel("valve", rays.dense).Probability(verdict.features);
+  verdict.probability = model.Probability(verdict.features);
   if (!disbelief.empty())
     verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
   verdict.level = LevelFor(verdict.probability, !objection.empty());

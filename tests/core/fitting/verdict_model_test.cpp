@@ -55,6 +55,13 @@ TEST(VerdictModel, SurvivesItsFile) {
   EXPECT_NEAR(read->Probability(values), TwoFeatures().Probability(values), 1e-9);
 }
 
+TEST(VerdictModel, ASmallPopulationConfirmsNothing) {
+  VerdictModel model = TwoFeatures();
+  EXPECT_NE(model.Reservation().find("only 9 were tried"), std::string::npos);
+  model.fits = 200;
+  EXPECT_EQ(model.Reservation(), "");
+}
+
 TEST(VerdictModel, AFaultNamesItsLine) {
   std::string yaml = TwoFeatures().ToYaml();
   yaml.replace(yaml.find("source: dense"), 13, "source: foggy");
