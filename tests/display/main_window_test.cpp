@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QDialog>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QSettings>
@@ -15,6 +16,7 @@
 #include "tests/display/mouse.h"
 #include "tests/display/workstation_fixture.h"
 #include "ui/panels/detection_card.h"
+#include "ui/panels/head_panel.h"
 #include "ui/views/color_bar.h"
 
 namespace foresight {
@@ -50,6 +52,16 @@ TEST_F(Workstation, TheScanButtonStaysInItsPlaceWhenAPlanIsWarnedOf) {
   running->Settle();
   EXPECT_EQ(button->mapToGlobal({0, 0}), before);
   head.SetPlan(plan);
+}
+
+TEST_F(Workstation, TheFieldsOfThePlanAreNotSqueezed) {
+  const auto* panel = running->window().findChild<HeadPanel*>();
+  ASSERT_NE(panel, nullptr);
+  const auto fields = panel->findChildren<QDoubleSpinBox*>();
+  ASSERT_GE(fields.size(), 4);
+  for (const QDoubleSpinBox* field : fields)
+    EXPECT_GE(field->height(), field->minimumSizeHint().height())
+        << field->accessibleName().toStdString();
 }
 
 TEST_F(Workstation, ThePictureIsShownAsAWhole) {

@@ -7,8 +7,11 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "ui/panels/head_device_rows.h"
@@ -32,22 +35,33 @@ QString AnglesAsText(const QVector<double>& angles_deg) {
 }  // namespace
 
 HeadPanel::HeadPanel(HeadViewModel* head, QWidget* parent) : QWidget(parent), head_(head) {
-  auto* layout = new QVBoxLayout(this);
+  auto* content = new QWidget;
+  auto* layout = new QVBoxLayout(content);
   layout->setContentsMargins(12, 12, 12, 12);
   layout->setSpacing(8);
   layout->addWidget(SectionTitle(tr("Plan")));
   plan_ = BuildPlan();
   layout->addWidget(plan_);
-  layout->addSpacing(8);
   layout->addWidget(SectionTitle(tr("Prediction")));
   layout->addWidget(BuildPrediction());
-  layout->addSpacing(8);
-  layout->addWidget(BuildButtons());
-  layout->addSpacing(8);
   layout->addWidget(SectionTitle(tr("Devices")));
   layout->addWidget(new HeadDeviceRows(head_));
   layout->addStretch(1);
-  setMinimumWidth(270);
+  // On a low window the plan scrolls; the buttons stay where they are.
+  auto* scroll = new QScrollArea;
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(content);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(0);
+  whole->addWidget(scroll, 1);
+  QWidget* buttons = BuildButtons();
+  buttons->setContentsMargins(12, 8, 12, 8);
+  whole->addWidget(buttons);
+  const int bar = scroll->verticalScrollBar()->sizeHint().width();
+  setMinimumWidth(std::max(270, content->minimumSizeHint().width()) + bar);
   connect(head_, &HeadViewModel::planChanged, this, &HeadPanel::ShowPlan);
   connect(head_, &HeadViewModel::statusChanged, this, &HeadPanel::ShowStatus);
   ShowPlan();
@@ -73,7 +87,7 @@ QWidget* HeadPanel::BuildPlan() {
   angles_->setToolTip(tr("Motor angles in degrees, separated by commas, within the scope"));
   form->addRow(tr("Pictures, °"), angles_);
   connect(angles_, &QLineEdit::editingFinished, this, &HeadPanel::TakeAngles);
-  AddChoice(form, tr("Taken"), {tr("In passing"), tr("Standing still, after the sweep")},
+  AddChoice(form, tr("Taken"), {tr("In passing"), tr("Standing still")},
             &PlanFields::standing_still);
   AddField(form, tr("Exposure"), 0.1, 100, 1, tr(" ms"), &PlanFields::exposure_ms);
   return plan;
@@ -103,6 +117,7 @@ QComboBox* HeadPanel::AddChoice(QFormLayout* form, const QString& label, const Q
                                 bool PlanFields::*field) {
   auto* box = new QComboBox;
   box->addItems(choices);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setCurrentIndex(head_->Plan().*field ? 1 : 0);
   box->setAccessibleName(label);
   form->addRow(label, box);
