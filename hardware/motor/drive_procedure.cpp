@@ -97,7 +97,8 @@ class WayWithoutSwitch {
     if (!on) last_off_ = drive.position;
     was_on_ = on;
   }
-  std::int32_t counts() const { return from_ ? std::abs(last_off_ - *from_) : 0; }
+  /// 64 bits: a broken drive may show positions at both ends of its range.
+  std::int64_t counts() const { return from_ ? std::abs(std::int64_t{last_off_} - *from_) : 0; }
 
  private:
   bool was_on_ = false;
@@ -211,8 +212,8 @@ DriveProcedure MoveProcedure(const MoveProfile& profile, WordOrder order) {
 DriveProcedure StopProcedure(double timeout_s) {
   // Slow once may be the end of the ramp; slow in the next poll, too, is rest.
   const auto rests = [slow_before = false](const TxImage& drive, DriveWrites&) mutable {
-    const bool slow =
-        drive.state() != DriveState::kOperationEnabled && std::abs(drive.velocity) <= kRestSpeed;
+    const bool slow = drive.state() != DriveState::kOperationEnabled &&
+                      std::abs(std::int64_t{drive.velocity}) <= kRestSpeed;
     return Result<bool>(slow && std::exchange(slow_before, slow));
   };
   return DriveProcedure(
