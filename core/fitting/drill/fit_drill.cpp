@@ -12,6 +12,7 @@
 #include "core/fitting/drill/rival_shapes.h"
 #include "core/fitting/drill/solid_likelihood.h"
 #include "core/fitting/drill/surroundings.h"
+#include "core/fitting/ray_selection.h"
 
 namespace foresight {
 namespace {
@@ -29,40 +30,6 @@ constexpr double kUnknownHeight_m = 0.04;  // deviation of a foot's height witho
 
 /// Streams of the seed: each stage draws its own numbers.
 enum Stream : std::uint64_t { kThinning, kSurroundings };
-
-RaySet Thinned(const RaySet& rays, int count, Random& random) {
-  if (std::ssize(rays.rays) <= count) return rays;
-  RaySet thinned = rays;
-  for (int i = 0; i < count; ++i)
-    std::swap(thinned.rays[static_cast<std::size_t>(i)],
-              thinned.rays[static_cast<std::size_t>(i) +
-                           random.Index(static_cast<int>(std::ssize(rays.rays)) - i)]);
-  thinned.rays.resize(static_cast<std::size_t>(count));
-  const double share = static_cast<double>(count) / static_cast<double>(rays.rays.size());
-  thinned.samples_per_ray = std::min(1.0, rays.samples_per_ray / share);
-  return thinned;
-}
-
-bool Usable(const RangeRay& ray) {
-  return ray.origin.allFinite() && ray.direction.allFinite() && std::isfinite(ray.range_m) &&
-         ray.range_m > 0.0;
-}
-
-Status CheckRays(const RaySet& rays) {
-  if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
-      !rays.viewpoint.allFinite())
-    return Fail(ErrorCode::kInvalidInput,
-                "rays of the region: sigma_m {}, footprint_rad {} or samples_per_ray {} is not "
-                "usable",
-                rays.sigma_m, rays.footprint_rad, rays.samples_per_ray);
-  if (std::ssize(rays.rays) < kMinRays)
-    return Fail(
-        ErrorCode::kTooFewPoints,
-        "the region holds {} measurements, a drill needs {}: draw it larger, scan slower or "
-        "move closer",
-        rays.rays.size(), kMinRays);
-  return {};
-}
 
 Status CheckForeground(const RaySet& rays, const Surroundings& found) {
   if (found.foreground.size() >= kMinForeground) return {};
@@ -257,9 +224,7 @@ Result<DrillDetection> FitDrill(const RaySet& all_rays, const FitDrillOptions& o
                                 const RunContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   FORESIGHT_CHECK(options.Check());
-  RaySet usable = all_rays;
-  std::erase_if(usable.rays, [](const RangeRay& ray) { return !Usable(ray); });
-  FORESIGHT_CHECK(CheckRays(usable));
+  FORESIGHT_TRY(const RaySet usable, UsableRays(all_rays, kMinRays, "a drill"));
 
   context.Report(0.0, "looking for the table");
   Random thinning(options.seed, kThinning);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/fitting/ray_selection.h"
 #include "core/fitting/valve/lever_search.h"
 #include "core/fitting/valve/polish.h"
 #include "core/fitting/valve/ray_likelihood.h"
@@ -30,49 +31,6 @@ constexpr double kTubeRadius_m = 0.012;  // where the search starts
 
 /// Streams of the seed: each stage draws its own numbers.
 enum Stream : std::uint64_t { kThinning, kWall, kRims, kLevers };
-
-template <class T>
-std::vector<T> RandomSubset(const std::vector<T>& values, int count, Random& random) {
-  if (std::ssize(values) <= count) return values;
-  std::vector<T> shuffled = values;
-  for (int i = 0; i < count; ++i)
-    std::swap(shuffled[static_cast<std::size_t>(i)],
-              shuffled[static_cast<std::size_t>(i) +
-                       random.Index(static_cast<int>(std::ssize(shuffled)) - i)]);
-  shuffled.resize(static_cast<std::size_t>(count));
-  return shuffled;
-}
-
-/// At most `count` rays; each then stands for more of a dense map's measurements.
-RaySet Thinned(const RaySet& rays, int count, Random& random) {
-  RaySet thinned = rays;
-  thinned.rays = RandomSubset(rays.rays, count, random);
-  const double share = static_cast<double>(thinned.rays.size()) /
-                       static_cast<double>(std::max<std::size_t>(1, rays.rays.size()));
-  thinned.samples_per_ray = std::min(1.0, rays.samples_per_ray / share);
-  return thinned;
-}
-
-bool Usable(const RangeRay& ray) {
-  return ray.origin.allFinite() && ray.direction.allFinite() && std::isfinite(ray.range_m) &&
-         ray.range_m > 0.0;
-}
-
-Status CheckRays(const RaySet& rays) {
-  if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
-      !rays.viewpoint.allFinite())
-    return Fail(ErrorCode::kInvalidInput,
-                "rays of the region: sigma_m {}, footprint_rad {} or samples_per_ray {} is not "
-                "usable",
-                rays.sigma_m, rays.footprint_rad, rays.samples_per_ray);
-  if (std::ssize(rays.rays) < kMinRays)
-    return Fail(
-        ErrorCode::kTooFewPoints,
-        "the region holds {} measurements, a wheel needs {}: draw it larger, scan slower or "
-        "move closer",
-        rays.rays.size(), kMinRays);
-  return {};
-}
 
 void SortByLikelihood(std::vector<ValveCandidate>& valves) {
   std::stable_sort(valves.begin(), valves.end(), [](const auto& a, const auto& b) {
@@ -194,9 +152,7 @@ Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& o
                                 const RunContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   FORESIGHT_CHECK(options.Check());
-  RaySet usable = all_rays;
-  std::erase_if(usable.rays, [](const RangeRay& ray) { return !Usable(ray); });
-  FORESIGHT_CHECK(CheckRays(usable));
+  FORESIGHT_TRY(const RaySet usable, UsableRays(all_rays, kMinRays, "a wheel"));
 
   context.Report(0.0, "looking for the wall");
   Random thinning(options.seed, kThinning);

@@ -1,0 +1,41 @@
+#include "core/fitting/ray_selection.h"
+
+#include <cmath>
+
+namespace foresight {
+namespace {
+
+bool Usable(const RangeRay& ray) {
+  return ray.origin.allFinite() && ray.direction.allFinite() && std::isfinite(ray.range_m) &&
+         ray.range_m > 0.0;
+}
+
+}  // namespace
+
+RaySet Thinned(const RaySet& rays, int count, Random& random) {
+  RaySet thinned = rays;
+  thinned.rays = RandomSubset(rays.rays, count, random);
+  const double share = static_cast<double>(thinned.rays.size()) /
+                       static_cast<double>(std::max<std::size_t>(1, rays.rays.size()));
+  thinned.samples_per_ray = std::min(1.0, rays.samples_per_ray / share);
+  return thinned;
+}
+
+Result<RaySet> UsableRays(const RaySet& rays, int least, const char* object) {
+  if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
+      !rays.viewpoint.allFinite())
+    return Fail(ErrorCode::kInvalidInput,
+                "rays of the region: sigma_m {}, footprint_rad {} or samples_per_ray {} is not "
+                "usable",
+                rays.sigma_m, rays.footprint_rad, rays.samples_per_ray);
+  RaySet usable = rays;
+  std::erase_if(usable.rays, [](const RangeRay& ray) { return !Usable(ray); });
+  if (std::ssize(usable.rays) < least)
+    return Fail(ErrorCode::kTooFewPoints,
+                "the region holds {} measurements, {} needs {}: draw it larger, scan slower or "
+                "move closer",
+                usable.rays.size(), object, least);
+  return usable;
+}
+
+}  // namespace foresight
