@@ -23,7 +23,7 @@ std::int64_t Checksum(const ScanRow& row) {
       .Add(row.start_utc_ns)
       .Add(row.source)
       .Add(std::int64_t{row.simulated})
-      .Add(PlanToJson(row.plan))
+      .Add(row.plan_json)
       .Add(ToString(row.state))
       .Add(row.reason)
       .Add(row.lines)
@@ -99,6 +99,7 @@ Result<std::int64_t> ScanRows::InsertScan(const Scan& header) {
   row.source = header.source;
   row.simulated = header.simulated;
   row.plan = header.plan;
+  row.plan_json = PlanToJson(header.plan);
   FORESIGHT_TRY(
       SqliteStatement insert,
       database_.Prepare("INSERT INTO scan(id, uuid, calibration_id, start_utc_ns, source, "
@@ -110,7 +111,7 @@ Result<std::int64_t> ScanRows::InsertScan(const Scan& header) {
                       .Bind(row.start_utc_ns)
                       .BindText(row.source)
                       .Bind(std::int64_t{row.simulated})
-                      .BindText(PlanToJson(row.plan))
+                      .BindText(row.plan_json)
                       .BindText(ToString(row.state))
                       .BindText(row.reason)
                       .Bind(row.lines)
@@ -236,7 +237,8 @@ Result<std::vector<ScanRow>> ScanRows::ReadScanRows() const {
     row.start_utc_ns = select.Integer(3);
     row.source = select.Text(4);
     row.simulated = select.Integer(5) != 0;
-    FORESIGHT_TRY(row.plan, PlanFromJson(select.Text(6), where));
+    row.plan_json = select.Text(6);
+    FORESIGHT_TRY(row.plan, PlanFromJson(row.plan_json, where));
     const auto state = ScanStateFromString(select.Text(7));
     if (!state) return Fail(ErrorCode::kBadData, "{}: {}", where, state.error().message);
     row.state = *state;

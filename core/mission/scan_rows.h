@@ -16,6 +16,8 @@ struct ScanRow {
   std::string source;
   bool simulated = false;
   ScanPlan plan;
+  /// The plan as it stands in the file, which the checksum covers: an older program wrote less.
+  std::string plan_json;
   ScanState state = ScanState::kRunning;
   std::string reason;
   std::int64_t lines = -1;

@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "core/mission/mission_file.h"
+#include "core/mission/row_checksum.h"
+#include "core/mission/sqlite.h"
 #include "tests/core/io/temporary_folder.h"
 #include "tests/core/mission/sample_scan.h"
 
@@ -25,6 +27,46 @@ TEST(MissionFile, AScanComesBackBitForBit) {
   }
   const auto mission = MissionFile::OpenReadOnly(folder / "m.mission").value();
   EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), scan));
+}
+
+/// Rewrites the plan of the only scan, with the checksum that goes with it.
+void RewritePlan(const std::filesystem::path& path, const std::string& plan_json) {
+  SqliteDatabase database = SqliteDatabase::Open(path, SqliteDatabase::Mode::kReadWrite).value();
+  SqliteStatement row = database
+                            .Prepare(
+                                "SELECT id, uuid, calibration_id, start_utc_ns, source, "
+                                "simulated, state, reason, lines, motor_batches, frames "
+                                "FROM scan")
+                            .value();
+  ASSERT_TRUE(row.Step().value());
+  RowChecksum checksum;
+  checksum.Add(row.Integer(0)).Add(row.Text(1)).Add(row.Integer(2)).Add(row.Integer(3));
+  checksum.Add(row.Text(4)).Add(row.Integer(5)).Add(plan_json).Add(row.Text(6)).Add(row.Text(7));
+  checksum.Add(row.Integer(8)).Add(row.Integer(9)).Add(row.Integer(10));
+  ASSERT_FALSE(row.Step().value());
+  SqliteStatement update = database.Prepare("UPDATE scan SET plan_json = ?, crc32 = ?").value();
+  ASSERT_TRUE(update.BindText(plan_json).Bind(checksum.value()).Run());
+}
+
+TEST(MissionFile, AMissionOfAProgramThatKnewLessOfThePlanStillOpens) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "m.mission";
+  {
+    const auto mission = MissionFile::Create(path).value();
+    Record(*mission, SampleScan(1));
+    ASSERT_TRUE(mission->Close());
+  }
+  RewritePlan(path,
+              R"({"exposure_s":0.004,"from_rad":-0.5,"gain_db":3.0,"image_angles_rad":[0.25],)"
+              R"("speed_rad_s":0.2,"to_rad":0.5})");
+
+  const auto mission = MissionFile::OpenReadOnly(path).value();
+  const auto scan = mission->LoadScan(mission->ListScans().value().front().id);
+
+  ASSERT_TRUE(scan) << scan.error().message;
+  EXPECT_THAT(scan->plan.image_angles_rad, ElementsAre(0.25));
+  EXPECT_EQ(scan->plan.passes, ScanPlan().passes);
+  EXPECT_EQ(scan->plan.picture_mode, ScanPlan().picture_mode);
 }
 
 TEST(MissionFile, TheRigComesBack) {
