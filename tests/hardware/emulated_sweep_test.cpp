@@ -1,4 +1,5 @@
 // The whole way: three emulators, three real drivers, one head, in real time.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -101,6 +102,25 @@ TEST_F(EmulatedSweep, ThePictureIsTheOneThatWasTakenAtTheAngle) {
 TEST_F(EmulatedSweep, TheMotorStandsStillWhenTheSweepIsOver) {
   EXPECT_FALSE(bench_->site->MotorTurns());
   EXPECT_EQ(bench_->head->Status().state, HeadState::kReady);
+}
+
+TEST(EmulatedCamera, ThatGoesForGoodInASweepCostsItsPicturesButNoLine) {
+  EmulatedHead bench(FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml");
+  const auto scan = bench.Fly(SmallPlan(), [&bench] { bench.site->camera().InjectVanish(1e6); });
+  ASSERT_TRUE(scan) << bench.head->Status().message;
+  EXPECT_EQ(scan->state, ScanState::kComplete) << scan->reason;
+  EXPECT_NEAR(static_cast<double>(scan->lines.size()), 81.0, 2.0);
+  EXPECT_TRUE(scan->frames.empty());
+  EXPECT_THAT(scan->reason, testing::HasSubstr("the picture at -15.00 deg did not come"));
+  EXPECT_FALSE(bench.site->MotorTurns());
+  ASSERT_TRUE(bench.WaitFor(HeadState::kFault));
+  EXPECT_THAT(bench.head->Status().message, testing::HasSubstr("camera"));
+
+  bench.site->camera().ClearFaults();
+  const auto after = bench.Fly(SmallPlan());
+  ASSERT_TRUE(after) << bench.head->Status().message;
+  EXPECT_EQ(after->reason, "");
+  EXPECT_EQ(after->frames.size(), 1u);
 }
 
 TEST(RealTimeClock, RunsAtTheWallsPaceFromZero) {

@@ -3,27 +3,9 @@
 #include <QGridLayout>
 #include <QLabel>
 
-#include "ui/panels/theme.h"
+#include "ui/panels/device_lamps.h"
 
 namespace foresight {
-namespace {
-
-const char* IconOf(DeviceRow::Lamp lamp) {
-  switch (lamp) {
-    case DeviceRow::Lamp::kIdle:
-      return "info";
-    case DeviceRow::Lamp::kWell:
-      return "confirmed";
-    case DeviceRow::Lamp::kDegraded:
-      return "warning";
-    case DeviceRow::Lamp::kMissing:
-      return "error";
-  }
-  return "info";
-}
-
-}  // namespace
-
 HeadDeviceRows::HeadDeviceRows(HeadViewModel* head, QWidget* parent)
     : QWidget(parent), head_(head) {
   auto* grid = new QGridLayout(this);
@@ -46,7 +28,7 @@ void HeadDeviceRows::Show() {
   const QVector<DeviceRow> devices = head_->Devices();
   for (int i = 0; i < devices.size(); ++i) {
     const Row& row = rows_[static_cast<std::size_t>(i)];
-    row.lamp->setPixmap(Icon(IconOf(devices[i].lamp)).pixmap(16, 16));
+    row.lamp->setPixmap(LampPixmap(devices[i].lamp));
     row.title->setText(tr("%1: %2").arg(devices[i].name, devices[i].state));
     row.detail->setText(devices[i].detail);
     row.detail->setVisible(!devices[i].detail.isEmpty());

@@ -6,6 +6,7 @@
 #include <QPushButton>
 
 #include "core/geometry/angles.h"
+#include "ui/panels/device_lamps.h"
 #include "ui/panels/theme.h"
 
 namespace foresight {
@@ -51,13 +52,14 @@ HeadStrip::HeadStrip(HeadViewModel* head, SessionModel* session, QWidget* parent
   mode_ = add(0, "badge");
   state_ = add(0, "badge");
   angle_ = add(120, "");
-  speed_ = add(250, "");
+  speed_ = add(210, "");
   lines_ = add(140, "");
   sweep_ = new QProgressBar;
   sweep_->setRange(0, 1000);
   sweep_->setTextVisible(false);
   sweep_->setFixedSize(120, 10);
   layout->addWidget(sweep_);
+  layout->addWidget(new DeviceLamps(head_));
   message_ = new QLabel;
   message_->setWordWrap(true);
   layout->addWidget(message_, 1);

@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <QLabel>
+
+#include "tests/ui/fake_head.h"
+#include "ui/panels/device_lamps.h"
+
+namespace foresight {
+namespace {
+
+struct DeviceLampsOnScreen : testing::Test {
+  DeviceLampsOnScreen() {
+    head->SetHealth(AllWell());
+    model.Poll();
+    lamps.show();
+  }
+
+  static HeadHealth AllWell() {
+    HeadHealth health;
+    health.lidar.connected = health.camera.connected = health.motor.connected = true;
+    health.lidar.line_rate_hz = 40.0;
+    health.motor.poll_rate_hz = 240.0;
+    return health;
+  }
+
+  std::vector<std::string> Words() const {
+    std::vector<std::string> words;
+    for (const QLabel* label : lamps.findChildren<QLabel*>())
+      if (!label->text().isEmpty()) words.push_back(label->text().toStdString());
+    return words;
+  }
+
+  QColor BrightestOf(int sign) const {
+    const QImage image =
+        lamps.findChildren<QLabel*>(QStringLiteral("deviceLamp"))[sign]->grab().toImage();
+    QColor brightest = Qt::black;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        if (image.pixelColor(x, y).value() > brightest.value()) brightest = image.pixelColor(x, y);
+    return brightest;
+  }
+
+  std::shared_ptr<FakeHead> head = std::make_shared<FakeHead>(DefaultSensorRig());
+  HeadViewModel model{head};
+  DeviceLamps lamps{&model};
+};
+
+TEST_F(DeviceLampsOnScreen, NameTheDevicesAndNothingElseWhileAllIsWell) {
+  EXPECT_EQ(Words(), (std::vector<std::string>{"Lidar", "Camera", "Motor"}));
+}
+
+TEST_F(DeviceLampsOnScreen, SayInWordsWhichDeviceIsMissing) {
+  HeadHealth health = AllWell();
+  health.camera.connected = false;
+  health.camera.last_error = "camera 10.0.0.3: does not answer";
+  head->SetHealth(health);
+  model.Poll();
+  EXPECT_EQ(Words(), (std::vector<std::string>{"Lidar", "Camera: missing", "Motor"}));
+  const QString why = lamps.findChildren<QLabel*>(QStringLiteral("deviceLamp"))[1]->toolTip();
+  EXPECT_TRUE(why.contains(QStringLiteral("does not answer"))) << why.toStdString();
+}
+
+TEST_F(DeviceLampsOnScreen, ALampIsBrightEnoughToBeSeen) {
+  for (int sign = 0; sign < 3; ++sign) EXPECT_GT(BrightestOf(sign).value(), 150) << sign;
+}
+
+}  // namespace
+}  // namespace foresight

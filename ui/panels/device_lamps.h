@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QWidget>
+#include <array>
+
+#include "ui/viewmodels/head_view_model.h"
+
+class QLabel;
+
+namespace foresight {
+
+/// The sign of a device's state; every state has its own shape, not only its own colour.
+QPixmap LampPixmap(DeviceRow::Lamp lamp);
+
+/// Lidar, camera and motor at a glance: a lamp and a name each, what is the matter in the tooltip
+/// and, when a device is not well, in words.
+class DeviceLamps : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit DeviceLamps(HeadViewModel* head, QWidget* parent = nullptr);
+
+ private:
+  struct Lamp {
+    QLabel* sign;
+    QLabel* name;
+  };
+  void Show();
+
+  HeadViewModel* head_;
+  std::array<Lamp, 3> lamps_;
+};
+
+}  // namespace foresight
