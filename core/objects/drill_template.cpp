@@ -29,6 +29,17 @@ SolidPart Scaled(const SolidPart& part, double scale) {
   return scaled;
 }
 
+void Move(SolidPart& part, const Eigen::Vector3d& by) {
+  part.object_from_part = {part.object_from_part.rotation(),
+                           part.object_from_part.translation() + by};
+}
+
+/// The body grows at its upper end; its axis is z.
+void Lengthen(SolidPart& body, double by_m) {
+  body.size_m.z() += by_m;
+  Move(body, {0.0, 0.0, 0.5 * by_m});
+}
+
 }  // namespace
 
 Status DrillTemplate::Check() const {
@@ -60,7 +71,7 @@ const SolidPart& DrillTemplate::Body() const {
 }
 
 DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_rad,
-                               double bit_length_m) const {
+                               double bit_length_m, const DrillProportions& proportions) const {
   const Rigid<frame::Object, frame::Object> lean(BodyTurn(body_tilt_rad), Eigen::Vector3d::Zero());
   DrillModel model;
   model.template_name = name;
@@ -68,13 +79,23 @@ DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_ra
   model.body_tilt_rad = body_tilt_rad;
   model.bit_length_m = bit_length_m < kShortestBit_m ? 0.0 : bit_length_m;
   model.parts.reserve(parts.size() + 1);
+  const double least_up_m = -0.5 * scale * Body().size_m.z();  // a short body stays one
+  const Eigen::Vector3d up(0.0, 0.0, std::max(proportions.head_up_m, least_up_m));
+  const Eigen::Vector3d forward(proportions.head_forward_m, 0.0, 0.0);
+  const double grasp_height_m = object_from_grasp.translation().z();
   for (const SolidPart& part : parts) {
     SolidPart made = Scaled(part, scale);
+    if (part.name == kBody)
+      Lengthen(made, up.z());
+    else if (part.name == kFoot)
+      made.size_m.head<2>() *= proportions.foot_share;
+    else if (part.object_from_part.translation().z() > grasp_height_m)
+      Move(made, part.name == kTrigger ? up : Eigen::Vector3d(up + forward));
     if (part.name != kFoot) made.object_from_part = lean * made.object_from_part;
     model.parts.push_back(std::move(made));
   }
   // A bit is no part of the drill's size: it begins at the scaled chuck and keeps its own length.
-  const Eigen::Vector3d chuck_face = scale * chuck_face_m;
+  const Eigen::Vector3d chuck_face = scale * chuck_face_m + up + forward;
   if (model.bit_length_m > 0.0) {
     SolidPart bit = Bit(chuck_face, bit_direction, bit_radius_m, model.bit_length_m);
     bit.object_from_part = lean * bit.object_from_part;
@@ -83,7 +104,10 @@ DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_ra
   model.object_from_grasp =
       lean * Rigid<frame::Object, frame::Object>(object_from_grasp.rotation(),
                                                  scale * object_from_grasp.translation());
-  model.trigger_m = lean * Eigen::Vector3d(scale * trigger_m);
+  // The trigger hangs under the head; a cut-out tool's switch stays with the grip.
+  const double trigger_up_m = trigger_m.z() > grasp_height_m ? up.z() : 0.0;
+  model.trigger_m =
+      lean * Eigen::Vector3d(scale * trigger_m + trigger_up_m * Eigen::Vector3d::UnitZ());
   model.bit_tip_m = lean * Eigen::Vector3d(chuck_face + model.bit_length_m * bit_direction);
   return model;
 }

@@ -9,11 +9,19 @@
 
 namespace foresight {
 
+/// What drills of one kind differ in beside their size.
+struct DrillProportions {
+  double head_up_m = 0.0;  ///< of the head, the body that much longer; at most half of it shorter
+  double head_forward_m = 0.0;  ///< of head, chuck and bit against the body's axis
+  double foot_share = 1.0;      ///< of the foot's length and width
+};
+
 /// A kind of drill, read from a data file (resources/templates, docs/templates.md): the parts at
 /// scale 1 without lean, and how far a drill of this kind may differ from them.
 struct DrillTemplate {
   static constexpr const char* kBody = "body";          ///< the part that a hand goes round
   static constexpr const char* kFoot = "battery foot";  ///< parts that do not lean with the body
+  static constexpr const char* kTrigger = "trigger";
 
   std::string name;
   /// Foot, body, head, chuck, trigger... The body's axis is z; parts named "battery foot" do not
@@ -33,7 +41,10 @@ struct DrillTemplate {
   Status Check() const;
   /// The first part named "body". Check() has passed.
   const SolidPart& Body() const;
-  DrillModel Make(double scale, const Eigen::Vector2d& body_tilt_rad, double bit_length_m) const;
+  /// `proportions` come after the scale. The head is what lies above the grasp point and is not the
+  /// body; a part named "trigger" goes up with it, not forward.
+  DrillModel Make(double scale, const Eigen::Vector2d& body_tilt_rad, double bit_length_m,
+                  const DrillProportions& proportions = {}) const;
 };
 
 /// Fails with kBadData, naming `source` and the line at fault; an unknown key is an error.

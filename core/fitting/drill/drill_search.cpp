@@ -24,6 +24,7 @@ constexpr double kSameMode_m = 0.03;
 constexpr double kSameMode_rad = 0.4;
 
 constexpr double kBitStep_m = 0.01;
+constexpr double kHeadHeight_m = 0.2;   // about, of any drill
 constexpr double kTiltHeight_m = 0.15;  // a lean about this height keeps the body in place
 
 SolidPart BodyCylinder(double radius_m) {
@@ -92,6 +93,11 @@ PatternSearchOptions Steps(PolishEffort effort) {
   add({{kDrillScale, 0.040}});
   add({{kDrillTiltX, 0.050}});
   add({{kDrillTiltY, 0.050}});
+  add({{kDrillHeadUp, 0.008}});
+  add({{kDrillHeadForward, 0.008}});
+  add({{kDrillFoot, 0.080}});
+  // Thicker or thinner, as tall and on as large a foot as before.
+  add({{kDrillScale, 0.040}, {kDrillHeadUp, -0.040 * kHeadHeight_m}, {kDrillFoot, -0.040}});
   options.rounds = effort == PolishEffort::kCoarse ? 3 : 5;
   if (effort == PolishEffort::kCoarse) return options;
   add({{kDrillZ, 0.004}});

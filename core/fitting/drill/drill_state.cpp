@@ -7,8 +7,7 @@
 namespace foresight {
 namespace {
 
-constexpr double kScaleSigma = 0.08;
-constexpr double kTiltSigma_rad = 0.07;  // 4 deg
+constexpr double kReach = 3.0;  // sigmas of head and foot
 
 double Squared(double value) {
   return value * value;
@@ -26,7 +25,8 @@ TableFrame FrameOf(const Plane& table, const Eigen::Vector3d& near_point) {
 
 DrillModel DrillState::Model() const {
   return kind->Make(values[kDrillScale], {values[kDrillTiltX], values[kDrillTiltY]},
-                    values[kDrillBit]);
+                    values[kDrillBit],
+                    {values[kDrillHeadUp], values[kDrillHeadForward], 1.0 + values[kDrillFoot]});
 }
 
 Rigid<frame::Base, frame::Object> DrillState::Pose(const TableFrame& base_from_table) const {
@@ -42,8 +42,14 @@ double DrillPrior::operator()(const DrillState& state) const {
   if (v[kDrillScale] < state.kind->min_scale || v[kDrillScale] > state.kind->max_scale ||
       v[kDrillBit] < 0.0 || v[kDrillBit] > state.kind->max_bit_length_m || tilt > max_tilt_rad)
     return -std::numeric_limits<double>::infinity();
-  return -0.5 * (Squared(v[kDrillZ] / height_sigma_m) +
-                 Squared((v[kDrillScale] - 1.0) / kScaleSigma) + Squared(tilt / kTiltSigma_rad));
+  if (std::abs(v[kDrillHeadUp]) > kReach * head_sigma_m ||
+      std::abs(v[kDrillHeadForward]) > kReach * head_sigma_m ||
+      std::abs(v[kDrillFoot]) > kReach * foot_sigma)
+    return -std::numeric_limits<double>::infinity();
+  return -0.5 *
+         (Squared(v[kDrillZ] / height_sigma_m) + Squared((v[kDrillScale] - 1.0) / scale_sigma) +
+          Squared(tilt / tilt_sigma_rad) + Squared(v[kDrillHeadUp] / head_sigma_m) +
+          Squared(v[kDrillHeadForward] / head_sigma_m) + Squared(v[kDrillFoot] / foot_sigma));
 }
 
 DrillState Flipped(const DrillState& state) {
@@ -51,6 +57,8 @@ DrillState Flipped(const DrillState& state) {
   flipped.values[kDrillYaw] += std::numbers::pi;
   flipped.values[kDrillTiltX] *= -1.0;
   flipped.values[kDrillTiltY] *= -1.0;
+  // How far the head reaches to its new front is not known from its new back.
+  flipped.values[kDrillHeadForward] = 0.0;
   return flipped;
 }
 

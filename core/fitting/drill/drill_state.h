@@ -19,6 +19,9 @@ enum DrillParameter {
   kDrillTiltX,  ///< the body's own lean
   kDrillTiltY,
   kDrillBit,
+  kDrillHeadUp,  ///< DrillProportions: drills of one kind are not alike
+  kDrillHeadForward,
+  kDrillFoot,  ///< foot_share - 1
   kDrillParameters
 };
 using DrillStep = Eigen::Matrix<double, kDrillParameters, 1>;
@@ -39,12 +42,18 @@ struct DrillState {
   Rigid<frame::Base, frame::Object> Pose(const TableFrame& base_from_table) const;
 };
 
-/// How sure it is, before any ray, where a table's foot stands and that a drill stands upright.
+/// How sure it is, before any ray, where a table's foot stands, that a drill stands upright, and
+/// that it is built as the template says.
 struct DrillPrior {
   double height_sigma_m = 0.005;
   double max_tilt_rad = 0.2617993877991494;
+  double scale_sigma = 0.08;
+  double tilt_sigma_rad = 0.07;  ///< 4 deg
+  double head_sigma_m = 0.012;   ///< up and forward, against the template's
+  double foot_sigma = 0.12;      ///< share of its size
 
-  /// Log of the density without its constant; minus infinity outside the template's ranges.
+  /// Log of the density without its constant; minus infinity outside the template's ranges and
+  /// beyond three sigmas of head and foot: that is another kind of drill.
   double operator()(const DrillState& state) const;
 };
 

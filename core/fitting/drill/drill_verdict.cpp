@@ -169,9 +169,14 @@ DrillInformation InformationOf(const RaySet& rays, const DrillState& drill,
     information += slope * slope.transpose();
   }
   information *= std::min(1.0, rays.samples_per_ray);
-  DrillStep before;
-  before << 1.0, 1.0, 1.0 / Squared(prior.height_sigma_m), 0.1, 1.0 / Squared(0.08),
-      1.0 / Squared(0.07), 1.0 / Squared(0.07), 1.0 / Squared(0.1);
+  DrillStep before = DrillStep::Ones();
+  before[kDrillZ] = 1.0 / Squared(prior.height_sigma_m);
+  before[kDrillYaw] = 0.1;
+  before[kDrillScale] = 1.0 / Squared(prior.scale_sigma);
+  before[kDrillTiltX] = before[kDrillTiltY] = 1.0 / Squared(prior.tilt_sigma_rad);
+  before[kDrillBit] = 1.0 / Squared(0.1);
+  before[kDrillHeadUp] = before[kDrillHeadForward] = 1.0 / Squared(prior.head_sigma_m);
+  before[kDrillFoot] = 1.0 / Squared(prior.foot_sigma);
   information.diagonal() += before;
   return information;
 }

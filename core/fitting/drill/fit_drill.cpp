@@ -75,7 +75,7 @@ class DrillFit {
     if (!around.table) prior_.height_sigma_m = kUnknownHeight_m;
   }
 
-  /// Modes of all templates, polished, best first; at least one has been turned by 180 deg.
+  /// Modes of all templates, polished, best first.
   Result<std::vector<DrillState>> Search(const RunContext& context) const {
     context.Report(0.2, "looking for the body");
     std::vector<Eigen::Vector3d> central = around_.foreground;
@@ -92,20 +92,29 @@ class DrillFit {
     if (context.Cancelled()) return Cancelled();
     context.Report(0.5, "improving the pose");
     FORESIGHT_CHECK(PolishAll(coarse_, modes, kCoarseModes, PolishEffort::kCoarse, context));
-    AddFlips(modes);
+    DropDuplicates(modes);
     FORESIGHT_CHECK(PolishAll(likelihood_, modes, kFineModes, PolishEffort::kFine, context));
-    // The dangerous error is a drill that points the wrong way: the leader is always asked.
-    DrillState flipped = PolishedFlip(modes.front());
-    modes.insert(modes.begin() + 1, flipped);
-    SortBest(modes);
     return modes;
   }
 
-  DrillState PolishedFlip(const DrillState& state) const {
-    return Polish(likelihood_, Flipped(state), base_from_table_, prior_, PolishEffort::kFine);
+  /// The dangerous error is a drill that points the wrong way: the leader is turned by 180 deg, and
+  /// again for as long as that is better. The last one, which was not, joins the modes.
+  DrillState TestFlip(std::vector<DrillState>& modes) const {
+    constexpr int kMostTurns = 4;
+    DrillState flipped;
+    for (int i = 0; i < kMostTurns; ++i) {
+      flipped = Polish(likelihood_, Flipped(modes.front()), base_from_table_, prior_,
+                       PolishEffort::kFine);
+      const bool better = flipped.log_likelihood > modes.front().log_likelihood;
+      modes.insert(modes.begin() + (better ? 0 : 1), flipped);
+      if (!better) break;
+    }
+    SortBest(modes);
+    return flipped;
   }
 
-  DrillDetection Detection(const std::vector<DrillState>& modes) const {
+  DrillDetection Detection(std::vector<DrillState> modes) const {
+    const DrillState flipped = TestFlip(modes);
     const DrillState& best = modes.front();
     DrillDetection detection;
     detection.best = CandidateOf(best, base_from_table_);
@@ -114,7 +123,7 @@ class DrillFit {
       detection.rivals.push_back(CandidateOf(modes[i], base_from_table_));
     SetSigmas(InformationOf(likelihood_.rays(), best, base_from_table_, prior_), best, detection);
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
-    SetMargins(modes, PolishedFlip(best).log_likelihood, detection);
+    SetMargins(modes, flipped.log_likelihood, detection);
     SetRivalMargin(best, detection);
     detection.verdict = AssessDrill(likelihood_.rays(), detection, best, prior_);
     return detection;
@@ -138,8 +147,8 @@ class DrillFit {
     return {};
   }
 
-  /// The leaders turned by 180 deg take part in the final round; duplicates leave it.
-  void AddFlips(std::vector<DrillState>& modes) const {
+  /// Of modes that climbed to the same place the best stays.
+  static void DropDuplicates(std::vector<DrillState>& modes) {
     std::vector<DrillState> kept;
     for (const DrillState& mode : modes) {
       const auto same = [&](const DrillState& other) {

@@ -123,6 +123,17 @@ Closest ClosestOnRay(Shape shape, const LocalRay& ray, const Eigen::Vector3d& ha
   return at_a < at_b ? Closest{at_a, a} : Closest{at_b, b};
 }
 
+template <class Part>
+LocalRay InPart(const RangeRay& ray, const Part& part) {
+  return {part.part_from_base * ray.origin + part.offset, part.part_from_base * ray.direction};
+}
+
+bool PassesNear(const RangeRay& ray, const Eigen::Vector3d& middle, double bound_m) {
+  const Eigen::Vector3d to_middle = middle - ray.origin;
+  const double along = to_middle.dot(ray.direction);
+  return to_middle.squaredNorm() - along * along <= bound_m * bound_m;
+}
+
 }  // namespace
 
 SolidTracer::SolidTracer(std::span<const SolidPart> parts,
@@ -141,25 +152,33 @@ SolidTracer::SolidTracer(std::span<const SolidPart> parts,
                                                     : made.half.x() + made.half.z();
     parts_.push_back(made);
   }
+  for (const Part& part : parts_) middle_ += part.middle / static_cast<double>(parts_.size());
+  for (const Part& part : parts_)
+    bound_m_ = std::max(bound_m_, (part.middle - middle_).norm() + part.bound_m);
 }
 
 SolidMeeting SolidTracer::Meet(const RangeRay& ray, double reach_m) const {
   SolidMeeting best{kNever, kNever, -1};
+  if (!PassesNear(ray, middle_, bound_m_ + reach_m)) return best;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    const Eigen::Vector3d to_middle = part.middle - ray.origin;
-    const double along = to_middle.dot(ray.direction);
-    const double bound = part.bound_m + reach_m;
-    if (to_middle.squaredNorm() - along * along > bound * bound) continue;
-    const LocalRay local{part.part_from_base * ray.origin + part.offset,
-                         part.part_from_base * ray.direction};
-    const double enter = Enter(part.shape, local, part.half);
-    if (enter < kNever) {
-      if (!best.Hits() || enter < best.range_m)
-        best = {kUnmeasuredDepth_m, enter, static_cast<int>(i)};
-      continue;
-    }
-    if (best.Hits()) continue;
+    if (!PassesNear(ray, part.middle, part.bound_m)) continue;
+    const double enter = Enter(part.shape, InPart(ray, part), part.half);
+    if (enter < best.range_m) best = {kUnmeasuredDepth_m, enter, static_cast<int>(i)};
+  }
+  return best.part < 0 && reach_m > 0.0 ? Passed(ray, reach_m) : best;
+}
+
+SolidMeeting SolidTracer::Passed(const RangeRay& ray, double reach_m) const {
+  SolidMeeting best{kNever, kNever, -1};
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    if (!PassesNear(ray, part.middle, part.bound_m + reach_m)) continue;
+    const LocalRay local = InPart(ray, part);
+    // The search along the ray is dear: first see whether it meets a solid that is larger all
+    // round.
+    const Eigen::Vector3d larger = part.half + Eigen::Vector3d::Constant(reach_m);
+    if (Enter(part.shape, local, larger) == kNever) continue;
     const Closest closest = ClosestOnRay(part.shape, local, part.half, part.bound_m);
     if (closest.distance_m <= reach_m && closest.distance_m < best.clearance_m)
       best = {std::max(closest.distance_m, 0.0), closest.range_m, static_cast<int>(i)};
@@ -171,10 +190,8 @@ SolidMeeting SolidTracer::MeetWithDepth(const RangeRay& ray, double reach_m) con
   SolidMeeting meeting = Meet(ray, reach_m);
   if (!meeting.Hits()) return meeting;
   const Part& part = parts_[static_cast<std::size_t>(meeting.part)];
-  const LocalRay local{part.part_from_base * ray.origin + part.offset,
-                       part.part_from_base * ray.direction};
-  meeting.clearance_m =
-      std::min(ClosestOnRay(part.shape, local, part.half, part.bound_m).distance_m, -1e-9);
+  meeting.clearance_m = std::min(
+      ClosestOnRay(part.shape, InPart(ray, part), part.half, part.bound_m).distance_m, -1e-9);
   return meeting;
 }
 

@@ -41,7 +41,11 @@ class SolidTracer {
     double bound_m;          ///< radius of the sphere round it
   };
 
+  SolidMeeting Passed(const RangeRay& ray, double reach_m) const;
+
   std::vector<Part> parts_;
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< of a sphere round all
+  double bound_m_ = 0.0;
 };
 
 }  // namespace foresight

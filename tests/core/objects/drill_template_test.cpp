@@ -109,6 +109,34 @@ TEST(DrillTemplate, LeansEverythingButTheFoot) {
   EXPECT_NEAR(model.object_from_grasp.translation().norm(), 0.12, kExact);
 }
 
+TEST(DrillTemplate, AnotherHeadTakesChuckAndTriggerAlongButNotTheGrasp) {
+  const DrillModel usual = Example().Make(1.2, {0.0, 0.0}, 0.05);
+  const DrillModel other = Example().Make(1.2, {0.0, 0.0}, 0.05, {0.015, -0.010, 1.0});
+  const Eigen::Vector3d moved(-0.010, 0.0, 0.015);
+  EXPECT_NEAR((other.bit_tip_m - usual.bit_tip_m - moved).norm(), 0.0, kExact);
+  EXPECT_NEAR((other.trigger_m - usual.trigger_m - Eigen::Vector3d(0.0, 0.0, 0.015)).norm(), 0.0,
+              kExact);
+  EXPECT_EQ(other.object_from_grasp.translation(), usual.object_from_grasp.translation());
+  // The body reaches as far below its head as before, and stands where it stood.
+  const SolidPart& body = other.parts[1];
+  EXPECT_NEAR(body.size_m.z(), usual.parts[1].size_m.z() + 0.015, kExact);
+  EXPECT_NEAR(body.object_from_part.translation().z() - 0.5 * body.size_m.z(), 1.2 * 0.04, kExact);
+}
+
+TEST(DrillTemplate, AnotherFootKeepsItsMiddleAndHeight) {
+  const SolidPart usual = Example().Make(1.0, {0.0, 0.0}, 0.0).parts[0];
+  const SolidPart other = Example().Make(1.0, {0.0, 0.0}, 0.0, {0.0, 0.0, 0.8}).parts[0];
+  EXPECT_EQ(other.object_from_part.translation(), usual.object_from_part.translation());
+  EXPECT_NEAR(other.size_m.x(), 0.8 * usual.size_m.x(), kExact);
+  EXPECT_EQ(other.size_m.z(), usual.size_m.z());
+}
+
+TEST(DrillTemplate, AHeadPulledDownLeavesHalfTheBody) {
+  const DrillModel model = Example().Make(1.0, {0.0, 0.0}, 0.0, {-1.0, 0.0, 1.0});
+  EXPECT_NEAR(model.parts[1].size_m.z(), 0.08, kExact);
+  EXPECT_TRUE(model.Check());
+}
+
 TEST(DrillModel, IsDrawnWithItsBit) {
   const DrillModel bare = Example().Make(1.0, {0.0, 0.0}, 0.0);
   const DrillModel with_bit = Example().Make(1.0, {0.0, 0.0}, 0.07);
