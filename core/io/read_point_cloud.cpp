@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/atomic_file.h"
+#include "core/io/cloud_columns.h"
 
 namespace foresight {
 namespace {
@@ -29,15 +30,37 @@ bool LooksLikePcd(std::string_view bytes) {
   return bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || bytes.starts_with("FIELDS");
 }
 
+Result<std::vector<Eigen::Vector3d>> DecodeWithHeader(std::string_view bytes,
+                                                      const std::string& source) {
+  if (bytes.starts_with("ply")) return DecodePly(bytes, source);
+  if (LooksLikePcd(bytes)) return DecodePcd(bytes, source);
+  return Fail(ErrorCode::kBadData, "{}: is neither a PLY nor a PCD file", source);
+}
+
 }  // namespace
+
+Result<std::vector<Eigen::Vector3d>> DecodeFloatRecords(std::string_view bytes,
+                                                        const std::string& source) {
+  constexpr std::size_t kFloat = 4, kRecord = 4 * kFloat;
+  if (bytes.empty() || bytes.size() % kRecord != 0)
+    return Fail(ErrorCode::kBadData,
+                "{}: {} bytes are no points of four floats each: it is truncated or something else",
+                source, bytes.size());
+  if (bytes.size() / kRecord > kMostCloudPoints)
+    return Fail(ErrorCode::kBadData, "{}: {} points are more than {}", source,
+                bytes.size() / kRecord, kMostCloudPoints);
+  std::array<CloudColumn, 3> columns;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    columns[axis] = {CloudScalar::kFloat32, axis * kFloat, kRecord};
+  return PointsFromColumns(bytes, columns, bytes.size() / kRecord, false);
+}
 
 Result<std::vector<Eigen::Vector3d>> ReadPointCloud(const std::filesystem::path& path) {
   FORESIGHT_TRY(const std::string bytes, ReadFile(path));
   const std::string source = path.string();
-  if (!bytes.starts_with("ply") && !LooksLikePcd(bytes))
-    return Fail(ErrorCode::kBadData, "{}: is neither a PLY nor a PCD file", source);
-  FORESIGHT_TRY(std::vector<Eigen::Vector3d> points,
-                bytes.starts_with("ply") ? DecodePly(bytes, source) : DecodePcd(bytes, source));
+  FORESIGHT_TRY(std::vector<Eigen::Vector3d> points, path.extension() == ".bin"
+                                                         ? DecodeFloatRecords(bytes, source)
+                                                         : DecodeWithHeader(bytes, source));
   FORESIGHT_CHECK(CheckPoints(points, source));
   return points;
 }

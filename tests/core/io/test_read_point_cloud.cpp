@@ -3,7 +3,9 @@
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include <array>
 #include <cmath>
+#include <cstring>
 
 #include "core/base/atomic_file.h"
 #include "core/io/point_cloud_file.h"
@@ -115,6 +117,42 @@ TEST(ReadPointCloud, ACloudCutAnywhereIsRefused) {
       ExpectRefused(ReadPointCloud(folder / "cut"), "cut");
     }
   }
+}
+
+/// Points as a Velodyne sweep keeps them: x, y, z, reflectance.
+std::string FloatRecords(const std::vector<std::array<float, 4>>& points) {
+  std::string bytes(points.size() * sizeof(points[0]), '\0');
+  std::memcpy(bytes.data(), points.data(), bytes.size());
+  return bytes;
+}
+
+TEST(ReadPointCloud, ReadsRecordsOfFourFloatsByTheNameOfTheFile) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(
+      folder / "sweep.bin",
+      FloatRecords({{7.25f, -4.5f, 0.5f, 0.3f}, {1.0f, std::nanf(""), 2.0f, 0.0f}})));
+  const auto read = ReadPointCloud(folder / "sweep.bin");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->size(), 2U);
+  EXPECT_EQ((*read)[0], Eigen::Vector3d(7.25, -4.5, 0.5));
+  EXPECT_TRUE((*read)[1].hasNaN());
+}
+
+TEST(ReadPointCloud, RefusesRecordsThatAreCutEmptyOrWithoutNumbers) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& bytes) {
+    EXPECT_TRUE(WriteFileAtomically(folder / "sweep.bin", bytes));
+    return ReadPointCloud(folder / "sweep.bin");
+  };
+  const std::string whole = FloatRecords({{1.0f, 2.0f, 3.0f, 0.1f}, {2.0f, 3.0f, 4.0f, 0.2f}});
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    if (length != 16) {
+      ExpectRefused(read(whole.substr(0, length)), "sweep.bin");
+    }
+  const float nan = std::nanf("");
+  ExpectRefused(read(FloatRecords({{nan, nan, nan, 0.1f}})), "none of its 1 points");
+  ExpectRefused(read("a text file of 32 bytes, no cloud"), "sweep.bin");
+  ExpectRefused(read("a text file of 32 bytes no cloud"), "sweep.bin");
 }
 
 TEST(ReadPointCloud, RefusesAnAbsurdCountBeforeItEatsTheMemory) {
