@@ -17,6 +17,8 @@ using Invocation = std::function<Result<ExitCode>(const RunContext&)>;
 void AddScanCommand(CLI::App& app, Invocation& invocation);
 void AddDepthCommand(CLI::App& app, Invocation& invocation);
 void AddFitCommand(CLI::App& app, Invocation& invocation);
+/// `app` is the command `fit`.
+void AddFitCylinderCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation);
 void AddVerdictCommand(CLI::App& app, Invocation& invocation);

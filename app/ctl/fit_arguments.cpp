@@ -51,7 +51,9 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str()
       ->group(kGroup);
-  command.add_option("--cloud", arguments.cloud_file, "Point cloud: PLY or PCD, in metres")
+  command
+      .add_option("--cloud", arguments.cloud_file,
+                  "Point cloud, in metres: PLY, PCD, or .bin of four floats a point")
       ->group(kGroup);
   command
       .add_option("--viewpoint", arguments.viewpoint,
@@ -77,11 +79,18 @@ std::vector<std::string> SourceNames() {
   return names;
 }
 
-void AddFitArguments(CLI::App& command, FitArguments& arguments) {
+void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
   AddScanArguments(command, arguments.scan, NeedMission::kNo);
   AddDepthArguments(command, arguments.depth);
   AddRegionArguments(command, arguments.region);
   AddSourceArguments(command, arguments);
+  command.add_option("--seed", arguments.seed, "Seed of the random search")->capture_default_str();
+  command.add_flag("--json", arguments.json, "Print the answer as JSON");
+  command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
+}
+
+void AddFitArguments(CLI::App& command, FitArguments& arguments) {
+  AddSubjectArguments(command, arguments);
   if (arguments.kind == ObjectKind::kDrill)
     command.add_option("--template", arguments.drill_template,
                        "Template of the drill (YAML); default: the built-in ones");
@@ -91,10 +100,7 @@ void AddFitArguments(CLI::App& command, FitArguments& arguments) {
                     "Length and width of a block's top in millimetres; default: 397,390")
         ->expected(2)
         ->delimiter(',');
-  command.add_option("--seed", arguments.seed, "Seed of the random search")->capture_default_str();
   command.add_flag("--save", arguments.save, "Write the answer into the mission file");
-  command.add_flag("--json", arguments.json, "Print the answer as JSON");
-  command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
   command.add_option("--gallery", arguments.gallery,
                      "Fit to every source and set the answers side by side in this folder");
 }

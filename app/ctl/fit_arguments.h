@@ -43,7 +43,11 @@ struct FitArguments {
   std::string gallery;
 };
 
-/// Adds what belongs to the kind of object in `arguments`.
+/// Adds what any fit is given: scan, depth map or cloud, region, source, seed, --json and
+/// --picture.
+void AddSubjectArguments(CLI::App& command, FitArguments& arguments);
+
+/// The same, and what belongs to the kind of object in `arguments`.
 void AddFitArguments(CLI::App& command, FitArguments& arguments);
 
 /// Options that contradict each other or lack one another. Fails with kInvalidOptions.

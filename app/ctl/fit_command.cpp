@@ -65,6 +65,7 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* fit = app.add_subcommand(
       "fit", "Fit a known object in a region of a scan, a depth map or a point cloud");
   fit->require_subcommand(1);
+  AddFitCylinderCommand(*fit, invocation);
   constexpr const char* kHelp[] = {"Fit a valve: a wheel or a lever", "Fit a standing drill",
                                    "Fit blocks that can be stood on"};
   for (const ObjectKind kind : kObjectKinds) {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/depth/depth_method.h"
-#include "core/detection/outline.h"
 #include "core/geometry/angles.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
@@ -103,14 +102,22 @@ Result<Detection> FitInPlainRays(const Result<RaySet>& rays, const FitSubject& s
   return detection;
 }
 
-ColorImage PictureOfCloud(const FitSubject& subject, const Detection& detection) {
+/// A scan's depth map by the method that a source names.
+Result<DepthResult> DepthFor(const FitSubject& subject, const FitArguments& arguments,
+                             const std::string& source, const RunContext& context) {
+  DepthArguments depth_arguments = arguments.depth;
+  if (DepthMethodFromName(source)) depth_arguments.method = source;
+  FORESIGHT_TRY(const DepthOptions options, DepthOptionsFrom(depth_arguments));
+  return ComputeDepthInFrame(subject.cloud, subject.rig, subject.scan->frame, options, context);
+}
+
+ColorImage PictureOfCloud(const FitSubject& subject, const std::vector<Outline>& outlines) {
   std::vector<ColoredPoint> points;
   for (const Eigen::Vector3d& point : subject.points)
     points.push_back({point.cast<float>(), {120, 140, 165}});
   CloudView view;
   view.eye = subject.viewpoint;
   const auto* box = std::get_if<BoxRoi>(&subject.roi);
-  const auto outlines = OutlinesOf(detection, 0);
   view.target =
       box != nullptr ? box->base_from_box.translation() : outlines.front().lines.front().front();
   ColorImage picture = PaintCloud(points, view);
@@ -157,6 +164,20 @@ Result<FitSubject> OpenFitSubject(const FitArguments& arguments, const RunContex
   return subject;
 }
 
+Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, BoxRays box_rays,
+                      const RunContext& context) {
+  if (!subject.depth_m.empty())
+    return RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad, subject.roi,
+                          arguments.density, box_rays);
+  if (!subject.scan)
+    return RaysFromCloud(subject.points, subject.viewpoint, &subject.rig, subject.roi,
+                         kCloudSigma_m, box_rays);
+  if (arguments.source == "raw")
+    return RaysInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi, box_rays);
+  FORESIGHT_TRY(const DepthResult depth, DepthFor(subject, arguments, arguments.source, context));
+  return RaysInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepth, subject.roi, box_rays);
+}
+
 FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const std::string& source,
                 const RunContext& context) {
   const auto options = FitOptionsFrom(arguments, subject.rig.robot_from_base);
@@ -175,12 +196,7 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
     return {
         FitInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi, *options, context),
         {}};
-  DepthArguments depth_arguments = arguments.depth;
-  if (DepthMethodFromName(source)) depth_arguments.method = source;
-  const auto depth_options = DepthOptionsFrom(depth_arguments);
-  if (!depth_options) return {tl::unexpected(depth_options.error()), {}};
-  auto depth = ComputeDepthInFrame(subject.cloud, subject.rig, subject.scan->frame, *depth_options,
-                                   context.Part(0.0, 0.6));
+  auto depth = DepthFor(subject, arguments, source, context.Part(0.0, 0.6));
   if (!depth) return {tl::unexpected(depth.error()), {}};
   auto detection = FitInScan({subject.rig, subject.cloud, &*depth}, FitSource::kDepth, subject.roi,
                              *options, context.Part(0.6, 1.0));
@@ -188,7 +204,11 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
 }
 
 ColorImage PictureOf(const FitSubject& subject, const Detection& detection) {
-  if (!subject.points.empty()) return PictureOfCloud(subject, detection);
+  return PictureOf(subject, OutlinesOf(detection, 0));
+}
+
+ColorImage PictureOf(const FitSubject& subject, const std::vector<Outline>& outlines) {
+  if (!subject.points.empty()) return PictureOfCloud(subject, outlines);
   ColorImage picture;
   if (subject.scan) {
     picture = subject.scan->frame.image;
@@ -197,7 +217,8 @@ ColorImage PictureOf(const FitSubject& subject, const Detection& detection) {
     picture =
         PaintDepth(subject.depth_m, nullptr, ColorMap::kTurbo, DepthRangeOf(subject.depth_m, all));
   }
-  DrawDetection(picture, detection, 0, subject.rig, subject.motor_rad);
+  DrawRegion(picture, subject.roi, subject.rig, subject.motor_rad);
+  DrawOutlines(picture, outlines, subject.rig, subject.motor_rad);
   return picture;
 }
 

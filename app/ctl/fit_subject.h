@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/ctl/fit_arguments.h"
+#include "core/detection/outline.h"
 #include "core/registration/register_scan.h"
 
 namespace foresight {
@@ -32,6 +33,11 @@ struct FitAnswer {
 /// is none.
 Result<FitSubject> OpenFitSubject(const FitArguments& arguments, const RunContext& context);
 
+/// The rays of the region as a fit of its own wants them, from the source that the arguments name.
+/// Fails as RaysInScan, RaysInDepthMap, RaysFromCloud and ComputeDepthInFrame do.
+Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, BoxRays box_rays,
+                      const RunContext& context);
+
 /// Fits to one source; a scan's depth map is made by its method.
 FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const std::string& source,
                 const RunContext& context);
@@ -39,5 +45,6 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
 /// The answer drawn into what was looked at: the camera's picture, the depth map in colours, or
 /// the cloud as seen from its viewpoint.
 ColorImage PictureOf(const FitSubject& subject, const Detection& detection);
+ColorImage PictureOf(const FitSubject& subject, const std::vector<Outline>& outlines);
 
 }  // namespace foresight

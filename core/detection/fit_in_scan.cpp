@@ -44,21 +44,23 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
   return FitValveOptions();
 }
 
-Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi) {
+Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
+                          BoxRays box_rays) {
   if (source == FitSource::kRaw)
-    return RaysFromScan(scan.cloud, scan.rig, roi, kRangeSigma_m).transform(WithOwnSigma);
+    return RaysFromScan(scan.cloud, scan.rig, roi, kRangeSigma_m, box_rays).transform(WithOwnSigma);
   if (scan.depth == nullptr)
     return Fail(ErrorCode::kState,
                 "there is no depth map yet; compute it first, or fit to the raw returns");
   const MaskImage& mask = scan.mask != nullptr ? *scan.mask : scan.depth->mask;
   return RaysInDepthMap(ApplyMask(scan.depth->dense.depth_m, mask), scan.rig,
-                        scan.depth->samples.motor_rad, roi, LocalDensity(scan.depth->samples));
+                        scan.depth->samples.motor_rad, roi, LocalDensity(scan.depth->samples),
+                        box_rays);
 }
 
 Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig& rig,
-                              double motor_rad, const Roi& roi, double density) {
-  return RaysFromDepth(masked_depth_m, rig, motor_rad, roi, kDepthStride_px, kRangeSigma_m,
-                       density);
+                              double motor_rad, const Roi& roi, double density, BoxRays box_rays) {
+  return RaysFromDepth(masked_depth_m, rig, motor_rad, roi, kDepthStride_px, kRangeSigma_m, density,
+                       box_rays);
 }
 
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,

@@ -33,12 +33,14 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
 
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
 /// RaysFromScan and RaysFromDepth do, and with kState for kDepth without a depth.
-Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi);
+Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
+                          BoxRays box_rays = BoxRays::kEndInside);
 
 /// The rays of a masked depth map that comes without a scan, thinned and weighed as RaysInScan does
 /// it. Fails as RaysFromDepth does.
 Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig& rig,
-                              double motor_rad, const Roi& roi, double density);
+                              double motor_rad, const Roi& roi, double density,
+                              BoxRays box_rays = BoxRays::kEndInside);
 
 /// The fit that belongs to the options. Fails as FitValve, FitDrill and FitTerrain do.
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,

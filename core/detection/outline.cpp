@@ -55,6 +55,14 @@ std::vector<Outline> OutlinesOf(const Detection& detection, int candidate) {
            CandidateLevel(detection, index), true}};
 }
 
+Outline OutlineOf(const CylinderDetection& cylinder) {
+  SolidPart part;
+  part.shape = SolidPart::Shape::kCylinder;
+  part.size_m = {2.0 * cylinder.model.radius_m, 2.0 * cylinder.model.radius_m,
+                 cylinder.model.length_m};
+  return {InBase(WireframeOf(part), cylinder.base_from_object), cylinder.level, true};
+}
+
 Wireframe Dashed(const Wireframe& lines, double dash_m, double gap_m) {
   FORESIGHT_EXPECTS(dash_m > 0.0 && gap_m > 0.0, "a dash and a gap have a length");
   Wireframe dashes;

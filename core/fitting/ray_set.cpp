@@ -30,19 +30,26 @@ Eigen::Vector3d MeanOrigin(const std::vector<RangeRay>& rays) {
   return sum / static_cast<double>(rays.size());
 }
 
+bool InBoxOrThrough(const BoxRoi& box, BoxRays box_rays, const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& point) {
+  return box_rays == BoxRays::kEndInside ? box.Contains(point) : box.Crosses(origin, point);
+}
+
 /// A region made ready for many points: an ImageRoi asks where a point appears in its picture.
 class RegionTest {
  public:
   /// @param rig may be null for a BoxRoi.
-  RegionTest(const SensorRig* rig, const Roi& roi) : rig_(rig), roi_(roi) {
+  RegionTest(const SensorRig* rig, const Roi& roi, BoxRays box_rays)
+      : rig_(rig), roi_(roi), box_rays_(box_rays) {
     const auto* image = std::get_if<ImageRoi>(&roi);
     if (image == nullptr) return;
     camera_from_base_ = rig->CameraFromBase(image->motor_rad);
     bounds_ = image->Bounds();
   }
 
-  bool Holds(const Eigen::Vector3d& point_in_base) const {
-    if (const auto* box = std::get_if<BoxRoi>(&roi_)) return box->Contains(point_in_base);
+  bool Holds(const Eigen::Vector3d& origin_in_base, const Eigen::Vector3d& point_in_base) const {
+    if (const auto* box = std::get_if<BoxRoi>(&roi_))
+      return InBoxOrThrough(*box, box_rays_, origin_in_base, point_in_base);
     const Eigen::Vector3d in_camera = camera_from_base_ * point_in_base;
     if (!(in_camera.z() > 0.0)) return false;
     const auto pixel = rig_->camera.Project(in_camera);
@@ -52,6 +59,7 @@ class RegionTest {
  private:
   const SensorRig* rig_;
   const Roi& roi_;
+  BoxRays box_rays_;
   Rigid<frame::Camera, frame::Base> camera_from_base_;
   PixelBox bounds_;
 };
@@ -102,14 +110,14 @@ double MedianNeighbourAngle(const std::vector<RangeRay>& rays) {
 }  // namespace
 
 Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const Roi& roi,
-                            double sigma_m) {
+                            double sigma_m, BoxRays box_rays) {
   FORESIGHT_CHECK(CheckRoi(roi));
   FORESIGHT_CHECK(CheckSigma(sigma_m));
   RaySet set;
   set.sigma_m = sigma_m;
   set.footprint_rad = rig.lidar.angle_step_rad;
   set.spot_height_rad = kSpotHeight_rad;
-  const RegionTest region(&rig, roi);
+  const RegionTest region(&rig, roi, box_rays);
   for (int line = 0; line < scan.lines; ++line) {
     const Eigen::Vector3d origin = scan.origins[static_cast<std::size_t>(line)].cast<double>();
     if (!origin.allFinite()) continue;
@@ -117,7 +125,7 @@ Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, co
       if (!scan.Valid(line, beam)) continue;
       const Eigen::Vector3d point = scan.points[scan.Index(line, beam)].cast<double>();
       const double range = (point - origin).norm();
-      if (range > 0.0 && region.Holds(point))
+      if (range > 0.0 && region.Holds(origin, point))
         set.rays.push_back({origin, (point - origin) / range, range, {beam, line}});
     }
   }
@@ -130,7 +138,7 @@ Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, co
 
 Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
                              double motor_rad, const Roi& roi, int stride, double sigma_m,
-                             double density) {
+                             double density, BoxRays box_rays) {
   FORESIGHT_CHECK(CheckRoi(roi));
   FORESIGHT_CHECK(CheckPicture(roi, motor_rad));
   FORESIGHT_CHECK(CheckSigma(sigma_m));
@@ -162,7 +170,8 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
       if (!ray || !(ray->z() > 0.0)) continue;
       const RangeRay seen{set.viewpoint, base_from_camera.Rotate(*ray), depth / ray->z(),
                           Eigen::Vector2i(x - low.x(), y - low.y()) / stride};
-      if (box == nullptr || box->Contains(seen.Point())) set.rays.push_back(seen);
+      if (box == nullptr || InBoxOrThrough(*box, box_rays, seen.origin, seen.Point()))
+        set.rays.push_back(seen);
     }
   }
   if (set.rays.empty())
@@ -174,7 +183,7 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
 
 Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
                              const Eigen::Vector3d& viewpoint, const SensorRig* rig, const Roi& roi,
-                             double sigma_m) {
+                             double sigma_m, BoxRays box_rays) {
   FORESIGHT_CHECK(CheckRoi(roi));
   FORESIGHT_CHECK(CheckSigma(sigma_m));
   if (!viewpoint.allFinite())
@@ -186,12 +195,12 @@ Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
   RaySet set;
   set.sigma_m = sigma_m;
   set.viewpoint = viewpoint;
-  const RegionTest region(rig, roi);
+  const RegionTest region(rig, roi, box_rays);
   for (const Eigen::Vector3d& point : points) {
     if (!point.allFinite()) continue;
     const Eigen::Vector3d sight = point - viewpoint;
     const double range = sight.norm();
-    if (range > 0.0 && region.Holds(point))
+    if (range > 0.0 && region.Holds(viewpoint, point))
       set.rays.push_back({viewpoint, sight / range, range, Eigen::Vector2i::Constant(-1)});
   }
   if (set.rays.empty())

@@ -36,12 +36,18 @@ struct RaySet {
   double spot_height_rad = 0.0;
 };
 
+/// Which rays of a BoxRoi a fit wants. An ImageRoi always holds both.
+enum class BoxRays {
+  kEndInside,    ///< the measurements in the box
+  kPassThrough,  ///< and those that went through it and end behind it: where nothing solid is
+};
+
 /// The raw lidar returns inside the region, also those that the depth filters would reject: a fit
 /// has its own model of bad returns. Origins are the lidar's on each line. An ImageRoi holds what
 /// appears inside its polygon in its picture. Fails with kInvalidInput (the region) and
 /// kTooFewPoints (nothing inside it). O(points).
 Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const Roi& roi,
-                            double sigma_m);
+                            double sigma_m, BoxRays box_rays = BoxRays::kEndInside);
 
 /// The masked dense depth of the picture taken at `motor_rad` inside the region; every `stride`-th
 /// pixel in both directions, seen from the camera's centre. `density` is the share of pixels with a
@@ -50,7 +56,7 @@ Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, co
 /// stride; the map's size) and kTooFewPoints. O(pixels of the region).
 Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
                              double motor_rad, const Roi& roi, int stride, double sigma_m,
-                             double density);
+                             double density, BoxRays box_rays = BoxRays::kEndInside);
 
 /// Points of a cloud in base inside the region, seen from one viewpoint: ranges of a scanner, or a
 /// cloud from elsewhere. Points that are not finite are left out. `footprint_rad` is set to the
@@ -58,6 +64,6 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
 /// ImageRoi without `rig`; a viewpoint that is not finite) and kTooFewPoints. O(points).
 Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
                              const Eigen::Vector3d& viewpoint, const SensorRig* rig, const Roi& roi,
-                             double sigma_m);
+                             double sigma_m, BoxRays box_rays = BoxRays::kEndInside);
 
 }  // namespace foresight

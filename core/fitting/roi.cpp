@@ -84,6 +84,24 @@ bool BoxRoi::Contains(const Eigen::Vector3d& point_in_base) const {
   return (in_box.cwiseAbs().array() <= 0.5 * size_m.array()).all();
 }
 
+bool BoxRoi::Crosses(const Eigen::Vector3d& from_in_base, const Eigen::Vector3d& to_in_base) const {
+  const Rigid<frame::Object, frame::Base> box_from_base = base_from_box.Inverse();
+  const Eigen::Vector3d from = box_from_base * from_in_base;
+  const Eigen::Vector3d way = box_from_base * to_in_base - from;
+  double enter = 0.0, leave = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * size_m[axis];
+    if (std::abs(way[axis]) < 1e-12) {
+      if (std::abs(from[axis]) > half) return false;
+      continue;
+    }
+    const double a = (-half - from[axis]) / way[axis], b = (half - from[axis]) / way[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave;
+}
+
 Status BoxRoi::Check() const {
   constexpr double kMinSide_m = 0.01, kMaxSide_m = 100.0;
   if (!base_from_box.translation().allFinite() || !base_from_box.rotation().coeffs().allFinite())

@@ -46,6 +46,9 @@ struct BoxRoi {
   /// The boundary counts as inside.
   bool Contains(const Eigen::Vector3d& point_in_base) const;
 
+  /// Whether the straight way between two points in base touches the box.
+  bool Crosses(const Eigen::Vector3d& from_in_base, const Eigen::Vector3d& to_in_base) const;
+
   /// Fails with kInvalidInput: not finite, or a side below a centimetre or beyond 100 m.
   Status Check() const;
 };

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/detection/outline.h"
 #include "core/pictures/draw.h"
 #include "core/pictures/projected_wireframe.h"
 
@@ -43,8 +42,12 @@ Rgb8 ColorOf(VerdictLevel level) {
 void DrawDetection(ColorImage& picture, const Detection& detection, int candidate,
                    const SensorRig& rig, double motor_rad) {
   DrawRegion(picture, OriginOf(detection).roi, rig, motor_rad);
-  for (const Outline& outline : OutlinesOf(detection, candidate))
-    DrawOutline(picture, outline, rig, motor_rad);
+  DrawOutlines(picture, OutlinesOf(detection, candidate), rig, motor_rad);
+}
+
+void DrawOutlines(ColorImage& picture, const std::vector<Outline>& outlines, const SensorRig& rig,
+                  double motor_rad) {
+  for (const Outline& outline : outlines) DrawOutline(picture, outline, rig, motor_rad);
 }
 
 void DrawRegion(ColorImage& picture, const Roi& roi, const SensorRig& rig, double motor_rad) {

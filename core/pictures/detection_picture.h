@@ -2,6 +2,7 @@
 
 #include "core/base/image.h"
 #include "core/detection/detection.h"
+#include "core/detection/outline.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
@@ -14,6 +15,10 @@ Rgb8 ColorOf(VerdictLevel level);
 /// was drawn on this picture is drawn too.
 void DrawDetection(ColorImage& picture, const Detection& detection, int candidate,
                    const SensorRig& rig, double motor_rad);
+
+/// Outlines alone, in the same way.
+void DrawOutlines(ColorImage& picture, const std::vector<Outline>& outlines, const SensorRig& rig,
+                  double motor_rad);
 
 /// The outline of a region: its polygon where it was drawn on the picture at `motor_rad`, the edges
 /// of a box.

@@ -148,6 +148,42 @@ TEST_F(FitOfAScan, APointCloudWithoutAValveIsANegativeAnswer) {
   EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
 }
 
+TEST_F(FitOfAScan, APoleInACloudOfFourFloatsAPointIsACylinder) {
+  // The half of a pole of 80 mm that faces the viewpoint, before a wall, as beams meet them.
+  constexpr double kRadius_m = 0.080, kDistance_m = 2.0, kWall_m = 3.0;
+  std::string bytes;
+  for (double up = -0.2; up < 0.2; up += 0.01)
+    for (double left = -0.1; left < 0.1; left += 0.004) {
+      const double aside_m = kDistance_m * std::sin(left);
+      const double range_m =
+          std::abs(aside_m) < kRadius_m
+              ? kDistance_m * std::cos(left) - std::sqrt(kRadius_m * kRadius_m - aside_m * aside_m)
+              : kWall_m / std::cos(left);
+      const float point[4] = {static_cast<float>(range_m * std::cos(left)),
+                              static_cast<float>(range_m * std::sin(left)),
+                              static_cast<float>(range_m * std::tan(up)), 0.5f};
+      bytes.append(reinterpret_cast<const char*>(point), sizeof(point));
+    }
+  const std::string file = *folder_ / "pole.bin";
+  ASSERT_TRUE(WriteFileAtomically(file, bytes));
+  const std::string picture = *folder_ / "pole.png";
+  const ProgramResult result = Run({"fit", "cylinder", "--cloud", file, "--viewpoint", "0,0,0",
+                                    "--box", "2,0,0,0.6,0.6,0.6", "--json", "--picture", picture});
+  ASSERT_EQ(result.exit_code, 0) << result.errors << result.output;
+  const auto answer = nlohmann::json::parse(result.output);
+  EXPECT_EQ(answer["kind"], "cylinder");
+  EXPECT_EQ(answer["verdict"], "LIKELY");
+  EXPECT_TRUE(answer["probability"].is_null());
+  EXPECT_NEAR(answer["radius_m"].get<double>(), kRadius_m, 0.008);
+  EXPECT_GT(answer["robot_from_object"]["z_axis"][2].get<double>(), 0.99);
+  EXPECT_GT(answer["evidence"]["inlier_share"].get<double>(), 0.9);
+  EXPECT_TRUE(ReadPng(picture));
+  const ProgramResult beside = Run({"fit", "cylinder", "--cloud", file, "--viewpoint", "0,0,0",
+                                    "--box", "2,3,0,0.3,0.3,0.3", "--json"});
+  EXPECT_EQ(beside.exit_code, 1) << beside.output;
+  EXPECT_EQ(nlohmann::json::parse(beside.output)["verdict"], "UNSURE");
+}
+
 TEST_F(FitOfAScan, ThreePointsAreTooFew) {
   const std::string file = *folder_ / "three.ply";
   ASSERT_TRUE(WriteFileAtomically(

@@ -117,6 +117,18 @@ TEST(RaysFromCloud, TakesThePointsInTheBoxAsSeenFromTheViewpoint) {
   EXPECT_EQ(set->rays[0].cell, Eigen::Vector2i::Constant(-1));
 }
 
+TEST(RaysFromCloud, TakesWhatWentThroughTheBoxWhereItIsAskedFor) {
+  const auto points = WallOfPoints(Eigen::Vector3d::Zero());
+  // Half way to the wall: nothing ends in it.
+  const BoxRoi box{{Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}}, {0.05, 0.05, 0.1}};
+  const auto inside = RaysFromCloud(points, {0, 0, 0}, nullptr, box, 0.01);
+  EXPECT_FALSE(inside);
+  const auto through = RaysFromCloud(points, {0, 0, 0}, nullptr, box, 0.01, BoxRays::kPassThrough);
+  ASSERT_TRUE(through) << through.error().message;
+  EXPECT_EQ(through->rays.size(), 9U);  // 0, 10 and 20 mm aside there
+  EXPECT_NEAR(through->rays[0].range_m, 2.0, 1e-9);
+}
+
 TEST(RaysFromCloud, KnowsHowFarApartItsRaysAreAndLeavesOutWhatWasNotMeasured) {
   const Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
   const BoxRoi all{{}, Eigen::Vector3d::Constant(10.0)};

@@ -40,5 +40,19 @@ TEST(ImageRoi, AnEmptyOneHoldsNothing) {
   EXPECT_FALSE(ImageRoi().Contains({0.0, 0.0}));
 }
 
+TEST(BoxRoi, AWayCrossesItThatEndsInItOrGoesThroughItAndNoOther) {
+  const Eigen::AngleAxisd quarter(1.5707963267948966, Eigen::Vector3d::UnitZ());
+  // Two metres long in y, as it is turned.
+  const BoxRoi box{{Eigen::Quaterniond(quarter), {3.0, 0.0, 0.0}}, {2.0, 0.5, 0.5}};
+  const Eigen::Vector3d from = Eigen::Vector3d::Zero();
+  EXPECT_TRUE(box.Crosses(from, {3.0, 0.9, 0.0}));
+  EXPECT_TRUE(box.Crosses(from, {6.0, 0.0, 0.0}));
+  EXPECT_TRUE(box.Crosses(from, {6.0, 1.9, 0.0}));
+  EXPECT_FALSE(box.Crosses(from, {2.7, 0.0, 0.0}));
+  EXPECT_FALSE(box.Crosses(from, {6.0, 2.5, 0.0}));
+  EXPECT_FALSE(box.Crosses(from, {-6.0, 0.0, 0.0}));
+  EXPECT_FALSE(box.Crosses({0.0, 0.0, 1.0}, {6.0, 0.0, 1.0}));
+}
+
 }  // namespace
 }  // namespace foresight

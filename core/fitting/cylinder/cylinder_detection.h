@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <string>
+
+#include "core/fitting/fit_origin.h"
+#include "core/fitting/verdict.h"
+#include "core/geometry/rigid.h"
+
+namespace foresight {
+
+/// A pole, a pipe, a bottle: the part of it that was seen.
+struct CylinderModel {
+  double radius_m = 0.0;
+  double length_m = 0.0;  ///< of what lies in the region; it may go on
+};
+
+/// How well the measurements support a cylinder.
+struct CylinderEvidence {
+  int rays = 0;               ///< looked at
+  int hits = 0;               ///< rays that meet the cylinder
+  double inlier_share = 0.0;  ///< of the hits, those with a range that agrees
+  double see_through = 0.0;   ///< of the hits, those whose beam went on behind it
+  /// Median of |measured - predicted range| over the hits within 0.15 m.
+  double residual_mad_m = 0.0;
+  double range_sigma_m = 0.0;    ///< deviation of a range, found from those
+  double seen_arc_rad = 0.0;     ///< of the circle that its agreeing hits span
+  double box_margin_nats = 0.0;  ///< ahead of the best box in its place, parameters paid for
+};
+
+/// A fitted cylinder. There is no calibrated probability for it, so it is never CONFIRMED.
+struct CylinderDetection {
+  /// The origin is the middle of the seen part, z its axis, upwards. In base.
+  Rigid<frame::Base, frame::Object> base_from_object;
+  CylinderModel model;
+  double sigma_radius_m = std::nan("");
+  double sigma_across_m = std::nan("");  ///< of the axis' place, the larger of both ways
+  double sigma_axis_rad = std::nan("");  ///< of its direction, likewise
+  CylinderEvidence evidence;
+  VerdictLevel level = VerdictLevel::kUnsure;  ///< UNSURE or LIKELY
+  std::string reason;                          ///< one sentence
+  FitOrigin origin;
+};
+
+}  // namespace foresight

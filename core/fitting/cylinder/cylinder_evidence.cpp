@@ -1,0 +1,190 @@
+#include "core/fitting/cylinder/cylinder_evidence.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/fitting/drill/solid_tracer.h"
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kGross_m = 0.15;  // further off, it is something else
+constexpr double kMadToSigma = 1.4826;
+constexpr double kLeastSigma_m = 0.003, kLargestSigma_m = 0.060;
+constexpr int kLeastHits = 12;
+constexpr double kAgreeSigmas = 3.0;
+constexpr double kShapeError_m = 0.005;  // no real pole is smooth and straight
+constexpr double kEdgeError_m = 0.003;
+
+constexpr double kLikelyHits = 30.0;  // independent measurements
+constexpr double kLikelyInliers = 0.6;
+constexpr double kLikelySeeThrough = 0.10;
+constexpr double kLikelyArc_rad = 1.2;
+constexpr double kLikelyMargin_nats = 5.0;
+constexpr double kLikelyRadiusSigma = 0.15;  // of the radius
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+SolidTracer TracerOf(const CylinderState& cylinder) {
+  const SolidPart part = cylinder.Part();
+  return {{&part, 1}, {}};
+}
+
+double Sigma(const RaySet& rays) {
+  return std::hypot(rays.sigma_m, kShapeError_m);
+}
+
+/// |measured - predicted| over the hits, the gross ones left out.
+std::vector<double> Differences(const RaySet& rays, const CylinderState& cylinder) {
+  const SolidTracer tracer = TracerOf(cylinder);
+  std::vector<double> differences;
+  for (const RangeRay& ray : rays.rays) {
+    const SolidMeeting meeting = tracer.Meet(ray, 0.0);
+    if (!meeting.Hits()) continue;
+    const double difference = std::abs(ray.range_m - meeting.range_m);
+    if (difference < kGross_m) differences.push_back(difference);
+  }
+  return differences;
+}
+
+/// Angle about the axis that a sorted-out set of directions spans: the circle less its largest gap.
+double ArcOf(std::vector<double> angles) {
+  if (angles.size() < 2) return 0.0;
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + 2.0 * std::numbers::pi - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
+  return 2.0 * std::numbers::pi - gap;
+}
+
+}  // namespace
+
+double RangeSigmaFrom(const RaySet& rays, const CylinderState& cylinder) {
+  const std::vector<double> differences = Differences(rays, cylinder);
+  if (std::ssize(differences) < kLeastHits) return std::nan("");
+  return std::clamp(kMadToSigma * Median(differences), kLeastSigma_m, kLargestSigma_m);
+}
+
+CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinder) {
+  const SolidTracer tracer = TracerOf(cylinder);
+  const Eigen::Vector3d x = cylinder.axis.unitOrthogonal(), y = cylinder.axis.cross(x);
+  const double agree_m = kAgreeSigmas * Sigma(rays);
+  CylinderEvidence evidence;
+  evidence.rays = static_cast<int>(rays.rays.size());
+  evidence.range_sigma_m = rays.sigma_m;
+  int inliers = 0, through = 0;
+  std::vector<double> angles;
+  for (const RangeRay& ray : rays.rays) {
+    const SolidMeeting meeting = tracer.Meet(ray, 0.0);
+    if (!meeting.Hits()) continue;
+    ++evidence.hits;
+    const double behind = ray.range_m - meeting.range_m;
+    if (behind > agree_m) ++through;
+    if (std::abs(behind) > agree_m) continue;
+    ++inliers;
+    const Eigen::Vector3d at = cylinder.FromAxis(ray.origin + meeting.range_m * ray.direction);
+    angles.push_back(std::atan2(y.dot(at), x.dot(at)));
+  }
+  if (evidence.hits == 0) return evidence;
+  evidence.inlier_share = static_cast<double>(inliers) / evidence.hits;
+  evidence.see_through = static_cast<double>(through) / evidence.hits;
+  evidence.seen_arc_rad = ArcOf(std::move(angles));
+  if (auto differences = Differences(rays, cylinder); !differences.empty())
+    evidence.residual_mad_m = Median(std::move(differences));
+  return evidence;
+}
+
+void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetection& detection) {
+  constexpr int kInner = 5;  // the ends are not the object's
+  constexpr double kStep_m = 0.002;
+  constexpr double kReach_m = 0.2;
+  const double lever_m = std::max(0.5 * cylinder.length_m, cylinder.radius_m);
+  const double steps[kInner] = {kStep_m, kStep_m, kStep_m / lever_m, kStep_m / lever_m, kStep_m};
+  std::vector<SolidTracer> moved;
+  for (int i = 0; i < kInner; ++i)
+    moved.push_back(TracerOf(Moved(cylinder, steps[i] * CylinderStep::Unit(i))));
+  const SolidTracer tracer = TracerOf(cylinder);
+  const double sigma_m = Sigma(rays);
+  Eigen::Matrix<double, kInner, kInner> information =
+      Eigen::Matrix<double, kInner, kInner>::Identity() * 1e-6;
+  for (const RangeRay& ray : rays.rays) {
+    const double width_m = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
+    const SolidMeeting meeting = tracer.MeetWithDepth(ray, kReach_m);
+    if (meeting.part < 0) continue;
+    const bool agrees = std::abs(ray.range_m - meeting.range_m) < kAgreeSigmas * sigma_m;
+    // A ray that grazes the outline knows where that is, one further in how far the surface is.
+    const bool outline = std::abs(meeting.clearance_m) < width_m;
+    if (!outline && !(meeting.Hits() && agrees)) continue;
+    Eigen::Matrix<double, kInner, 1> slope = Eigen::Matrix<double, kInner, 1>::Zero();
+    for (int i = 0; i < kInner; ++i) {
+      const SolidMeeting there = moved[static_cast<std::size_t>(i)].MeetWithDepth(ray, kReach_m);
+      if (there.part < 0 || (!outline && !there.Hits())) continue;
+      slope[i] = (outline ? (there.clearance_m - meeting.clearance_m) / width_m
+                          : (there.range_m - meeting.range_m) / sigma_m) /
+                 steps[i];
+    }
+    information += slope * slope.transpose();
+  }
+  information *= std::min(1.0, rays.samples_per_ray);
+  const Eigen::Matrix<double, kInner, kInner> covariance =
+      information.ldlt().solve(Eigen::Matrix<double, kInner, kInner>::Identity());
+  const auto deviation = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
+  detection.sigma_across_m = std::max(deviation(0), deviation(1));
+  detection.sigma_axis_rad = std::max(deviation(2), deviation(3));
+  // How far beside its middle a beam still returns is not known: anywhere on its spot.
+  const double range_m = (cylinder.middle - rays.viewpoint).norm();
+  detection.sigma_radius_m =
+      std::hypot(deviation(4), 0.5 * rays.footprint_rad * range_m / std::numbers::sqrt3);
+}
+
+namespace {
+
+/// Why it is not LIKELY; empty when nothing speaks against it.
+std::string Objection(const RaySet& rays, const CylinderBounds& bounds,
+                      const CylinderDetection& found) {
+  const CylinderEvidence& evidence = found.evidence;
+  const double hits = evidence.hits * std::min(1.0, rays.samples_per_ray);
+  if (hits < kLikelyHits)
+    return fmt::format("only {:.0f} measurements lie on it: scan slower or move closer", hits);
+  if (evidence.see_through > kLikelySeeThrough)
+    return fmt::format("{:.0f} % of the beams went through it", 100.0 * evidence.see_through);
+  if (evidence.inlier_share < kLikelyInliers)
+    return fmt::format("only {:.0f} % of the beams on it agree with it",
+                       100.0 * evidence.inlier_share);
+  if (evidence.box_margin_nats < kLikelyMargin_nats)
+    return "a box explains it as well: it may be square, or a wall's edge";
+  if (evidence.seen_arc_rad < kLikelyArc_rad)
+    return fmt::format("only {:.0f} deg of its girth are seen",
+                       DegreesFromRadians(evidence.seen_arc_rad));
+  if (!(found.sigma_radius_m < kLikelyRadiusSigma * found.model.radius_m))
+    return fmt::format("its radius is only known to {:.0f} mm", 1000.0 * found.sigma_radius_m);
+  if (found.model.length_m < found.model.radius_m)
+    return "less of its length is seen than its radius";
+  if (found.model.radius_m > 0.98 * bounds.max_radius_m ||
+      found.model.radius_m < 1.02 * bounds.min_radius_m)
+    return fmt::format("its radius, {:.0f} mm, is at the end of the range",
+                       1000.0 * found.model.radius_m);
+  return {};
+}
+
+}  // namespace
+
+void Assess(const RaySet& rays, const CylinderBounds& bounds, CylinderDetection& detection) {
+  detection.reason = Objection(rays, bounds, detection);
+  if (!detection.reason.empty()) return;
+  detection.level = VerdictLevel::kLikely;
+  detection.reason = fmt::format(
+      "{} beams on it, {:.0f} % of them agree; never confirmed, as no probability was "
+      "calibrated for cylinders",
+      detection.evidence.hits, 100.0 * detection.evidence.inlier_share);
+}
+
+}  // namespace foresight

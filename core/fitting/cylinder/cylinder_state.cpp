@@ -1,0 +1,71 @@
+#include "core/fitting/cylinder/cylinder_state.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/fitting/drill/pattern_search.h"
+
+namespace foresight {
+
+SolidPart CylinderState::Part() const {
+  SolidPart part;
+  part.name = "cylinder";
+  part.shape = SolidPart::Shape::kCylinder;
+  part.size_m = {2.0 * radius_m, 2.0 * radius_m, length_m};
+  part.object_from_part = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis),
+                           middle};
+  return part;
+}
+
+CylinderState Moved(const CylinderState& cylinder, const CylinderStep& step) {
+  const Eigen::Vector3d x = cylinder.axis.unitOrthogonal();
+  const Eigen::Vector3d y = cylinder.axis.cross(x);
+  CylinderState moved = cylinder;
+  moved.axis = (cylinder.axis + step[2] * x + step[3] * y).normalized();
+  moved.middle += step[0] * x + step[1] * y + 0.5 * (step[5] + step[6]) * moved.axis;
+  moved.radius_m += step[4];
+  moved.length_m += step[6] - step[5];
+  return moved;
+}
+
+double ScoreOf(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+               const CylinderBounds& bounds) {
+  if (cylinder.radius_m < bounds.min_radius_m || cylinder.radius_m > bounds.max_radius_m ||
+      cylinder.length_m < 0.5 * cylinder.radius_m)
+    return -std::numeric_limits<double>::infinity();
+  return likelihood(cylinder.Part());
+}
+
+CylinderState Polished(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+                       const CylinderBounds& bounds, double first_step_m, int rounds) {
+  const double lever_m = std::max(0.5 * cylinder.length_m, cylinder.radius_m);
+  CylinderStep lengths;
+  lengths << first_step_m, first_step_m, first_step_m / lever_m, first_step_m / lever_m,
+      first_step_m, 2.0 * first_step_m, 2.0 * first_step_m;
+  PatternSearchOptions options;
+  options.rounds = rounds;
+  for (int i = 0; i < kCylinderParameters; ++i)
+    options.steps.push_back(lengths[i] * Eigen::VectorXd::Unit(kCylinderParameters, i));
+  // Radius and place along the line of sight trade with each other: one step for both.
+  const Eigen::Vector3d away =
+      cylinder.FromAxis(likelihood.rays().viewpoint).normalized() * -first_step_m;
+  const Eigen::Vector3d x = cylinder.axis.unitOrthogonal();
+  Eigen::VectorXd deeper = Eigen::VectorXd::Zero(kCylinderParameters);
+  deeper[0] = away.dot(x);
+  deeper[1] = away.dot(cylinder.axis.cross(x));
+  deeper[4] = first_step_m;
+  options.steps.push_back(deeper);
+  const PatternSearchResult found = ClimbByPatternSearch(
+      Eigen::VectorXd::Zero(kCylinderParameters),
+      [&](const Eigen::VectorXd& step) {
+        return ScoreOf(Moved(cylinder, step), likelihood, bounds);
+      },
+      options);
+  CylinderState polished = Moved(cylinder, found.values);
+  polished.score = found.score;
+  return polished;
+}
+
+}  // namespace foresight

@@ -1,0 +1,166 @@
+#include "core/fitting/cylinder/fit_cylinder.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "core/fitting/cylinder/background_planes.h"
+#include "core/fitting/cylinder/box_rival.h"
+#include "core/fitting/cylinder/cylinder_evidence.h"
+#include "core/fitting/cylinder/cylinder_search.h"
+#include "core/fitting/cylinder/cylinder_state.h"
+#include "core/fitting/ray_selection.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kMinRays = 30;
+constexpr int kCoarseRays = 300;
+constexpr double kCoarseSigma_m = 0.030;  // a smoother hill to climb first
+constexpr std::size_t kFine = 3;
+constexpr int kSigmaRounds = 2;
+
+/// Streams of the seed: each stage draws its own numbers.
+enum Stream : std::uint64_t { kThinning, kPlanes, kSearch };
+
+/// One cylinder's fit while it lasts.
+class CylinderFit {
+ public:
+  CylinderFit(RaySet rays, const FitCylinderOptions& options)
+      : rays_(std::move(rays)),
+        options_(options),
+        bounds_{options.min_radius_m, options.max_radius_m} {
+    Random random(options.seed, kPlanes);
+    planes_ = FindFlatSurfaces(rays_, random);
+  }
+
+  Result<CylinderState> Search(const RunContext& context) {
+    Random random(options_.seed, kSearch);
+    RaySet few = Thinned(rays_, kCoarseRays, random);
+    few.sigma_m = std::max(few.sigma_m, kCoarseSigma_m);
+    std::vector<CylinderState> found;
+    for (const std::vector<Eigen::Vector3d>& points : {PointsOffPlanes(), AllPoints()}) {
+      context.Report(found.empty() ? 0.1 : 0.3, "looking for circles");
+      const auto more =
+          FindCylinders(OutlineLikelihood(few, {}), points, options_.up, bounds_, random);
+      found.insert(found.end(), more.begin(), more.end());
+      if (context.Cancelled()) return Cancelled();
+    }
+    if (found.empty())
+      return Fail(ErrorCode::kNoConvergence,
+                  "nothing round in the region: draw it around a pole or a pipe");
+    context.Report(0.6, "improving the cylinder");
+    for (CylinderState& cylinder : found) cylinder = PolishedBeforePlanes(few, cylinder, 0.06, 4);
+    KeepBest(found, kFine);
+    if (context.Cancelled()) return Cancelled();
+    for (CylinderState& cylinder : found) cylinder = PolishedBeforePlanes(rays_, cylinder, 0.02, 4);
+    KeepBest(found, 1);
+    return WithOwnSigma(found.front());
+  }
+
+  CylinderDetection Detection(const CylinderState& cylinder) const {
+    CylinderDetection detection;
+    const Eigen::Vector3d z =
+        cylinder.axis.dot(options_.up) >= 0.0 ? cylinder.axis : -cylinder.axis;
+    detection.base_from_object = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z),
+                                  cylinder.middle};
+    detection.model = {cylinder.radius_m, cylinder.length_m};
+    detection.evidence = GatherEvidence(rays_, cylinder);
+    const OutlineLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_));
+    // Half of Schwarz's penalty for each parameter that a box has more.
+    const double measurements =
+        std::max(2.0, static_cast<double>(rays_.rays.size()) * rays_.samples_per_ray);
+    detection.evidence.box_margin_nats =
+        cylinder.score - BestBoxScore(cylinder, likelihood) +
+        0.5 * (kBoxRivalParameters - kCylinderParameters) * std::log(measurements);
+    SetSigmas(rays_, cylinder, detection);
+    Assess(rays_, bounds_, detection);
+    return detection;
+  }
+
+ private:
+  static tl::unexpected<Error> Cancelled() {
+    return Fail(ErrorCode::kCancelled, "fitting the cylinder was cancelled");
+  }
+
+  static void KeepBest(std::vector<CylinderState>& cylinders, std::size_t count) {
+    std::stable_sort(cylinders.begin(), cylinders.end(),
+                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    if (cylinders.size() > count) cylinders.resize(count);
+  }
+
+  std::vector<Eigen::Vector3d> AllPoints() const {
+    std::vector<Eigen::Vector3d> points;
+    for (const RangeRay& ray : rays_.rays) points.push_back(ray.Point());
+    return points;
+  }
+
+  std::vector<Eigen::Vector3d> PointsOffPlanes() const {
+    std::vector<Eigen::Vector3d> points = AllPoints();
+    for (const Plane& plane : planes_)
+      std::erase_if(points, [&](const Eigen::Vector3d& point) {
+        return std::abs(plane.Distance(point)) < 2.5 * rays_.sigma_m;
+      });
+    return points;
+  }
+
+  /// Before the flat surfaces that are not slabs through it.
+  CylinderState PolishedBeforePlanes(const RaySet& rays, const CylinderState& cylinder,
+                                     double first_step_m, int rounds) const {
+    const OutlineLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays));
+    return Polished(cylinder, likelihood, bounds_, first_step_m, rounds);
+  }
+
+  /// The ranges' deviation and the cylinder depend on each other.
+  CylinderState WithOwnSigma(CylinderState cylinder) {
+    for (int round = 0; round < kSigmaRounds; ++round) {
+      const double sigma_m = RangeSigmaFrom(rays_, cylinder);
+      if (!std::isfinite(sigma_m)) break;
+      rays_.sigma_m = sigma_m;
+      cylinder = PolishedBeforePlanes(rays_, cylinder, 0.01, 5);
+    }
+    return cylinder;
+  }
+
+  RaySet rays_;
+  FitCylinderOptions options_;
+  CylinderBounds bounds_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace
+
+Status FitCylinderOptions::Check() const {
+  if (!(min_radius_m >= 0.002 && min_radius_m < max_radius_m && max_radius_m <= 10.0))
+    return Fail(ErrorCode::kInvalidOptions,
+                "cylinder fit: radii of {} to {} m; 0.002 to 10, the least first", min_radius_m,
+                max_radius_m);
+  if (!(std::abs(up.norm() - 1.0) < 1e-6))
+    return Fail(ErrorCode::kInvalidOptions, "cylinder fit: up has length {}, not 1", up.norm());
+  if (max_rays < kMinRays)
+    return Fail(ErrorCode::kInvalidOptions, "cylinder fit: max_rays {} is below {}", max_rays,
+                kMinRays);
+  return {};
+}
+
+Result<CylinderDetection> FitCylinder(const RaySet& all_rays, const FitCylinderOptions& options,
+                                      const RunContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  FORESIGHT_CHECK(options.Check());
+  FORESIGHT_TRY(const RaySet usable, UsableRays(all_rays, kMinRays, "a cylinder"));
+  Random thinning(options.seed, kThinning);
+  CylinderFit fit(Thinned(usable, options.max_rays, thinning), options);
+  FORESIGHT_TRY(const CylinderState cylinder, fit.Search(context));
+  CylinderDetection detection = fit.Detection(cylinder);
+  if (detection.evidence.hits == 0)
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing round in the region: draw it around a pole or a pipe");
+  detection.origin.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  context.Report(1.0, "cylinder fitted");
+  return detection;
+}
+
+}  // namespace foresight

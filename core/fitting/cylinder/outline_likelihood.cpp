@@ -1,0 +1,67 @@
+#include "core/fitting/cylinder/outline_likelihood.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/wall.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kUniform = 1.0 / 3.0;   // per metre: a return from anywhere within 3 m
+constexpr double kHit = 0.93;            // a ray well inside the outline returns from the solid
+constexpr double kGoodReturn = 0.9;      // ... and has no other reason to be wrong
+constexpr double kPlaneShare = 0.7;      // of the rays that miss
+constexpr double kShapeError_m = 0.005;  // no real pole is smooth and straight
+constexpr double kEdgeError_m = 0.003;
+constexpr double kReachWidths = 3.0;
+
+double NormalDensity(double error, double sigma) {
+  const double ratio = error / sigma;
+  return ratio * ratio > 60.0 ? 0.0 : 0.3989422804014327 / sigma * std::exp(-0.5 * ratio * ratio);
+}
+
+double BackgroundDensity(const RangeRay& ray, std::span<const Plane> planes, double sigma_m) {
+  if (planes.empty()) return kUniform;
+  double density = 0.0;
+  for (const Plane& plane : planes)
+    density += NormalDensity(ray.range_m - RangeToPlane(ray, plane), sigma_m);
+  return kPlaneShare / static_cast<double>(planes.size()) * density +
+         (1.0 - kPlaneShare) * kUniform;
+}
+
+}  // namespace
+
+OutlineLikelihood::OutlineLikelihood(RaySet rays, std::span<const Plane> planes)
+    : rays_(std::move(rays)), sigma_m_(std::hypot(rays_.sigma_m, kShapeError_m)) {
+  noise_.reserve(rays_.rays.size());
+  for (const RangeRay& ray : rays_.rays) {
+    const double background = BackgroundDensity(ray, planes, sigma_m_);
+    noise_.push_back({0.5 * rays_.footprint_rad * ray.range_m, background, std::log(background)});
+  }
+}
+
+double OutlineLikelihood::operator()(const SolidPart& solid_in_base) const {
+  const SolidTracer tracer({&solid_in_base, 1}, {});
+  double sum = 0.0;
+  for (std::size_t i = 0; i < noise_.size(); ++i) {
+    const RangeRay& ray = rays_.rays[i];
+    const RayNoise& noise = noise_[i];
+    const double shift_m = 0.5 * noise.spot_m, width_m = 0.5 * noise.spot_m + kEdgeError_m;
+    const SolidMeeting meeting = tracer.MeetWithDepth(ray, shift_m + kReachWidths * width_m);
+    if (meeting.part < 0) {
+      sum += noise.log_background;
+      continue;
+    }
+    const double beyond = (meeting.clearance_m - shift_m) / width_m;
+    const double hit = 0.5 * kHit * std::erfc(beyond / std::numbers::sqrt2);
+    const double on_solid = kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, sigma_m_) +
+                            (1.0 - kGoodReturn) * kUniform;
+    sum += std::log(hit * on_solid + (1.0 - hit) * noise.background);
+  }
+  return rays_.samples_per_ray * sum;
+}
+
+}  // namespace foresight
