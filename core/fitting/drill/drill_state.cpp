@@ -42,14 +42,15 @@ double DrillPrior::operator()(const DrillState& state) const {
   if (v[kDrillScale] < state.kind->min_scale || v[kDrillScale] > state.kind->max_scale ||
       v[kDrillBit] < 0.0 || v[kDrillBit] > state.kind->max_bit_length_m || tilt > max_tilt_rad)
     return -std::numeric_limits<double>::infinity();
-  if (std::abs(v[kDrillHeadUp]) > kReach * head_sigma_m ||
-      std::abs(v[kDrillHeadForward]) > kReach * head_sigma_m ||
+  if (std::abs(v[kDrillHeadUp]) > kReach * head_up_sigma_m ||
+      std::abs(v[kDrillHeadForward]) > kReach * head_forward_sigma_m ||
       std::abs(v[kDrillFoot]) > kReach * foot_sigma)
     return -std::numeric_limits<double>::infinity();
   return -0.5 *
          (Squared(v[kDrillZ] / height_sigma_m) + Squared((v[kDrillScale] - 1.0) / scale_sigma) +
-          Squared(tilt / tilt_sigma_rad) + Squared(v[kDrillHeadUp] / head_sigma_m) +
-          Squared(v[kDrillHeadForward] / head_sigma_m) + Squared(v[kDrillFoot] / foot_sigma));
+          Squared(tilt / tilt_sigma_rad) + Squared(v[kDrillHeadUp] / head_up_sigma_m) +
+          Squared(v[kDrillHeadForward] / head_forward_sigma_m) +
+          Squared(v[kDrillFoot] / foot_sigma));
 }
 
 DrillState Flipped(const DrillState& state) {

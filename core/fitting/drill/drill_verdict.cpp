@@ -175,7 +175,8 @@ DrillInformation InformationOf(const RaySet& rays, const DrillState& drill,
   before[kDrillScale] = 1.0 / Squared(prior.scale_sigma);
   before[kDrillTiltX] = before[kDrillTiltY] = 1.0 / Squared(prior.tilt_sigma_rad);
   before[kDrillBit] = 1.0 / Squared(0.1);
-  before[kDrillHeadUp] = before[kDrillHeadForward] = 1.0 / Squared(prior.head_sigma_m);
+  before[kDrillHeadUp] = 1.0 / Squared(prior.head_up_sigma_m);
+  before[kDrillHeadForward] = 1.0 / Squared(prior.head_forward_sigma_m);
   before[kDrillFoot] = 1.0 / Squared(prior.foot_sigma);
   information.diagonal() += before;
   return information;
