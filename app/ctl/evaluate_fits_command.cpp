@@ -21,6 +21,7 @@ struct EvaluateFitsArguments {
   std::string kind;
   std::uint64_t first_seed = 1;
   int count = 50;
+  std::string only;  ///< "positives", "negatives"; empty = both
   std::vector<std::string> sources = {"raw", "foresight"};
   double rotation_error_deg = 0.0;
   double translation_error_mm = 0.0;
@@ -97,15 +98,24 @@ class OutcomeTable {
   std::ofstream stream_;
 };
 
+/// As many seeds from the first on as were asked for, of scenes that hold the object, hold none, or
+/// both as they come.
+std::vector<std::uint64_t> SeedsOf(const FitPopulation& population,
+                                   const EvaluateFitsArguments& arguments) {
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = arguments.first_seed; std::ssize(seeds) < arguments.count; ++seed)
+    if (arguments.only.empty() ||
+        population.MakeScene(seed).positive == (arguments.only == "positives"))
+      seeds.push_back(seed);
+  return seeds;
+}
+
 Status RunTrials(const FitPopulation& population, const EvaluateFitsArguments& arguments,
                  OutcomeTable& table, const RunContext& context) {
   FORESIGHT_TRY(const FitTrialOptions options, TrialOptionsFrom(arguments));
   const std::set<std::uint64_t> done = table.Seeds();
-  std::vector<std::uint64_t> seeds;
-  for (int i = 0; i < arguments.count; ++i)
-    if (const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(i);
-        !done.contains(seed))
-      seeds.push_back(seed);
+  std::vector<std::uint64_t> seeds = SeedsOf(population, arguments);
+  std::erase_if(seeds, [&](std::uint64_t seed) { return done.contains(seed); });
   std::mutex mutex;
   Status failure;
   int finished = 0;
@@ -198,6 +208,10 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("--count", arguments->count, "Number of scenes")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  command
+      ->add_option("--only", arguments->only,
+                   "positives or negatives: pass over the seeds of the other scenes")
+      ->check(CLI::IsMember({"positives", "negatives"}));
   command
       ->add_option("--source", arguments->sources,
                    "What to fit to: raw, or depth methods: " + MethodNames())
