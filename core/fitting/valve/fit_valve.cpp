@@ -27,6 +27,7 @@ constexpr int kGridRays = 900;   // for the grid of dish and phase
 constexpr int kKeptRims = 2;
 constexpr int kPolished = 2;  // numbers of spokes
 constexpr int kRivals = 3;
+constexpr std::size_t kPolishedLevers = 3;
 constexpr double kTubeRadius_m = 0.012;  // where the search starts
 
 /// Streams of the seed: each stage draws its own numbers.
@@ -105,16 +106,19 @@ std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& spli
   search.tolerance_m = 1.5 * rays.sigma_m + 0.012;
   RefineOptions refine;
   refine.wall = split.wall;
-  std::optional<ValveCandidate> best;
-  const auto consider = [&](ValveCandidate lever) {
-    lever.log_likelihood = likelihood(lever);
-    if (!best || lever.log_likelihood > best->log_likelihood) best = lever;
-  };
+  std::vector<ValveCandidate> levers;
   for (const ValveCandidate& start : FindLevers(points, search, random)) {
-    consider(start);
-    consider(Refine(rays, start, refine).valve);
+    levers.push_back(start);
+    levers.push_back(Refine(rays, start, refine).valve);
   }
-  return best;
+  for (ValveCandidate& lever : levers) lever.log_likelihood = likelihood(lever);
+  SortByLikelihood(levers);
+  // The likelihood has many small peaks along a bar: some of them are climbed.
+  if (levers.size() > kPolishedLevers) levers.resize(kPolishedLevers);
+  for (ValveCandidate& lever : levers) lever = Polish(likelihood, lever);
+  SortByLikelihood(levers);
+  if (levers.empty()) return std::nullopt;
+  return levers.front();
 }
 
 /// Polishes the leading candidates and puts them back in order.

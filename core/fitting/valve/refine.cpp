@@ -13,7 +13,7 @@ namespace {
 constexpr double kCauchyScale2 = 4.0;  // of the squared pair of residuals: 2 sigma
 constexpr double kGate = 2.5;          // sigmas of range within which a ray saw the template
 constexpr double kStep = 1e-5;         // of the numeric derivative, metres and radians
-constexpr int kPriors = 4;
+constexpr int kPriors = 5;
 
 constexpr double kLeastShare = 0.5;  // of the spot of a ray that saw the template
 
@@ -30,7 +30,7 @@ struct RoledRay {
 double StepTowardsUsual(const ValveModel& model, int parameter) {
   const bool above =
       (parameter == kTubeRadius && model.tube_radius_m > ValvePrior::kTubeRadius_m) ||
-      (parameter == kDish && model.dish_m > ValvePrior::kDish_m);
+      (parameter == kDish && OwnSizeResidual(model) > 0.0);
   return above ? -kStep : kStep;
 }
 
@@ -86,9 +86,8 @@ class Problem {
     }
     residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
                                      ValvePrior::kTubeRadiusSigma_m,
-        (valve.model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m,
-        LeverTilt(valve, options_.wall) / ValvePrior::kLeverTiltSigma_rad,
-        std::log(valve.brightness) / ValvePrior::kBrightnessSigma;
+        OwnSizeResidual(valve.model), std::log(valve.brightness) / ValvePrior::kBrightnessSigma,
+        AxisPriorResiduals(valve, options_.wall);
     return residuals;
   }
 

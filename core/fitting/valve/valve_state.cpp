@@ -9,10 +9,21 @@ namespace {
 
 constexpr double kSpokePerTube = 0.67;
 constexpr double kHubPerRim = 0.20;
-constexpr double kLeverHubPerTube = 2.0;
 
 double Squared(double value) {
   return value * value;
+}
+
+/// By what a tilt against the wall's normal is multiplied to count as a residual of the prior.
+double SquareWeight(double tilt2) {
+  const double square2 = Squared(ValvePrior::kSquareSigma_rad);
+  const double skew2 = Squared(ValvePrior::kSkewSigma_rad);
+  if (tilt2 < 1e-12) return 1.0 / ValvePrior::kSquareSigma_rad;
+  const double square = ValvePrior::kSquareShare / square2;
+  const double skew = (1.0 - ValvePrior::kSquareShare) / skew2;
+  const double density =
+      square * std::exp(-0.5 * tilt2 / square2) + skew * std::exp(-0.5 * tilt2 / skew2);
+  return std::sqrt(-2.0 * std::log(density / (square + skew)) / tilt2);
 }
 
 }  // namespace
@@ -28,12 +39,12 @@ ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, dou
   return model;
 }
 
-ValveModel UsualLever(double length_m, double tube_radius_m) {
+ValveModel UsualLever(double length_m, double tube_radius_m, double head_radius_m) {
   ValveModel model;
   model.kind = ValveModel::Kind::kLever;
   model.lever_length_m = std::clamp(length_m, 0.060, 0.450);
   model.tube_radius_m = std::clamp(tube_radius_m, 0.005, 0.025);
-  model.hub_radius_m = kLeverHubPerTube * model.tube_radius_m;
+  model.hub_radius_m = std::clamp(head_radius_m, model.tube_radius_m, 0.045);
   model.spokes = 0;
   return model;
 }
@@ -49,28 +60,39 @@ ValveCandidate Moved(const ValveCandidate& valve, const ValveStep& step) {
   const double tube_radius_m = model.tube_radius_m + step[kTubeRadius];
   return {Rigid<frame::Base, frame::Object>(
               turned, valve.base_from_object.translation() + rotation * step.segment<3>(kMoveX)),
-          model.IsLever() ? UsualLever(model.lever_length_m + step[kRimRadius], tube_radius_m)
+          model.IsLever() ? UsualLever(model.lever_length_m + step[kRimRadius], tube_radius_m,
+                                       model.hub_radius_m + step[kDish])
                           : UsualValve(model.rim_radius_m + step[kRimRadius], tube_radius_m,
                                        model.spokes, model.dish_m + step[kDish]),
           valve.log_likelihood,
           std::clamp(valve.brightness * std::exp(step[kBrightness]), 0.1, 10.0)};
 }
 
-double LeverTilt(const ValveCandidate& valve, const std::optional<Plane>& wall) {
-  if (!wall || !valve.model.IsLever()) return 0.0;
-  return valve.base_from_object.Rotate(Eigen::Vector3d::UnitY()).dot(wall->normal);
+Eigen::Vector2d AxisPriorResiduals(const ValveCandidate& valve, const std::optional<Plane>& wall) {
+  if (!wall) return Eigen::Vector2d::Zero();
+  const auto& pose = valve.base_from_object;
+  const Eigen::Vector2d tilt(pose.Rotate(Eigen::Vector3d::UnitX()).dot(wall->normal),
+                             pose.Rotate(Eigen::Vector3d::UnitY()).dot(wall->normal));
+  if (valve.model.IsLever())
+    return {tilt.x() * SquareWeight(tilt.x() * tilt.x()),
+            tilt.y() / ValvePrior::kLeverTurnSigma_rad};
+  return tilt * SquareWeight(tilt.squaredNorm());
+}
+
+double OwnSizeResidual(const ValveModel& model) {
+  return model.IsLever()
+             ? (model.hub_radius_m - ValvePrior::kHeadRadius_m) / ValvePrior::kHeadRadiusSigma_m
+             : (model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m;
 }
 
 double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall) {
   const ValveModel& model = valve.model;
   const double tube =
       (model.tube_radius_m - ValvePrior::kTubeRadius_m) / ValvePrior::kTubeRadiusSigma_m;
-  const double common =
-      Squared(tube) + Squared(std::log(valve.brightness) / ValvePrior::kBrightnessSigma);
-  const double own = model.IsLever()
-                         ? Squared(LeverTilt(valve, wall) / ValvePrior::kLeverTiltSigma_rad)
-                         : Squared((model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m);
-  return -0.5 * (common + own);
+  const double own = OwnSizeResidual(model);
+  return -0.5 * (Squared(tube) + Squared(own) +
+                 Squared(std::log(valve.brightness) / ValvePrior::kBrightnessSigma) +
+                 AxisPriorResiduals(valve, wall).squaredNorm());
 }
 
 ValveCandidate WithUpwardSpoke(const ValveCandidate& valve) {

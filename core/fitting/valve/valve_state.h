@@ -18,7 +18,7 @@ enum ValveParameter {
   kPhase,
   kRimRadius,  ///< or a lever's length
   kTubeRadius,
-  kDish,        ///< a lever has none
+  kDish,        ///< or the radius of a lever's head
   kBrightness,  ///< its logarithm
   kValveParameters
 };
@@ -35,22 +35,34 @@ struct ValvePrior {
   static constexpr double kDish_m = 0.020;
   static constexpr double kDishSigma_m = 0.050;
   static constexpr double kBrightnessSigma = 0.4;  ///< of the logarithm
-  /// A straight bar looks the same turned about itself: its axis is taken to be the wall's normal.
-  static constexpr double kLeverTiltSigma_rad = 0.03;
+  static constexpr double kHeadRadius_m = 0.025;   ///< of a lever
+  static constexpr double kHeadRadiusSigma_m = 0.006;
+  /// Most valves are mounted square to the wall behind them, the others at any angle: two normal
+  /// densities of the axis about the wall's normal, with these sigmas and this share of the first.
+  static constexpr double kSquareShare = 0.7;
+  static constexpr double kSquareSigma_rad = 0.035;
+  static constexpr double kSkewSigma_rad = 0.21;
+  /// A lever's bar and head look the same turned about the bar: that turn is taken to be square.
+  static constexpr double kLeverTurnSigma_rad = 0.03;
 };
 
 /// A valve of usual proportions: spokes thinner than the rim's tube, a hub of a fifth of the rim.
 ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, double dish_m);
 
-/// A lever of usual proportions.
-ValveModel UsualLever(double length_m, double tube_radius_m);
+/// A lever; its sizes are kept within what is built.
+ValveModel UsualLever(double length_m, double tube_radius_m,
+                      double head_radius_m = ValvePrior::kHeadRadius_m);
 
 /// The valve after a step. Radii and dish stay within what is built.
 ValveCandidate Moved(const ValveCandidate& valve, const ValveStep& step);
 
-/// Sine of the angle by which a lever is turned about its bar from the wall's normal; 0 without a
-/// wall, and for a wheel.
-double LeverTilt(const ValveCandidate& valve, const std::optional<Plane>& wall);
+/// What the prior of an axis square to the wall counts in a sum of squares: components along the
+/// object's x and y, of which half the squared length is the prior's -log, 0 where the axis is the
+/// wall's normal; 0 without a wall.
+Eigen::Vector2d AxisPriorResiduals(const ValveCandidate& valve, const std::optional<Plane>& wall);
+
+/// A wheel's dish or a lever's head against the usual, in sigmas of the prior.
+double OwnSizeResidual(const ValveModel& model);
 
 /// Log of the prior's density, without its constant.
 double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall);

@@ -130,6 +130,16 @@ ValveMeeting ValveTracer::MeetBar(ValvePart part, const LocalRay& ray, const Bar
   return meeting;
 }
 
+ValveMeeting ValveTracer::MeetStem(const LocalRay& ray) const {
+  ValveMeeting meeting = MeetBar(ValvePart::kStem, ray, stem_);
+  const Eigen::Vector3d entry = ray.origin + meeting.Range() * ray.direction;
+  // Seen from the front, a stem without end would be entered before its beginning.
+  if ((entry - stem_.begin).dot(stem_.direction) < 0.0)
+    meeting = Approach(ValvePart::kStem, ray.origin, ray.direction, stem_.begin,
+                       Eigen::Vector3d::Zero(), stem_.radius_m);
+  return meeting;
+}
+
 bool ValveTracer::MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const {
   if (std::abs(ray.direction.z()) < 0.1) return false;
   double range = -ray.origin.z() / ray.direction.z();
@@ -165,7 +175,7 @@ ValveMeeting ValveTracer::MeetWheel(const LocalRay& ray) const {
 
 ValveMeeting ValveTracer::MeetLever(const LocalRay& ray) const {
   const ValveMeeting bar = MeetBar(ValvePart::kLever, ray, lever_);
-  return FirstMet(FirstMet(bar, MeetHub(ray)), MeetBar(ValvePart::kStem, ray, stem_));
+  return FirstMet(FirstMet(bar, MeetHub(ray)), MeetStem(ray));
 }
 
 ValveMeeting ValveTracer::Meet(const RangeRay& ray) const {

@@ -58,6 +58,7 @@ class ValveTracer {
   ValveMeeting MeetRim(const LocalRay& ray) const;
   ValveMeeting MeetHub(const LocalRay& ray) const;
   static ValveMeeting MeetBar(ValvePart part, const LocalRay& ray, const Bar& bar);
+  ValveMeeting MeetStem(const LocalRay& ray) const;
   ValveMeeting MeetWheel(const LocalRay& ray) const;
   ValveMeeting MeetLever(const LocalRay& ray) const;
   bool MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const;

@@ -5,6 +5,7 @@
 #include "core/fitting/valve/polish.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/wall.h"
+#include "core/geometry/angles.h"
 #include "tests/support/valve_rays.h"
 
 namespace foresight {
@@ -51,6 +52,25 @@ TEST(RayLikelihood, DoesNotPayForSpokesThatRaysWentThrough) {
   ValveCandidate more = scene.truth;
   more.model.spokes = 6;
   EXPECT_GT(likelihood(scene.truth), likelihood(more) + 10.0);
+}
+
+TEST(AxisPrior, PrefersAnAxisSquareToTheWallAndForgivesOneThatIsNot) {
+  const Plane wall{Eigen::Vector3d::UnitZ(), 0.0};
+  const auto prior = [&](double tilt_deg, const ValveModel& model) {
+    ValveCandidate valve;
+    valve.model = model;
+    return LogPrior(Moved(valve, RadiansFromDegrees(tilt_deg) * ValveStep::Unit(int{kTiltY})),
+                    wall);
+  };
+  for (const ValveModel& model : {UsualValve(0.1, 0.013, 3, 0.02), UsualLever(0.2, 0.013)}) {
+    const double square = prior(0.0, model);
+    EXPECT_NEAR(prior(1.0, model), square, 0.3);
+    EXPECT_LT(prior(6.0, model), square - 3.0);
+    // One that hangs askew costs a few nats, not its pose.
+    EXPECT_GT(prior(15.0, model), square - 8.0);
+    EXPECT_EQ(LogPrior({Rigid<frame::Base, frame::Object>(), model, 0.0}, std::nullopt),
+              LogPrior({Rigid<frame::Base, frame::Object>(), model, 0.0}, wall));
+  }
 }
 
 TEST(RayLikelihood, ThatTheValveIsThereBeatsNothing) {

@@ -68,6 +68,30 @@ TEST(ValveTracer, MeetsTheTemplateWhereSphereTracingDoes) {
   EXPECT_GT(hits, 300);
 }
 
+TEST(ValveTracer, MeetsALeverWhereSphereTracingDoes) {
+  Random random(10);
+  int hits = 0;
+  int on_head = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Case c = MakeCase(random, 2);
+    c.valve.model = UsualLever(0.2, 0.012, 0.025);
+    const RangeRay ray = RandomRay(random, c.eye);
+    const Traced traced = SphereTrace(c.valve.model, ray);
+    const ValveMeeting meeting = ValveTracer(c.valve, ValveParts::kAll).Meet(ray);
+    if (std::abs(meeting.Clearance()) < 0.002) continue;
+    EXPECT_EQ(meeting.Clearance() < 0.0, traced.hit);
+    if (!traced.hit || meeting.Clearance() > 0.0) continue;
+    ++hits;
+    if (meeting.part == ValvePart::kHub) ++on_head;
+    // The stem that leads back from the head must not be met before it; of its far end's flank
+    // little is seen.
+    const double tolerance_m = meeting.part == ValvePart::kStem ? 0.010 : 0.004;
+    EXPECT_NEAR(meeting.Range(), traced.range_m, tolerance_m);
+  }
+  EXPECT_GT(hits, 60);
+  EXPECT_GT(on_head, 15);
+}
+
 TEST(ValveTracer, KnowsHowFarARayPassesBy) {
   Random random(8);
   for (int i = 0; i < 1000; ++i) {
