@@ -110,7 +110,7 @@ TEST(FitDrill, PriorAllowsAnotherHeadAndFootWithinReasonOnly) {
   state.values[kDrillScale] = 1.0;
   for (const int p : {int{kDrillHeadUp}, int{kDrillHeadForward}, int{kDrillFoot}}) {
     DrillState other = state;
-    other.values[p] = 0.02;
+    other.values[p] = 0.015;
     EXPECT_LT(prior(other), prior(state));
     EXPECT_TRUE(std::isfinite(prior(other)));
     other.values[p] = -0.5;
