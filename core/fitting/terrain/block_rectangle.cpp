@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kBand_m = 0.120;  // around a rectangle, where support speaks against it
 constexpr double kOutsideWeight = 0.7;
-constexpr double kOccupied_m = 0.300;  // nothing this low above a top lets it be seen and free
+// Of what rises beside a top only the foot says where the top ends: blocks lean over it higher up,
+// and a whole face falls on one line of the plane.
+constexpr double kOccupied_m = 0.050;
 
 constexpr double kOneBlock = 1.25;       // a patch of more area may hold several
 constexpr int kMaxBlocks = 8;            // of a patch
@@ -149,9 +151,9 @@ std::vector<BlockRectangle> Starts(const std::vector<PlaneView::Sample>& support
 }
 
 /// How surely a point that belongs to no plane is not of this one: from 0 at a deviation to 1 at
-/// three.
+/// two.
 double CertainlyOff(double distance_sigmas) {
-  return std::clamp(0.5 * (std::abs(distance_sigmas) - 1.0), 0.0, 1.0);
+  return std::clamp(std::abs(distance_sigmas) - 1.0, 0.0, 1.0);
 }
 
 double AreaOf(const std::vector<PlaneView::Sample>& samples) {

@@ -20,8 +20,8 @@ struct PlaneView {
   Eigen::Vector3d x, y;         ///< the frame's axes, in base; its origin is surface.center
   std::vector<Sample> support;  ///< the plane's own points
   std::vector<Sample> through;  ///< rays that went on behind the plane
-  /// Returns of other surfaces beside, over or inside what would be a block there; `at` is the foot
-  /// of their perpendicular on the plane. An occluder far in front is not among them.
+  /// Returns of other surfaces within 50 mm above the plane, beside or inside what would be a block
+  /// there; `at` is the foot of their perpendicular on the plane. What is higher is left out.
   std::vector<Sample> occupied;
 
   Eigen::Vector2d Flat(const Eigen::Vector3d& point) const {

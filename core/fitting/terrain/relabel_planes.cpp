@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/terrain/crease_slivers.h"
 #include "core/fitting/terrain/plane_grouping.h"
+#include "core/fitting/terrain/plane_reach.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -12,18 +14,22 @@ namespace {
 constexpr double kNoPlaneCost = 4.0;
 constexpr double kMaxCost = 9.0;
 constexpr double kAngleSigma_rad = RadiansFromDegrees(12.0);
-constexpr double kMaxAngleCost = 3.0;  // normals bend near every edge
+constexpr double kMaxAngleCost = 2.0;    // normals bend near every edge
+constexpr double kLeastSigma_m = 0.002;  // of a point from the plane that it lies on
 constexpr double kUnknownNormalCost = 0.5;
 constexpr double kSmoothness = 1.2;
 constexpr double kLeastSmoothness = 0.05;
-constexpr double kReach_m = 0.060;  // of a plane beyond its points
-constexpr int kMaxReach = 12;       // cells
 constexpr int kRounds = 2;
 constexpr int kSweeps = 2;
 
 double CostOf(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> normals, int i,
-              const Plane& plane) {
-  const double off = plane.Distance(grid[i].point) / DistanceSigma(grid, i, plane);
+              const SurfacePlane& surface) {
+  const Plane& plane = surface.plane;
+  // A dense map is smoother than its ranges are certain, and beside a crease the smooth part
+  // decides which of two planes a point lies on.
+  const double sigma_m =
+      std::min(DistanceSigma(grid, i, plane), std::max(kLeastSigma_m, surface.rms_m));
+  const double off = plane.Distance(grid[i].point) / sigma_m;
   double cost = 0.5 * off * off;
   if (cost >= kMaxCost) return kMaxCost;
   const Eigen::Vector3d& normal = normals[static_cast<std::size_t>(i)];
@@ -35,33 +41,6 @@ double CostOf(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> normals,
     cost += kUnknownNormalCost;
   }
   return std::min(cost, kMaxCost);
-}
-
-/// The points within reach of a plane's own, in cells, its own first.
-std::vector<int> PointsAround(const SurfaceGrid& grid, const std::vector<int>& own,
-                              std::vector<int>& visited, int mark) {
-  std::vector<int> around = own;
-  double range_m = 0.0;
-  for (const int i : own) {
-    visited[static_cast<std::size_t>(i)] = mark;
-    range_m += grid[i].range_m;
-  }
-  if (own.empty()) return around;
-  range_m /= static_cast<double>(own.size());
-  const int rings =
-      std::clamp(static_cast<int>(kReach_m / (range_m * grid.step_rad().maxCoeff())), 1, kMaxReach);
-  std::size_t begin = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t end = around.size();
-    for (; begin < end; ++begin)
-      for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-        const int j = grid.Neighbor(around[begin], dx, dy);
-        if (j < 0 || visited[static_cast<std::size_t>(j)] == mark) continue;
-        visited[static_cast<std::size_t>(j)] = mark;
-        around.push_back(j);
-      }
-  }
-  return around;
 }
 
 void AddEdges(const SurfaceGrid& grid, LabelProblem& problem) {
@@ -84,14 +63,11 @@ LabelProblem PlaneLabelProblem(const SurfaceGrid& grid, std::span<const Eigen::V
   problem.nodes = grid.size();
   problem.choices.resize(surfaces.planes.size() + 1);
   for (int i = 0; i < grid.size(); ++i) problem.choices[0].push_back({i, kNoPlaneCost});
-  std::vector<std::vector<int>> own(surfaces.planes.size());
-  for (int i = 0; i < grid.size(); ++i)
-    if (const int label = surfaces.labels[static_cast<std::size_t>(i)]; label >= 0)
-      own[static_cast<std::size_t>(label)].push_back(i);
-  std::vector<int> visited(static_cast<std::size_t>(grid.size()), -1);
+  const std::vector<std::vector<int>> own = PointsOfEach(surfaces);
+  PlaneReach reach(grid);
   for (std::size_t k = 0; k < own.size(); ++k)
-    for (const int i : PointsAround(grid, own[k], visited, static_cast<int>(k)))
-      problem.choices[k + 1].push_back({i, CostOf(grid, normals, i, surfaces.planes[k].plane)});
+    for (const int i : reach.Around(own[k]))
+      problem.choices[k + 1].push_back({i, CostOf(grid, normals, i, surfaces.planes[k])});
   AddEdges(grid, problem);
   return problem;
 }
@@ -101,6 +77,7 @@ Status RelabelPlanes(const SurfaceGrid& grid, std::span<const Eigen::Vector3d> n
   for (int round = 0; round < kRounds; ++round) {
     if (context.Cancelled())
       return Fail(ErrorCode::kCancelled, "fitting the terrain was cancelled");
+    DissolveCreaseSlivers(grid, min_area_m2, surfaces);
     const LabelProblem problem = PlaneLabelProblem(grid, normals, surfaces);
     std::vector<int> labels = surfaces.labels;
     for (int& label : labels) ++label;

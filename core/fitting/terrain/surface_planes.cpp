@@ -13,14 +13,6 @@ constexpr double kTukeySigmas = 4.0;
 constexpr int kRounds = 3;
 constexpr double kLeastClosing = 0.05;  // cosine between ray and normal, for areas
 
-std::vector<std::vector<int>> PointsOfEach(const SurfacePlanes& surfaces) {
-  std::vector<std::vector<int>> points(surfaces.planes.size());
-  for (std::size_t i = 0; i < surfaces.labels.size(); ++i)
-    if (surfaces.labels[i] >= 0)
-      points[static_cast<std::size_t>(surfaces.labels[i])].push_back(static_cast<int>(i));
-  return points;
-}
-
 double TukeyWeight(double error_sigmas) {
   const double ratio = error_sigmas / kTukeySigmas;
   if (std::abs(ratio) >= 1.0) return 0.0;
@@ -61,6 +53,14 @@ bool Refit(const SurfaceGrid& grid, const std::vector<int>& points, SurfacePlane
 }
 
 }  // namespace
+
+std::vector<std::vector<int>> PointsOfEach(const SurfacePlanes& surfaces) {
+  std::vector<std::vector<int>> points(surfaces.planes.size());
+  for (std::size_t i = 0; i < surfaces.labels.size(); ++i)
+    if (surfaces.labels[i] >= 0)
+      points[static_cast<std::size_t>(surfaces.labels[i])].push_back(static_cast<int>(i));
+  return points;
+}
 
 double DistanceSigma(const SurfaceGrid& grid, int i, const Plane& plane) {
   return std::hypot(kRoughness_m, grid.sigma_m() * plane.normal.dot(grid[i].direction));

@@ -23,6 +23,9 @@ struct SurfacePlanes {
   std::vector<int> labels;  ///< index into planes; -1 = none
 };
 
+/// The points that bear each plane's label, in the grid's order.
+std::vector<std::vector<int>> PointsOfEach(const SurfacePlanes& surfaces);
+
 /// Standard deviation of a point's distance from a plane, from that of its range and what a
 /// surface is rough by.
 double DistanceSigma(const SurfaceGrid& grid, int i, const Plane& plane);
