@@ -75,10 +75,24 @@ bool IsVtk(const std::string& target) {
   return StartsWithAny(target, {"vtk", "QVTK"});
 }
 
-const std::vector<std::string> kCoreOrder = {
-    "base",         "geometry",   "io",      "sensor",        "objects",       "simulation",
-    "registration", "depth",      "fitting", "fitting/valve", "fitting/drill", "fitting/terrain",
-    "detection",    "evaluation", "mission", "pictures",      "report"};
+const std::vector<std::string> kCoreOrder = {"base",
+                                             "geometry",
+                                             "io",
+                                             "sensor",
+                                             "objects",
+                                             "simulation",
+                                             "registration",
+                                             "depth",
+                                             "fitting",
+                                             "fitting/valve",
+                                             "fitting/drill",
+                                             "fitting/terrain",
+                                             "fitting/cylinder",
+                                             "detection",
+                                             "evaluation",
+                                             "mission",
+                                             "pictures",
+                                             "report"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);
