@@ -41,8 +41,12 @@ Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome
   if (!roi)
     return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the picture",
                 world.scene().name);
-  FORESIGHT_TRY(outcome.valve, FitValveInScan({outcome.scan.rig, outcome.registered},
-                                              FitSource::kRaw, *roi, FitValveOptions(), context));
+  const DemoSubject subject{
+      outcome.scan.rig, outcome.registered, outcome.frame, *roi, truth, world};
+  FORESIGHT_TRY(const std::vector<DemoAnswer> answers, FitToEverySource(subject, context));
+  FORESIGHT_TRY(outcome.valve, answers.front().valve);
+  outcome.sources = TableOf(answers);
+  outcome.source_pictures = PicturesOf(answers, subject);
   outcome.error = CompareWithTruth(outcome.valve.best, truth, world);
   return {};
 }
@@ -83,7 +87,7 @@ Result<ExitCode> Demo(const DemoArguments& arguments, const RunContext& context)
   FORESIGHT_TRY(const auto mission, OpenOrCreateMission(outcome.mission_file));
   FORESIGHT_TRY(const FlownScan flown, FlyScan(*site.head, DemoPlan(), mission, context));
   FORESIGHT_TRY(outcome.scan, mission->LoadScan(flown.id));
-  fmt::print(stderr, "computing depth and fitting the valve\n");
+  fmt::print(stderr, "computing depth and fitting the valve to every source\n");
   FORESIGHT_CHECK(Process(*site.world, site.world->scene().valves.front(), outcome, context));
   FORESIGHT_CHECK(SaveDetection(*mission, flown.id, outcome.valve, outcome.scan.rig));
   FORESIGHT_CHECK(mission->Close());

@@ -121,7 +121,7 @@ HtmlReport ReportOf(const DemoOutcome& o) {
       "from the truth.",
       ToString(o.valve.verdict.level), 1000.0 * o.error.center_m,
       DegreesFromRadians(o.error.axis_rad));
-  report.tables = {ScanTable(o), DepthTable(o), ValveTable(o), TruthTable(o)};
+  report.tables = {ScanTable(o), DepthTable(o), ValveTable(o), TruthTable(o), o.sources};
   report.pictures = {
       {"image.png", "Picture", "What the camera saw.", o.frame.image},
       {"samples.png", "Raw samples",
@@ -139,6 +139,7 @@ HtmlReport ReportOf(const DemoOutcome& o) {
        WithOverlay(o.frame.image, o)},
       {"overlay-depth.png", "Fit on the masked depth",
        "Yellow: the region; green: the fitted template.", WithOverlay(masked, o)}};
+  report.pictures.insert(report.pictures.end(), o.source_pictures.begin(), o.source_pictures.end());
   return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/ctl/demo_sources.h"
 #include "app/ctl/true_valve.h"
 #include "core/depth/pipeline.h"
 #include "core/registration/register_scan.h"
@@ -16,6 +17,8 @@ struct DemoOutcome {
   DepthResult depth;
   ValveDetection valve;
   ValveError error;
+  HtmlReport::Table sources;  ///< the same region, every source
+  std::vector<HtmlReport::Picture> source_pictures;
   std::string mission_file;
 };
 

@@ -43,7 +43,7 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
       image_(new ImagePane(&bench->session, &bench->fit, &bench->layers)),
       depth_(new DepthPane({&bench->session, &bench->depth, &bench->fit, &bench->layers,
                             &bench->compare, &bench->live})),
-      cloud_(new CloudPane(&bench->session)),
+      cloud_(new CloudPane(&bench->session, &bench->fit)),
       notices_(new NoticeStrip) {
   setWindowTitle(tr("Foresight"));
   BuildBars();

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/pictures/draw.h"
-#include "core/pictures/projected_wireframe.h"
 
 namespace foresight {
 namespace {
@@ -50,15 +49,19 @@ void DrawOutlines(ColorImage& picture, const std::vector<Outline>& outlines, con
   for (const Outline& outline : outlines) DrawOutline(picture, outline, rig, motor_rad);
 }
 
-void DrawRegion(ColorImage& picture, const Roi& roi, const SensorRig& rig, double motor_rad) {
+PixelLines RegionLines(const Roi& roi, const SensorRig& rig, double motor_rad) {
   constexpr double kSamePicture_rad = 1e-6;
-  if (const auto* box = std::get_if<BoxRoi>(&roi)) {
-    DrawPolylines(picture, ProjectWireframe(WireframeOf(*box), rig, motor_rad), kRegion, 1);
-    return;
-  }
+  if (const auto* box = std::get_if<BoxRoi>(&roi))
+    return ProjectWireframe(WireframeOf(*box), rig, motor_rad);
   const auto& image = std::get<ImageRoi>(roi);
-  if (std::abs(image.motor_rad - motor_rad) <= kSamePicture_rad)
-    DrawPolygon(picture, image.polygon, kRegion, 1);
+  if (image.polygon.empty() || std::abs(image.motor_rad - motor_rad) > kSamePicture_rad) return {};
+  PixelLines lines = {image.polygon};
+  lines.front().push_back(lines.front().front());
+  return lines;
+}
+
+void DrawRegion(ColorImage& picture, const Roi& roi, const SensorRig& rig, double motor_rad) {
+  DrawPolylines(picture, RegionLines(roi, rig, motor_rad), kRegion, 1);
 }
 
 ColorImage AroundRegion(const ColorImage& picture, const Roi& roi) {

@@ -3,6 +3,7 @@
 #include "core/base/image.h"
 #include "core/detection/detection.h"
 #include "core/detection/outline.h"
+#include "core/pictures/projected_wireframe.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
@@ -19,6 +20,10 @@ void DrawDetection(ColorImage& picture, const Detection& detection, int candidat
 /// Outlines alone, in the same way.
 void DrawOutlines(ColorImage& picture, const std::vector<Outline>& outlines, const SensorRig& rig,
                   double motor_rad);
+
+/// The lines of a region in the picture at `motor_rad`: its closed polygon where it was drawn on
+/// this picture (else nothing), the edges of a box.
+PixelLines RegionLines(const Roi& roi, const SensorRig& rig, double motor_rad);
 
 /// The outline of a region: its polygon where it was drawn on the picture at `motor_rad`, the edges
 /// of a box.

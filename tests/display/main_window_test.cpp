@@ -157,16 +157,53 @@ TEST_F(Workstation, DraggingOverTheValveInTheDepthMapFindsItToo) {
   EXPECT_TRUE(WaitForObject(before + 1));
 }
 
+TEST_F(Workstation, DraggingOverTheValveInTheCloudPutsABoxRoundItAndFindsIt) {
+  SessionModel& session = running->bench().session;
+  const std::size_t before = session.Objects().size();
+  running->bench().fit.SetTool(ObjectKind::kValve, true);
+  CloudCanvas* canvas = running->window().Cloud()->Canvas();
+  const Eigen::Vector3d valve = running->ValveInRobot();
+  const QImage empty = CloudPixels();
+  const QPoint middle = canvas->WidgetFromRobot(valve);
+  const QPoint beside = canvas->WidgetFromRobot(valve + Eigen::Vector3d(0.0, 0.25, 0.25));
+  const QPoint reach(std::abs(beside.x() - middle.x()), std::abs(beside.y() - middle.y()));
+  Drag(canvas, middle - reach, middle + reach);
+  ASSERT_TRUE(session.Region());
+  const auto* box = std::get_if<BoxRoi>(&*session.Region());
+  ASSERT_NE(box, nullptr);
+  EXPECT_TRUE(box->Contains(session.Rig().robot_from_base.Inverse() * valve));
+  EXPECT_LT(box->size_m.maxCoeff(), 1.2);
+  ASSERT_TRUE(WaitForObject(before + 1));
+  const FoundObject& found = session.Objects().back();
+  EXPECT_LT(
+      (found.rig.robot_from_base * CandidatePose(found.detection, 0).translation() - valve).norm(),
+      0.075);
+  EXPECT_GT(ShareOfChanges(empty, CloudPixels()), 0.001);
+  running->bench().fit.leaveTools();
+}
+
+TEST_F(Workstation, WithoutAToolDraggingInTheCloudTurnsItAndDrawsNoBox) {
+  const auto before = running->bench().session.Region().has_value();
+  running->bench().fit.leaveTools();
+  const QImage pixels = CloudPixels();
+  Drag(running->window().Cloud()->Canvas(), {60, 60}, {160, 90});
+  running->Settle();
+  EXPECT_EQ(running->bench().session.Region().has_value(), before);
+  EXPECT_GT(ShareOfChanges(pixels, CloudPixels()), 0.05);
+  running->window().Cloud()->Canvas()->ResetView();
+  running->Settle();
+}
+
 TEST_F(Workstation, EscapeCancelsADrag) {
   running->bench().fit.setRegionTool(true);
   DepthCanvas* canvas = running->window().Depth()->Canvas();
-  const auto roi_before = running->bench().session.Roi();
+  const auto roi_before = running->bench().session.Region();
   SendMouse(canvas, QEvent::MouseButtonPress, {30, 30}, Qt::LeftButton);
   SendMouse(canvas, QEvent::MouseMove, {120, 120}, Qt::LeftButton);
   QKeyEvent escape(QEvent::KeyPress, Qt::Key_Escape, Qt::NoModifier);
   QApplication::sendEvent(canvas, &escape);
   SendMouse(canvas, QEvent::MouseButtonRelease, {120, 120}, Qt::NoButton);
-  EXPECT_EQ(running->bench().session.Roi().has_value(), roi_before.has_value());
+  EXPECT_EQ(running->bench().session.Region().has_value(), roi_before.has_value());
   running->bench().fit.leaveTools();
 }
 

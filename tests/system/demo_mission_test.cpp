@@ -25,7 +25,8 @@ TEST(DemoMission, FindsTheValveOfTheRoomAndWritesAReport) {
   EXPECT_TRUE(json["spokes_right"].get<bool>());
   EXPECT_NE(json["verdict"], "UNSURE");
   for (const char* file : {"report.html", "mission.foresight", "image.png", "samples.png",
-                           "depth.png", "confidence.png", "masked.png", "cloud.png", "overlay.png"})
+                           "depth.png", "confidence.png", "masked.png", "cloud.png", "overlay.png",
+                           "fit-raw.png", "fit-foresight.png", "fit-paper.png"})
     EXPECT_GT(std::filesystem::file_size(std::filesystem::path(out) / file), 1000u) << file;
   // One file to hand over: nothing is left in a write-ahead log.
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(out) / "mission.foresight-wal"));

@@ -126,18 +126,18 @@ TEST_F(SessionTest, DrawingOverAValveWithTheToolFindsIt) {
 TEST_F(SessionTest, AClickIsNotARegion) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
   fit.DrawRegion({{100, 100}, {101, 101}});
-  EXPECT_FALSE(session.Roi());
+  EXPECT_FALSE(session.Region());
 }
 
 TEST_F(SessionTest, UndoBringsTheRegionBeforeBack) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
   fit.DrawRegion({{10, 10}, {50, 50}});
-  const auto first = session.Roi()->polygon;
+  const auto first = std::get<ImageRoi>(*session.Region()).polygon;
   fit.DrawRegion({{60, 60}, {90, 90}});
   session.undoRoi();
-  EXPECT_EQ(session.Roi()->polygon, first);
+  EXPECT_EQ(std::get<ImageRoi>(*session.Region()).polygon, first);
   session.undoRoi();
-  EXPECT_FALSE(session.Roi());
+  EXPECT_FALSE(session.Region());
   EXPECT_FALSE(session.CanUndoRoi());
 }
 

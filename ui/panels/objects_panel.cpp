@@ -38,7 +38,7 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, QWidget* pa
       list_(new QListWidget),
       empty_(
           new QLabel(tr("No objects yet. Choose a tool, valve (V), drill (D) or terrain (T), and "
-                        "draw a region over it in the picture or the depth map."))),
+                        "draw a region over it in the picture, the depth map or the cloud."))),
       card_(new DetectionCard) {
   empty_->setWordWrap(true);
   empty_->setAlignment(Qt::AlignCenter);

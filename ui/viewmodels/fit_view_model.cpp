@@ -59,7 +59,7 @@ void FitViewModel::leaveTools() {
 bool FitViewModel::CanFit() const {
   const bool has_points =
       source_ == FitSource::kRaw ? session_->Cloud() != nullptr : session_->Depth() != nullptr;
-  return session_->CurrentScan() && session_->Roi() && has_points && !runner_.Busy();
+  return session_->CurrentScan() && session_->Region() && has_points && !runner_.Busy();
 }
 
 void FitViewModel::DrawRegion(const std::vector<Eigen::Vector2d>& points) {
@@ -68,6 +68,21 @@ void FitViewModel::DrawRegion(const std::vector<Eigen::Vector2d>& points) {
   const auto roi = RegionThrough(shape_, picture->motor_angle_rad, points);
   if (!roi) return;
   session_->SetRoi(*roi);
+  if (object_tool_) fit();
+}
+
+void FitViewModel::DrawBox(const CloudRectangle& rectangle, bool cut) {
+  if (!session_->Cloud()) return;
+  const BoxRoi* within =
+      cut && session_->Region() ? std::get_if<BoxRoi>(&*session_->Region()) : nullptr;
+  const auto box =
+      BoxUnder(rectangle, session_->Cloud()->points, session_->Rig().robot_from_base, within);
+  if (!box || !box->Check()) {
+    session_->Report({Notice::Level::kInfo, tr("There are hardly any points in the rectangle."),
+                      tr("Draw it over the object in the cloud.")});
+    return;
+  }
+  session_->SetRoi(*box);
   if (object_tool_) fit();
 }
 
@@ -84,7 +99,7 @@ QString FitViewModel::Doing() const {
 }
 
 void FitViewModel::fit() {
-  if (!session_->CurrentScan() || !session_->Roi()) return;
+  if (!session_->CurrentScan() || !session_->Region()) return;
   if (!CanFit() && !runner_.Busy()) {
     session_->Report({Notice::Level::kWarning, tr("There are no points to fit to yet."),
                       tr("Wait until the depth is computed, then press Fit.")});
@@ -92,7 +107,7 @@ void FitViewModel::fit() {
   }
   const auto options = FitOptionsFor(kind_, session_->CurrentScan()->rig.robot_from_base);
   const auto work = [scan = session_->CurrentScan(), cloud = session_->Cloud(),
-                     depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Roi(),
+                     depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Region(),
                      source = source_, options](const RunContext& context) -> Result<Detection> {
     const ProcessedScan processed{scan->rig, *cloud, depth.get(), mask.get()};
     return FitInScan(processed, source, roi, options, context);

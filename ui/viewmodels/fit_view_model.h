@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/detection/fit_in_scan.h"
+#include "ui/viewmodels/box_region.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
@@ -47,6 +48,9 @@ class FitViewModel : public QObject {
   /// Points in pixels of the current picture, as many as the shape asks for. Fits at once while an
   /// object's tool is on. A region too small to be meant is ignored.
   void DrawRegion(const std::vector<Eigen::Vector2d>& points);
+  /// A rectangle over the cloud: a box round what it shows or, with `cut`, what is left of the
+  /// present box. Fits as DrawRegion does.
+  void DrawBox(const CloudRectangle& rectangle, bool cut);
 
  public Q_SLOTS:
   /// Drawing a region only selects it.

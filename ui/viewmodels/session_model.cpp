@@ -75,7 +75,7 @@ void SessionModel::SetMask(std::shared_ptr<const MaskImage> mask) {
   Q_EMIT maskChanged();
 }
 
-void SessionModel::SetRoi(std::optional<ImageRoi> roi) {
+void SessionModel::SetRoi(std::optional<Roi> roi) {
   roi_history_.push_back(roi_);
   roi_ = std::move(roi);
   Q_EMIT roiChanged();

@@ -66,8 +66,8 @@ class SessionModel : public QObject {
   void SetMask(std::shared_ptr<const MaskImage> mask);
   const std::shared_ptr<const MaskImage>& Mask() const { return mask_; }
 
-  void SetRoi(std::optional<ImageRoi> roi);
-  const std::optional<ImageRoi>& Roi() const { return roi_; }
+  void SetRoi(std::optional<Roi> roi);
+  const std::optional<Roi>& Region() const { return roi_; }
   bool CanUndoRoi() const { return !roi_history_.empty(); }
 
   void AddObject(FoundObject object);
@@ -116,8 +116,8 @@ class SessionModel : public QObject {
   SensorRig rig_;
   std::shared_ptr<const DepthResult> depth_;
   std::shared_ptr<const MaskImage> mask_;
-  std::optional<ImageRoi> roi_;
-  std::vector<std::optional<ImageRoi>> roi_history_;
+  std::optional<Roi> roi_;
+  std::vector<std::optional<Roi>> roi_history_;
   std::vector<FoundObject> objects_;
   int selected_object_ = -1;
   int candidate_ = 0;

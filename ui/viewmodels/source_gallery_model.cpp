@@ -75,14 +75,14 @@ SourceGalleryModel::SourceGalleryModel(SessionModel* session, FitViewModel* fit,
 
 bool SourceGalleryModel::CanStart() const {
   return session_->CurrentScan() && session_->Cloud() && session_->Picture() != nullptr &&
-         session_->Roi() && !runner_.Busy();
+         session_->Region() && !runner_.Busy();
 }
 
 void SourceGalleryModel::start() {
   if (!CanStart()) return;
   const auto options = FitOptionsFor(fit_->Kind(), session_->CurrentScan()->rig.robot_from_base);
   const Subject subject{session_->CurrentScan(), session_->Cloud(), session_->PictureIndex(),
-                        *session_->Roi(), options};
+                        *session_->Region(), options};
   using Answers = std::vector<SourceAnswer>;
   runner_.Run<Answers>(
       tr("Comparing sources"),

@@ -2,21 +2,25 @@
 
 #include <vtkAxesActor.h>
 #include <vtkCamera.h>
+#include <vtkMatrix4x4.h>
 #include <vtkPointPicker.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <QMouseEvent>
+#include <QRubberBand>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "ui/render/vtk_data.h"
+#include "ui/views/overlay_style.h"
 
 namespace foresight {
 namespace {
 
 constexpr double kOrbitPerPixel_rad = 0.008;
+constexpr int kSmallestRectangle_px = 5;
 
 vtkPolyDataMapper* MapperOf(vtkActor* actor) {
   return static_cast<vtkPolyDataMapper*>(actor->GetMapper());
@@ -81,7 +85,9 @@ CloudCanvas::CloudCanvas(QWidget* parent)
       sample_(MakeActor(VtkPointsOf({}, 0))),
       residuals_(MakeActor(VtkPointsOf(OnePoint(), 1))),
       outlines_(overlay_, 0.0),
-      compass_(vtkSmartPointer<vtkOrientationMarkerWidget>::New()) {
+      region_(overlay_, 0.0),
+      compass_(vtkSmartPointer<vtkOrientationMarkerWidget>::New()),
+      rectangle_(new QRubberBand(QRubberBand::Rectangle, this)) {
   renderWindow()->AddRenderer(renderer_);
   renderer_->SetBackground(0.07, 0.08, 0.10);
   renderer_->SetBackground2(0.15, 0.17, 0.20);
@@ -131,6 +137,18 @@ void CloudCanvas::SetOutlines(const std::vector<RobotOutline>& outlines) {
   Redraw();
 }
 
+void CloudCanvas::SetRegion(const Wireframe& lines) {
+  region_.Clear();
+  if (!lines.empty()) region_.Add(lines, {kRoiColor, 1.5f});
+  Redraw();
+}
+
+void CloudCanvas::SetDrawing(bool drawing) {
+  drawing_ = drawing;
+  rectangle_->hide();
+  setCursor(drawing ? Qt::CrossCursor : Qt::ArrowCursor);
+}
+
 void CloudCanvas::SetResiduals(const PointSet& set) {
   residuals_->SetVisibility(set.points.empty() ? 0 : 1);
   if (!set.points.empty()) MapperOf(residuals_)->SetInputData(VtkPointsOf(set, set.points.size()));
@@ -147,15 +165,13 @@ void CloudCanvas::ResetView() {
 bool CloudCanvas::event(QEvent* event) {
   switch (event->type()) {
     case QEvent::MouseButtonPress:
-      setFocus();
-      last_position_ = static_cast<QMouseEvent*>(event)->localPos();
-      ShowSample(true);
+      OnPress(*static_cast<QMouseEvent*>(event));
       return true;
     case QEvent::MouseMove:
       OnMove(*static_cast<QMouseEvent*>(event));
       return true;
     case QEvent::MouseButtonRelease:
-      ShowSample(false);
+      OnRelease(*static_cast<QMouseEvent*>(event));
       return true;
     case QEvent::MouseButtonDblClick:
       LookAtPointUnder(static_cast<QMouseEvent*>(event)->localPos());
@@ -167,18 +183,36 @@ bool CloudCanvas::event(QEvent* event) {
       Redraw();
       return true;
     case QEvent::KeyPress:
-      event->ignore();  // VTK's own keys (e, q, w) must not reach an operator
-      return false;
+      return OnKey(*static_cast<QKeyEvent*>(event));
     default:
       return VtkCanvas::event(event);
   }
 }
 
+void CloudCanvas::OnPress(const QMouseEvent& event) {
+  setFocus();
+  last_position_ = event.localPos();
+  if (drawing_ && event.button() == Qt::LeftButton) {
+    rectangle_begin_ = event.pos();
+    rectangle_->setGeometry(QRect(rectangle_begin_, QSize()));
+    rectangle_->show();
+  } else {
+    ShowSample(true);
+  }
+}
+
 void CloudCanvas::OnMove(const QMouseEvent& event) {
+  if (rectangle_->isVisible()) {
+    rectangle_->setGeometry(QRect(rectangle_begin_, event.pos()).normalized());
+    return;
+  }
   const QPointF way = event.localPos() - last_position_;
   last_position_ = event.localPos();
   if (event.buttons() == Qt::NoButton) return;
-  if (event.buttons() & Qt::LeftButton && !(event.modifiers() & Qt::ShiftModifier)) {
+  const bool orbits =
+      drawing_ ? event.buttons() & Qt::RightButton
+               : event.buttons() & Qt::LeftButton && !(event.modifiers() & Qt::ShiftModifier);
+  if (orbits) {
     camera_.Orbit(kOrbitPerPixel_rad * way.x(), kOrbitPerPixel_rad * way.y());
   } else {
     const double view_angle = renderer_->GetActiveCamera()->GetViewAngle() * M_PI / 180.0;
@@ -189,6 +223,46 @@ void CloudCanvas::OnMove(const QMouseEvent& event) {
   moved_ = true;
   PlaceCamera();
   Redraw();
+}
+
+void CloudCanvas::OnRelease(const QMouseEvent& event) {
+  if (!rectangle_->isVisible() || event.button() != Qt::LeftButton) {
+    ShowSample(false);
+    return;
+  }
+  rectangle_->hide();
+  const QRect drawn = QRect(rectangle_begin_, event.pos()).normalized();
+  if (drawn.width() < kSmallestRectangle_px || drawn.height() < kSmallestRectangle_px) return;
+  CloudRectangle rectangle;
+  rectangle.clip_from_robot = ClipFromRobot();
+  rectangle.corners = {ClipFrom(drawn.bottomLeft()), ClipFrom(drawn.topRight())};
+  Q_EMIT rectangleDrawn(rectangle, event.modifiers() & Qt::ShiftModifier);
+}
+
+bool CloudCanvas::OnKey(const QKeyEvent& event) {
+  if (event.key() == Qt::Key_Escape && rectangle_->isVisible()) {
+    rectangle_->hide();
+    return true;
+  }
+  return false;  // VTK's own keys (e, q, w) must not reach an operator
+}
+
+Eigen::Matrix4d CloudCanvas::ClipFromRobot() const {
+  vtkMatrix4x4* matrix = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+      renderer_->GetTiledAspectRatio(), -1.0, 1.0);
+  return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix->GetData());
+}
+
+Eigen::Vector2d CloudCanvas::ClipFrom(const QPoint& position) const {
+  return {2.0 * position.x() / std::max(1, width()) - 1.0,
+          1.0 - 2.0 * position.y() / std::max(1, height())};
+}
+
+QPoint CloudCanvas::WidgetFromRobot(const Eigen::Vector3d& point) const {
+  const Eigen::Vector4d clip = ClipFromRobot() * point.homogeneous();
+  const Eigen::Vector2d at = clip.head<2>() / clip.w();
+  return {static_cast<int>(std::lround(0.5 * (at.x() + 1.0) * width())),
+          static_cast<int>(std::lround(0.5 * (1.0 - at.y()) * height()))};
 }
 
 void CloudCanvas::LookAtPointUnder(const QPointF& position) {

@@ -16,7 +16,7 @@ constexpr int kDepthStride_px = 2;
 
 }  // namespace
 
-CloudPane::CloudPane(SessionModel* session, QWidget* parent)
+CloudPane::CloudPane(SessionModel* session, FitViewModel* fit, QWidget* parent)
     : Pane(new CloudCanvas, tr("No scan yet: press Scan (Space)"), parent),
       session_(session),
       canvas_(static_cast<CloudCanvas*>(Pane::Canvas())),
@@ -39,6 +39,10 @@ CloudPane::CloudPane(SessionModel* session, QWidget* parent)
   for (auto signal : {&SessionModel::objectsChanged, &SessionModel::cloudChanged})
     connect(session_, signal, this, &CloudPane::PrepareResiduals);
   PrepareResiduals();
+  connect(session_, &SessionModel::roiChanged, this,
+          [this] { canvas_->SetRegion(RegionInRobot(*session_)); });
+  connect(fit, &FitViewModel::changed, this, [this, fit] { canvas_->SetDrawing(fit->Drawing()); });
+  connect(canvas_, &CloudCanvas::rectangleDrawn, fit, &FitViewModel::DrawBox);
   connect(session_, &SessionModel::scanChanged, this,
           [this] { canvas_->SetOutlines(OutlinesInRobot(*session_)); });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/render/point_set.h"
+#include "ui/viewmodels/fit_view_model.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 #include "ui/views/cloud_canvas.h"
@@ -16,7 +17,7 @@ class CloudPane : public Pane {
   Q_OBJECT
 
  public:
-  explicit CloudPane(SessionModel* session, QWidget* parent = nullptr);
+  CloudPane(SessionModel* session, FitViewModel* fit, QWidget* parent = nullptr);
 
   CloudCanvas* Canvas() { return canvas_; }
   QToolButton* ResidualButton() { return residuals_; }

@@ -46,14 +46,14 @@ DepthCanvas::DepthCanvas(QWidget* parent)
       marks_(renderer_),
       second_marks_(renderer_),
       outlines_(renderer_, 0.9),
-      roi_(LineActor(kRoiColor, 2.0f)),
+      region_(LineActor(kRoiColor, 2.0f)),
       gesture_actor_(LineActor(kRoiColor, 2.0f)) {
   renderWindow()->AddRenderer(renderer_);
   renderer_->SetBackground(0.09, 0.10, 0.12);
   renderer_->GetActiveCamera()->ParallelProjectionOn();
   picture_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
   renderer_->AddActor(picture_);
-  for (const auto& actor : {roi_, gesture_actor_}) renderer_->AddActor(actor);
+  for (const auto& actor : {region_, gesture_actor_}) renderer_->AddActor(actor);
   PartMarks();
   setMinimumSize(160, 120);
   setMouseTracking(true);
@@ -105,31 +105,24 @@ void DepthCanvas::PartMarks() {
   }
 }
 
-void DepthCanvas::SetRoi(const std::optional<ImageRoi>& roi) {
-  SetLines(roi_, roi ? Outline(roi->polygon) : Polylines());
+void DepthCanvas::SetRegion(const PixelLines& lines) {
+  SetLines(region_, InWorld(lines));
   Redraw();
 }
 
-Polylines DepthCanvas::Outline(const std::vector<Eigen::Vector2d>& corners) const {
-  if (corners.empty()) return {};
-  std::vector<Eigen::Vector3d> line;
-  for (const auto& corner : corners)
-    line.emplace_back(corner.x(), image_height_ - 1 - corner.y(), 0.0);
-  line.push_back(line.front());
-  return {line};
+Polylines DepthCanvas::InWorld(const PixelLines& lines) const {
+  Polylines in_world;
+  for (const auto& line : lines) {
+    auto& world_line = in_world.emplace_back();
+    for (const auto& pixel : line)
+      world_line.emplace_back(pixel.x(), image_height_ - 1 - pixel.y(), 0.0);
+  }
+  return in_world;
 }
 
 void DepthCanvas::SetOutlines(const std::vector<PixelOutline>& outlines) {
   outlines_.Clear();
-  for (const PixelOutline& outline : outlines) {
-    Polylines lines;
-    for (const auto& pixel_line : outline.lines) {
-      auto& line = lines.emplace_back();
-      for (const auto& pixel : pixel_line)
-        line.emplace_back(pixel.x(), image_height_ - 1 - pixel.y(), 0.0);
-    }
-    outlines_.Add(lines, outline.style);
-  }
+  for (const PixelOutline& outline : outlines) outlines_.Add(InWorld(outline.lines), outline.style);
   Redraw();
 }
 
@@ -295,7 +288,9 @@ void DepthCanvas::Finish(const std::optional<RegionGesture::Points>& points) {
 }
 
 void DepthCanvas::DrawGesture() {
-  SetLines(gesture_actor_, Outline(gesture_.Preview()));
+  RegionGesture::Points preview = gesture_.Preview();
+  if (!preview.empty()) preview.push_back(preview.front());
+  SetLines(gesture_actor_, preview.empty() ? Polylines() : InWorld({preview}));
   Redraw();
 }
 

@@ -8,9 +8,9 @@
 #include "core/base/image.h"
 #include "core/fitting/roi.h"
 #include "ui/render/vtk_data.h"
+#include "ui/viewmodels/region_gesture.h"
 #include "ui/views/mark_actors.h"
 #include "ui/views/outline_actors.h"
-#include "ui/viewmodels/region_gesture.h"
 #include "ui/views/vtk_canvas.h"
 #include "ui/views/wipe_actors.h"
 
@@ -32,7 +32,7 @@ class DepthCanvas : public VtkCanvas {
   void SetMarks(std::vector<SampleMark> marks);
   /// The marks right of the line; nullopt = the first ones go on there.
   void SetSecondMarks(std::optional<std::vector<SampleMark>> marks);
-  void SetRoi(const std::optional<ImageRoi>& roi);
+  void SetRegion(const PixelLines& lines);
   void SetOutlines(const std::vector<PixelOutline>& outlines);
   void SetDrawing(bool drawing, RegionShape shape);
   void ShowAll();
@@ -61,7 +61,8 @@ class DepthCanvas : public VtkCanvas {
   Eigen::Vector2d PixelAt(const QPointF& position) const;
   /// World units (pixels of the picture) in a pixel of the widget.
   double Scale() const;
-  Polylines Outline(const std::vector<Eigen::Vector2d>& corners) const;
+  /// Lines of the picture in the canvas' world.
+  Polylines InWorld(const PixelLines& lines) const;
   void PlaceCamera();
   void Finish(const std::optional<RegionGesture::Points>& points);
   void DrawGesture();
@@ -74,7 +75,7 @@ class DepthCanvas : public VtkCanvas {
   MarkActors second_marks_;
   bool second_has_marks_ = false;
   OutlineActors outlines_;
-  vtkSmartPointer<vtkActor> roi_;
+  vtkSmartPointer<vtkActor> region_;
   vtkSmartPointer<vtkActor> gesture_actor_;
   RegionGesture gesture_;
   QPointF pan_from_;

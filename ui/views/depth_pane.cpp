@@ -122,7 +122,9 @@ void DepthPane::Bind() {
   connect(session_, &SessionModel::depthChanged, this, show_outlines);
   connect(session_, &SessionModel::objectsChanged, this, show_outlines);
   connect(session_, &SessionModel::maskChanged, this, &DepthPane::Paint);
-  connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
+  const auto show_region = [this] { canvas_->SetRegion(RegionInPicture(*session_)); };
+  connect(session_, &SessionModel::roiChanged, this, show_region);
+  connect(session_, &SessionModel::pictureChanged, this, show_region);
   connect(layers_, &LayersViewModel::changed, this, [this] {
     if (layers_->IterationsOpen()) depth_->setKeepIterations(true);
     Paint();

@@ -50,7 +50,7 @@ ImageCanvas::ImageCanvas(QWidget* parent) : QGraphicsView(parent) {
   picture_ = scene()->addPixmap({});
   picture_->setTransformationMode(Qt::SmoothTransformation);
   picture_->setOffset(-0.5, -0.5);
-  roi_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5));
+  region_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5));
   gesture_item_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5, Qt::DashLine),
                                    QColor(255, 255, 255, 40));
 }
@@ -62,8 +62,10 @@ void ImageCanvas::SetPicture(const ColorImage& picture) {
   if (!same_size) ShowAll();
 }
 
-void ImageCanvas::SetRoi(const std::optional<ImageRoi>& roi) {
-  roi_->setPath(roi ? PathThrough(roi->polygon, true) : QPainterPath());
+void ImageCanvas::SetRegion(const PixelLines& lines) {
+  QPainterPath path;
+  for (const auto& line : lines) path.addPath(PathThrough(line, false));
+  region_->setPath(path);
 }
 
 void ImageCanvas::SetOutlines(const std::vector<PixelOutline>& outlines) {

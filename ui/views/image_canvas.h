@@ -3,10 +3,9 @@
 #include <QGraphicsView>
 
 #include "core/base/image.h"
-#include "core/fitting/roi.h"
 #include "core/pictures/sample_marks.h"
-#include "ui/views/outlines.h"
 #include "ui/viewmodels/region_gesture.h"
+#include "ui/views/outlines.h"
 
 class QGraphicsPathItem;
 class QGraphicsPixmapItem;
@@ -22,7 +21,7 @@ class ImageCanvas : public QGraphicsView {
   explicit ImageCanvas(QWidget* parent = nullptr);
 
   void SetPicture(const ColorImage& picture);
-  void SetRoi(const std::optional<ImageRoi>& roi);
+  void SetRegion(const PixelLines& lines);
   void SetOutlines(const std::vector<PixelOutline>& outlines);
   void SetMarks(std::vector<SampleMark> marks);
   void SetDrawing(bool drawing, RegionShape shape);
@@ -52,7 +51,7 @@ class ImageCanvas : public QGraphicsView {
   QGraphicsPixmapItem* picture_;
   std::vector<SampleMark> marks_;
   std::vector<QGraphicsPathItem*> outlines_;
-  QGraphicsPathItem* roi_;
+  QGraphicsPathItem* region_;
   QGraphicsPathItem* gesture_item_;
   RegionGesture gesture_;
   bool drawing_ = false;

@@ -38,7 +38,7 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* 
   connect(session_, &SessionModel::objectsChanged, this, &ImagePane::ShowOutlines);
   connect(session_, &SessionModel::depthChanged, this, &ImagePane::ShowSamples);
   connect(layers_, &LayersViewModel::changed, this, &ImagePane::ShowSamples);
-  connect(session_, &SessionModel::roiChanged, this, [this] { canvas_->SetRoi(session_->Roi()); });
+  connect(session_, &SessionModel::roiChanged, this, &ImagePane::ShowRegion);
   connect(choice_, QOverload<int>::of(&QComboBox::activated), session_,
           &SessionModel::SelectPicture);
   connect(fit, &FitViewModel::changed, this,
@@ -70,6 +70,7 @@ void ImagePane::ShowPicture() {
   canvas_->SetPicture(picture->image);
   ShowAge();
   ShowOutlines();
+  ShowRegion();
 }
 
 void ImagePane::ShowAge() {
@@ -91,6 +92,10 @@ void ImagePane::ShowSamples() {
                     layers_->DepthColors());
   canvas_->SetMarks(std::move(marks));
   tags_->SetLegend(depth != nullptr ? &depth->samples : nullptr, shown);
+}
+
+void ImagePane::ShowRegion() {
+  canvas_->SetRegion(RegionInPicture(*session_));
 }
 
 void ImagePane::ShowOutlines() {

@@ -27,6 +27,7 @@ class ImagePane : public Pane {
   void FillChoice();
   void ShowAge();
   void ShowOutlines();
+  void ShowRegion();
   void ShowSamples();
 
   SessionModel* session_;

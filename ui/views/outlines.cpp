@@ -47,4 +47,17 @@ std::vector<RobotOutline> OutlinesInRobot(const SessionModel& session) {
   return all;
 }
 
+PixelLines RegionInPicture(const SessionModel& session) {
+  const CameraFrame* picture = session.Picture();
+  if (picture == nullptr || !session.Region()) return {};
+  return RegionLines(*session.Region(), session.CurrentScan()->rig, picture->motor_angle_rad);
+}
+
+Wireframe RegionInRobot(const SessionModel& session) {
+  if (!session.CurrentScan() || !session.Region()) return {};
+  const auto* box = std::get_if<BoxRoi>(&*session.Region());
+  if (box == nullptr) return {};
+  return WireframeInRobot(WireframeOf(*box), session.CurrentScan()->rig);
+}
+
 }  // namespace foresight

@@ -28,4 +28,8 @@ struct RobotOutline {
 std::vector<PixelOutline> OutlinesInPicture(const SessionModel& session);
 std::vector<RobotOutline> OutlinesInRobot(const SessionModel& session);
 
+/// The session's region: in the current picture, and in robot, where only a box is seen.
+PixelLines RegionInPicture(const SessionModel& session);
+Wireframe RegionInRobot(const SessionModel& session);
+
 }  // namespace foresight

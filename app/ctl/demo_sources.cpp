@@ -1,0 +1,72 @@
+#include "app/ctl/demo_sources.h"
+
+#include "core/depth/depth_method.h"
+#include "core/detection/facts.h"
+#include "core/detection/fit_in_scan.h"
+#include "core/geometry/angles.h"
+#include "core/pictures/detection_picture.h"
+
+namespace foresight {
+namespace {
+
+Result<ValveDetection> FitToDepth(DepthMethod method, const DemoSubject& subject,
+                                  const RunContext& context) {
+  FORESIGHT_TRY(
+      const DepthResult depth,
+      ComputeDepthInFrame(subject.cloud, subject.rig, subject.frame, DefaultsOf(method), context));
+  return FitValveInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepth, subject.roi,
+                        FitValveOptions(), context);
+}
+
+std::string TextOf(const DemoAnswer& answer) {
+  if (!answer.valve) return "nothing found: " + answer.valve.error().message;
+  const Verdict& verdict = answer.valve->verdict;
+  return fmt::format("{} ({:.0f} %), {:.1f} mm and {:.2f} deg from the truth, spokes {}",
+                     ToString(verdict.level), 100.0 * verdict.probability,
+                     1000.0 * answer.error->center_m, DegreesFromRadians(answer.error->axis_rad),
+                     answer.error->spokes == 0 ? "right" : "wrong");
+}
+
+}  // namespace
+
+Result<std::vector<DemoAnswer>> FitToEverySource(const DemoSubject& subject,
+                                                 const RunContext& context) {
+  std::vector<DemoAnswer> answers;
+  answers.push_back({"raw",
+                     FitValveInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi,
+                                    FitValveOptions(), context),
+                     std::nullopt});
+  for (const DepthMethodInfo& method : DepthMethods())
+    answers.push_back({method.name, FitToDepth(method.method, subject, context), std::nullopt});
+  for (DemoAnswer& answer : answers) {
+    if (!answer.valve && answer.valve.error().code == ErrorCode::kCancelled)
+      return tl::unexpected(answer.valve.error());
+    if (answer.valve)
+      answer.error = CompareWithTruth(answer.valve->best, subject.truth, subject.world);
+  }
+  return answers;
+}
+
+HtmlReport::Table TableOf(const std::vector<DemoAnswer>& answers) {
+  HtmlReport::Table table{"The same region, every source", {}};
+  for (const DemoAnswer& answer : answers)
+    table.rows.push_back({SourceTitle(answer.source), TextOf(answer)});
+  return table;
+}
+
+std::vector<HtmlReport::Picture> PicturesOf(const std::vector<DemoAnswer>& answers,
+                                            const DemoSubject& subject) {
+  std::vector<HtmlReport::Picture> pictures;
+  for (const DemoAnswer& answer : answers) {
+    ColorImage picture = subject.frame.image;
+    if (answer.valve)
+      DrawDetection(picture, *answer.valve, 0, subject.rig, subject.frame.motor_angle_rad);
+    else
+      DrawRegion(picture, subject.roi, subject.rig, subject.frame.motor_angle_rad);
+    pictures.push_back({"fit-" + answer.source + ".png", "Fit to " + SourceTitle(answer.source),
+                        TextOf(answer), AroundRegion(picture, subject.roi)});
+  }
+  return pictures;
+}
+
+}  // namespace foresight
