@@ -1,5 +1,8 @@
 #include "app/ctl/fit_arguments.h"
 
+#include "core/base/atomic_file.h"
+#include "core/detection/detection_json.h"
+
 #include "core/depth/depth_method.h"
 
 namespace foresight {
@@ -71,6 +74,17 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->group(kGroup);
 }
 
+Result<std::shared_ptr<const TerrainDetection>> LastTerrain(const std::string& file) {
+  FORESIGHT_TRY(const std::string text, ReadFile(file));
+  const Result<Detection> detection = DetectionFromJson(text);
+  if (!detection) return Fail(ErrorCode::kBadData, "{}: {}", file, detection.error().message);
+  const auto* terrain = std::get_if<TerrainDetection>(&*detection);
+  if (terrain == nullptr)
+    return Fail(ErrorCode::kBadData, "{}: holds a {}, not a terrain", file,
+                ToString(ObjectKindOf(*detection)));
+  return std::make_shared<const TerrainDetection>(*terrain);
+}
+
 }  // namespace
 
 std::vector<std::string> SourceNames() {
@@ -100,6 +114,10 @@ void AddFitArguments(CLI::App& command, FitArguments& arguments) {
                     "Length and width of a block's top in millimetres; default: 397,390")
         ->expected(2)
         ->delimiter(',');
+  if (arguments.kind == ObjectKind::kTerrain)
+    command.add_option("--last", arguments.last,
+                       "The last accepted answer, as --json wrote it: blocks that moved since are "
+                       "marked");
   command.add_flag("--save", arguments.save, "Write the answer into the mission file");
   command.add_option("--gallery", arguments.gallery,
                      "Fit to every source and set the answers side by side in this folder");
@@ -162,6 +180,9 @@ Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
   }
   if (const auto& size = arguments.block_size_mm; !size.empty())
     std::get<FitTerrainOptions>(options).block_size_m = 1e-3 * Eigen::Vector2d(size[0], size[1]);
+  if (!arguments.last.empty()) {
+    FORESIGHT_TRY(std::get<FitTerrainOptions>(options).last, LastTerrain(arguments.last));
+  }
   return options;
 }
 

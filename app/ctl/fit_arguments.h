@@ -35,6 +35,7 @@ struct FitArguments {
 
   std::string drill_template;
   std::vector<double> block_size_mm;
+  std::string last;  ///< the JSON of an earlier terrain
   std::uint64_t seed = 1;
 
   bool save = false;
@@ -57,7 +58,8 @@ Status CheckFitArguments(const FitArguments& arguments);
 Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
                        const Rigid<frame::Robot, frame::Base>& robot_from_base);
 
-/// The fit's options as the command line wants them. Fails as LoadDrillTemplate does.
+/// The fit's options as the command line wants them. Fails as LoadDrillTemplate, ReadFile and
+/// DetectionFromJson do.
 Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
                                   const Rigid<frame::Robot, frame::Base>& robot_from_base);
 

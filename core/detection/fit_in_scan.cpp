@@ -68,7 +68,7 @@ Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
   if (const auto* drill = std::get_if<FitDrillOptions>(&options))
     return FitDrill(rays, *drill, context);
   if (const auto* terrain = std::get_if<FitTerrainOptions>(&options))
-    return FitTerrain(rays, *terrain, nullptr, context);
+    return FitTerrain(rays, *terrain, context);
   return FitValve(rays, std::get<FitValveOptions>(options), context);
 }
 

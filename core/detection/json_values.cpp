@@ -26,10 +26,9 @@ Rigid<To, frame::Object> FrameFrom(const Json& value) {
 }
 
 VerdictLevel LevelFrom(const std::string& name) {
-  for (const VerdictLevel level :
-       {VerdictLevel::kUnsure, VerdictLevel::kLikely, VerdictLevel::kConfirmed})
-    if (name == ToString(level)) return level;
-  throw std::invalid_argument("verdict '" + name + "' is not known");
+  const Result<VerdictLevel> level = VerdictLevelFromString(name);
+  if (!level) throw std::invalid_argument(level.error().message);
+  return *level;
 }
 
 Json RoiToJson(const Roi& roi) {
@@ -118,16 +117,19 @@ void AddVerdict(const Verdict& verdict, Json& object) {
   object["probability"] = verdict.probability;
   object["reason"] = verdict.reason;
   object["features"] = verdict.features;
+  object["gates"] = verdict.objections;
 }
 
 Verdict VerdictFrom(const Json& object) {
   Verdict verdict{LevelFrom(object.at("verdict")),
                   NumberFrom(object.at("probability")),
                   object.at("reason"),
+                  {},
                   {}};
   if (object.contains("features"))
     for (const Json& feature : object.at("features"))
       verdict.features.push_back(NumberFrom(feature));
+  if (object.contains("gates")) object.at("gates").get_to(verdict.objections);
   return verdict;
 }
 

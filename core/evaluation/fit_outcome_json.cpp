@@ -20,10 +20,9 @@ double NumberFrom(const ordered_json& value) {
 }
 
 VerdictLevel LevelFrom(const std::string& name) {
-  for (const VerdictLevel level :
-       {VerdictLevel::kUnsure, VerdictLevel::kLikely, VerdictLevel::kConfirmed})
-    if (name == ToString(level)) return level;
-  throw std::invalid_argument("verdict '" + name + "' is not known");
+  const Result<VerdictLevel> level = VerdictLevelFromString(name);
+  if (!level) throw std::invalid_argument(level.error().message);
+  return *level;
 }
 
 FitOutcome OutcomeFrom(const ordered_json& value) {

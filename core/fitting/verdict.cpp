@@ -14,6 +14,13 @@ const char* ToString(VerdictLevel level) {
   return "UNSURE";
 }
 
+Result<VerdictLevel> VerdictLevelFromString(const std::string& name) {
+  for (const VerdictLevel level :
+       {VerdictLevel::kUnsure, VerdictLevel::kLikely, VerdictLevel::kConfirmed})
+    if (name == ToString(level)) return level;
+  return Fail(ErrorCode::kBadData, "verdict '{}' is not known", name);
+}
+
 VerdictLevel LevelFor(double probability, bool objected) {
   if (!(probability >= Verdict::kLikely)) return VerdictLevel::kUnsure;
   return probability >= Verdict::kConfirmed && !objected ? VerdictLevel::kConfirmed

@@ -3,11 +3,15 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
+
 namespace foresight {
 
 enum class VerdictLevel { kUnsure, kLikely, kConfirmed };
 /// "UNSURE", "LIKELY", "CONFIRMED".
 const char* ToString(VerdictLevel level);
+/// Fails with kBadData for any other word.
+Result<VerdictLevel> VerdictLevelFromString(const std::string& name);
 
 /// What an operator may make of a fit.
 struct Verdict {
@@ -16,6 +20,9 @@ struct Verdict {
   std::string reason;        ///< one sentence
   /// What the probability was computed from, in the order of the object's VerdictModel.
   std::vector<double> features;
+  /// The hard gates that keep it from being CONFIRMED, whatever its probability, a sentence each,
+  /// the weightiest first; empty when none does.
+  std::vector<std::string> objections = {};
 
   static constexpr double kLikely = 0.70;     ///< least probability of LIKELY
   static constexpr double kConfirmed = 0.95;  ///< ... and of CONFIRMED

@@ -79,6 +79,11 @@ std::string VerdictModel::Reservation() const {
                      fits);
 }
 
+void VerdictModel::AddReservation(std::vector<std::string>& objections) const {
+  if (std::string reservation = Reservation(); !reservation.empty())
+    objections.push_back(std::move(reservation));
+}
+
 std::string VerdictModel::ToYaml() const {
   std::string yaml = fmt::format(
       "# Made by `foresightctl verdict fit`, docs/verdicts.md; not by hand.\n"

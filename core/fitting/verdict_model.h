@@ -38,6 +38,8 @@ struct VerdictModel {
   /// Why nothing may be CONFIRMED by this model: its population is too small to promise 98 of 100.
   /// Empty when it is large enough.
   std::string Reservation() const;
+  /// Adds that to what objects already.
+  void AddReservation(std::vector<std::string>& objections) const;
   static constexpr int kLeastFits = 150;
 
   std::string ToYaml() const;

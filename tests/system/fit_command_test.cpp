@@ -213,6 +213,18 @@ TEST_F(FitOfAScan, ARegionThatIsNoneIsWrongUsage) {
   ExpectRefused(Run({"fit", "valve", "--roi", kRegion}), 2, "mission");
 }
 
+TEST_F(FitOfAScan, TheLastAnswerOfAnotherObjectOrOfNoneIsBadData) {
+  const std::string valve = *folder_ / "valve.json";
+  const ProgramResult answer = Fit({"--roi", kRegion, "--json"});
+  ASSERT_TRUE(WriteFileAtomically(valve, answer.output));
+  const auto terrain = [](const std::string& last) {
+    return Run({"fit", "terrain", mission_, "--roi", kRegion, "--last", last});
+  };
+  EXPECT_EQ(terrain(valve).exit_code, 3);
+  EXPECT_NE(terrain(valve).errors.find("holds a valve, not a terrain"), std::string::npos);
+  EXPECT_EQ(terrain(valve + ".missing").exit_code, 3);
+}
+
 TEST_F(FitOfAScan, ABoxWithNothingInItIsANegativeAnswer) {
   const ProgramResult result = Fit({"--box", "-5,0,1,0.3,0.3,0.3", "--json"});
   EXPECT_EQ(result.exit_code, 1) << result.errors;

@@ -98,6 +98,19 @@ QString FitViewModel::Doing() const {
   return tr("Fitting the terrain");
 }
 
+FitOptions FitViewModel::Options() const {
+  FitOptions options = FitOptionsFor(kind_, session_->CurrentScan()->rig.robot_from_base);
+  auto* terrain = std::get_if<FitTerrainOptions>(&options);
+  if (terrain == nullptr) return options;
+  for (const FoundObject& object : session_->Objects()) {
+    const auto* found = std::get_if<TerrainDetection>(&object.detection);
+    if (found == nullptr || session_->IsCurrent(object)) continue;
+    if (found->verdict.level == VerdictLevel::kUnsure) continue;
+    terrain->last = std::make_shared<const TerrainDetection>(*found);
+  }
+  return options;
+}
+
 void FitViewModel::fit() {
   if (!session_->CurrentScan() || !session_->Region()) return;
   if (!CanFit() && !runner_.Busy()) {
@@ -105,7 +118,7 @@ void FitViewModel::fit() {
                       tr("Wait until the depth is computed, then press Fit.")});
     return;
   }
-  const auto options = FitOptionsFor(kind_, session_->CurrentScan()->rig.robot_from_base);
+  const FitOptions options = Options();
   const auto work = [scan = session_->CurrentScan(), cloud = session_->Cloud(),
                      depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Region(),
                      source = source_, options](const RunContext& context) -> Result<Detection> {

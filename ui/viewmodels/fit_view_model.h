@@ -64,6 +64,8 @@ class FitViewModel : public QObject {
 
  private:
   QString Doing() const;
+  /// The programs' defaults; a terrain is also compared with the last one of an earlier scan.
+  FitOptions Options() const;
   void Accept(const std::shared_ptr<const Scan>& scan, const Result<Detection>& detection);
 
   SessionModel* session_;

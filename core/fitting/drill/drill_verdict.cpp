@@ -49,39 +49,57 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           detection.best.model.body_tilt_rad.norm()};
 }
 
-/// Why the drill must not be confirmed; empty when nothing speaks against it.
-std::string Objection(const RaySet& rays, const DrillDetection& detection, const DrillState& drill,
-                      const DrillPrior& prior) {
-  const DrillEvidence& evidence = detection.evidence;
-  if (!detection.table) return "no table is seen under it: draw the region a little lower";
-  if (const double hits = Hits(rays, evidence); hits < kMinHits)
-    return fmt::format("only {:.0f} measurements lie on the drill: scan slower or move closer",
-                       hits);
-  if (evidence.see_through > kMaxSeeThrough)
-    return fmt::format("{:.0f} % of the beams went through the drill",
-                       100.0 * evidence.see_through);
-  if (!(evidence.rival_margin_nats > 0.0))
-    return fmt::format("a {} explains it as well", evidence.best_rival);
+/// What its direction has against it; empty when nothing.
+std::string DirectionObjection(const DrillEvidence& evidence, bool dense) {
   if (evidence.head_nats < kMinHead_nats) return "the head is not seen: it may point either way";
-  const double least_margin = rays.dense ? kMinYawMarginDense_nats : kMinYawMargin_nats;
+  const double least_margin = dense ? kMinYawMarginDense_nats : kMinYawMargin_nats;
   if (evidence.flip_margin_nats < least_margin)
     return "turned by 180 deg it fits almost as well: it may point either way";
   if (evidence.yaw_margin_nats < least_margin) return "another direction fits almost as well";
-  const double range = drill.kind->max_scale - drill.kind->min_scale;
-  const double scale = detection.best.model.scale;
-  if (scale < drill.kind->min_scale + kBound * range ||
-      scale > drill.kind->max_scale - kBound * range)
-    return fmt::format("its size, {:.2f} of the template's, is at the end of the range", scale);
-  if (detection.best.model.body_tilt_rad.norm() > 0.95 * prior.max_tilt_rad)
-    return fmt::format("it leans by {:.0f} deg, the most there is",
-                       DegreesFromRadians(detection.best.model.body_tilt_rad.norm()));
-  const double off_m = DistanceFromRegionCenter(
-      rays, detection.best.base_from_object * detection.best.model.object_from_grasp.translation());
-  if (off_m > kMaxOffCenter_m)
-    return fmt::format(
-        "the drill lies {:.0f} mm from the region's centre: draw the region around it",
-        1000.0 * off_m);
   return {};
+}
+
+/// What a size or a lean at its bound says; empty when nothing.
+std::string BoundObjection(const DrillModel& model, const DrillState& drill,
+                           const DrillPrior& prior) {
+  const double range = drill.kind->max_scale - drill.kind->min_scale;
+  if (model.scale < drill.kind->min_scale + kBound * range ||
+      model.scale > drill.kind->max_scale - kBound * range)
+    return fmt::format("its size, {:.2f} of the template's, is at the end of the range",
+                       model.scale);
+  if (model.body_tilt_rad.norm() > 0.95 * prior.max_tilt_rad)
+    return fmt::format("it leans by {:.0f} deg, the most there is",
+                       DegreesFromRadians(model.body_tilt_rad.norm()));
+  return {};
+}
+
+/// Why the drill must not be confirmed.
+std::vector<std::string> Objections(const RaySet& rays, const DrillDetection& detection,
+                                    const DrillState& drill, const DrillPrior& prior) {
+  const DrillEvidence& evidence = detection.evidence;
+  const DrillModel& model = detection.best.model;
+  std::vector<std::string> objections;
+  const auto object = [&objections](std::string objection) {
+    if (!objection.empty()) objections.push_back(std::move(objection));
+  };
+  if (!detection.table) object("no table is seen under it: draw the region a little lower");
+  if (const double hits = Hits(rays, evidence); hits < kMinHits)
+    object(
+        fmt::format("only {:.0f} measurements lie on the drill: scan slower or move closer", hits));
+  if (evidence.see_through > kMaxSeeThrough)
+    object(
+        fmt::format("{:.0f} % of the beams went through the drill", 100.0 * evidence.see_through));
+  if (!(evidence.rival_margin_nats > 0.0))
+    object(fmt::format("a {} explains it as well", evidence.best_rival));
+  object(DirectionObjection(evidence, rays.dense));
+  object(BoundObjection(model, drill, prior));
+  const double off_m = DistanceFromRegionCenter(
+      rays, detection.best.base_from_object * model.object_from_grasp.translation());
+  if (off_m > kMaxOffCenter_m)
+    object(
+        fmt::format("the drill lies {:.0f} mm from the region's centre: draw the region around it",
+                    1000.0 * off_m));
+  return objections;
 }
 
 std::string WeakestPoint(const DrillDetection& detection) {
@@ -219,11 +237,11 @@ Verdict AssessDrill(const RaySet& rays, const DrillDetection& detection, const D
   Verdict verdict;
   verdict.features = FeaturesOf(rays, detection);
   verdict.probability = model.Probability(verdict.features);
-  std::string objection = Objection(rays, detection, drill, prior);
-  if (objection.empty()) objection = model.Reservation();
-  verdict.level = LevelFor(verdict.probability, !objection.empty());
-  if (!objection.empty())
-    verdict.reason = objection;
+  verdict.objections = Objections(rays, detection, drill, prior);
+  model.AddReservation(verdict.objections);
+  verdict.level = LevelFor(verdict.probability, !verdict.objections.empty());
+  if (!verdict.objections.empty())
+    verdict.reason = verdict.objections.front();
   else if (verdict.level == VerdictLevel::kConfirmed)
     verdict.reason =
         fmt::format("{} beams on the drill, {:.0f} % of them agree; the other way fits worse",

@@ -209,7 +209,7 @@ Status FitTerrainOptions::Check() const {
 }
 
 Result<TerrainDetection> FitTerrain(const RaySet& rays, const FitTerrainOptions& options,
-                                    const TerrainDetection* last, const RunContext& context) {
+                                    const RunContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   FORESIGHT_CHECK(options.Check());
   context.Report(0.0, "looking at the surfaces");
@@ -234,7 +234,7 @@ Result<TerrainDetection> FitTerrain(const RaySet& rays, const FitTerrainOptions&
     found.Add(planes, plane);
   }
   TerrainDetection detection = Detect(rays, grid, options, found);
-  if (last != nullptr) MarkShifts(*last, detection.surfaces);
+  if (options.last) MarkShifts(*options.last, detection.surfaces);
   detection.origin.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   context.Report(1.0, "terrain fitted");

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 
 #include "core/base/run_context.h"
 #include "core/fitting/ray_set.h"
@@ -16,19 +17,21 @@ struct FitTerrainOptions {
   double toehold_margin_m = 0.020;                 ///< kept from each side of a block
   bool graph_cut = true;  ///< false: planes stay as they grew (for comparison)
   int max_rays = 120000;  ///< a denser region is thinned to this many
+  /// The last accepted answer; blocks that moved since are marked (both in base, the robot
+  /// unmoved).
+  std::shared_ptr<const TerrainDetection> last;
   std::uint64_t seed = 1;
 
   Status Check() const;
 };
 
 /// Finds the blocks that can be stood on, Section V-B: normals on a metric window, progressive
-/// grouping, alpha-expansion graph cut, refits, rectangles of the known size, edges. With `last`,
-/// blocks that moved since that accepted detection are marked (both in base, the robot unmoved).
-/// The same rays, options and seed give the same answer on any number of threads. A region without
-/// a block is no error: it has ground and unknown surfaces only. Fails with kTooFewPoints,
-/// kNoConvergence (no plane at all), kInvalidInput, kInvalidOptions and kCancelled. Below a second
-/// of CPU for max_rays.
+/// grouping, alpha-expansion graph cut, refits, rectangles of the known size, edges. The same rays,
+/// options and seed give the same answer on any number of threads. A region without a block is no
+/// error: it has ground and unknown surfaces only. Fails with kTooFewPoints, kNoConvergence (no
+/// plane at all), kInvalidInput, kInvalidOptions and kCancelled. Below a second of CPU for
+/// max_rays.
 Result<TerrainDetection> FitTerrain(const RaySet& rays, const FitTerrainOptions& options,
-                                    const TerrainDetection* last, const RunContext& context);
+                                    const RunContext& context);
 
 }  // namespace foresight

@@ -22,16 +22,18 @@ std::string Edges(int count) {
   return kWords[std::clamp(count, 0, 4)];
 }
 
-/// Why a block must not be confirmed; empty when nothing speaks against it.
-std::string Objection(const BlockEvidence& evidence) {
+/// Why a block must not be confirmed.
+std::vector<std::string> Objections(const BlockEvidence& evidence) {
+  std::vector<std::string> objections;
   if (evidence.outside > kMaxOutside)
-    return fmt::format("part of a larger patch: {:.0f} % of a block's area lies beyond it",
-                       100.0 * evidence.outside);
+    objections.push_back(
+        fmt::format("part of a larger patch: {:.0f} % of a block's area lies beyond it",
+                    100.0 * evidence.outside));
   if (evidence.cover < kMinCover)
-    return fmt::format("only {:.0f} % of its top is seen", 100.0 * evidence.cover);
+    objections.push_back(fmt::format("only {:.0f} % of its top is seen", 100.0 * evidence.cover));
   if (evidence.confirmed_edges < kMinEdges)
-    return fmt::format("{} not confirmed", Edges(4 - evidence.confirmed_edges));
-  return {};
+    objections.push_back(fmt::format("{} not confirmed", Edges(4 - evidence.confirmed_edges)));
+  return objections;
 }
 
 std::string WeakestPoint(const TerrainSurface& block, const RectangleEvidence& evidence) {
@@ -87,16 +89,16 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
   Verdict verdict;
   verdict.features = FeaturesOf(rays, block, evidence);
   verdict.probability = model.Probability(verdict.features);
-  std::string objection = Objection(block.evidence);
-  if (objection.empty()) objection = model.Reservation();
-  if (!objection.empty())
+  verdict.objections = Objections(block.evidence);
+  model.AddReservation(verdict.objections);
+  if (!verdict.objections.empty())
     verdict.probability = std::min(verdict.probability, Verdict::kConfirmed - 0.01);
   if (block.evidence.confirmed_edges <= kUnsureEdges)
     verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
-  const bool objected = !objection.empty() || verdict.probability < kSureEnough;
+  const bool objected = !verdict.objections.empty() || verdict.probability < kSureEnough;
   verdict.level = LevelFor(verdict.probability, objected);
-  if (!objection.empty())
-    verdict.reason = objection;
+  if (!verdict.objections.empty())
+    verdict.reason = verdict.objections.front();
   else if (verdict.level == VerdictLevel::kConfirmed)
     verdict.reason =
         fmt::format("{} confirmed, {:.0f} % of its top seen", Edges(block.evidence.confirmed_edges),

@@ -47,30 +47,32 @@ std::string ShapeObjection(const ValveModel& model, const FitValveOptions& optio
   return {};
 }
 
-/// Why the valve must not be confirmed; empty when nothing speaks against it.
-std::string Objection(const RaySet& rays, const ValveDetection& detection,
-                      const FitValveOptions& options) {
+/// Why the valve must not be confirmed.
+std::vector<std::string> Objections(const RaySet& rays, const ValveDetection& detection,
+                                    const FitValveOptions& options) {
   const ValveEvidence& evidence = detection.evidence;
   const ValveCandidate& best = detection.best;
-  const double hits = MeasuredHits(rays, evidence);
-  if (hits < kMinHits)
-    return fmt::format("only {:.0f} measurements lie on the valve: scan slower or move closer",
-                       hits);
+  std::vector<std::string> objections;
+  if (const double hits = MeasuredHits(rays, evidence); hits < kMinHits)
+    objections.push_back(
+        fmt::format("only {:.0f} measurements lie on the valve: scan slower or move closer", hits));
   if (evidence.see_through > kMaxSeeThrough)
-    return fmt::format("{:.0f} % of the beams went through the valve",
-                       100.0 * evidence.see_through);
+    objections.push_back(
+        fmt::format("{:.0f} % of the beams went through the valve", 100.0 * evidence.see_through));
   if (evidence.blocked_gaps > kMaxBlockedGaps)
-    return fmt::format("{:.0f} % of the beams beside the valve's parts did not get through",
-                       100.0 * evidence.blocked_gaps);
+    objections.push_back(
+        fmt::format("{:.0f} % of the beams beside the valve's parts did not get through",
+                    100.0 * evidence.blocked_gaps));
   if (evidence.margin_nats < kMinMargin_nats && !detection.rivals.empty())
-    return fmt::format("{} and {} fit almost equally well", NameOf(best.model),
-                       NameOf(detection.rivals.front().model));
-  const double off_m = DistanceFromRegionCenter(rays, best);
-  if (off_m > kMaxOffCenter_m)
-    return fmt::format(
-        "the valve lies {:.0f} mm from the region's centre: draw the region around it",
-        1000.0 * off_m);
-  return ShapeObjection(best.model, options);
+    objections.push_back(fmt::format("{} and {} fit almost equally well", NameOf(best.model),
+                                     NameOf(detection.rivals.front().model)));
+  if (const double off_m = DistanceFromRegionCenter(rays, best); off_m > kMaxOffCenter_m)
+    objections.push_back(
+        fmt::format("the valve lies {:.0f} mm from the region's centre: draw the region around it",
+                    1000.0 * off_m));
+  if (std::string shape = ShapeObjection(best.model, options); !shape.empty())
+    objections.push_back(std::move(shape));
+  return objections;
 }
 
 std::string WeakestPoint(const ValveDetection& detection) {
@@ -103,18 +105,18 @@ Verdict AssessValve(const RaySet& rays, const ValveDetection& detection,
                     const FitValveOptions& options) {
   const VerdictModel& model = ShippedVerdictModel("valve", rays.dense);
   const std::string disbelief = Disbelief(detection, options);
-  std::string objection = Objection(rays, detection, options);
-  if (objection.empty()) objection = model.Reservation();
   Verdict verdict;
+  verdict.objections = Objections(rays, detection, options);
+  model.AddReservation(verdict.objections);
   verdict.features = ValveFeatures(rays, detection);
   verdict.probability = model.Probability(verdict.features);
-  if (!disbelief.empty())
+  if (!disbelief.empty()) {
+    verdict.objections.insert(verdict.objections.begin(), disbelief);
     verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
-  verdict.level = LevelFor(verdict.probability, !objection.empty());
-  if (!disbelief.empty())
-    verdict.reason = disbelief;
-  else if (!objection.empty())
-    verdict.reason = objection;
+  }
+  verdict.level = LevelFor(verdict.probability, !verdict.objections.empty());
+  if (!verdict.objections.empty())
+    verdict.reason = verdict.objections.front();
   else if (verdict.level == VerdictLevel::kConfirmed)
     verdict.reason = fmt::format("{} beams on the valve, {:.0f} % of them agree",
                                  detection.evidence.hits, 100.0 * detection.evidence.inlier_share);

@@ -31,6 +31,7 @@ ValveDetection Sample() {
   detection.origin.seconds = 0.4;
   detection.origin.source = "jbu";
   detection.verdict.features = {0.5, -3.25};
+  detection.verdict.objections = {"too few measurements", "a disc fits as well"};
   detection.covariance = PoseCovariance::Identity() * 1e-6;
   return detection;
 }
@@ -56,6 +57,7 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->rivals[0].model.spokes, 2);
   EXPECT_EQ(read->origin.source, "jbu");
   EXPECT_EQ(read->verdict.features, sample.verdict.features);
+  EXPECT_EQ(read->verdict.objections, sample.verdict.objections);
   EXPECT_EQ(read->covariance, sample.covariance);
   EXPECT_EQ(std::get<ImageRoi>(read->origin.roi).polygon,
             std::get<ImageRoi>(sample.origin.roi).polygon);
@@ -129,7 +131,7 @@ TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
 
 TEST(DetectionJson, AValveOfAnOlderRecordIsStillRead) {
   auto json = nlohmann::json::parse(DetectionToJson(Sample(), {}));
-  for (const char* added_later : {"source", "features", "covariance"}) json.erase(added_later);
+  for (const char* added_later : {"source", "features", "gates", "covariance"}) json.erase(added_later);
   for (const char* added_later : {"kind", "lever_length_m"})
     json["best"]["model"].erase(added_later);
   const auto any = DetectionFromJson(json.dump());
@@ -137,6 +139,7 @@ TEST(DetectionJson, AValveOfAnOlderRecordIsStillRead) {
   const auto& read = std::get<ValveDetection>(*any);
   EXPECT_EQ(read.origin.source, "raw");
   EXPECT_TRUE(read.verdict.features.empty());
+  EXPECT_TRUE(read.verdict.objections.empty());
   EXPECT_TRUE(read.covariance.hasNaN());
   EXPECT_FALSE(read.best.model.IsLever());
 }

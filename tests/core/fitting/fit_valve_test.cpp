@@ -1,5 +1,6 @@
 #include "core/fitting/valve/fit_valve.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,6 +83,8 @@ TEST(FitValve, ALeverIsFoundByItsPivot) {
   EXPECT_NEAR(found->best.model.lever_length_m, 0.22, 0.020);
   // Any bar looks like a lever.
   EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed);
+  EXPECT_THAT(found->verdict.objections,
+              ::testing::Contains(::testing::HasSubstr("a bar looks like a lever")));
 }
 
 TEST(FitValve, ASmallWheelIsFoundUpClose) {

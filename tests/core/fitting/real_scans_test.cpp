@@ -199,7 +199,7 @@ TEST(RealScan, TheTreadsOfAStairAreLevelPlanesOneRiseApart) {
   const RaySet rays = RaysOfKinect(PointsOf("stairs_kinect2/0001_cloud.pcd"), 512);
   FitTerrainOptions options;
   options.up = -Eigen::Vector3d::UnitX();  // the camera lay on its side
-  const auto found = FitTerrain(rays, options, nullptr, {});
+  const auto found = FitTerrain(rays, options, {});
   ASSERT_TRUE(found) << found.error().message;
   const Eigen::Vector3d level = LevelNormal(*found);
   const std::vector<double> heights = LevelHeights(*found, level);

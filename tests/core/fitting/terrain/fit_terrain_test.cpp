@@ -21,7 +21,7 @@ constexpr double kSigma_m = 0.006;
 const Eigen::Vector2d kBlock(0.397, 0.390);
 
 TerrainDetection Fit(const std::vector<Slab>& slabs, std::uint64_t seed = 1) {
-  const auto found = FitTerrain(RaysOnto(slabs, kStep_deg, kSigma_m, seed), {}, nullptr, {});
+  const auto found = FitTerrain(RaysOnto(slabs, kStep_deg, kSigma_m, seed), {}, {});
   EXPECT_TRUE(found) << found.error().message;
   return found ? *found : TerrainDetection();
 }
@@ -85,7 +85,7 @@ TEST(FitTerrain, CoplanarNeighborsAreTwoBlocks) {
 
 TEST(FitTerrain, EveryRayKnowsItsSurface) {
   const RaySet rays = RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1);
-  const auto found = FitTerrain(rays, {}, nullptr, {});
+  const auto found = FitTerrain(rays, {}, {});
   ASSERT_TRUE(found);
   ASSERT_EQ(found->labels.size(), rays.rays.size());
   const auto of_block = std::count(found->labels.begin(), found->labels.end(), 0);
@@ -94,10 +94,16 @@ TEST(FitTerrain, EveryRayKnowsItsSurface) {
             static_cast<int>(found->surfaces.size()));
 }
 
+FitTerrainOptions Since(const TerrainDetection& last) {
+  FitTerrainOptions options;
+  options.last = std::make_shared<const TerrainDetection>(last);
+  return options;
+}
+
 TEST(FitTerrain, AShiftedBlockIsMarkedWithItsShift) {
   const TerrainDetection before = Fit(OneBlock(0.10, 1.5, 10.0));
   const auto after =
-      FitTerrain(RaysOnto(OneBlock(0.16, 1.5, 16.0), kStep_deg, kSigma_m, 2), {}, &before, {});
+      FitTerrain(RaysOnto(OneBlock(0.16, 1.5, 16.0), kStep_deg, kSigma_m, 2), Since(before), {});
   ASSERT_TRUE(after);
   ASSERT_EQ(Count(*after, Kind::kBlock), 1);
   EXPECT_NEAR(after->surfaces.front().shift_m, 0.06, 0.012);
@@ -106,7 +112,7 @@ TEST(FitTerrain, AShiftedBlockIsMarkedWithItsShift) {
 
 TEST(FitTerrain, ABlockThatWasNotThereBeforeHasNoShift) {
   const TerrainDetection before = Fit({Ground(1.4)});
-  const auto after = FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 2), {}, &before, {});
+  const auto after = FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 2), Since(before), {});
   ASSERT_TRUE(after);
   EXPECT_TRUE(std::isnan(after->surfaces.front().shift_m));
 }
@@ -126,7 +132,7 @@ TEST(FitTerrain, TooFewOrUnusableRaysAreAnError) {
     RaySet rays;
     rays.rays.assign(static_cast<std::size_t>(count),
                      {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), count < 10 ? 1.0 : nan});
-    const auto found = FitTerrain(rays, {}, nullptr, {});
+    const auto found = FitTerrain(rays, {}, {});
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code, ErrorCode::kTooFewPoints);
   }
@@ -136,13 +142,13 @@ TEST(FitTerrain, OneScanLineIsNoTerrain) {
   RaySet rays = RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1);
   std::erase_if(rays.rays, [](const RangeRay& ray) { return ray.cell.y() != 60; });
   ASSERT_GT(rays.rays.size(), 100u);
-  EXPECT_FALSE(FitTerrain(rays, {}, nullptr, {}));
+  EXPECT_FALSE(FitTerrain(rays, {}, {}));
 }
 
 TEST(FitTerrain, AHeadBelievedUpsideDownConfirmsNothing) {
   FitTerrainOptions options;
   options.up = Eigen::Vector3d::UnitY();
-  const auto found = FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1), options, nullptr, {});
+  const auto found = FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1), options, {});
   if (found) {
     EXPECT_EQ(Confirmed(*found), 0);
   }
@@ -151,7 +157,7 @@ TEST(FitTerrain, AHeadBelievedUpsideDownConfirmsNothing) {
 TEST(FitTerrain, PointsBehindTheScannerConfirmNothing) {
   RaySet rays = RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1);
   for (RangeRay& ray : rays.rays) ray.direction = -ray.direction;
-  const auto found = FitTerrain(rays, {}, nullptr, {});
+  const auto found = FitTerrain(rays, {}, {});
   if (found) {
     EXPECT_EQ(Confirmed(*found), 0);
   }
@@ -160,7 +166,7 @@ TEST(FitTerrain, PointsBehindTheScannerConfirmNothing) {
 TEST(FitTerrain, ACloudWithoutAGridGivesTheSameBlock) {
   RaySet rays = RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1);
   for (RangeRay& ray : rays.rays) ray.cell.setConstant(-1);
-  const auto found = FitTerrain(rays, {}, nullptr, {});
+  const auto found = FitTerrain(rays, {}, {});
   ASSERT_TRUE(found) << found.error().message;
   ASSERT_EQ(Count(*found, Kind::kBlock), 1);
   const auto error =
@@ -173,8 +179,8 @@ TEST(FitTerrain, IsTheSameOnAnyNumberOfThreads) {
   RunContext one, four;
   one.threads = 1;
   four.threads = 4;
-  const auto a = FitTerrain(rays, {}, nullptr, one);
-  const auto b = FitTerrain(rays, {}, nullptr, four);
+  const auto a = FitTerrain(rays, {}, one);
+  const auto b = FitTerrain(rays, {}, four);
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->surfaces.size(), b->surfaces.size());
   EXPECT_EQ(a->labels, b->labels);
@@ -188,7 +194,7 @@ TEST(FitTerrain, StopsWhenAsked) {
   stop.request_stop();
   RunContext context;
   context.stop = stop.get_token();
-  const auto found = FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1), {}, nullptr, context);
+  const auto found = FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1), {}, context);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
 }
@@ -197,14 +203,14 @@ TEST(FitTerrain, ReportsItsProgressToTheEnd) {
   Progress progress;
   RunContext context;
   context.progress = &progress;
-  ASSERT_TRUE(FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1), {}, nullptr, context));
+  ASSERT_TRUE(FitTerrain(RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1), {}, context));
   EXPECT_EQ(progress.permille.load(), 1000);
 }
 
 TEST(FitTerrain, RefusesABlockWithoutSize) {
   FitTerrainOptions options;
   options.block_size_m = {0.4, 0.0};
-  const auto found = FitTerrain({}, options, nullptr, {});
+  const auto found = FitTerrain({}, options, {});
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kInvalidOptions);
 }
