@@ -184,6 +184,14 @@ TEST_F(FitOfAScan, APoleInACloudOfFourFloatsAPointIsACylinder) {
   EXPECT_EQ(nlohmann::json::parse(beside.output)["verdict"], "UNSURE");
 }
 
+TEST_F(FitOfAScan, InALargeBoxTheWheelIsNotLostToAConduitAtItsEdge) {
+  const ProgramResult answer = Fit({"--box", "1.55,0.05,1.15,0.3,0.8,0.9", "--json"});
+  const auto json = nlohmann::json::parse(answer.output);
+  EXPECT_EQ(json["best"]["model"]["kind"], "wheel");
+  EXPECT_EQ(json["best"]["model"]["spokes"], 3);
+  EXPECT_LT((PositionIn(json) - Eigen::Vector3d(1.463, 0.031, 1.380)).norm(), 0.010);
+}
+
 TEST_F(FitOfAScan, ThreePointsAreTooFew) {
   const std::string file = *folder_ / "three.ply";
   ASSERT_TRUE(WriteFileAtomically(

@@ -27,6 +27,7 @@ constexpr int kGridRays = 900;   // for the grid of dish and phase
 constexpr int kKeptRims = 2;
 constexpr int kPolished = 2;  // numbers of spokes
 constexpr int kRivals = 3;
+constexpr double kAround = 1.7;  // radii of the valve that a closer look takes in
 constexpr std::size_t kPolishedLevers = 3;
 constexpr double kTubeRadius_m = 0.012;  // where the search starts
 
@@ -121,15 +122,96 @@ std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& spli
   return levers.front();
 }
 
+/// The best first, behind it what the region can hardly have been drawn round.
+void SortByPlaceAndLikelihood(const RaySet& region, std::vector<ValveCandidate>& valves) {
+  std::stable_sort(valves.begin(), valves.end(), [&](const auto& a, const auto& b) {
+    return std::pair(Misplacement(region, a), -a.log_likelihood) <
+           std::pair(Misplacement(region, b), -b.log_likelihood);
+  });
+}
+
 /// Polishes the leading candidates and puts them back in order.
-Status PolishLeaders(const RayLikelihood& likelihood, std::vector<ValveCandidate>& valves,
-                     const RunContext& context) {
+Status PolishLeaders(const RaySet& region, const RayLikelihood& likelihood,
+                     std::vector<ValveCandidate>& valves, const RunContext& context) {
   for (std::size_t i = 0; i < std::min<std::size_t>(kPolished, valves.size()); ++i) {
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
     valves[i] = Polish(likelihood, valves[i]);
   }
-  SortByLikelihood(valves);
+  SortByPlaceAndLikelihood(region, valves);
   return {};
+}
+
+/// From rays of the region to the best valve among them; places are judged against the region.
+Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
+                              const FitValveOptions& options, const RunContext& context) {
+  context.Report(0.0, "looking for the wall");
+  Random thinning(options.seed, kThinning);
+  Random wall_random(options.seed, kWall);
+  const RaySet rays = Thinned(all_rays, options.max_rays, thinning);
+  const RaySet few_rays = Thinned(rays, kGridRays, thinning);
+  const WallSplit split = SplitWall(rays, wall_random);
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
+
+  context.Report(0.1, "looking for the rim");
+  FORESIGHT_CHECK(CheckForeground(rays, split));
+  const std::vector<RimHypothesis> hypotheses = SearchRims(rays, split, options);
+  const RayLikelihood likelihood(rays, split.wall);
+  const RayLikelihood coarse(few_rays, split.wall);
+  const std::vector<ValveCandidate> rims = FitRims(rays, split.wall, likelihood, hypotheses);
+
+  context.Report(0.3, "counting the spokes");
+  FORESIGHT_TRY(
+      std::vector<ValveCandidate> valves,
+      FindSpokes(rays, split.wall, coarse, likelihood, rims, SpokeCounts(options), context));
+  if (const auto lever = FitLever(rays, split, likelihood, options)) valves.push_back(*lever);
+  if (valves.empty())
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing round of {:.0f} to {:.0f} mm radius and no lever stands in the region: "
+                "draw it around the valve",
+                1000.0 * options.min_rim_radius_m, 1000.0 * options.max_rim_radius_m);
+  SortByPlaceAndLikelihood(region, valves);
+  context.Report(0.7, "improving the pose");
+  FORESIGHT_CHECK(PolishLeaders(region, likelihood, valves, context));
+
+  ValveDetection detection;
+  detection.best = WithUpwardSpoke(valves.front());
+  const double nothing = likelihood.Nothing();
+  if (!(detection.best.log_likelihood > nothing))
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing in the region looks like a wheel: draw it around one, or scan slower");
+  for (std::size_t i = 1; i < valves.size() && i <= kRivals; ++i)
+    detection.rivals.push_back(WithUpwardSpoke(valves[i]));
+  RefineOptions at_end;
+  at_end.wall = split.wall;
+  at_end.rounds = at_end.steps = 1;
+  SetSigmas(Refine(rays, detection.best, at_end).information, detection);
+  detection.evidence = GatherEvidence(rays, split.wall, detection.best);
+  detection.evidence.margin_nats =
+      valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
+  detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
+  detection.verdict = AssessValve(rays, region, detection, options);
+  return detection;
+}
+
+/// The rays that pass near a valve that was found.
+RaySet RaysAround(const RaySet& region, const ValveCandidate& valve) {
+  const ValveModel& model = valve.model;
+  const double half_m = model.IsLever() ? 0.5 * model.lever_length_m : 0.0;
+  const double reach_m = kAround * (model.IsLever() ? half_m : model.rim_radius_m) + 0.03;
+  const Eigen::Vector3d middle = valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0);
+  RaySet around = region;
+  std::erase_if(around.rays, [&](const RangeRay& ray) {
+    return (middle - ray.origin).cross(ray.direction).norm() > reach_m;
+  });
+  return around;
+}
+
+/// A region drawn far too large leaves few of the thinned rays on the valve: its own part of the
+/// region brings more of them.
+bool DeservesCloserLook(const RaySet& region, const RaySet& around,
+                        const FitValveOptions& options) {
+  return std::ssize(region.rays) > options.max_rays && std::ssize(around.rays) >= kMinRays &&
+         2 * around.rays.size() < region.rays.size();
 }
 
 }  // namespace
@@ -156,54 +238,16 @@ Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& o
                                 const RunContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   FORESIGHT_CHECK(options.Check());
-  FORESIGHT_TRY(const RaySet usable, UsableRays(all_rays, kMinRays, "a wheel"));
-
-  context.Report(0.0, "looking for the wall");
-  Random thinning(options.seed, kThinning);
-  Random wall_random(options.seed, kWall);
-  const RaySet rays = Thinned(usable, options.max_rays, thinning);
-  const RaySet few_rays = Thinned(rays, kGridRays, thinning);
-  const WallSplit split = SplitWall(rays, wall_random);
-  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
-
-  context.Report(0.1, "looking for the rim");
-  FORESIGHT_CHECK(CheckForeground(rays, split));
-  const std::vector<RimHypothesis> hypotheses = SearchRims(rays, split, options);
-  const RayLikelihood likelihood(rays, split.wall);
-  const RayLikelihood coarse(few_rays, split.wall);
-  const std::vector<ValveCandidate> rims = FitRims(rays, split.wall, likelihood, hypotheses);
-
-  context.Report(0.3, "counting the spokes");
-  FORESIGHT_TRY(
-      std::vector<ValveCandidate> valves,
-      FindSpokes(rays, split.wall, coarse, likelihood, rims, SpokeCounts(options), context));
-  if (const auto lever = FitLever(rays, split, likelihood, options)) valves.push_back(*lever);
-  if (valves.empty())
-    return Fail(ErrorCode::kNoConvergence,
-                "nothing round of {:.0f} to {:.0f} mm radius and no lever stands in the region: "
-                "draw it around the valve",
-                1000.0 * options.min_rim_radius_m, 1000.0 * options.max_rim_radius_m);
-  SortByLikelihood(valves);
-  context.Report(0.7, "improving the pose");
-  FORESIGHT_CHECK(PolishLeaders(likelihood, valves, context));
-
-  ValveDetection detection;
-  detection.best = WithUpwardSpoke(valves.front());
-  const double nothing = likelihood.Nothing();
-  if (!(detection.best.log_likelihood > nothing))
-    return Fail(ErrorCode::kNoConvergence,
-                "nothing in the region looks like a wheel: draw it around one, or scan slower");
-  for (std::size_t i = 1; i < valves.size() && i <= kRivals; ++i)
-    detection.rivals.push_back(WithUpwardSpoke(valves[i]));
-  RefineOptions at_end;
-  at_end.wall = split.wall;
-  at_end.rounds = at_end.steps = 1;
-  SetSigmas(Refine(rays, detection.best, at_end).information, detection);
-  detection.evidence = GatherEvidence(rays, split.wall, detection.best);
-  detection.evidence.margin_nats =
-      valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
-  detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
-  detection.verdict = AssessValve(rays, detection, options);
+  FORESIGHT_TRY(const RaySet region, UsableRays(all_rays, kMinRays, "a wheel"));
+  FORESIGHT_TRY(ValveDetection detection, Search(region, region, options, context.Part(0.0, 0.5)));
+  if (const RaySet around = RaysAround(region, detection.best);
+      DeservesCloserLook(region, around, options)) {
+    Result<ValveDetection> closer = Search(region, around, options, context.Part(0.5, 1.0));
+    if (closer)
+      detection = std::move(*closer);
+    else if (closer.error().code == ErrorCode::kCancelled)
+      return closer;
+  }
   detection.origin.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   context.Report(1.0, "valve fitted");

@@ -143,6 +143,12 @@ double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve)
   return (to_middle - to_middle.dot(direction) * direction).norm();
 }
 
+int Misplacement(const RaySet& rays, const ValveCandidate& valve) {
+  const ValveModel& model = valve.model;
+  const bool endless = model.IsLever() && model.lever_length_m > 0.99 * kMaxLeverLength_m;
+  return (DistanceFromRegionCenter(rays, valve) > kMaxOffCenter_m ? 1 : 0) + (endless ? 2 : 0);
+}
+
 std::vector<std::string> ValveFeatureNames() {
   return {"log_margin",     "gain_per_hit", "log_hits",      "inlier_share",   "see_through",
           "blocked_gaps",   "arc_coverage", "weakest_spoke", "log_sigma_axis", "log_sigma_pos",

@@ -25,6 +25,12 @@ double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
 
 /// How far a valve is from the middle of the region, across the line of sight.
 double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve);
+inline constexpr double kMaxOffCenter_m = 0.15;  ///< of what a region was drawn round
+
+/// How little it can be what the region was drawn round, however well it fits: 0 = it can, 1 = it
+/// is too far from the region's middle, 2 = it is a lever as long as they get, which a pipe that
+/// runs on through the region looks like, 3 = both.
+int Misplacement(const RaySet& rays, const ValveCandidate& valve);
 
 /// What the probability of a verdict is computed from, in the order of the names. The detection's
 /// evidence, sigmas and candidates are filled in.

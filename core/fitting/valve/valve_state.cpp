@@ -42,7 +42,7 @@ ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, dou
 ValveModel UsualLever(double length_m, double tube_radius_m, double head_radius_m) {
   ValveModel model;
   model.kind = ValveModel::Kind::kLever;
-  model.lever_length_m = std::clamp(length_m, 0.060, 0.450);
+  model.lever_length_m = std::clamp(length_m, 0.060, kMaxLeverLength_m);
   model.tube_radius_m = std::clamp(tube_radius_m, 0.005, 0.025);
   model.hub_radius_m = std::clamp(head_radius_m, model.tube_radius_m, 0.045);
   model.spokes = 0;

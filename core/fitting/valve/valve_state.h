@@ -49,6 +49,8 @@ struct ValvePrior {
 /// A valve of usual proportions: spokes thinner than the rim's tube, a hub of a fifth of the rim.
 ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, double dish_m);
 
+inline constexpr double kMaxLeverLength_m = 0.45;
+
 /// A lever; its sizes are kept within what is built.
 ValveModel UsualLever(double length_m, double tube_radius_m,
                       double head_radius_m = ValvePrior::kHeadRadius_m);

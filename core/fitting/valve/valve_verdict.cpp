@@ -15,7 +15,6 @@ constexpr double kMaxSeeThrough = 0.15;
 constexpr double kAbsurdSeeThrough = 0.25;
 constexpr double kMaxBlockedGaps = 0.4;
 constexpr double kMinMargin_nats = 10.0;
-constexpr double kMaxOffCenter_m = 0.15;
 
 /// "3 spokes", "a disc", "a lever".
 std::string NameOf(const ValveModel& model) {
@@ -48,7 +47,8 @@ std::string ShapeObjection(const ValveModel& model, const FitValveOptions& optio
 }
 
 /// Why the valve must not be confirmed.
-std::vector<std::string> Objections(const RaySet& rays, const ValveDetection& detection,
+std::vector<std::string> Objections(const RaySet& rays, const RaySet& region,
+                                    const ValveDetection& detection,
                                     const FitValveOptions& options) {
   const ValveEvidence& evidence = detection.evidence;
   const ValveCandidate& best = detection.best;
@@ -66,7 +66,7 @@ std::vector<std::string> Objections(const RaySet& rays, const ValveDetection& de
   if (evidence.margin_nats < kMinMargin_nats && !detection.rivals.empty())
     objections.push_back(fmt::format("{} and {} fit almost equally well", NameOf(best.model),
                                      NameOf(detection.rivals.front().model)));
-  if (const double off_m = DistanceFromRegionCenter(rays, best); off_m > kMaxOffCenter_m)
+  if (const double off_m = DistanceFromRegionCenter(region, best); off_m > kMaxOffCenter_m)
     objections.push_back(
         fmt::format("the valve lies {:.0f} mm from the region's centre: draw the region around it",
                     1000.0 * off_m));
@@ -101,12 +101,12 @@ std::string WeakestPoint(const ValveDetection& detection) {
 
 }  // namespace
 
-Verdict AssessValve(const RaySet& rays, const ValveDetection& detection,
+Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetection& detection,
                     const FitValveOptions& options) {
   const VerdictModel& model = ShippedVerdictModel("valve", rays.dense);
   const std::string disbelief = Disbelief(detection, options);
   Verdict verdict;
-  verdict.objections = Objections(rays, detection, options);
+  verdict.objections = Objections(rays, region, detection, options);
   model.AddReservation(verdict.objections);
   verdict.features = ValveFeatures(rays, detection);
   verdict.probability = model.Probability(verdict.features);

@@ -12,7 +12,8 @@ namespace foresight {
 /// seen through and open where it should be, lies near the region's centre, has spokes, no rival
 /// close behind and no size at a bound. Discs and levers are never confirmed: too many things are
 /// round or straight. See-through beyond a quarter, or a rim out of range, is never even likely.
-Verdict AssessValve(const RaySet& rays, const ValveDetection& detection,
+/// `rays` are those it was fitted to, of the region that the operator drew.
+Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetection& detection,
                     const FitValveOptions& options);
 
 }  // namespace foresight
