@@ -24,6 +24,7 @@ struct DrillView {
   double above_m = 0.45;  ///< of the head over the table
   double wall_m = 0.5;    ///< behind; 0 = none
   bool table = true;
+  bool clutter = false;  ///< other things stand beside it
   double spacing_rad = 0.0065;
   double sigma_m = 0.008;
   std::uint64_t seed = 1;
@@ -56,6 +57,10 @@ inline DrillRays MakeDrillRays(const DrillView& view) {
   if (view.wall_m > 0.0)
     AddSolid(BoxShape({0.05, 5.0, 5.0}), at(view.distance_m + view.wall_m + 0.025, 0.0, 0.0),
              *scene);
+  if (view.clutter)
+    for (const double side : {0.16, -0.17})
+      AddSolid(BoxShape({0.08, 0.08, 0.19}), at(view.distance_m + 0.05, side, table_z + 0.095, 0.3),
+               *scene);
   const auto add = [&](const Shape& shape, double z) {
     AddSolid(
         shape,

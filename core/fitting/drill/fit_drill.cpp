@@ -25,6 +25,7 @@ constexpr std::size_t kFineModes = 4;
 constexpr std::size_t kRivals = 3;
 constexpr double kBodyRadius_m = 0.027;
 constexpr double kOtherWay_rad = 0.5;
+constexpr double kOwnReach_m = 0.04;       // of the points that a drill or its rivals account for
 constexpr double kRivalReach_m = 0.06;     // round the drill: what a rival must explain too
 constexpr double kUnknownHeight_m = 0.04;  // deviation of a foot's height without a table
 
@@ -180,6 +181,19 @@ class DrillFit {
         best.log_likelihood - prior_(best) - likelihood_(headless, detection.best.base_from_object);
   }
 
+  /// The foreground that a drill may account for, without the clutter beside it.
+  std::vector<Eigen::Vector3d> ForegroundAt(const DrillCandidate& drill) const {
+    const auto object_from_base = drill.base_from_object.Inverse();
+    std::vector<Eigen::Vector3d> points;
+    for (const Eigen::Vector3d& point : around_.foreground) {
+      const Eigen::Vector3d at = object_from_base * point;
+      if (std::any_of(drill.model.parts.begin(), drill.model.parts.end(),
+                      [&](const SolidPart& part) { return part.Distance(at) < kOwnReach_m; }))
+        points.push_back(point);
+    }
+    return points;
+  }
+
   /// Half of Schwarz's penalty for each parameter that a rival has more than the drill.
   void SetRivalMargin(const DrillState& best, DrillDetection& detection) const {
     const auto& parts = detection.best.model.parts;
@@ -190,8 +204,8 @@ class DrillFit {
         std::max(2.0, static_cast<double>(near.rays().rays.size()) * near.rays().samples_per_ray);
     DrillEvidence& evidence = detection.evidence;
     evidence.rival_margin_nats = own - near.Nothing();
-    for (const RivalShape& rival :
-         FitRivalShapes(near, around_.foreground, base_from_table_, best.values.head<2>())) {
+    for (const RivalShape& rival : FitRivalShapes(near, ForegroundAt(detection.best),
+                                                  base_from_table_, best.values.head<2>())) {
       const double margin = own - rival.log_likelihood +
                             0.5 * (rival.parameters - kDrillParameters) * std::log(measurements);
       if (!evidence.best_rival.empty() && margin >= evidence.rival_margin_nats) continue;

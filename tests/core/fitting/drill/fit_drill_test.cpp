@@ -174,6 +174,21 @@ TEST(FitDrill, LookAlikesAreNotConfirmed) {
   }
 }
 
+TEST(FitDrill, ABoxOnACylinderIsOneAlsoAmongClutter) {
+  DrillView view;
+  view.object = DrillView::Object::kBoxOnCylinder;
+  view.clutter = true;
+  for (const double yaw : {0.2, 0.6, 1.2}) {
+    view.yaw_rad = yaw;
+    const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->evidence.best_rival, "box and cylinder");
+    // Begun from the clutter's points too, the rival went astray and lost by 80 to 270 nats.
+    EXPECT_LT(found->evidence.rival_margin_nats, 0.0) << yaw;
+    EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << yaw;
+  }
+}
+
 TEST(FitDrill, AWallPatchIsNotADrill) {
   DrillView view;
   view.object = DrillView::Object::kNothing;
