@@ -15,6 +15,8 @@ constexpr double kMinCover = 0.6;
 constexpr double kMaxOutside = 0.1;
 // A foot is bet on it: at 0.95, 33 of 35 blocks of raw returns were right on scenes of other seeds.
 constexpr double kSureEnough = 0.97;
+// From here on less than 0.5 % of the toehold area that is offered has no block under it.
+constexpr double kWorthOffering = 0.85;
 
 std::string Edges(int count) {
   static constexpr const char* kWords[] = {"no edge", "one edge", "two edges", "three edges",
@@ -96,7 +98,8 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
   if (block.evidence.confirmed_edges <= kUnsureEdges)
     verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
   const bool objected = !verdict.objections.empty() || verdict.probability < kSureEnough;
-  verdict.level = LevelFor(verdict.probability, objected);
+  verdict.level = verdict.probability < kWorthOffering ? VerdictLevel::kUnsure
+                                                       : LevelFor(verdict.probability, objected);
   if (!verdict.objections.empty())
     verdict.reason = verdict.objections.front();
   else if (verdict.level == VerdictLevel::kConfirmed)

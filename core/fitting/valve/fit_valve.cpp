@@ -29,7 +29,8 @@ constexpr int kPolished = 2;  // numbers of spokes
 constexpr int kRivals = 3;
 constexpr double kAround = 1.7;  // radii of the valve that a closer look takes in
 constexpr std::size_t kPolishedLevers = 3;
-constexpr double kTubeRadius_m = 0.012;  // where the search starts
+constexpr double kHopeless_nats = 200.0;  // more than polishing brings
+constexpr double kTubeRadius_m = 0.012;   // where the search starts
 
 /// Streams of the seed: each stage draws its own numbers.
 enum Stream : std::uint64_t { kThinning, kWall, kRims, kLevers };
@@ -96,9 +97,10 @@ std::vector<RimHypothesis> SearchRims(const RaySet& rays, const WallSplit& split
   return FindRims(points, search, random);
 }
 
-/// The best lever, if there is a bar at all.
+/// The best lever, if there is a bar at all; only roughly placed when it is far behind `rival`.
 std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& split,
                                        const RayLikelihood& likelihood,
+                                       const std::optional<ValveCandidate>& rival,
                                        const FitValveOptions& options) {
   Random random(options.seed, kLevers);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
@@ -114,11 +116,13 @@ std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& spli
   }
   for (ValveCandidate& lever : levers) lever.log_likelihood = likelihood(lever);
   SortByLikelihood(levers);
+  if (levers.empty()) return std::nullopt;
+  if (rival && levers.front().log_likelihood < rival->log_likelihood - kHopeless_nats)
+    return levers.front();
   // The likelihood has many small peaks along a bar: some of them are climbed.
   if (levers.size() > kPolishedLevers) levers.resize(kPolishedLevers);
   for (ValveCandidate& lever : levers) lever = Polish(likelihood, lever);
   SortByLikelihood(levers);
-  if (levers.empty()) return std::nullopt;
   return levers.front();
 }
 
@@ -163,7 +167,10 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   FORESIGHT_TRY(
       std::vector<ValveCandidate> valves,
       FindSpokes(rays, split.wall, coarse, likelihood, rims, SpokeCounts(options), context));
-  if (const auto lever = FitLever(rays, split, likelihood, options)) valves.push_back(*lever);
+  std::optional<ValveCandidate> wheel;
+  if (!valves.empty()) wheel = valves.front();
+  if (const auto lever = FitLever(rays, split, likelihood, wheel, options))
+    valves.push_back(*lever);
   if (valves.empty())
     return Fail(ErrorCode::kNoConvergence,
                 "nothing round of {:.0f} to {:.0f} mm radius and no lever stands in the region: "
