@@ -4,33 +4,15 @@
 #include <numbers>
 #include <utility>
 
+#include "core/fitting/beam_model.h"
 #include "core/fitting/drill/solid_tracer.h"
-#include "core/fitting/wall.h"
 
 namespace foresight {
 namespace {
 
-constexpr double kUniform = 1.0 / 3.0;   // per metre: a return from anywhere within 3 m
-constexpr double kHit = 0.93;            // a ray well inside the outline returns from the solid
-constexpr double kGoodReturn = 0.9;      // ... and has no other reason to be wrong
-constexpr double kPlaneShare = 0.7;      // of the rays that miss
 constexpr double kShapeError_m = 0.005;  // no real pole is smooth and straight
 constexpr double kEdgeError_m = 0.003;
 constexpr double kReachWidths = 3.0;
-
-double NormalDensity(double error, double sigma) {
-  const double ratio = error / sigma;
-  return ratio * ratio > 60.0 ? 0.0 : 0.3989422804014327 / sigma * std::exp(-0.5 * ratio * ratio);
-}
-
-double BackgroundDensity(const RangeRay& ray, std::span<const Plane> planes, double sigma_m) {
-  if (planes.empty()) return kUniform;
-  double density = 0.0;
-  for (const Plane& plane : planes)
-    density += NormalDensity(ray.range_m - RangeToPlane(ray, plane), sigma_m);
-  return kPlaneShare / static_cast<double>(planes.size()) * density +
-         (1.0 - kPlaneShare) * kUniform;
-}
 
 }  // namespace
 
@@ -56,9 +38,10 @@ double OutlineLikelihood::operator()(const SolidPart& solid_in_base) const {
       continue;
     }
     const double beyond = (meeting.clearance_m - shift_m) / width_m;
-    const double hit = 0.5 * kHit * std::erfc(beyond / std::numbers::sqrt2);
-    const double on_solid = kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, sigma_m_) +
-                            (1.0 - kGoodReturn) * kUniform;
+    const double hit = 0.5 * BeamModel::kHit * std::erfc(beyond / std::numbers::sqrt2);
+    const double on_solid =
+        BeamModel::kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, sigma_m_) +
+        (1.0 - BeamModel::kGoodReturn) * BeamModel::kUniform;
     sum += std::log(hit * on_solid + (1.0 - hit) * noise.background);
   }
   return rays_.samples_per_ray * sum;

@@ -6,6 +6,7 @@
 
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/drill/surroundings.h"
+#include "core/fitting/region_place.h"
 #include "core/fitting/verdict_model.h"
 #include "core/geometry/angles.h"
 
@@ -16,7 +17,8 @@ constexpr double kAgreeSigmas = 3.0;
 constexpr double kTemplateError_m = 0.005;
 constexpr double kEdgeError_m = 0.003;
 
-constexpr double kMinHits = 40.0;  // independent measurements on the drill
+constexpr double kMaxOutside_m = 0.025;  // of a part's middle; lines may be 44 mm apart
+constexpr double kMinHits = 40.0;        // independent measurements on the drill
 constexpr double kMaxSeeThrough = 0.15;
 constexpr double kMinYawMargin_nats = 10.0;
 // Errors of a dense map's pixels come together: of 144 drawn drills 4 pointed the wrong way by more
@@ -59,6 +61,18 @@ std::string DirectionObjection(const DrillEvidence& evidence, bool dense) {
   return {};
 }
 
+/// A part of the drill that the region does not show, so that nobody saw whether it is there; empty
+/// when it shows them all. A bit may stick out.
+std::string PartOutside(const RaySet& region, const DrillCandidate& drill) {
+  for (const SolidPart& part : drill.model.parts)
+    if (part.name != "bit" &&
+        DistanceFromRays(region, drill.base_from_object * part.object_from_part.translation()) >
+            kMaxOutside_m)
+      return fmt::format("its {} lies outside of the region: draw the region around all of it",
+                         part.name);
+  return {};
+}
+
 /// What a size or a lean at its bound says; empty when nothing.
 std::string BoundObjection(const DrillModel& model, const DrillState& drill,
                            const DrillPrior& prior) {
@@ -74,8 +88,9 @@ std::string BoundObjection(const DrillModel& model, const DrillState& drill,
 }
 
 /// Why the drill must not be confirmed.
-std::vector<std::string> Objections(const RaySet& rays, const DrillDetection& detection,
-                                    const DrillState& drill, const DrillPrior& prior) {
+std::vector<std::string> Objections(const RaySet& rays, const RaySet& region,
+                                    const DrillDetection& detection, const DrillState& drill,
+                                    const DrillPrior& prior) {
   const DrillEvidence& evidence = detection.evidence;
   const DrillModel& model = detection.best.model;
   std::vector<std::string> objections;
@@ -91,10 +106,11 @@ std::vector<std::string> Objections(const RaySet& rays, const DrillDetection& de
         fmt::format("{:.0f} % of the beams went through the drill", 100.0 * evidence.see_through));
   if (!(evidence.rival_margin_nats > 0.0))
     object(fmt::format("a {} explains it as well", evidence.best_rival));
+  object(PartOutside(region, detection.best));
   object(DirectionObjection(evidence, rays.dense));
   object(BoundObjection(model, drill, prior));
   const double off_m = DistanceFromRegionCenter(
-      rays, detection.best.base_from_object * model.object_from_grasp.translation());
+      region, detection.best.base_from_object * model.object_from_grasp.translation());
   if (off_m > kMaxOffCenter_m)
     object(
         fmt::format("the drill lies {:.0f} mm from the region's centre: draw the region around it",
@@ -231,13 +247,13 @@ std::vector<std::string> DrillFeatureNames() {
           "log_sigma_yaw",  "abs_log_scale", "body_tilt_rad"};
 }
 
-Verdict AssessDrill(const RaySet& rays, const DrillDetection& detection, const DrillState& drill,
-                    const DrillPrior& prior) {
+Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,
+                    const DrillState& drill, const DrillPrior& prior) {
   const VerdictModel& model = ShippedVerdictModel("drill", rays.dense);
   Verdict verdict;
   verdict.features = FeaturesOf(rays, detection);
   verdict.probability = model.Probability(verdict.features);
-  verdict.objections = Objections(rays, detection, drill, prior);
+  verdict.objections = Objections(rays, region, detection, drill, prior);
   model.AddReservation(verdict.objections);
   verdict.level = LevelFor(verdict.probability, !verdict.objections.empty());
   if (!verdict.objections.empty())

@@ -27,8 +27,9 @@ std::vector<std::string> DrillFeatureNames();
 /// The probability is the shipped model's (resources/verdicts/drill_raw and _dense); hard gates
 /// keep what no probability should: a confirmed drill stands on a table near the region's centre,
 /// has enough measurements on it, is not seen through, shows its head, explains the rays better
-/// than a box and a cylinder, has no second direction close behind and no parameter at a bound.
-Verdict AssessDrill(const RaySet& rays, const DrillDetection& detection, const DrillState& drill,
-                    const DrillPrior& prior);
+/// than a box and a cylinder, lies within the region, has no second direction close behind and no
+/// parameter at a bound. `rays` are those of the `region` that it was fitted to.
+Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,
+                    const DrillState& drill, const DrillPrior& prior);
 
 }  // namespace foresight

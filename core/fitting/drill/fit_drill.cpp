@@ -13,6 +13,7 @@
 #include "core/fitting/drill/solid_likelihood.h"
 #include "core/fitting/drill/surroundings.h"
 #include "core/fitting/ray_selection.h"
+#include "core/fitting/region_place.h"
 
 namespace foresight {
 namespace {
@@ -64,9 +65,10 @@ void SortBest(std::vector<DrillState>& states) {
 /// One drill's fit while it lasts.
 class DrillFit {
  public:
-  DrillFit(const RaySet& rays, RaySet few_rays, const Surroundings& around,
+  DrillFit(const RaySet& region, const RaySet& rays, RaySet few_rays, const Surroundings& around,
            const FitDrillOptions& options)
-      : options_(options),
+      : region_(region),
+        options_(options),
         around_(around),
         likelihood_(rays, around.planes),
         coarse_(std::move(few_rays), around.planes),
@@ -126,7 +128,7 @@ class DrillFit {
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
     SetRivalMargin(best, detection);
-    detection.verdict = AssessDrill(likelihood_.rays(), detection, best, prior_);
+    detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_);
     return detection;
   }
 
@@ -214,6 +216,7 @@ class DrillFit {
     }
   }
 
+  const RaySet& region_;
   const FitDrillOptions& options_;
   const Surroundings& around_;
   SolidLikelihood likelihood_;
@@ -258,7 +261,7 @@ Result<DrillDetection> FitDrill(const RaySet& all_rays, const FitDrillOptions& o
   FORESIGHT_CHECK(CheckForeground(rays, around));
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
 
-  const DrillFit fit(rays, Thinned(rays, kCoarseRays, thinning), around, options);
+  const DrillFit fit(usable, rays, Thinned(rays, kCoarseRays, thinning), around, options);
   FORESIGHT_TRY(const std::vector<DrillState> modes, fit.Search(context));
   if (!(modes.front().log_likelihood > fit.Nothing()))
     return Fail(ErrorCode::kNoConvergence,

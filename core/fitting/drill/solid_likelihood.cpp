@@ -3,36 +3,16 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fitting/beam_model.h"
 #include "core/fitting/drill/solid_tracer.h"
-#include "core/fitting/wall.h"
 
 namespace foresight {
 namespace {
 
-constexpr double kUniform = 1.0 / 3.0;      // per metre: a return from anywhere within 3 m
-constexpr double kHit = 0.93;               // a ray that meets a solid returns from it
-constexpr double kGrazing = 0.5;            // ... that just misses it
-constexpr double kGoodReturn = 0.9;         // ... and has no other reason to be wrong
-constexpr double kPlaneShare = 0.7;         // of the rays that miss
+constexpr double kGrazing = 0.5;            // a ray that just misses a solid returns from it
 constexpr double kTemplateError_m = 0.005;  // no real drill is made of cylinders and boxes
 constexpr double kEdgeError_m = 0.003;
 constexpr double kReachWidths = 3.5;
-
-double NormalDensity(double error, double sigma) {
-  const double ratio = error / sigma;
-  return ratio * ratio > 60.0 ? 0.0 : 0.3989422804014327 / sigma * std::exp(-0.5 * ratio * ratio);
-}
-
-/// Density of a range where only planes are: the first one that a ray meets hides the others, but a
-/// table ends somewhere, so each has its share.
-double BackgroundDensity(const RangeRay& ray, std::span<const Plane> planes, double sigma_m) {
-  if (planes.empty()) return kUniform;
-  double density = 0.0;
-  for (const Plane& plane : planes)
-    density += NormalDensity(ray.range_m - RangeToPlane(ray, plane), sigma_m);
-  return kPlaneShare / static_cast<double>(planes.size()) * density +
-         (1.0 - kPlaneShare) * kUniform;
-}
 
 }  // namespace
 
@@ -64,10 +44,10 @@ double SolidLikelihood::operator()(
       continue;
     }
     const double ratio = meeting.clearance_m / noise.width_m;
-    const double hit = meeting.Hits() ? kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
+    const double hit = meeting.Hits() ? BeamModel::kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
     const double on_solid =
-        kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, noise.sigma_m) +
-        (1.0 - kGoodReturn) * kUniform;
+        BeamModel::kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, noise.sigma_m) +
+        (1.0 - BeamModel::kGoodReturn) * BeamModel::kUniform;
     sum += std::log(hit * on_solid + (1.0 - hit) * noise.background);
   }
   return rays_.samples_per_ray * sum;

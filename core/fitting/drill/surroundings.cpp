@@ -241,12 +241,4 @@ Surroundings FindSurroundings(const RaySet& rays, const SurroundingsOptions& opt
   return found;
 }
 
-double DistanceFromRegionCenter(const RaySet& rays, const Eigen::Vector3d& point) {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  for (const RangeRay& ray : rays.rays) direction += ray.direction;
-  direction.normalize();
-  const Eigen::Vector3d to_point = point - rays.viewpoint;
-  return (to_point - to_point.dot(direction) * direction).norm();
-}
-
 }  // namespace foresight

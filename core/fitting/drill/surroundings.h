@@ -29,10 +29,4 @@ struct SurroundingsOptions {
 Surroundings FindSurroundings(const RaySet& rays, const SurroundingsOptions& options,
                               Random& random);
 
-/// How far beside the middle of a region, as its rays see it, a point lies.
-double DistanceFromRegionCenter(const RaySet& rays, const Eigen::Vector3d& point);
-
-/// An operator draws a region round a drill: one further beside its middle is something else.
-inline constexpr double kMaxOffCenter_m = 0.15;
-
 }  // namespace foresight

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fitting/region_place.h"
 #include "core/fitting/valve/beam_spots.h"
 
 namespace foresight {
@@ -134,13 +135,8 @@ double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence) {
 }
 
 double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve) {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  for (const RangeRay& ray : rays.rays) direction += ray.direction;
-  direction.normalize();
   const double half_m = valve.model.IsLever() ? 0.5 * valve.model.lever_length_m : 0.0;
-  const Eigen::Vector3d to_middle =
-      valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0) - rays.viewpoint;
-  return (to_middle - to_middle.dot(direction) * direction).norm();
+  return DistanceFromRegionCenter(rays, valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0));
 }
 
 int Misplacement(const RaySet& rays, const ValveCandidate& valve) {

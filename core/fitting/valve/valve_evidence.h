@@ -23,9 +23,8 @@ void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 /// Independent measurements on the valve: a dense map has fewer than rays.
 double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
 
-/// How far a valve is from the middle of the region, across the line of sight.
+/// How far the middle of a valve is from that of the region, across the line of sight.
 double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve);
-inline constexpr double kMaxOffCenter_m = 0.15;  ///< of what a region was drawn round
 
 /// How little it can be what the region was drawn round, however well it fits: 0 = it can, 1 = it
 /// is too far from the region's middle, 2 = it is a lever as long as they get, which a pipe that

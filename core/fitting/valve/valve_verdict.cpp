@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/region_place.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/verdict_model.h"
 #include "core/geometry/angles.h"

@@ -1,5 +1,6 @@
 #include "core/fitting/drill/fit_drill.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -187,6 +188,24 @@ TEST(FitDrill, ABoxOnACylinderIsOneAlsoAmongClutter) {
     EXPECT_LT(found->evidence.rival_margin_nats, 0.0) << yaw;
     EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << yaw;
   }
+}
+
+TEST(FitDrill, ADrillWhoseEndIsOutsideOfTheRegionIsNotConfirmed) {
+  const DrillRays whole = MakeDrillRays(DrillView());
+  const auto found_whole = FitDrill(whole.rays, {}, {});
+  ASSERT_TRUE(found_whole) << found_whole.error().message;
+  EXPECT_THAT(found_whole->verdict.objections,
+              ::testing::Not(::testing::Contains(::testing::HasSubstr("outside of the region"))));
+  DrillRays cut = whole;
+  const Eigen::Vector3d foot = whole.base_from_object * Eigen::Vector3d(0.0, 0.0, 0.02);
+  std::erase_if(cut.rays.rays, [&](const RangeRay& ray) {
+    return (foot - ray.origin).cross(ray.direction).norm() < 0.08;
+  });
+  const auto found = FitDrill(cut.rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_THAT(found->verdict.objections,
+              ::testing::Contains(::testing::HasSubstr("outside of the region")));
+  EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed);
 }
 
 TEST(FitDrill, AWallPatchIsNotADrill) {
