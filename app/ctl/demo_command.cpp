@@ -42,7 +42,7 @@ Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome
     return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the picture",
                 world.scene().name);
   const DemoSubject subject{
-      outcome.scan.rig, outcome.registered, outcome.frame, *roi, truth, world};
+      outcome.scan.rig, outcome.registered, outcome.depth, outcome.frame, *roi, truth, world};
   FORESIGHT_TRY(const std::vector<DemoAnswer> answers, FitToEverySource(subject, context));
   FORESIGHT_TRY(outcome.valve, answers.front().valve);
   outcome.sources = TableOf(answers);
@@ -66,11 +66,7 @@ void PrintOutcome(const DemoArguments& arguments, const DemoOutcome& o) {
                {"fit_seconds", o.valve.origin.seconds}});
     return;
   }
-  PrintLine(
-      fmt::format("valve    {} ({:.0f} %), {:.1f} mm and {:.2f} deg from the truth, spokes {}",
-                  ToString(o.valve.verdict.level), 100.0 * o.valve.verdict.probability,
-                  1000.0 * o.error.center_m, DegreesFromRadians(o.error.axis_rad),
-                  o.error.spokes == 0 ? "right" : "wrong"));
+  PrintLine("valve    " + AgainstTruth(o.valve.verdict, o.error));
   PrintLine("report   " + report);
   PrintLine("mission  " + o.mission_file);
 }

@@ -9,25 +9,33 @@
 namespace foresight {
 namespace {
 
-Result<ValveDetection> FitToDepth(DepthMethod method, const DemoSubject& subject,
+Result<ValveDetection> FitToDepth(const DepthResult& depth, const DemoSubject& subject,
                                   const RunContext& context) {
-  FORESIGHT_TRY(
-      const DepthResult depth,
-      ComputeDepthInFrame(subject.cloud, subject.rig, subject.frame, DefaultsOf(method), context));
   return FitValveInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepth, subject.roi,
                         FitValveOptions(), context);
 }
 
+Result<ValveDetection> FitToDepthOf(DepthMethod method, const DemoSubject& subject,
+                                    const RunContext& context) {
+  if (method == DepthMethods().front().method) return FitToDepth(subject.depth, subject, context);
+  FORESIGHT_TRY(
+      const DepthResult depth,
+      ComputeDepthInFrame(subject.cloud, subject.rig, subject.frame, DefaultsOf(method), context));
+  return FitToDepth(depth, subject, context);
+}
+
 std::string TextOf(const DemoAnswer& answer) {
   if (!answer.valve) return "nothing found: " + answer.valve.error().message;
-  const Verdict& verdict = answer.valve->verdict;
-  return fmt::format("{} ({:.0f} %), {:.1f} mm and {:.2f} deg from the truth, spokes {}",
-                     ToString(verdict.level), 100.0 * verdict.probability,
-                     1000.0 * answer.error->center_m, DegreesFromRadians(answer.error->axis_rad),
-                     answer.error->spokes == 0 ? "right" : "wrong");
+  return AgainstTruth(answer.valve->verdict, *answer.error);
 }
 
 }  // namespace
+
+std::string AgainstTruth(const Verdict& verdict, const ValveError& error) {
+  return fmt::format("{} ({:.0f} %), {:.1f} mm and {:.2f} deg from the truth, spokes {}",
+                     ToString(verdict.level), 100.0 * verdict.probability, 1000.0 * error.center_m,
+                     DegreesFromRadians(error.axis_rad), error.spokes == 0 ? "right" : "wrong");
+}
 
 Result<std::vector<DemoAnswer>> FitToEverySource(const DemoSubject& subject,
                                                  const RunContext& context) {
@@ -37,7 +45,7 @@ Result<std::vector<DemoAnswer>> FitToEverySource(const DemoSubject& subject,
                                     FitValveOptions(), context),
                      std::nullopt});
   for (const DepthMethodInfo& method : DepthMethods())
-    answers.push_back({method.name, FitToDepth(method.method, subject, context), std::nullopt});
+    answers.push_back({method.name, FitToDepthOf(method.method, subject, context), std::nullopt});
   for (DemoAnswer& answer : answers) {
     if (!answer.valve && answer.valve.error().code == ErrorCode::kCancelled)
       return tl::unexpected(answer.valve.error());

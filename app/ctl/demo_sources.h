@@ -17,6 +17,7 @@ namespace foresight {
 struct DemoSubject {
   const SensorRig& rig;
   const RegisteredScan& cloud;
+  const DepthResult& depth;  ///< of the default method
   const CameraFrame& frame;
   const ImageRoi& roi;
   const ValveTruth& truth;
@@ -34,6 +35,9 @@ struct DemoAnswer {
 /// 9. Fails with kCancelled only: a source that finds nothing is an answer.
 Result<std::vector<DemoAnswer>> FitToEverySource(const DemoSubject& subject,
                                                  const RunContext& context);
+
+/// "CONFIRMED (98 %), 2.1 mm and 1.28 deg from the truth, spokes right".
+std::string AgainstTruth(const Verdict& verdict, const ValveError& error);
 
 /// Side by side: a row for each, and a picture of the region with its template.
 HtmlReport::Table TableOf(const std::vector<DemoAnswer>& answers);

@@ -1,9 +1,8 @@
 #include "app/ctl/fit_arguments.h"
 
 #include "core/base/atomic_file.h"
-#include "core/detection/detection_json.h"
-
 #include "core/depth/depth_method.h"
+#include "core/detection/detection_json.h"
 
 namespace foresight {
 namespace {

@@ -29,11 +29,6 @@ void PrintSummary(const Detection& detection, const SensorRig& rig) {
       PrintLine(fmt::format("{:<15} {}", fact.name, fact.value));
 }
 
-/// There is an answer, and it is no: whoever reads JSON wants it as JSON.
-bool IsNegative(const Error& error) {
-  return error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kNoConvergence;
-}
-
 Result<ExitCode> Fit(const FitArguments& arguments, const RunContext& context) {
   FORESIGHT_CHECK(CheckFitArguments(arguments));
   FORESIGHT_TRY(const FitSubject subject, OpenFitSubject(arguments, context.Part(0.0, 0.1)));

@@ -58,11 +58,6 @@ Result<CylinderDetection> FitIn(const FitSubject& subject, const FitCylinderArgu
   return found;
 }
 
-/// There is an answer, and it is no: whoever reads JSON wants it as JSON.
-bool IsNegative(const Error& error) {
-  return error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kNoConvergence;
-}
-
 Result<ExitCode> Fit(const FitCylinderArguments& arguments, const RunContext& context) {
   FORESIGHT_CHECK(CheckFitArguments(arguments.fit));
   FORESIGHT_TRY(const FitSubject subject, OpenFitSubject(arguments.fit, context.Part(0.0, 0.2)));
@@ -89,7 +84,8 @@ void AddFitCylinderCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
       app.add_subcommand("cylinder", "Fit a pole, a pipe or anything else that is round");
   AddSubjectArguments(*command, arguments->fit);
-  command->add_option("--radius-mm", arguments->radius_mm, "Least and largest radius in millimetres")
+  command
+      ->add_option("--radius-mm", arguments->radius_mm, "Least and largest radius in millimetres")
       ->expected(2)
       ->delimiter(',')
       ->capture_default_str();

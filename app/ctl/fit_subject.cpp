@@ -203,6 +203,10 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
   return {std::move(detection), std::move(*depth)};
 }
 
+bool IsNegative(const Error& error) {
+  return error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kNoConvergence;
+}
+
 ColorImage PictureOf(const FitSubject& subject, const Detection& detection) {
   return PictureOf(subject, OutlinesOf(detection, 0));
 }

@@ -42,6 +42,9 @@ Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, 
 FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const std::string& source,
                 const RunContext& context);
 
+/// There is an answer, and it is no: whoever reads JSON wants it as JSON.
+bool IsNegative(const Error& error);
+
 /// The answer drawn into what was looked at: the camera's picture, the depth map in colours, or
 /// the cloud as seen from its viewpoint.
 ColorImage PictureOf(const FitSubject& subject, const Detection& detection);

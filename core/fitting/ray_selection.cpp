@@ -21,13 +21,18 @@ RaySet Thinned(const RaySet& rays, int count, Random& random) {
   return thinned;
 }
 
-Result<RaySet> UsableRays(const RaySet& rays, int least, const char* object) {
+Status CheckRayNoise(const RaySet& rays) {
   if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
       !rays.viewpoint.allFinite())
     return Fail(ErrorCode::kInvalidInput,
                 "rays of the region: sigma_m {}, footprint_rad {} or samples_per_ray {} is not "
                 "usable",
                 rays.sigma_m, rays.footprint_rad, rays.samples_per_ray);
+  return {};
+}
+
+Result<RaySet> UsableRays(const RaySet& rays, int least, const char* object) {
+  FORESIGHT_CHECK(CheckRayNoise(rays));
   RaySet usable = rays;
   std::erase_if(usable.rays, [](const RangeRay& ray) { return !Usable(ray); });
   if (std::ssize(usable.rays) < least)

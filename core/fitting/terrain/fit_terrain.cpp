@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/fitting/ray_selection.h"
 #include "core/fitting/terrain/block_evidence.h"
 #include "core/fitting/terrain/plane_grouping.h"
 #include "core/fitting/terrain/relabel_planes.h"
@@ -29,12 +30,7 @@ Status Cancelled() {
 }
 
 Status CheckRays(const RaySet& rays, const SurfaceGrid& grid) {
-  if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
-      !rays.viewpoint.allFinite())
-    return Fail(ErrorCode::kInvalidInput,
-                "rays of the region: sigma_m {}, footprint_rad {} or samples_per_ray {} is not "
-                "usable",
-                rays.sigma_m, rays.footprint_rad, rays.samples_per_ray);
+  FORESIGHT_CHECK(CheckRayNoise(rays));
   if (grid.size() < kMinRays)
     return Fail(ErrorCode::kTooFewPoints,
                 "the region holds {} measurements, terrain needs {}: draw it larger, or scan "

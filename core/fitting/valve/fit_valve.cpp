@@ -128,10 +128,15 @@ std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& spli
 
 /// The best first, behind it what the region can hardly have been drawn round.
 void SortByPlaceAndLikelihood(const RaySet& region, std::vector<ValveCandidate>& valves) {
-  std::stable_sort(valves.begin(), valves.end(), [&](const auto& a, const auto& b) {
-    return std::pair(Misplacement(region, a), -a.log_likelihood) <
-           std::pair(Misplacement(region, b), -b.log_likelihood);
+  std::vector<std::pair<int, ValveCandidate>>
+      placed;  // a place is judged by all of a region's rays
+  for (const ValveCandidate& valve : valves)
+    placed.emplace_back(Misplacement(region, valve), valve);
+  std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first, -a.second.log_likelihood) <
+           std::pair(b.first, -b.second.log_likelihood);
   });
+  for (std::size_t i = 0; i < valves.size(); ++i) valves[i] = placed[i].second;
 }
 
 /// Polishes the leading candidates and puts them back in order.
@@ -200,25 +205,21 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   return detection;
 }
 
-/// The rays that pass near a valve that was found.
-RaySet RaysAround(const RaySet& region, const ValveCandidate& valve) {
+/// A region drawn far too large leaves few of the thinned rays on the valve: those of all its rays
+/// that pass near what was found. nullopt where they would bring nothing new.
+std::optional<RaySet> RaysForCloserLook(const RaySet& region, const ValveCandidate& valve,
+                                        const FitValveOptions& options) {
+  if (std::ssize(region.rays) <= options.max_rays) return std::nullopt;
   const ValveModel& model = valve.model;
-  const double half_m = model.IsLever() ? 0.5 * model.lever_length_m : 0.0;
-  const double reach_m = kAround * (model.IsLever() ? half_m : model.rim_radius_m) + 0.03;
-  const Eigen::Vector3d middle = valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0);
+  const double size_m = model.IsLever() ? 0.5 * model.lever_length_m : model.rim_radius_m;
+  const double reach_m = kAround * size_m + 0.03;
   RaySet around = region;
-  std::erase_if(around.rays, [&](const RangeRay& ray) {
+  std::erase_if(around.rays, [&, middle = MiddleOf(valve)](const RangeRay& ray) {
     return (middle - ray.origin).cross(ray.direction).norm() > reach_m;
   });
+  if (std::ssize(around.rays) < kMinRays || 2 * around.rays.size() >= region.rays.size())
+    return std::nullopt;
   return around;
-}
-
-/// A region drawn far too large leaves few of the thinned rays on the valve: its own part of the
-/// region brings more of them.
-bool DeservesCloserLook(const RaySet& region, const RaySet& around,
-                        const FitValveOptions& options) {
-  return std::ssize(region.rays) > options.max_rays && std::ssize(around.rays) >= kMinRays &&
-         2 * around.rays.size() < region.rays.size();
 }
 
 }  // namespace
@@ -247,9 +248,8 @@ Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& o
   FORESIGHT_CHECK(options.Check());
   FORESIGHT_TRY(const RaySet region, UsableRays(all_rays, kMinRays, "a wheel"));
   FORESIGHT_TRY(ValveDetection detection, Search(region, region, options, context.Part(0.0, 0.5)));
-  if (const RaySet around = RaysAround(region, detection.best);
-      DeservesCloserLook(region, around, options)) {
-    Result<ValveDetection> closer = Search(region, around, options, context.Part(0.5, 1.0));
+  if (const auto around = RaysForCloserLook(region, detection.best, options)) {
+    Result<ValveDetection> closer = Search(region, *around, options, context.Part(0.5, 1.0));
     if (closer)
       detection = std::move(*closer);
     else if (closer.error().code == ErrorCode::kCancelled)

@@ -134,9 +134,13 @@ double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence) {
   return evidence.hits * std::min(1.0, rays.samples_per_ray);
 }
 
-double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve) {
+Eigen::Vector3d MiddleOf(const ValveCandidate& valve) {
   const double half_m = valve.model.IsLever() ? 0.5 * valve.model.lever_length_m : 0.0;
-  return DistanceFromRegionCenter(rays, valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0));
+  return valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0);
+}
+
+double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve) {
+  return DistanceFromRegionCenter(rays, MiddleOf(valve));
 }
 
 int Misplacement(const RaySet& rays, const ValveCandidate& valve) {

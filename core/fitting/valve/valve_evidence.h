@@ -23,6 +23,9 @@ void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 /// Independent measurements on the valve: a dense map has fewer than rays.
 double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
 
+/// In base: of a wheel its centre, of a lever halfway along its bar.
+Eigen::Vector3d MiddleOf(const ValveCandidate& valve);
+
 /// How far the middle of a valve is from that of the region, across the line of sight.
 double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve);
 
