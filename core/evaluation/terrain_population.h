@@ -7,7 +7,8 @@ namespace foresight {
 /// Fields of cinder blocks and what resembles them, docs/evaluation.md "Terrain fit".
 ///
 /// Positives: 3 x (3 to 5) blocks, tilted by 15 deg in four directions, 15 % flat, on layers of 0,
-/// 0.19 and 0.38 m, each up to 8 mm and 1.5 deg off its place; head 1.1 to 1.6 m above rough
+/// 0.19 and 0.38 m, each up to 8 mm and 1.5 deg off its place, or, one in six, 2 to 6 blocks that
+/// stand in no rows; head 1.1 to 1.6 m above rough
 /// ground, range noise of 4 to 20 mm, lines 0.25 to 1 deg apart. Negatives: flat ground, stairs,
 /// boxes of other sizes, a ramp, rubble, a table's edge, a wall.
 ///

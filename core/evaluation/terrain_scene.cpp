@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "core/evaluation/terrain_look_alikes.h"
 #include "core/evaluation/terrain_stage.h"
@@ -20,6 +22,9 @@ constexpr double kTilt_rad = RadiansFromDegrees(15.0);
 constexpr double kFlatShare = 0.15;
 constexpr double kJitter_m = 0.008;
 constexpr int kNegativeEvery = 6;
+constexpr std::uint64_t kScatterStream = 4344;
+constexpr int kScatteredEvery = 6;  // of the positives
+constexpr double kApart_m = 0.60;   // between the middles of scattered blocks
 
 /// Stands on its lowest edge: tilted about x (towards y or away) or y, or flat.
 Eigen::Quaterniond BlockTilt(int row, int column, Random& random) {
@@ -30,13 +35,13 @@ Eigen::Quaterniond BlockTilt(int row, int column, Random& random) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(way < 2 ? tilt : -tilt, axis));
 }
 
-void AddCell(const TerrainStage& stage, const Eigen::Vector2d& at, int layer,
+void AddCell(const TerrainStage& stage, const Eigen::Vector2d& at, double yaw_rad, int layer,
              const Eigen::Quaterniond& tilt, const Material& material, Random& random,
              Scene& scene) {
   const double base_m = layer * kLayer_m;
   if (layer > 0)
-    AddBox("base", {0.38, 0.38, base_m}, stage.At({at.x(), at.y(), 0.5 * base_m}, 0.0), material,
-           scene);
+    AddBox("base", {0.38, 0.38, base_m}, stage.At({at.x(), at.y(), 0.5 * base_m}, yaw_rad),
+           material, scene);
   BlockObject block;
   block.name = "block";
   block.material = material;
@@ -51,7 +56,7 @@ void AddCell(const TerrainStage& stage, const Eigen::Vector2d& at, int layer,
   const Eigen::Vector3d shift(random.Uniform(-kJitter_m, kJitter_m),
                               random.Uniform(-kJitter_m, kJitter_m), 0.0);
   const auto cell = stage.At(Eigen::Vector3d(at.x(), at.y(), base_m + height_m) + shift,
-                             RadiansFromDegrees(random.Uniform(-1.5, 1.5)));
+                             yaw_rad + RadiansFromDegrees(random.Uniform(-1.5, 1.5)));
   block.robot_from_object = {cell.rotation() * tilt, cell.translation()};
   AddBlock(block, scene);
 }
@@ -67,8 +72,25 @@ void AddField(const TerrainStage& stage, int rows, Random& random, Scene& scene)
       const Eigen::Vector2d at((row - 0.5 * (rows - 1)) * pitch_m,
                                (column - 0.5 * (kColumns - 1)) * pitch_m);
       const Eigen::Quaterniond tilt = BlockTilt(row, column, random);
-      AddCell(stage, at, layer, tilt, random.Uniform() < 0.7 ? one : other, random, scene);
+      AddCell(stage, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random, scene);
     }
+}
+
+/// A few blocks that stand as they fell, in no rows.
+void AddScatteredBlocks(const TerrainStage& stage, int rows, Random& random, Scene& scene) {
+  const Material material = RandomConcrete(random);
+  const int count = 2 + random.Index(5);
+  std::vector<Eigen::Vector2d> places;
+  for (int tries = 0; tries < 200 && std::ssize(places) < count; ++tries) {
+    const Eigen::Vector2d at(random.Uniform(-0.21, 0.21) * rows, random.Uniform(-0.65, 0.65));
+    if (std::any_of(places.begin(), places.end(),
+                    [&](const Eigen::Vector2d& other) { return (at - other).norm() < kApart_m; }))
+      continue;
+    places.push_back(at);
+    const Eigen::Quaterniond tilt = BlockTilt(random.Index(4), random.Index(4), random);
+    AddCell(stage, at, random.Uniform(-std::numbers::pi, std::numbers::pi), random.Index(2), tilt,
+            material, random, scene);
+  }
 }
 
 ScanPlan RandomPlan(Random& random) {
@@ -96,7 +118,11 @@ FitTrialScene RandomTerrainScene(std::uint64_t seed) {
   FitTrialScene trial;
   AddHall(stage, random, *scene);
   trial.positive = random.Index(kNegativeEvery) != 0;
-  if (trial.positive) {
+  Random scatter(seed, kScatterStream);
+  if (trial.positive && scatter.Index(kScatteredEvery) == 0) {
+    AddScatteredBlocks(stage, rows, scatter, *scene);
+    trial.what = "scattered blocks";
+  } else if (trial.positive) {
     AddField(stage, rows, random, *scene);
     trial.what = fmt::format("field of {} x {} blocks", rows, kColumns);
   } else {

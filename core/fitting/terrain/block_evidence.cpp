@@ -21,7 +21,10 @@ constexpr double kNearEdge_m = 0.010;  // support this near outside is the edge'
 constexpr double kAround_m = 0.120;
 
 // What no number of points averages away: of a plane fitted to lidar ranges or to a dense map.
-constexpr double kEdgeFloor_m = 0.010;  // where a top ends: creases and flying points shift it
+// Where a top ends: creases and flying points shift it, more so along the line of sight, where a
+// spot is stretched over the plane.
+constexpr double kEdgeFloor_m = 0.004, kEdgeFloorAlongSight_m = 0.0075;
+constexpr double kSpotShare = 0.25;  // of a stretched spot's length
 constexpr double kHeightFloor_m = 0.001;
 constexpr double kTiltFloor_rad = RadiansFromDegrees(0.15);
 constexpr double kUnknownPlace_m = 0.030;
@@ -162,17 +165,25 @@ PoseCovariance BlockCovariance(const SurfaceGrid& grid, const PlaneView& view,
   covariance(2, 2) += kHeightFloor_m * kHeightFloor_m;
   for (const int row : {3, 4}) covariance(row, row) += kTiltFloor_rad * kTiltFloor_rad;
 
+  const Eigen::Vector3d sight = view.InBase(rectangle.center) - grid.viewpoint();
+  const Eigen::Vector2d flat_sight(view.x.dot(sight), view.y.dot(sight));
+  const Eigen::Vector2d along_sight =
+      (Eigen::Rotation2Dd(-rectangle.yaw_rad) * flat_sight).normalized();
+  const double closing = std::max(0.1, std::abs(view.surface.plane.normal.dot(sight.normalized())));
+  const double spot_m = sight.norm() * grid.spot_rad() / closing;
   double yaw_information = 1.0 / (kUnknownYaw_rad * kUnknownYaw_rad);
   for (int axis = 0; axis < 2; ++axis) {
     double place_information = 1.0 / (kUnknownPlace_m * kUnknownPlace_m);
     const double length = rectangle.size_m[1 - axis];
+    const double sharp_m = std::hypot(
+        kEdgeFloor_m, along_sight[axis] * std::hypot(kEdgeFloorAlongSight_m, kSpotShare * spot_m));
     for (const int e : {axis, axis + 2}) {
       if (!evidence.edges[static_cast<std::size_t>(e)].Confirmed()) continue;
       // Each point along the edge tells where it is to within its spacing and the blur.
       const double samples =
           std::max(1.0, grid.samples_per_point() * length / std::max(1e-4, spacing_m));
       const double variance =
-          (spacing_m * spacing_m / 12.0 + blur_m * blur_m) / samples + kEdgeFloor_m * kEdgeFloor_m;
+          (spacing_m * spacing_m / 12.0 + blur_m * blur_m) / samples + sharp_m * sharp_m;
       place_information += 1.0 / variance;
       yaw_information += length * length / 12.0 / variance;
     }

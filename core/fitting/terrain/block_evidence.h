@@ -27,6 +27,11 @@ struct RectangleEvidence {
   int dropping_edges = 0;
   /// How far the support's own extent is from the block's size, the larger of both directions.
   double size_error_m = 0.0;
+  /// Whether it stands in rows with its neighbours (kNone: there are no rows), and how far its own
+  /// edges have it from there.
+  enum class Row { kNone, kIn, kOut };
+  Row row = Row::kNone;
+  double row_gap_sigmas = 0.0;
 };
 
 RectangleEvidence GatherEvidence(const SurfaceGrid& grid, const PlaneView& view,

@@ -18,6 +18,10 @@ constexpr double kOutsideWeight = 0.7;
 // and a whole face falls on one line of the plane.
 constexpr double kOccupied_m = 0.050;
 
+// A beam counts as gone past an edge as soon as a part of its spot reads what lies behind: its
+// middle is then this share of the spot's length inside the edge.
+constexpr double kPastEdge = 0.20;
+
 constexpr double kOneBlock = 1.25;       // a patch of more area may hold several
 constexpr int kMaxBlocks = 8;            // of a patch
 constexpr double kPeelMargin_m = 0.015;  // support this near to a peeled block goes with it
@@ -177,6 +181,14 @@ BlockRectangle BestRectangle(const PlaneView& view, const std::vector<PlaneView:
   return best;
 }
 
+/// From the middle of a beam's spot on the plane to the part of it that went past an edge.
+Eigen::Vector2d SpotShift(const SurfaceGrid& grid, int i, const PlaneView& view) {
+  const GridPoint& point = grid[i];
+  const Eigen::Vector2d away(view.x.dot(point.direction), view.y.dot(point.direction));
+  const double closing = std::max(0.1, std::abs(view.surface.plane.normal.dot(point.direction)));
+  return kPastEdge * point.range_m * grid.spot_rad() / closing * away.normalized();
+}
+
 }  // namespace
 
 Eigen::Vector2d BlockRectangle::Local(const Eigen::Vector2d& at) const {
@@ -204,7 +216,7 @@ PlaneView ViewOfPlane(const SurfaceGrid& grid, const SurfacePlanes& surfaces, in
     const double range_m = RangeTo(surface, grid[i].origin, grid[i].direction);
     if (!std::isfinite(range_m)) continue;
     const Eigen::Vector2d at = view.Flat(grid[i].origin + range_m * grid[i].direction);
-    view.support.push_back({at, AreaOn(surface, grid[i]), i});
+    view.support.push_back({at, AreaOn(surface, grid[i], range_m), i});
     bounds.extend(at);
   }
   if (view.support.empty()) return view;
@@ -216,14 +228,17 @@ PlaneView ViewOfPlane(const SurfaceGrid& grid, const SurfacePlanes& surfaces, in
     const double above = surface.Distance(grid[i].point);
     const double certainty =
         label >= 0 ? 1.0 : CertainlyOff(above / DistanceSigma(grid, i, surface));
-    const double area = certainty * AreaOn(surface, grid[i]);
     if (above < 0.0) {
       const double range_m = RangeTo(surface, grid[i].origin, grid[i].direction);
-      const Eigen::Vector2d at = view.Flat(grid[i].origin + range_m * grid[i].direction);
-      if (std::isfinite(range_m) && bounds.contains(at)) view.through.push_back({at, area, i});
+      if (!std::isfinite(range_m)) continue;
+      const Eigen::Vector2d at =
+          view.Flat(grid[i].origin + range_m * grid[i].direction) + SpotShift(grid, i, view);
+      if (bounds.contains(at))
+        view.through.push_back({at, certainty * AreaOn(surface, grid[i], range_m), i});
     } else if (above < kOccupied_m) {
       const Eigen::Vector2d at = view.Flat(grid[i].point);
-      if (bounds.contains(at)) view.occupied.push_back({at, area, i});
+      if (bounds.contains(at))
+        view.occupied.push_back({at, certainty * AreaOn(surface, grid[i], grid[i].range_m), i});
     }
   }
   return view;

@@ -15,8 +15,9 @@ struct FitTerrainOptions {
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
   double max_tilt_rad = 0.7853981633974483;        ///< of a surface, 45 deg
   double toehold_margin_m = 0.020;                 ///< kept from each side of a block
-  bool graph_cut = true;  ///< false: planes stay as they grew (for comparison)
-  int max_rays = 120000;  ///< a denser region is thinned to this many
+  bool graph_cut = true;       ///< false: planes stay as they grew (for comparison)
+  bool place_together = true;  ///< false: each block by its own edges alone (for comparison)
+  int max_rays = 120000;       ///< a denser region is thinned to this many
   /// The last accepted answer; blocks that moved since are marked (both in base, the robot
   /// unmoved).
   std::shared_ptr<const TerrainDetection> last;

@@ -48,7 +48,10 @@ std::vector<Eigen::Vector2i> MeasuredCells(const RaySet& rays) {
 }  // namespace
 
 SurfaceGrid::SurfaceGrid(const RaySet& rays, int max_rays)
-    : sigma_m_(rays.sigma_m), samples_per_point_(rays.samples_per_ray), viewpoint_(rays.viewpoint) {
+    : sigma_m_(rays.sigma_m),
+      samples_per_point_(rays.samples_per_ray),
+      spot_rad_(rays.spot_height_rad),
+      viewpoint_(rays.viewpoint) {
   PutOnMeasuredGrid(rays, max_rays);
   if (points_.empty()) PutOnAngles(rays);
   MeasureSteps();

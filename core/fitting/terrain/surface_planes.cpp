@@ -46,7 +46,7 @@ bool Refit(const SurfaceGrid& grid, const std::vector<int>& points, SurfacePlane
     const double weight = TukeyWeight(error / DistanceSigma(grid, i, surface.plane));
     squares += weight * error * error;
     weights += weight;
-    surface.area_m2 += AreaOn(surface.plane, grid[i]);
+    surface.area_m2 += AreaOn(surface.plane, grid[i], grid[i].range_m);
   }
   surface.rms_m = std::sqrt(squares / std::max(1.0, weights));
   return true;
@@ -66,9 +66,9 @@ double DistanceSigma(const SurfaceGrid& grid, int i, const Plane& plane) {
   return std::hypot(kRoughness_m, grid.sigma_m() * plane.normal.dot(grid[i].direction));
 }
 
-double AreaOn(const Plane& plane, const GridPoint& point) {
+double AreaOn(const Plane& plane, const GridPoint& point, double range_m) {
   const double closing = std::max(kLeastClosing, std::abs(plane.normal.dot(point.direction)));
-  return point.range_m * point.range_m * point.solid_angle_sr / closing;
+  return range_m * range_m * point.solid_angle_sr / closing;
 }
 
 void RefitPlanes(const SurfaceGrid& grid, double min_area_m2, SurfacePlanes& surfaces) {

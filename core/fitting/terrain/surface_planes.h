@@ -30,8 +30,9 @@ std::vector<std::vector<int>> PointsOfEach(const SurfacePlanes& surfaces);
 /// surface is rough by.
 double DistanceSigma(const SurfaceGrid& grid, int i, const Plane& plane);
 
-/// Area of a plane that a point's ray stands for.
-double AreaOn(const Plane& plane, const GridPoint& point);
+/// Area of a plane that a point's ray stands for which meets it at `range_m`: of a point behind the
+/// plane that is not the point's own range.
+double AreaOn(const Plane& plane, const GridPoint& point, double range_m);
 
 /// Fits every plane again to the points that bear its label (robust least squares of ranges), and
 /// drops those that cover less than `min_area_m2`: their points belong to none.

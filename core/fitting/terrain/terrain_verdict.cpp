@@ -13,11 +13,9 @@ constexpr int kMinEdges = 3;     // of a confirmed block
 constexpr int kUnsureEdges = 1;  // no more than this: UNSURE
 constexpr double kMinCover = 0.6;
 constexpr double kMaxOutside = 0.1;
-// A foot is bet on it: at 0.95, 33 of 35 blocks of raw returns were right on scenes of other seeds.
-constexpr double kSureEnough = 0.97;
 // From here on less than 0.5 % of the toehold area that is offered has no block under it, on the
 // scenes that the weights were fitted to.
-constexpr double kWorthOffering = 0.85;
+constexpr double kWorthOffering = 0.80;
 
 std::string Edges(int count) {
   static constexpr const char* kWords[] = {"no edge", "one edge", "two edges", "three edges",
@@ -61,29 +59,35 @@ std::vector<double> FeaturesOf(const RaySet& rays, const TerrainSurface& block,
     least_inner = std::min(least_inner, edge.inner_support);
     most_outer = std::max(most_outer, edge.outer_support);
   }
-  return {seen.cover,
-          seen.see_through,
-          seen.outside,
-          seen.confirmed_edges >= 3 ? 1.0 : 0.0,
-          seen.confirmed_edges >= 4 ? 1.0 : 0.0,
-          static_cast<double>(evidence.dropping_edges),
-          least_inner,
-          most_outer,
-          std::min(0.1, evidence.size_error_m),
-          std::log(std::max(1, seen.points)),
-          seen.rms_m,
-          block.toehold.slope_rad,
-          range_m,
-          rays.sigma_m,
-          std::log(std::max(1e-4, block.toehold.sigma_tilt_rad))};
+  return {
+      seen.cover,
+      seen.see_through,
+      seen.outside,
+      seen.confirmed_edges >= 3 ? 1.0 : 0.0,
+      seen.confirmed_edges >= 4 ? 1.0 : 0.0,
+      static_cast<double>(evidence.dropping_edges),
+      least_inner,
+      most_outer,
+      std::min(0.1, evidence.size_error_m),
+      std::log(std::max(1, seen.points)),
+      seen.rms_m,
+      block.toehold.slope_rad,
+      range_m,
+      rays.sigma_m,
+      std::log(std::max(1e-4, block.toehold.sigma_tilt_rad)),
+      evidence.row == RectangleEvidence::Row::kIn ? 1.0 : 0.0,
+      evidence.row == RectangleEvidence::Row::kOut ? 1.0 : 0.0,
+      evidence.row_gap_sigmas,
+      std::log(std::hypot(std::sqrt(block.covariance(0, 0)), std::sqrt(block.covariance(1, 1))))};
 }
 
 }  // namespace
 
 std::vector<std::string> TerrainFeatureNames() {
-  return {"cover", "see_through", "outside",    "three_edges", "four_edges",
-          "drops", "least_inner", "most_outer", "size_error",  "log_points",
-          "rms",   "tilt",        "range",      "sigma",       "log_sigma_tilt"};
+  return {"cover",   "see_through", "outside",    "three_edges",    "four_edges",
+          "drops",   "least_inner", "most_outer", "size_error",     "log_points",
+          "rms",     "tilt",        "range",      "sigma",          "log_sigma_tilt",
+          "in_rows", "out_of_rows", "row_gap",    "log_sigma_place"};
 }
 
 Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
@@ -94,13 +98,10 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
   verdict.probability = model.Probability(verdict.features);
   verdict.objections = Objections(block.evidence);
   model.AddReservation(verdict.objections);
-  if (!verdict.objections.empty())
-    verdict.probability = std::min(verdict.probability, Verdict::kConfirmed - 0.01);
-  if (block.evidence.confirmed_edges <= kUnsureEdges)
-    verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
-  const bool objected = !verdict.objections.empty() || verdict.probability < kSureEnough;
-  verdict.level = verdict.probability < kWorthOffering ? VerdictLevel::kUnsure
-                                                       : LevelFor(verdict.probability, objected);
+  const bool unsure =
+      verdict.probability < kWorthOffering || block.evidence.confirmed_edges <= kUnsureEdges;
+  verdict.level =
+      unsure ? VerdictLevel::kUnsure : LevelFor(verdict.probability, !verdict.objections.empty());
   if (!verdict.objections.empty())
     verdict.reason = verdict.objections.front();
   else if (verdict.level == VerdictLevel::kConfirmed)

@@ -56,6 +56,46 @@ TEST(FitTerrain, FindsATiltedBlockAndItsPose) {
   }
 }
 
+TEST(FitTerrain, AFewBeamsThatReadSomethingFarBehindTakeNoBlockAway) {
+  RaySet rays = RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1);
+  for (std::size_t i = 0; i < rays.rays.size(); i += 25) rays.rays[i].range_m = 9.0;
+  const auto found = FitTerrain(rays, {}, {});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(Count(*found, Kind::kBlock), 1);
+  EXPECT_LT(found->surfaces.front().evidence.see_through, 0.10);  // 4 %, wherever they end
+}
+
+TEST(FitTerrain, BlocksInRowsArePlacedByTheirNeighborsToo) {
+  std::vector<Slab> slabs = {Ground(1.4)};
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      slabs.push_back(SlabAt(0.43 * (column - 1), 1.2 - 0.1 * row, 1.2 + 0.43 * row, kBlock,
+                             (row + column) % 2 == 0 ? 14.0 : -8.0));
+  FitTerrainOptions alone;
+  alone.place_together = false;
+  const auto mean_error_m = [&](const FitTerrainOptions& options) {
+    double sum = 0.0;
+    int blocks = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const auto found = FitTerrain(RaysOnto(slabs, 0.6, 0.015, seed), options, {});
+      if (!found) continue;
+      for (const TerrainSurface& surface : found->surfaces) {
+        double least = 0.05;
+        for (const Slab& slab : slabs)
+          least = std::min(
+              least,
+              (slab.base_from_slab.translation() - surface.base_from_object.translation()).norm());
+        if (surface.kind != Kind::kBlock || least >= 0.05) continue;
+        sum += least;
+        ++blocks;
+      }
+    }
+    EXPECT_GE(blocks, 24);
+    return sum / blocks;
+  };
+  EXPECT_LT(mean_error_m({}), 0.8 * mean_error_m(alone));
+}
+
 TEST(FitTerrain, GroundIsGroundAndNoFoothold) {
   const TerrainDetection found = Fit({Ground(1.4)});
   EXPECT_EQ(Count(found, Kind::kBlock), 0);

@@ -1,0 +1,193 @@
+#include "core/fitting/terrain/surface_collector.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/fitting/terrain/block_lattice.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kMinCover = 0.40;  // of a block that is offered
+constexpr double kMaxSeeThrough = 0.30;
+constexpr double kLargestPatch = 5.0;   // blocks; more is ground or a floor
+constexpr double kMinLeftover = 0.15;   // of a block's area: a surface of its own
+constexpr double kOwnMargin_m = 0.015;  // support this near to a block is its own
+
+/// How far a return near an edge may lie from where the edge is.
+double EdgeBlur(const RaySet& rays, const SurfaceGrid& grid, const Eigen::Vector3d& at) {
+  const double range_m = (at - grid.viewpoint()).norm();
+  return std::max(0.003, 0.25 * rays.footprint_rad * range_m);
+}
+
+/// A surface's frame: z its normal, x along the rectangle's first side or against it, whichever is
+/// nearer to the right.
+Rigid<frame::Base, frame::Object> PoseOf(const PlaneView& view, const BlockRectangle& rectangle) {
+  const Eigen::Vector3d z = view.surface.plane.normal;
+  Eigen::Vector3d x =
+      view.InBase(rectangle.Flat(Eigen::Vector2d::UnitX())) - view.InBase(rectangle.center);
+  x.normalize();
+  if (x.x() < 0.0) x = -x;
+  Eigen::Matrix3d rotation;
+  rotation << x, z.cross(x), z;
+  return {rotation, view.InBase(rectangle.center)};
+}
+
+TerrainSurface PlainSurface(const PlaneView& view, const BlockRectangle& bounds,
+                            const Eigen::Vector3d& up) {
+  BlockRectangle rectangle = bounds;
+  if (rectangle.size_m.x() < rectangle.size_m.y()) {
+    std::swap(rectangle.size_m.x(), rectangle.size_m.y());
+    rectangle.yaw_rad += 1.5707963267948966;
+  }
+  TerrainSurface surface;
+  surface.base_from_object = PoseOf(view, rectangle);
+  surface.size_m = rectangle.size_m;
+  surface.toehold.slope_rad = std::acos(std::clamp(view.surface.plane.normal.dot(up), -1.0, 1.0));
+  surface.evidence.points = static_cast<int>(view.support.size());
+  surface.evidence.rms_m = view.surface.rms_m;
+  surface.verdict.reason = "not a block of the known size";
+  return surface;
+}
+
+/// Two level directions.
+Eigen::Matrix<double, 2, 3> LevelAxes(const Eigen::Vector3d& up) {
+  Eigen::Matrix<double, 2, 3> axes;
+  axes.row(0) = up.unitOrthogonal().transpose();
+  axes.row(1) = up.cross(axes.row(0).transpose()).transpose();
+  return axes;
+}
+
+/// From a block's own plane to its place seen from above.
+Eigen::Matrix2d LevelFromFlat(const PlaneView& view, const Eigen::Matrix<double, 2, 3>& level) {
+  Eigen::Matrix2d matrix;
+  matrix << level * view.x, level * view.y;
+  return matrix;
+}
+
+BlockPlace PlaceOf(const FoundSurface& block, const PlaneView& view,
+                   const Eigen::Matrix<double, 2, 3>& level) {
+  const auto& pose = block.surface.base_from_object;
+  const Eigen::Matrix<double, 2, 3> level_from_object = level * pose.rotation().toRotationMatrix();
+  const Eigen::Matrix2d sides = level_from_object.leftCols<2>();
+  BlockPlace place;
+  place.at = level * view.InBase(block.rectangle.center);
+  place.covariance = sides * block.surface.covariance.topLeftCorner<2, 2>() * sides.transpose();
+  place.yaw_rad = std::atan2(sides(1, 0), sides(0, 0));
+  place.yaw_sigma_rad = std::sqrt(block.surface.covariance(5, 5));
+  return place;
+}
+
+/// What a place from above says of a block's own pose.
+void TakeCovariance(const BlockPlace& place, const Eigen::Matrix<double, 2, 3>& level,
+                    TerrainSurface& block) {
+  const Eigen::Matrix2d sides =
+      (level * block.base_from_object.rotation().toRotationMatrix()).leftCols<2>();
+  const Eigen::Matrix2d object_from_level = sides.inverse();
+  block.covariance.topLeftCorner<2, 2>() =
+      object_from_level * place.covariance * object_from_level.transpose();
+  block.covariance(5, 5) = place.yaw_sigma_rad * place.yaw_sigma_rad;
+}
+
+/// The rectangle on its plane where a place from above wants it.
+BlockRectangle MovedTo(const BlockPlace& to, const BlockPlace& from, const PlaneView& view,
+                       const Eigen::Matrix<double, 2, 3>& level, BlockRectangle rectangle) {
+  const Eigen::Matrix2d level_from_flat = LevelFromFlat(view, level);
+  rectangle.center += level_from_flat.inverse() * (to.at - from.at);
+  const double turn = to.yaw_rad - from.yaw_rad;
+  rectangle.yaw_rad += level_from_flat.determinant() > 0.0 ? turn : -turn;
+  return rectangle;
+}
+
+}  // namespace
+
+SurfaceCollector::SurfaceCollector(const RaySet& rays, const SurfaceGrid& grid,
+                                   const FitTerrainOptions& options)
+    : rays_(rays), grid_(grid), options_(options) {
+  size_m_ = {options.block_size_m.maxCoeff(), options.block_size_m.minCoeff()};
+}
+
+void SurfaceCollector::Add(const SurfacePlanes& planes, int plane) {
+  const PlaneView view = ViewOfPlane(grid_, planes, plane, 0.15);
+  if (view.support.size() < 3) return;
+  std::vector<PlaneView::Sample> left = view.support;
+  if (view.surface.area_m2 < kLargestPatch * size_m_.prod()) AddBlocks(view, left);
+  const bool whole = left.size() == view.support.size();
+  double area = 0.0;
+  for (const auto& sample : left) area += sample.area_m2;
+  if (left.size() < 3 || (!whole && area < kMinLeftover * size_m_.prod())) return;
+  PlaneView rest = view;
+  rest.support = left;
+  FoundSurface plain;
+  plain.surface = PlainSurface(rest, BoundsOfSupport(rest), options_.up);
+  for (const auto& sample : left) plain.points.push_back(sample.point);
+  found.push_back(std::move(plain));
+}
+
+void SurfaceCollector::AddBlocks(const PlaneView& view, std::vector<PlaneView::Sample>& left) {
+  const double slope = std::acos(std::clamp(view.surface.plane.normal.dot(options_.up), -1.0, 1.0));
+  if (slope > options_.max_tilt_rad) return;
+  views_.push_back(view);
+  const double blur_m = EdgeBlur(rays_, grid_, view.surface.center);
+  for (const BlockRectangle& rectangle : FitRectangles(view, size_m_, kMinCover, blur_m)) {
+    FoundSurface block = BlockAt(static_cast<int>(views_.size()) - 1, rectangle);
+    const BlockEvidence& seen = block.surface.evidence;
+    if (seen.cover < kMinCover || seen.see_through > kMaxSeeThrough) continue;
+    std::erase_if(left, [&](const auto& sample) {
+      if (rectangle.Inside(sample.at) < -kOwnMargin_m) return false;
+      block.points.push_back(sample.point);
+      return true;
+    });
+    found.push_back(std::move(block));
+  }
+}
+
+FoundSurface SurfaceCollector::BlockAt(int view_index, const BlockRectangle& rectangle) const {
+  const PlaneView& view = views_[static_cast<std::size_t>(view_index)];
+  FoundSurface block;
+  block.view = view_index;
+  block.rectangle = rectangle;
+  block.evidence = GatherEvidence(grid_, view, rectangle);
+  TerrainSurface& surface = block.surface;
+  surface = PlainSurface(view, rectangle, options_.up);
+  surface.kind = TerrainSurface::Kind::kBlock;
+  surface.evidence = block.evidence.block;
+  surface.covariance = BlockCovariance(grid_, view, rectangle, block.evidence,
+                                       EdgeBlur(rays_, grid_, view.surface.center));
+  surface.toehold.size_m = (size_m_.array() - 2.0 * options_.toehold_margin_m).max(0.0).matrix();
+  surface.toehold.sigma_height_m = std::sqrt(surface.covariance(2, 2));
+  surface.toehold.sigma_tilt_rad =
+      std::sqrt(std::max(surface.covariance(3, 3), surface.covariance(4, 4)));
+  return block;
+}
+
+void SurfaceCollector::PlaceTogether() {
+  const Eigen::Matrix<double, 2, 3> level = LevelAxes(options_.up);
+  std::vector<std::size_t> blocks;
+  std::vector<BlockPlace> places;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].surface.kind != TerrainSurface::Kind::kBlock) continue;
+    blocks.push_back(i);
+    places.push_back(PlaceOf(found[i], views_[static_cast<std::size_t>(found[i].view)], level));
+  }
+  const auto lattice = FindBlockLattice(places, size_m_.mean());
+  if (!lattice) return;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    FoundSurface& block = found[blocks[k]];
+    const LatticePlace& settled = lattice->places[k];
+    if (settled.in_rows) {
+      const PlaneView& view = views_[static_cast<std::size_t>(block.view)];
+      FoundSurface moved =
+          BlockAt(block.view, MovedTo(settled.place, places[k], view, level, block.rectangle));
+      moved.points = std::move(block.points);
+      TakeCovariance(settled.place, level, moved.surface);
+      block = std::move(moved);
+    }
+    block.evidence.row =
+        settled.in_rows ? RectangleEvidence::Row::kIn : RectangleEvidence::Row::kOut;
+    block.evidence.row_gap_sigmas = settled.gap_sigmas;
+  }
+}
+
+}  // namespace foresight
