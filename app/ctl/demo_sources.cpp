@@ -11,7 +11,7 @@ namespace {
 
 Result<ValveDetection> FitToDepth(const DepthResult& depth, const DemoSubject& subject,
                                   const RunContext& context) {
-  return FitValveInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepth, subject.roi,
+  return FitValveInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepthAlone, subject.roi,
                         FitValveOptions(), context);
 }
 
@@ -45,7 +45,8 @@ Result<std::vector<DemoAnswer>> FitToEverySource(const DemoSubject& subject,
                                     FitValveOptions(), context),
                      std::nullopt});
   for (const DepthMethodInfo& method : DepthMethods())
-    answers.push_back({method.name, FitToDepthOf(method.method, subject, context), std::nullopt});
+    answers.push_back({NameOf({FitSource::kDepthAlone, method.method}),
+                       FitToDepthOf(method.method, subject, context), std::nullopt});
   for (DemoAnswer& answer : answers) {
     if (!answer.valve && answer.valve.error().code == ErrorCode::kCancelled)
       return tl::unexpected(answer.valve.error());

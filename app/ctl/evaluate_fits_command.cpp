@@ -31,14 +31,10 @@ struct EvaluateFitsArguments {
 
 Result<FitTrialOptions> TrialOptionsFrom(const EvaluateFitsArguments& arguments) {
   FitTrialOptions options;
-  options.raw = false;
-  for (const std::string& source : arguments.sources) {
-    if (source == "raw") {
-      options.raw = true;
-      continue;
-    }
-    FORESIGHT_TRY(const DepthMethod method, DepthMethodFromName(source));
-    options.methods.push_back(method);
+  options.sources.clear();
+  for (const std::string& name : arguments.sources) {
+    FORESIGHT_TRY(const NamedSource source, FitSourceFromName(name));
+    options.sources.push_back(source);
   }
   if (arguments.rotation_error_deg > 0.0 || arguments.translation_error_mm > 0.0)
     options.rig_error = CalibrationError{RadiansFromDegrees(arguments.rotation_error_deg),
@@ -213,8 +209,11 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
                    "positives or negatives: pass over the seeds of the other scenes")
       ->check(CLI::IsMember({"positives", "negatives"}));
   command
-      ->add_option("--source", arguments->sources,
-                   "What to fit to: raw, or depth methods: " + MethodNames())
+      ->add_option(
+          "--source", arguments->sources,
+          "What to fit to: raw, or depth methods (with the returns behind the map, or with "
+          "-alone after the name, without them): " +
+              MethodNames())
       ->delimiter(',')
       ->capture_default_str();
   command

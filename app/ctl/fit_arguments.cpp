@@ -37,9 +37,13 @@ void AddRegionArguments(CLI::App& command, RegionArguments& region) {
 void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
   std::vector<std::string> names = SourceNames();
   names.push_back(kDepthAlias);
+  for (std::size_t i = names.size(); i-- > 1;)
+    names.push_back(names[i] + std::string(kAloneSuffix));
   command
-      .add_option("--source", arguments.source,
-                  "What to fit to: raw (lidar returns), or the depth map of a method")
+      .add_option(
+          "--source", arguments.source,
+          "What to fit to: raw (lidar returns), or the depth map of a method, together with "
+          "the returns behind it or, with -alone after its name, without them")
       ->check(CLI::IsMember(names))
       ->capture_default_str();
   constexpr const char* kGroup = "Instead of a mission";

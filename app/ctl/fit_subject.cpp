@@ -106,7 +106,8 @@ Result<Detection> FitInPlainRays(const Result<RaySet>& rays, const FitSubject& s
 Result<DepthResult> DepthFor(const FitSubject& subject, const FitArguments& arguments,
                              const std::string& source, const RunContext& context) {
   DepthArguments depth_arguments = arguments.depth;
-  if (DepthMethodFromName(source)) depth_arguments.method = source;
+  if (const auto named = FitSourceFromName(source))
+    depth_arguments.method = InfoOf(named->method).name;
   FORESIGHT_TRY(const DepthOptions options, DepthOptionsFrom(depth_arguments));
   return ComputeDepthInFrame(subject.cloud, subject.rig, subject.scan->frame, options, context);
 }
@@ -175,7 +176,8 @@ Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, 
   if (arguments.source == "raw")
     return RaysInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi, box_rays);
   FORESIGHT_TRY(const DepthResult depth, DepthFor(subject, arguments, arguments.source, context));
-  return RaysInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepth, subject.roi, box_rays);
+  return RaysInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepthAlone, subject.roi,
+                    box_rays);
 }
 
 FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const std::string& source,
@@ -198,7 +200,9 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
         {}};
   auto depth = DepthFor(subject, arguments, source, context.Part(0.0, 0.6));
   if (!depth) return {tl::unexpected(depth.error()), {}};
-  auto detection = FitInScan({subject.rig, subject.cloud, &*depth}, FitSource::kDepth, subject.roi,
+  const auto fit_source =
+      source.ends_with(kAloneSuffix) ? FitSource::kDepthAlone : FitSource::kDepth;
+  auto detection = FitInScan({subject.rig, subject.cloud, &*depth}, fit_source, subject.roi,
                              *options, context.Part(0.6, 1.0));
   return {std::move(detection), std::move(*depth)};
 }

@@ -17,17 +17,25 @@ struct VerdictArguments {
   std::string out;
 };
 
+VerdictSource SourceOf(const FitOutcome& outcome) {
+  if (outcome.source == "raw") return VerdictSource::kRaw;
+  return outcome.source.ends_with(kAloneSuffix) ? VerdictSource::kAlone : VerdictSource::kDense;
+}
+
 Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&) {
   FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
+  const auto source = VerdictSourceFromString(arguments.source);
+  if (!source)
+    return Fail(ErrorCode::kInvalidOptions, "--source {} is not known", arguments.source);
   std::vector<FitOutcome> outcomes;
   for (const std::string& table : arguments.tables) {
     FORESIGHT_TRY(const std::vector<FitOutcome> loaded, LoadFitOutcomes(table));
     for (const FitOutcome& outcome : loaded)
-      if ((outcome.source == "raw") == (arguments.source == "raw")) outcomes.push_back(outcome);
+      if (SourceOf(outcome) == *source) outcomes.push_back(outcome);
   }
   VerdictFitOptions options;
   options.object = arguments.kind;
-  options.dense = arguments.source != "raw";
+  options.source = *source;
   options.population = arguments.population;
   options.features = population->FeatureNames();
   FORESIGHT_TRY(const VerdictModel model, FitVerdictModel(outcomes, options));
@@ -49,8 +57,9 @@ void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
       ->required()
       ->check(CLI::IsMember(FitPopulationKinds()));
   fit->add_option("tables", arguments->tables, "Outcomes, one JSON object a line")->required();
-  fit->add_option("--source", arguments->source, "raw or dense")
-      ->check(CLI::IsMember({"raw", "dense"}))
+  fit->add_option("--source", arguments->source,
+                  "raw, dense (maps with the beams behind them) or alone (maps alone)")
+      ->check(CLI::IsMember({"raw", "dense", "alone"}))
       ->capture_default_str();
   fit->add_option("--population", arguments->population,
                   "How the outcomes were made, for the file: scenes, seeds, sources")

@@ -7,6 +7,7 @@
 
 #include "core/depth/depth_method.h"
 #include "core/detection/candidates.h"
+#include "core/detection/fit_in_scan.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -145,8 +146,11 @@ std::string AdviceOn(const Detection& detection) {
 
 std::string SourceTitle(const std::string& source) {
   if (source == "raw") return "lidar returns";
-  for (const DepthMethodInfo& method : DepthMethods())
+  for (const DepthMethodInfo& method : DepthMethods()) {
     if (source == method.name) return fmt::format("depth map, {}", method.title);
+    if (source == NameOf({FitSource::kDepthAlone, method.method}))
+      return fmt::format("depth map alone, {}", method.title);
+  }
   return source;
 }
 

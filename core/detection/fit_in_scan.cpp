@@ -19,11 +19,26 @@ RaySet WithOwnSigma(RaySet rays) {
   return rays;
 }
 
-std::string NameOf(const ProcessedScan& scan, FitSource source) {
-  return source == FitSource::kRaw ? "raw" : InfoOf(scan.depth->method).name;
+}  // namespace
+
+Result<NamedSource> FitSourceFromName(std::string_view name) {
+  if (name == "raw") return NamedSource();
+  NamedSource named{FitSource::kDepth, {}};
+  std::string_view method = name;
+  if (method.ends_with(kAloneSuffix)) {
+    named.source = FitSource::kDepthAlone;
+    method.remove_suffix(kAloneSuffix.size());
+  }
+  FORESIGHT_TRY(named.method, DepthMethodFromName(std::string(method)));
+  return named;
 }
 
-}  // namespace
+std::string NameOf(const NamedSource& source) {
+  if (source.source == FitSource::kRaw) return "raw";
+  std::string name = InfoOf(source.method).name;
+  if (source.source == FitSource::kDepthAlone) name += kAloneSuffix;
+  return name;
+}
 
 FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base) {
   const Eigen::Vector3d up = robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
@@ -51,10 +66,17 @@ Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi
   if (scan.depth == nullptr)
     return Fail(ErrorCode::kState,
                 "there is no depth map yet; compute it first, or fit to the raw returns");
+  const auto with_beams = [&](RaySet rays) {
+    if (source == FitSource::kDepthAlone) return rays;
+    if (auto beams = RaysInScan(scan, FitSource::kRaw, roi, box_rays))
+      rays.beams = std::make_shared<const RaySet>(std::move(*beams));
+    return rays;
+  };
   const MaskImage& mask = scan.mask != nullptr ? *scan.mask : scan.depth->mask;
   return RaysInDepthMap(ApplyMask(scan.depth->dense.depth_m, mask), scan.rig,
                         scan.depth->samples.motor_rad, roi, LocalDensity(scan.depth->samples),
-                        box_rays);
+                        box_rays)
+      .transform(with_beams);
 }
 
 Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig& rig,
@@ -77,7 +99,8 @@ Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const R
   FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
   FORESIGHT_TRY(Detection detection, FitInRays(rays, options, context));
   OriginOf(detection).roi = roi;
-  OriginOf(detection).source = NameOf(scan, source);
+  OriginOf(detection).source =
+      NameOf({source, scan.depth != nullptr ? scan.depth->method : DepthMethod::kForesight});
   return detection;
 }
 

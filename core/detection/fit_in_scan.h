@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <variant>
 
 #include "core/depth/pipeline.h"
@@ -12,15 +14,26 @@ namespace foresight {
 
 /// What a fit is given to look at.
 enum class FitSource {
-  kRaw,    ///< the lidar's returns with their own rays
-  kDepth,  ///< the masked dense depth
+  kRaw,         ///< the lidar's returns with their own rays
+  kDepth,       ///< the masked dense depth, and the lidar's returns behind it
+  kDepthAlone,  ///< the masked dense depth alone: what a depth method's map is worth by itself
 };
+
+/// What sources are called: "raw", a depth method's name, or that and kAloneSuffix.
+inline constexpr std::string_view kAloneSuffix = "-alone";
+struct NamedSource {
+  FitSource source = FitSource::kRaw;
+  DepthMethod method = DepthMethod::kForesight;  ///< where the source is a depth map
+};
+/// Fails with kInvalidOptions for any other name.
+Result<NamedSource> FitSourceFromName(std::string_view name);
+std::string NameOf(const NamedSource& source);
 
 /// A scan as far as it has been processed. Nothing is owned.
 struct ProcessedScan {
   const SensorRig& rig;
   const RegisteredScan& cloud;
-  const DepthResult* depth = nullptr;  ///< needed for kDepth
+  const DepthResult* depth = nullptr;  ///< needed for kDepth and kDepthAlone
   const MaskImage* mask = nullptr;     ///< instead of depth->mask, where a threshold was moved
 };
 
@@ -32,7 +45,7 @@ using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOpti
 FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base);
 
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
-/// RaysFromScan and RaysFromDepth do, and with kState for kDepth without a depth.
+/// RaysFromScan and RaysFromDepth do, and with kState for a depth that is not there.
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                           BoxRays box_rays = BoxRays::kEndInside);
 

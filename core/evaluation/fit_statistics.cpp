@@ -110,19 +110,22 @@ double AreaUnderRoc(std::span<const double> probabilities, const std::vector<boo
   return pairs > 0.0 ? ahead / pairs : std::numeric_limits<double>::quiet_NaN();
 }
 
-double CalibrationErrorOf(std::span<const double> probabilities, const std::vector<bool>& right) {
+double CalibrationErrorOf(std::span<const double> probabilities, const std::vector<bool>& right,
+                          std::span<const double> weights) {
   constexpr int kBins = 10;
   std::array<double, kBins> promised{}, came_true{};
+  double total = 0.0;
   for (std::size_t i = 0; i < right.size(); ++i) {
     const auto bin = static_cast<std::size_t>(
         std::clamp(static_cast<int>(kBins * probabilities[i]), 0, kBins - 1));
-    promised[bin] += probabilities[i];
-    came_true[bin] += right[i] ? 1.0 : 0.0;
+    const double weight = weights.empty() ? 1.0 : weights[i];
+    promised[bin] += weight * probabilities[i];
+    came_true[bin] += right[i] ? weight : 0.0;
+    total += weight;
   }
   double error = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin) error += std::abs(promised[bin] - came_true[bin]);
-  return right.empty() ? std::numeric_limits<double>::quiet_NaN()
-                       : error / static_cast<double>(right.size());
+  return right.empty() ? std::numeric_limits<double>::quiet_NaN() : error / total;
 }
 
 }  // namespace foresight

@@ -43,7 +43,8 @@ std::vector<FitStatistics> StatisticsOf(std::span<const FitOutcome> outcomes);
 double AreaUnderRoc(std::span<const double> probabilities, const std::vector<bool>& right);
 
 /// Mean distance between what was promised and what came true, in ten bins of probability weighted
-/// by how many fell into each.
-double CalibrationErrorOf(std::span<const double> probabilities, const std::vector<bool>& right);
+/// by how many fell into each; `weights`, where there are any, say how many each one stands for.
+double CalibrationErrorOf(std::span<const double> probabilities, const std::vector<bool>& right,
+                          std::span<const double> weights = {});
 
 }  // namespace foresight

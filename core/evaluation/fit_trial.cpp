@@ -2,7 +2,9 @@
 
 #include <time.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/registration/register_scan.h"
@@ -55,7 +57,7 @@ Result<Scan> Simulated(const World& world, const ScanPlan& plan, bool with_pictu
   return scan;
 }
 
-void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const char* source,
+void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const std::string& source,
                  const Result<Detection>& found, double seconds,
                  std::vector<FitOutcome>& outcomes) {
   for (FitOutcome& outcome : population.Judge(trial, found)) {
@@ -70,9 +72,13 @@ void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const c
 
 }  // namespace
 
+bool FitTrialOptions::NeedsPicture() const {
+  return std::any_of(sources.begin(), sources.end(),
+                     [](const NamedSource& source) { return source.source != FitSource::kRaw; });
+}
+
 Status FitTrialOptions::Check() const {
-  if (!raw && methods.empty())
-    return Fail(ErrorCode::kInvalidOptions, "trial of fits: no source is named");
+  if (sources.empty()) return Fail(ErrorCode::kInvalidOptions, "trial of fits: no source is named");
   return rig_error ? rig_error->Check() : Status();
 }
 
@@ -85,7 +91,7 @@ Result<FitTrial> MakeFitTrial(const FitPopulation& population, std::uint64_t see
   scene.world.camera.samples_side = 1;
   FORESIGHT_CHECK(scene.world.Check());
   const World world(scene.scene, DefaultSensorRig(), scene.world);
-  FORESIGHT_TRY(Scan scan, Simulated(world, scene.plan, !options.methods.empty(), context));
+  FORESIGHT_TRY(Scan scan, Simulated(world, scene.plan, options.NeedsPicture(), context));
   if (options.rig_error) scan.rig = MiscalibratedRig(scan.rig, *options.rig_error, seed);
   FORESIGHT_TRY(RegisteredScan cloud, RegisterScan(scan, context));
   const double motor_rad = scan.frames.front().motor_angle_rad;
@@ -102,17 +108,22 @@ Result<std::vector<FitOutcome>> RunFitTrial(const FitPopulation& population, std
   one_thread.threads = 1;
   FORESIGHT_TRY(const FitTrial trial, MakeFitTrial(population, seed, options, one_thread));
   std::vector<FitOutcome> outcomes;
-  const auto fit = [&](const ProcessedScan& scan, FitSource source, const char* name) {
+  std::map<DepthMethod, DepthResult> depths;
+  for (const NamedSource& source : options.sources) {
+    ProcessedScan scan{trial.rig, trial.cloud};
+    if (source.source != FitSource::kRaw) {
+      if (!depths.contains(source.method)) {
+        FORESIGHT_TRY(DepthResult depth,
+                      ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
+                                          DefaultsOf(source.method), one_thread));
+        depths.emplace(source.method, std::move(depth));
+      }
+      scan.depth = &depths.at(source.method);
+    }
     const double begin = CpuSeconds();
     const Result<Detection> found =
-        FitInScan(scan, source, trial.roi, population.Options(trial.rig), one_thread);
-    AddOutcomes(population, trial, name, found, CpuSeconds() - begin, outcomes);
-  };
-  if (options.raw) fit({trial.rig, trial.cloud}, FitSource::kRaw, "raw");
-  for (const DepthMethod method : options.methods) {
-    FORESIGHT_TRY(const DepthResult depth, ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
-                                                               DefaultsOf(method), one_thread));
-    fit({trial.rig, trial.cloud, &depth}, FitSource::kDepth, InfoOf(method).name);
+        FitInScan(scan, source.source, trial.roi, population.Options(trial.rig), one_thread);
+    AddOutcomes(population, trial, NameOf(source), found, CpuSeconds() - begin, outcomes);
   }
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the trial of a fit was cancelled");
   return outcomes;

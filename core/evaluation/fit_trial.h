@@ -77,10 +77,10 @@ class FitPopulation {
 };
 
 struct FitTrialOptions {
-  bool raw = true;                            ///< fit to the lidar's returns
-  std::vector<DepthMethod> methods;           ///< and to the dense maps of these
+  std::vector<NamedSource> sources = {{}};    ///< what is fitted to; the lidar's returns
   std::optional<CalibrationError> rig_error;  ///< of the believed rig; none = perfect
 
+  bool NeedsPicture() const;
   Status Check() const;
 };
 

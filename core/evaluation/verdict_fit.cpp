@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/evaluation/fit_statistics.h"
 
@@ -17,16 +18,30 @@ struct Example {
   std::vector<double> values;
   bool right = false;
   std::uint64_t seed = 0;
+  double weight = 1.0;
 };
 
-std::vector<Example> ExamplesFrom(std::span<const FitOutcome> outcomes, std::size_t features) {
+/// Of the answers in scenes without the object.
+double WeightOfNegatives(std::span<const FitOutcome> outcomes, double share) {
+  std::set<std::uint64_t> positives, negatives;
+  for (const FitOutcome& outcome : outcomes)
+    (outcome.positive ? positives : negatives).insert(outcome.seed);
+  if (negatives.empty()) return 1.0;
+  return std::min(1.0, share / (1.0 - share) * static_cast<double>(positives.size()) /
+                           static_cast<double>(negatives.size()));
+}
+
+std::vector<Example> ExamplesFrom(std::span<const FitOutcome> outcomes,
+                                  const VerdictFitOptions& options) {
+  const double of_negatives = WeightOfNegatives(outcomes, options.negative_share);
   std::vector<Example> examples;
   for (const FitOutcome& outcome : outcomes) {
     const std::vector<double>& values = outcome.verdict.features;
-    if (!outcome.found || values.size() != features) continue;
+    if (!outcome.found || values.size() != options.features.size()) continue;
     if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
       continue;
-    examples.push_back({values, outcome.positive && outcome.all_ok, outcome.seed});
+    examples.push_back({values, outcome.positive && outcome.all_ok, outcome.seed,
+                        outcome.positive ? 1.0 : of_negatives});
   }
   return examples;
 }
@@ -49,11 +64,12 @@ void SolveWeights(const std::vector<Example>& examples, double ridge, VerdictMod
   const auto rows = static_cast<Eigen::Index>(examples.size());
   const auto columns = static_cast<Eigen::Index>(model.features.size()) + 1;
   Eigen::MatrixXd x(rows, columns);
-  Eigen::VectorXd y(rows);
+  Eigen::VectorXd y(rows), counts(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Example& example = examples[static_cast<std::size_t>(i)];
     x(i, 0) = 1.0;
     y(i) = example.right ? 1.0 : 0.0;
+    counts(i) = example.weight;
     for (Eigen::Index f = 1; f < columns; ++f) {
       const auto& feature = model.features[static_cast<std::size_t>(f - 1)];
       // As VerdictModel::Probability clamps.
@@ -67,8 +83,10 @@ void SolveWeights(const std::vector<Example>& examples, double ridge, VerdictMod
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(columns);
   for (int step = 0; step < kNewtonSteps; ++step) {
     const Eigen::VectorXd p = (1.0 / (1.0 + (-(x * weights)).array().exp())).matrix();
-    const Eigen::VectorXd curvature = (p.array() * (1.0 - p.array())).max(1e-9).matrix();
-    const Eigen::VectorXd gradient = x.transpose() * (y - p) - penalty.cwiseProduct(weights);
+    const Eigen::VectorXd curvature =
+        (counts.array() * p.array() * (1.0 - p.array())).max(1e-9).matrix();
+    const Eigen::VectorXd gradient =
+        x.transpose() * counts.cwiseProduct(y - p) - penalty.cwiseProduct(weights);
     Eigen::MatrixXd hessian = x.transpose() * curvature.asDiagonal() * x;
     hessian.diagonal() += penalty;
     const Eigen::VectorXd change = hessian.ldlt().solve(gradient);
@@ -109,6 +127,9 @@ std::vector<double> CrossValidated(const std::vector<Example>& examples,
 Status VerdictFitOptions::Check() const {
   if (features.empty())
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: there are no features", object);
+  if (!(negative_share > 0.0 && negative_share < 1.0))
+    return Fail(ErrorCode::kInvalidOptions, "verdict of {}: negative_share {} is not in (0, 1)",
+                object, negative_share);
   if (!(ridge >= 0.0) || folds < 2)
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: ridge {} or folds {} is not usable",
                 object, ridge, folds);
@@ -118,7 +139,7 @@ Status VerdictFitOptions::Check() const {
 Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
                                      const VerdictFitOptions& options) {
   FORESIGHT_CHECK(options.Check());
-  const std::vector<Example> examples = ExamplesFrom(outcomes, options.features.size());
+  const std::vector<Example> examples = ExamplesFrom(outcomes, options);
   const auto right = static_cast<int>(
       std::count_if(examples.begin(), examples.end(), [](const Example& e) { return e.right; }));
   const int wrong = static_cast<int>(examples.size()) - right;
@@ -129,16 +150,20 @@ Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
         options.object, right, wrong, kMinOfEach);
   VerdictModel blank;
   blank.object = options.object;
-  blank.dense = options.dense;
+  blank.source = options.source;
   blank.population = options.population;
   blank.fits = static_cast<int>(examples.size());
   blank.right = right;
   for (const std::string& name : options.features) blank.features.push_back({name, 0.0, 1.0, 0.0});
   const std::vector<double> left_out = CrossValidated(examples, options, blank);
   std::vector<bool> labels;
-  for (const Example& example : examples) labels.push_back(example.right);
+  std::vector<double> weights;
+  for (const Example& example : examples) {
+    labels.push_back(example.right);
+    weights.push_back(example.weight);
+  }
   blank.auc = AreaUnderRoc(left_out, labels);
-  blank.ece = CalibrationErrorOf(left_out, labels);
+  blank.ece = CalibrationErrorOf(left_out, labels, weights);
   return Fitted(examples, options.ridge, blank);
 }
 

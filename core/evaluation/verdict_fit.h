@@ -11,10 +11,13 @@ namespace foresight {
 
 struct VerdictFitOptions {
   std::string object;  ///< "valve"
-  bool dense = false;
+  VerdictSource source = VerdictSource::kRaw;
   std::string population;             ///< goes into the model's file
   std::vector<std::string> features;  ///< names, as Verdict::features holds them
-  double ridge = 1.0;                 ///< pull of each weight towards 0, in fits' worth
+  /// Of the scenes. Where more hold something else they count for less, as if these were as many:
+  /// extra negatives teach what must not be confirmed, not that drills are rare.
+  double negative_share = 1.0 / 6.0;
+  double ridge = 1.0;  ///< pull of each weight towards 0, in fits' worth
   int folds = 5;
 
   Status Check() const;

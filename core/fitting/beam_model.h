@@ -13,6 +13,7 @@ struct BeamModel {
   static constexpr double kUniform = 1.0 / 3.0;  ///< per metre: a return from anywhere within 3 m
   static constexpr double kHit = 0.93;           ///< a beam that meets a template returns from it
   static constexpr double kGoodReturn = 0.9;     ///< ... and has no other reason to be wrong
+  static constexpr double kMapWithBeams = 0.3;   ///< of a dense map's own worth, beside its beams
   static constexpr double kPlaneShare = 0.7;     ///< of the beams that miss: they end on a plane
 };
 

@@ -21,6 +21,14 @@ RaySet Thinned(const RaySet& rays, int count, Random& random) {
   return thinned;
 }
 
+std::shared_ptr<const RaySet> ThinnedBeams(const RaySet& rays, int count, int least,
+                                           Random& random) {
+  if (rays.beams == nullptr) return nullptr;
+  const Result<RaySet> usable = UsableRays(*rays.beams, least, "it");
+  if (!usable) return nullptr;
+  return std::make_shared<const RaySet>(Thinned(*usable, count, random));
+}
+
 Status CheckRayNoise(const RaySet& rays) {
   if (!(rays.sigma_m > 0.0) || !(rays.footprint_rad >= 0.0) || !(rays.samples_per_ray > 0.0) ||
       !rays.viewpoint.allFinite())

@@ -31,4 +31,8 @@ Status CheckRayNoise(const RaySet& rays);
 /// `least` rays, saying that `object` needs them: "a wheel".
 Result<RaySet> UsableRays(const RaySet& rays, int least, const char* object);
 
+/// The beams behind a dense map that are usable, thinned; null where there are fewer than `least`.
+std::shared_ptr<const RaySet> ThinnedBeams(const RaySet& rays, int count, int least,
+                                           Random& random);
+
 }  // namespace foresight

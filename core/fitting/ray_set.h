@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct RaySet {
   /// Full angle of a beam's spot across its scan line; 0 = round, footprint_rad wide. Where a spot
   /// lies on two surfaces the range is one in between.
   double spot_height_rad = 0.0;
+  /// The lidar's own returns in the region, behind a dense map; null where they are not known. A
+  /// map guesses between them, so they have a say in which of several answers is right and where it
+  /// is.
+  std::shared_ptr<const RaySet> beams = nullptr;
 };
 
 /// Which rays of a BoxRoi a fit wants. An ImageRoi always holds both.

@@ -6,6 +6,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/embedded_files.h"
+#include "core/fitting/ray_set.h"
 #include "core/io/yaml_reader.h"
 
 namespace foresight {
@@ -17,14 +18,14 @@ namespace {
 constexpr int kFormatVersion = 1;
 constexpr double kFarthest = 4.0;  // deviations
 
-using Models = std::map<std::pair<std::string, bool>, VerdictModel>;
+using Models = std::map<std::pair<std::string, VerdictSource>, VerdictModel>;
 
 Models LoadModels() {
   Models models;
   for (const EmbeddedFile& file : VerdictFiles()) {
     auto model = VerdictModelFromYaml(std::string(file.text), std::string(file.name));
     FORESIGHT_EXPECTS(model.has_value(), "a shipped verdict model can be read");
-    const std::pair key(model->object, model->dense);
+    const std::pair key(model->object, model->source);
     models.emplace(key, std::move(*model));
   }
   return models;
@@ -36,9 +37,10 @@ VerdictModel ModelFrom(YamlMap& map) {
   VerdictModel model;
   model.object = map.Text("object");
   const std::string source = map.Text("source");
-  if (source != "raw" && source != "dense")
-    map.Fault(map.Node("source"), "source '" + source + "' is neither raw nor dense");
-  model.dense = source == "dense";
+  const auto known = VerdictSourceFromString(source);
+  if (!known)
+    map.Fault(map.Node("source"), "source '" + source + "' is none of raw, dense and alone");
+  model.source = known.value_or(VerdictSource::kRaw);
   model.population = map.Text("population");
   model.fits = map.Integer("fits");
   model.right = map.Integer("right");
@@ -60,6 +62,30 @@ VerdictModel ModelFrom(YamlMap& map) {
 }
 
 }  // namespace
+
+const char* ToString(VerdictSource source) {
+  switch (source) {
+    case VerdictSource::kRaw:
+      return "raw";
+    case VerdictSource::kDense:
+      return "dense";
+    case VerdictSource::kAlone:
+      return "alone";
+  }
+  return "raw";
+}
+
+std::optional<VerdictSource> VerdictSourceFromString(std::string_view name) {
+  for (const VerdictSource source :
+       {VerdictSource::kRaw, VerdictSource::kDense, VerdictSource::kAlone})
+    if (name == ToString(source)) return source;
+  return std::nullopt;
+}
+
+VerdictSource VerdictSourceOf(const RaySet& rays) {
+  if (!rays.dense) return VerdictSource::kRaw;
+  return rays.beams ? VerdictSource::kDense : VerdictSource::kAlone;
+}
 
 double VerdictModel::Probability(std::span<const double> values) const {
   FORESIGHT_EXPECTS(values.size() == features.size(), "as many values as the model has features");
@@ -89,7 +115,7 @@ std::string VerdictModel::ToYaml() const {
       "# Made by `foresightctl verdict fit`, docs/verdicts.md; not by hand.\n"
       "foresight_verdict: {}\nobject: {}\nsource: {}\npopulation: \"{}\"\n"
       "fits: {}\nright: {}\nauc: {:.4f}\nece: {:.4f}\nbias: {:.6g}\nfeatures:\n",
-      kFormatVersion, object, dense ? "dense" : "raw", population, fits, right, auc, ece, bias);
+      kFormatVersion, object, ToString(source), population, fits, right, auc, ece, bias);
   for (const Feature& feature : features)
     yaml += fmt::format("  - {{name: {}, mean: {:.6g}, deviation: {:.6g}, weight: {:.6g}}}\n",
                         feature.name, feature.mean, feature.deviation, feature.weight);
@@ -105,9 +131,9 @@ Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::st
   return model;
 }
 
-const VerdictModel& ShippedVerdictModel(std::string_view object, bool dense) {
+const VerdictModel& ShippedVerdictModel(std::string_view object, VerdictSource source) {
   static const Models models = LoadModels();
-  const auto found = models.find({std::string(object), dense});
+  const auto found = models.find({std::string(object), source});
   FORESIGHT_EXPECTS(found != models.end(), "there is a verdict model for each object and source");
   return found->second;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,8 +10,22 @@
 
 namespace foresight {
 
+struct RaySet;
+
+/// What evidence was gathered from: it weighs differently.
+enum class VerdictSource {
+  kRaw,    ///< lidar returns
+  kDense,  ///< a dense map, whose neighbouring rays are not independent, and the beams behind it
+  kAlone,  ///< a dense map alone
+};
+/// "raw", "dense", "alone".
+const char* ToString(VerdictSource source);
+/// nullopt for any other word.
+std::optional<VerdictSource> VerdictSourceFromString(std::string_view name);
+VerdictSource VerdictSourceOf(const RaySet& rays);
+
 /// The probability that a fit is right: logistic regression on standardised evidence. Every object
-/// has one for lidar returns and one for dense maps, whose neighbouring rays are not independent.
+/// has one for each source (terrain, which looks at no beams behind a map, none for kAlone).
 /// The files are made by `foresightctl verdict fit`, docs/verdicts.md, and hold the population that
 /// they are true for.
 struct VerdictModel {
@@ -21,8 +36,8 @@ struct VerdictModel {
     double weight = 0.0;  ///< of (value - mean) / deviation
   };
 
-  std::string object;      ///< "valve", "drill", "terrain"
-  bool dense = false;      ///< for depth maps; else for lidar returns
+  std::string object;  ///< "valve", "drill", "terrain"
+  VerdictSource source = VerdictSource::kRaw;
   std::string population;  ///< how it was made: scenes, seeds, sources
   int fits = 0;            ///< in the population
   int right = 0;           ///< of them
@@ -48,8 +63,8 @@ struct VerdictModel {
 /// Fails with kBadData, naming `source` and the line at fault.
 Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::string& source);
 
-/// resources/verdicts/<object>_<raw|dense>.yaml as it was when the program was built. Throws
+/// resources/verdicts/<object>_<source>.yaml as it was when the program was built. Throws
 /// ContractViolation where there is none.
-const VerdictModel& ShippedVerdictModel(std::string_view object, bool dense);
+const VerdictModel& ShippedVerdictModel(std::string_view object, VerdictSource source);
 
 }  // namespace foresight

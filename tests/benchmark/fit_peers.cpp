@@ -348,12 +348,12 @@ void RunSource(const FitPopulation& population, const FitTrial& trial, const Pro
 Status Run(const Arguments& arguments) {
   FORESIGHT_TRY(const auto population, MakeFitPopulation(arguments.kind));
   FitTrialOptions options;
-  options.methods = {DepthMethod::kForesight};
+  options.sources = {{}, {FitSource::kDepthAlone, DepthMethod::kForesight}};
   std::map<std::string, Tally> tallies;
   RunContext one_thread;
   one_thread.threads = 1;
   const bool judge_only = !arguments.poses.empty();
-  if (judge_only) options.methods.clear();
+  if (judge_only) options.sources.resize(1);
   int done = 0;
   for (std::uint64_t seed = arguments.first_seed; done < arguments.count; ++seed) {
     if (!population->MakeScene(seed).positive) continue;
@@ -368,8 +368,8 @@ Status Run(const Arguments& arguments) {
     FORESIGHT_TRY(const DepthResult depth,
                   ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
                                       DefaultsOf(DepthMethod::kForesight), one_thread));
-    RunSource(*population, trial, {trial.rig, trial.cloud, &depth}, FitSource::kDepth, arguments,
-              tallies);
+    RunSource(*population, trial, {trial.rig, trial.cloud, &depth}, FitSource::kDepthAlone,
+              arguments, tallies);
     fmt::print(stderr, "\r{} of {} scenes", done, arguments.count);
   }
   fmt::print("\n| source | method | right | wrong answers | centre mm | CPU s |\n");

@@ -96,6 +96,8 @@ QWidget* ObjectsPanel::BuildFitRow() {
   source_ = new QComboBox;
   source_->addItem(tr("to lidar points"));
   source_->addItem(tr("to depth map"));
+  source_->setItemData(1, tr("The masked depth, and the lidar's points behind it"),
+                       Qt::ToolTipRole);
   source_->setToolTip(tr("Which measurements the template is fitted to"));
   fit_button_ = new QPushButton(Icon("fit"), {});
   layout->addWidget(shape_, 0, 0);

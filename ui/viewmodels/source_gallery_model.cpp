@@ -28,8 +28,8 @@ Result<Detection> FitTo(const DepthMethodInfo* method, const Subject& subject,
   FORESIGHT_TRY(const DepthResult depth,
                 ComputeDepthInFrame(*subject.cloud, rig, subject.Frame(),
                                     DefaultsOf(method->method), context.Part(0.0, 0.7)));
-  return FitInScan({rig, *subject.cloud, &depth}, FitSource::kDepth, subject.roi, subject.options,
-                   context.Part(0.7, 1.0));
+  return FitInScan({rig, *subject.cloud, &depth}, FitSource::kDepthAlone, subject.roi,
+                   subject.options, context.Part(0.7, 1.0));
 }
 
 SourceAnswer AnswerOf(const std::string& source, const Result<Detection>& found,
@@ -61,7 +61,10 @@ Result<std::vector<SourceAnswer>> FitToAll(const Subject& subject, const RunCont
     };
     const auto found = FitTo(methods[i], subject, context.Part(share(i), share(i + 1)));
     if (!found && found.error().code == ErrorCode::kCancelled) return tl::unexpected(found.error());
-    answers.push_back(AnswerOf(methods[i] == nullptr ? "raw" : methods[i]->name, found, subject));
+    answers.push_back(AnswerOf(
+        NameOf(methods[i] == nullptr ? NamedSource()
+                                     : NamedSource{FitSource::kDepthAlone, methods[i]->method}),
+        found, subject));
   }
   return answers;
 }

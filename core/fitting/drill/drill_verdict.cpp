@@ -249,7 +249,7 @@ std::vector<std::string> DrillFeatureNames() {
 
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,
                     const DrillState& drill, const DrillPrior& prior) {
-  const VerdictModel& model = ShippedVerdictModel("drill", rays.dense);
+  const VerdictModel& model = ShippedVerdictModel("drill", VerdictSourceOf(rays));
   Verdict verdict;
   verdict.features = FeaturesOf(rays, detection);
   verdict.probability = model.Probability(verdict.features);

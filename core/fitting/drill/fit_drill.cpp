@@ -255,13 +255,16 @@ Result<DrillDetection> FitDrill(const RaySet& all_rays, const FitDrillOptions& o
   context.Report(0.0, "looking for the table");
   Random thinning(options.seed, kThinning);
   Random random(options.seed, kSurroundings);
-  const RaySet rays = Thinned(usable, options.max_rays, thinning);
+  RaySet rays = Thinned(usable, options.max_rays, thinning);
   const Surroundings around =
       FindSurroundings(rays, {options.up, options.max_table_tilt_rad}, random);
   FORESIGHT_CHECK(CheckForeground(rays, around));
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
 
-  const DrillFit fit(usable, rays, Thinned(rays, kCoarseRays, thinning), around, options);
+  RaySet few_rays = Thinned(rays, kCoarseRays, thinning);
+  few_rays.beams = nullptr;
+  rays.beams = ThinnedBeams(usable, options.max_rays, kMinRays, thinning);
+  const DrillFit fit(usable, rays, std::move(few_rays), around, options);
   FORESIGHT_TRY(const std::vector<DrillState> modes, fit.Search(context));
   if (!(modes.front().log_likelihood > fit.Nothing()))
     return Fail(ErrorCode::kNoConvergence,

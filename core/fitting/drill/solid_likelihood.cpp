@@ -28,11 +28,18 @@ SolidLikelihood::SolidLikelihood(RaySet rays, std::span<const Plane> planes)
     noise.log_background = std::log(noise.background);
     noise_.push_back(noise);
   }
+  if (rays_.beams) beams_ = std::make_shared<const SolidLikelihood>(*rays_.beams, planes);
 }
 
 double SolidLikelihood::operator()(
     std::span<const SolidPart> parts,
     const Rigid<frame::Base, frame::Object>& base_from_object) const {
+  const double own = OfRays(parts, base_from_object);
+  return beams_ ? BeamModel::kMapWithBeams * own + beams_->OfRays(parts, base_from_object) : own;
+}
+
+double SolidLikelihood::OfRays(std::span<const SolidPart> parts,
+                               const Rigid<frame::Base, frame::Object>& base_from_object) const {
   const SolidTracer tracer(parts, base_from_object);
   double sum = 0.0;
   for (std::size_t i = 0; i < noise_.size(); ++i) {
@@ -54,6 +61,10 @@ double SolidLikelihood::operator()(
 }
 
 double SolidLikelihood::Nothing() const {
+  return beams_ ? BeamModel::kMapWithBeams * OfNothing() + beams_->OfNothing() : OfNothing();
+}
+
+double SolidLikelihood::OfNothing() const {
   double sum = 0.0;
   for (const RayNoise& noise : noise_) sum += noise.log_background;
   return rays_.samples_per_ray * sum;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,7 @@ class SolidLikelihood {
   /// The same with nothing there but the planes.
   double Nothing() const;
 
-  /// The same for the rays that pass within `reach_m` of these solids alone.
+  /// The same for the rays that pass within `reach_m` of these solids alone, without beams.
   SolidLikelihood Near(std::span<const SolidPart> parts,
                        const Rigid<frame::Base, frame::Object>& base_from_object,
                        double reach_m) const;
@@ -43,9 +44,13 @@ class SolidLikelihood {
   };
 
   SolidLikelihood() = default;
+  double OfRays(std::span<const SolidPart> parts,
+                const Rigid<frame::Base, frame::Object>& base_from_object) const;
+  double OfNothing() const;
 
   RaySet rays_;
   std::vector<RayNoise> noise_;
+  std::shared_ptr<const SolidLikelihood> beams_;  ///< behind a dense map; null = not known
 };
 
 }  // namespace foresight

@@ -92,7 +92,8 @@ std::vector<std::string> TerrainFeatureNames() {
 
 Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
                     const RectangleEvidence& evidence) {
-  const VerdictModel& model = ShippedVerdictModel("terrain", rays.dense);
+  const VerdictModel& model =
+      ShippedVerdictModel("terrain", rays.dense ? VerdictSource::kDense : VerdictSource::kRaw);
   Verdict verdict;
   verdict.features = FeaturesOf(rays, block, evidence);
   verdict.probability = model.Probability(verdict.features);

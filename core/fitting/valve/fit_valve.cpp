@@ -156,8 +156,10 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   context.Report(0.0, "looking for the wall");
   Random thinning(options.seed, kThinning);
   Random wall_random(options.seed, kWall);
-  const RaySet rays = Thinned(all_rays, options.max_rays, thinning);
-  const RaySet few_rays = Thinned(rays, kGridRays, thinning);
+  RaySet rays = Thinned(all_rays, options.max_rays, thinning);
+  RaySet few_rays = Thinned(rays, kGridRays, thinning);
+  few_rays.beams = nullptr;
+  rays.beams = ThinnedBeams(all_rays, options.max_rays, kMinRays, thinning);
   const WallSplit split = SplitWall(rays, wall_random);
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
 
@@ -214,9 +216,15 @@ std::optional<RaySet> RaysForCloserLook(const RaySet& region, const ValveCandida
   const double size_m = model.IsLever() ? 0.5 * model.lever_length_m : model.rim_radius_m;
   const double reach_m = kAround * size_m + 0.03;
   RaySet around = region;
-  std::erase_if(around.rays, [&, middle = MiddleOf(valve)](const RangeRay& ray) {
+  const auto passes_by = [&, middle = MiddleOf(valve)](const RangeRay& ray) {
     return (middle - ray.origin).cross(ray.direction).norm() > reach_m;
-  });
+  };
+  std::erase_if(around.rays, passes_by);
+  if (region.beams) {
+    RaySet beams = *region.beams;
+    std::erase_if(beams.rays, passes_by);
+    around.beams = std::make_shared<const RaySet>(std::move(beams));
+  }
   if (std::ssize(around.rays) < kMinRays || 2 * around.rays.size() >= region.rays.size())
     return std::nullopt;
   return around;

@@ -28,6 +28,7 @@ RayLikelihood::RayLikelihood(const RaySet& rays, const std::optional<Plane>& wal
     background.reach_m = spots_.Reach(i);
     backgrounds_.push_back(background);
   }
+  if (rays.beams) beams_ = std::make_unique<const RayLikelihood>(*rays.beams, wall);
 }
 
 double RayLikelihood::DensityOn(std::size_t i, const ExpectedRange& expected) const {
@@ -55,6 +56,12 @@ double RayLikelihood::DensityOn(std::size_t i, const ExpectedRange& expected) co
 }
 
 double RayLikelihood::operator()(const ValveCandidate& valve, ValveParts parts) const {
+  const double prior = LogPrior(valve, wall_);
+  if (!beams_) return OfRays(valve, parts) + prior;
+  return BeamModel::kMapWithBeams * OfRays(valve, parts) + beams_->OfRays(valve, parts) + prior;
+}
+
+double RayLikelihood::OfRays(const ValveCandidate& valve, ValveParts parts) const {
   const ValveTracer tracer(valve, parts);
   double sum = 0.0;
   for (std::size_t i = 0; i < backgrounds_.size(); ++i) {
@@ -66,10 +73,14 @@ double RayLikelihood::operator()(const ValveCandidate& valve, ValveParts parts) 
     }
     sum += log_density;
   }
-  return rays_.samples_per_ray * sum + LogPrior(valve, wall_);
+  return rays_.samples_per_ray * sum;
 }
 
 double RayLikelihood::Nothing() const {
+  return beams_ ? BeamModel::kMapWithBeams * OfNothing() + beams_->OfNothing() : OfNothing();
+}
+
+double RayLikelihood::OfNothing() const {
   double sum = 0.0;
   for (const Background& background : backgrounds_) sum += background.log_density;
   return rays_.samples_per_ray * sum;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,9 @@ namespace foresight {
 /// probability 0.93; a spot that is half on the wall returns a range in between, or either one; all
 /// others return the wall or anything. Points alone could not tell: more spokes always explain more
 /// of them, and a template hanging in empty space costs nothing.
+///
+/// Where the beams behind a dense map are known they count in full, and the map, which was made
+/// from them, for kMapWithBeams of its own.
 class RayLikelihood {
  public:
   RayLikelihood(const RaySet& rays, const std::optional<Plane>& wall);
@@ -35,12 +39,16 @@ class RayLikelihood {
     double reach_m = 0.0;  ///< a valve further from the ray than this changes nothing
   };
 
+  /// Of the rays alone, without beams and prior.
+  double OfRays(const ValveCandidate& valve, ValveParts parts) const;
+  double OfNothing() const;
   double DensityOn(std::size_t i, const ExpectedRange& expected) const;
 
   const RaySet& rays_;
   std::optional<Plane> wall_;
   BeamSpots spots_;
   std::vector<Background> backgrounds_;
+  std::unique_ptr<const RayLikelihood> beams_;  ///< behind a dense map; null = not known
 };
 
 }  // namespace foresight

@@ -104,7 +104,7 @@ std::string WeakestPoint(const ValveDetection& detection) {
 
 Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetection& detection,
                     const FitValveOptions& options) {
-  const VerdictModel& model = ShippedVerdictModel("valve", rays.dense);
+  const VerdictModel& model = ShippedVerdictModel("valve", VerdictSourceOf(rays));
   const std::string disbelief = Disbelief(detection, options);
   Verdict verdict;
   verdict.objections = Objections(rays, region, detection, options);

@@ -131,7 +131,8 @@ TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
 
 TEST(DetectionJson, AValveOfAnOlderRecordIsStillRead) {
   auto json = nlohmann::json::parse(DetectionToJson(Sample(), {}));
-  for (const char* added_later : {"source", "features", "gates", "covariance"}) json.erase(added_later);
+  for (const char* added_later : {"source", "features", "gates", "covariance"})
+    json.erase(added_later);
   for (const char* added_later : {"kind", "lever_length_m"})
     json["best"]["model"].erase(added_later);
   const auto any = DetectionFromJson(json.dump());

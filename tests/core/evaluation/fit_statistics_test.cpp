@@ -92,6 +92,27 @@ TEST(VerdictFit, FindsTheLogisticThatTheAnswersWereDrawnFrom) {
   EXPECT_NEAR(model->Probability(middle), 0.5, 0.05);
 }
 
+TEST(VerdictFit, ExtraNegativesDoNotMakeTheObjectRare) {
+  VerdictFitOptions options;
+  options.object = "valve";
+  options.features = {"margin", "noise"};
+  const std::vector<FitOutcome> drawn = DrawnFromALogistic(2000);
+  const auto with_negatives = [&](int count) {
+    std::vector<FitOutcome> outcomes = drawn;
+    for (int i = 0; i < count; ++i) {
+      FitOutcome negative = drawn[static_cast<std::size_t>(i) % drawn.size()];
+      negative.seed = 100000 + static_cast<std::uint64_t>(i);
+      negative.positive = negative.all_ok = false;
+      outcomes.push_back(negative);
+    }
+    return FitVerdictModel(outcomes, options);
+  };
+  const auto few = with_negatives(400), many = with_negatives(4000);  // one in six, two in three
+  ASSERT_TRUE(few && many);
+  const double good[] = {9.0, 0.0};
+  EXPECT_NEAR(many->Probability(good), few->Probability(good), 0.04);
+}
+
 TEST(VerdictFit, RefusesAPopulationWithoutWrongAnswers) {
   VerdictFitOptions options;
   options.object = "valve";

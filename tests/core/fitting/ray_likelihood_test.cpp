@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/fitting/beam_model.h"
+#include "core/fitting/valve/fit_valve.h"
 #include "core/fitting/valve/polish.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/wall.h"
@@ -87,6 +89,39 @@ TEST(RayLikelihood, CorrelatedRaysCountForLess) {
   correlated_rays.samples_per_ray = 0.25;
   const RayLikelihood correlated(correlated_rays, wall);
   EXPECT_NEAR(correlated.Nothing(), 0.25 * independent.Nothing(), 1e-9);
+}
+
+TEST(RayLikelihood, BeamsBehindAMapCountInFullAndTheMapForAShare) {
+  const ValveScene scene = FourSpokes();
+  const auto wall = WallOf(scene.rays);
+  RaySet map = scene.rays;
+  map.dense = true;
+  map.samples_per_ray = 0.25;
+  const RayLikelihood beams(scene.rays, wall), alone(map, wall);
+  map.beams = std::make_shared<const RaySet>(scene.rays);
+  const RayLikelihood both(map, wall);
+  const double prior = LogPrior(scene.truth, wall);
+  EXPECT_NEAR(both(scene.truth) - prior,
+              BeamModel::kMapWithBeams * (alone(scene.truth) - prior) + beams(scene.truth) - prior,
+              1e-9);
+  EXPECT_NEAR(both.Nothing(), BeamModel::kMapWithBeams * alone.Nothing() + beams.Nothing(), 1e-9);
+}
+
+TEST(FitValve, BeamsBehindAMapThatIsShiftedBringTheValveBack) {
+  const ValveScene scene = FourSpokes();
+  RaySet map = scene.rays;
+  map.dense = true;
+  for (RangeRay& ray : map.rays) ray.range_m += 0.008;  // all of it a little too far
+  const auto alone = FitValve(map, {}, {});
+  map.beams = std::make_shared<const RaySet>(scene.rays);
+  const auto with_beams = FitValve(map, {}, {});
+  ASSERT_TRUE(alone && with_beams);
+  const auto off_m = [&](const ValveDetection& found) {
+    return (found.best.base_from_object.translation() - scene.truth.base_from_object.translation())
+        .norm();
+  };
+  EXPECT_GT(off_m(*alone), 0.006);
+  EXPECT_LT(off_m(*with_beams), 0.5 * off_m(*alone));
 }
 
 TEST(Polish, NeverLosesLikelihood) {

@@ -12,7 +12,7 @@ namespace {
 VerdictModel TwoFeatures() {
   VerdictModel model;
   model.object = "valve";
-  model.dense = true;
+  model.source = VerdictSource::kAlone;
   model.population = "seeds 1 to 9";
   model.fits = 9;
   model.right = 7;
@@ -47,7 +47,7 @@ TEST(VerdictModel, AnotherNumberOfValuesIsOurMistake) {
 TEST(VerdictModel, SurvivesItsFile) {
   const auto read = VerdictModelFromYaml(TwoFeatures().ToYaml(), "test");
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_TRUE(read->dense);
+  EXPECT_EQ(read->source, VerdictSource::kAlone);
   EXPECT_EQ(read->population, "seeds 1 to 9");
   ASSERT_EQ(read->features.size(), 2u);
   EXPECT_EQ(read->features[1].name, "see_through");
@@ -64,7 +64,7 @@ TEST(VerdictModel, ASmallPopulationConfirmsNothing) {
 
 TEST(VerdictModel, AFaultNamesItsLine) {
   std::string yaml = TwoFeatures().ToYaml();
-  yaml.replace(yaml.find("source: dense"), 13, "source: foggy");
+  yaml.replace(yaml.find("source: alone"), 13, "source: foggy");
   const auto read = VerdictModelFromYaml(yaml, "valve.yaml");
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("valve.yaml:4"), std::string::npos) << read.error().message;

@@ -1,0 +1,50 @@
+#include "core/detection/fit_in_scan.h"
+
+#include <gtest/gtest.h>
+
+#include "core/depth/depth_method.h"
+#include "core/evaluation/fit_populations.h"
+#include "core/evaluation/fit_trial.h"
+
+namespace foresight {
+namespace {
+
+TEST(FitSource, HasANameForEachMethodWithAndWithoutItsBeams) {
+  for (const DepthMethodInfo& method : DepthMethods())
+    for (const FitSource source : {FitSource::kDepth, FitSource::kDepthAlone}) {
+      const auto read = FitSourceFromName(NameOf({source, method.method}));
+      ASSERT_TRUE(read);
+      EXPECT_EQ(read->source, source);
+      EXPECT_EQ(read->method, method.method);
+    }
+  EXPECT_EQ(FitSourceFromName("raw")->source, FitSource::kRaw);
+}
+
+TEST(FitSource, RefusesANameThatIsNone) {
+  for (const char* name : {"", "-alone", "raw-alone", "foresigh", "foresight alone"})
+    EXPECT_FALSE(FitSourceFromName(name)) << name;
+}
+
+TEST(RaysInScan, AMapBringsTheBeamsBehindItUnlessItIsWantedAlone) {
+  const auto population = MakeFitPopulation("valve");
+  ASSERT_TRUE(population);
+  FitTrialOptions options;
+  options.sources = {{FitSource::kDepth, DepthMethod::kForesight}};
+  const auto trial = MakeFitTrial(**population, 3, options, {});
+  ASSERT_TRUE(trial) << trial.error().message;
+  const auto depth = ComputeDepthInFrame(trial->cloud, trial->rig, trial->frame,
+                                         DefaultsOf(DepthMethod::kForesight), {});
+  ASSERT_TRUE(depth);
+  const ProcessedScan scan{trial->rig, trial->cloud, &*depth};
+  const auto raw = RaysInScan(scan, FitSource::kRaw, trial->roi);
+  const auto both = RaysInScan(scan, FitSource::kDepth, trial->roi);
+  const auto alone = RaysInScan(scan, FitSource::kDepthAlone, trial->roi);
+  ASSERT_TRUE(raw && both && alone);
+  ASSERT_NE(both->beams, nullptr);
+  EXPECT_EQ(both->beams->rays.size(), raw->rays.size());
+  EXPECT_EQ(alone->beams, nullptr);
+  EXPECT_EQ(alone->rays.size(), both->rays.size());
+}
+
+}  // namespace
+}  // namespace foresight
