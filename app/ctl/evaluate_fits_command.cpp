@@ -3,6 +3,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <regex>
 #include <set>
 
 #include "app/ctl/command.h"
@@ -26,6 +27,7 @@ struct EvaluateFitsArguments {
   double rotation_error_deg = 0.0;
   double translation_error_mm = 0.0;
   std::string table;  ///< empty = kept in memory only
+  std::string what;   ///< pattern of the scenes that are counted; empty = all
   bool json = false;
 };
 
@@ -174,13 +176,27 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"seconds", {{"median", Finite(s.seconds_median)}, {"p95", Finite(s.seconds_p95)}}}};
 }
 
+/// The outcomes of scenes whose description fits a pattern.
+Result<std::vector<FitOutcome>> Counted(std::vector<FitOutcome> outcomes,
+                                        const std::string& pattern) {
+  if (pattern.empty()) return outcomes;
+  try {
+    const std::regex what(pattern);
+    std::erase_if(outcomes, [&](const FitOutcome& o) { return !std::regex_search(o.what, what); });
+  } catch (const std::regex_error& error) {
+    return Fail(ErrorCode::kInvalidOptions, "--what {}: {}", pattern, error.what());
+  }
+  return outcomes;
+}
+
 Result<ExitCode> EvaluateFits(const EvaluateFitsArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
   OutcomeTable table;
   FORESIGHT_CHECK(table.Open(arguments.table));
   FORESIGHT_CHECK(RunTrials(*population, arguments, table, context));
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const FitStatistics& statistics : StatisticsOf(table.Sorted())) {
+  FORESIGHT_TRY(const std::vector<FitOutcome> counted, Counted(table.Sorted(), arguments.what));
+  for (const FitStatistics& statistics : StatisticsOf(counted)) {
     if (arguments.json)
       json.push_back(ToJson(statistics));
     else
@@ -229,6 +245,9 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("--table", arguments->table,
                       "File for the outcomes, one JSON object a line; seeds that are in it already "
                       "are not run again");
+  command->add_option("--what", arguments->what,
+                      "Count only scenes whose description fits this pattern: 'lever', "
+                      "'^(wheel|disc)[^,]*$' (to 2 m, not small)");
   command->add_flag("--json", arguments->json, "Print a JSON list, one object a source");
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) {

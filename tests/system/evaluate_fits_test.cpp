@@ -1,9 +1,12 @@
 // Trying fits on drawn scenes, from the command line.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/evaluation/fit_outcome_json.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {
@@ -26,6 +29,42 @@ TEST(EvaluateFits, NeitherPositivesNorNegativesIsAMistake) {
       RunProgram(FORESIGHTCTL, {"evaluate-fits", "drill", "--only", "drills"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.errors.find("negatives"), std::string::npos) << result.errors;
+}
+
+/// A table that holds seeds 1 and 2, so that nothing is simulated.
+std::string TableOfTwo(const TemporaryFolder& folder) {
+  std::ofstream table(folder / "table.jsonl");
+  FitOutcome outcome;
+  outcome.source = "foresight-alone";
+  outcome.found = outcome.pose_ok = outcome.all_ok = true;
+  outcome.seed = 1;
+  outcome.what = "wheel of 4 spokes";
+  table << FitOutcomeToJson(outcome) << "\n";
+  outcome.seed = 2;
+  outcome.what = "lever, beyond 2 m";
+  table << FitOutcomeToJson(outcome) << "\n";
+  return folder / "table.jsonl";
+}
+
+TEST(EvaluateFits, CountsTheScenesOfOneDescription) {
+  const TemporaryFolder folder;
+  const ProgramResult result = RunProgram(
+      FORESIGHTCTL, {"evaluate-fits", "valve", "--count", "2", "--source", "foresight-alone",
+                     "--table", TableOfTwo(folder), "--what", "^wheel[^,]*$", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto rows = nlohmann::json::parse(result.output);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0]["source"], "foresight-alone");
+  EXPECT_EQ(rows[0]["positives"], 1);
+}
+
+TEST(EvaluateFits, APatternThatIsNoneIsAMistake) {
+  const TemporaryFolder folder;
+  const ProgramResult result = RunProgram(
+      FORESIGHTCTL, {"evaluate-fits", "valve", "--count", "2", "--source", "foresight-alone",
+                     "--table", TableOfTwo(folder), "--what", "(wheel"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.errors.find("(wheel"), std::string::npos) << result.errors;
 }
 
 }  // namespace

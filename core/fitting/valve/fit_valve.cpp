@@ -216,13 +216,13 @@ std::optional<RaySet> RaysForCloserLook(const RaySet& region, const ValveCandida
   const double size_m = model.IsLever() ? 0.5 * model.lever_length_m : model.rim_radius_m;
   const double reach_m = kAround * size_m + 0.03;
   RaySet around = region;
-  const auto passes_by = [&, middle = MiddleOf(valve)](const RangeRay& ray) {
+  const auto far_off = [&, middle = MiddleOf(valve)](const RangeRay& ray) {
     return (middle - ray.origin).cross(ray.direction).norm() > reach_m;
   };
-  std::erase_if(around.rays, passes_by);
+  std::erase_if(around.rays, far_off);
   if (region.beams) {
     RaySet beams = *region.beams;
-    std::erase_if(beams.rays, passes_by);
+    std::erase_if(beams.rays, far_off);
     around.beams = std::make_shared<const RaySet>(std::move(beams));
   }
   if (std::ssize(around.rays) < kMinRays || 2 * around.rays.size() >= region.rays.size())
