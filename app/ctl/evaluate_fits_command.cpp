@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -141,11 +142,15 @@ std::string Share(int part, int whole) {
 void PrintTable(const FitStatistics& s) {
   PrintLine(fmt::format("{}", s.source));
   PrintLine(fmt::format("  pose right        {}", Share(s.pose_ok, s.positives)));
+  PrintLine(fmt::format("  recall            {:.3f}", s.recall));
   PrintLine(fmt::format("  all right         {}", Share(s.all_ok, s.positives)));
   PrintLine(fmt::format("  CONFIRMED right   {}", Share(s.confirmed_right, s.confirmed)));
   PrintLine(fmt::format("  LIKELY right      {}", Share(s.likely_right, s.likely)));
   PrintLine(fmt::format("  negatives         {} scenes, {} CONFIRMED, {} LIKELY", s.negatives,
                         s.negatives_confirmed, s.negatives_likely));
+  if (std::isfinite(s.false_area))
+    PrintLine(fmt::format("  false area        {:.2f} % of what is LIKELY or CONFIRMED",
+                          100.0 * s.false_area));
   PrintLine(fmt::format("  AUC {:.3f}, ECE {:.3f}", s.auc, s.ece));
   for (const ErrorSpread& error : s.errors)
     PrintLine(
@@ -163,6 +168,8 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"found", s.found},
           {"pose_ok", s.pose_ok},
           {"all_ok", s.all_ok},
+          {"recall", Finite(s.recall)},
+          {"false_area", Finite(s.false_area)},
           {"confirmed", s.confirmed},
           {"confirmed_right", s.confirmed_right},
           {"likely", s.likely},

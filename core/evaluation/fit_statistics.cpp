@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string_view>
 
 namespace foresight {
 namespace {
@@ -34,6 +35,19 @@ std::vector<ErrorSpread> SpreadsOf(const std::vector<const FitOutcome*>& answers
   return spreads;
 }
 
+/// NaN where an outcome has no such error.
+double ErrorOf(const FitOutcome& outcome, std::string_view wanted) {
+  for (const auto& [name, value] : outcome.errors)
+    if (name == wanted) return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double MeanOf(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
 /// Counts one outcome in; `scenes` are the negatives that count already.
 void Count(const FitOutcome& outcome, FitStatistics& statistics) {
   const bool confirmed = outcome.found && outcome.verdict.level == VerdictLevel::kConfirmed;
@@ -58,7 +72,7 @@ FitStatistics StatisticsOfSource(const std::string& source, std::span<const FitO
   FitStatistics statistics;
   statistics.source = source;
   std::vector<const FitOutcome*> good;
-  std::vector<double> seconds, probabilities;
+  std::vector<double> seconds, probabilities, there, false_areas;
   std::vector<bool> right;
   std::set<std::uint64_t> negatives;
   for (const FitOutcome& outcome : outcomes) {
@@ -67,11 +81,19 @@ FitStatistics StatisticsOfSource(const std::string& source, std::span<const FitO
     if (!outcome.positive) negatives.insert(outcome.seed);
     seconds.push_back(outcome.seconds);
     if (outcome.pose_ok) good.push_back(&outcome);
+    // What is found in a scene but is none of the things in view is no miss.
+    if (outcome.positive && (!outcome.found || ErrorOf(outcome, "in_view") != 0.0))
+      there.push_back(outcome.pose_ok ? 1.0 : 0.0);
     if (!outcome.found) continue;
+    if (const double area = ErrorOf(outcome, "false_area");
+        std::isfinite(area) && outcome.verdict.level != VerdictLevel::kUnsure)
+      false_areas.push_back(area);
     probabilities.push_back(outcome.verdict.probability);
     right.push_back(outcome.positive && outcome.all_ok);
   }
   statistics.negatives = static_cast<int>(negatives.size());
+  statistics.recall = MeanOf(there);
+  statistics.false_area = MeanOf(false_areas);
   statistics.errors = SpreadsOf(good);
   statistics.auc = AreaUnderRoc(probabilities, right);
   statistics.ece = CalibrationErrorOf(probabilities, right);

@@ -22,6 +22,11 @@ struct FitStatistics {
   int found = 0;  ///< answers to positives
   int pose_ok = 0;
   int all_ok = 0;
+  /// Of what was there to be found, the share found: of the positives or, where outcomes say
+  /// "in_view", of what was in view.
+  double recall = 0.0;
+  /// Mean "false_area" of the answers that are LIKELY or CONFIRMED; NaN where there is none.
+  double false_area = 0.0;
   std::vector<ErrorSpread> errors;
   int confirmed = 0;        ///< of all answers, negatives' too
   int confirmed_right = 0;  ///< all_ok

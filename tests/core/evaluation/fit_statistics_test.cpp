@@ -53,6 +53,26 @@ TEST(FitStatistics, AucIsTheChanceThatARightAnswerIsMoreProbable) {
   EXPECT_TRUE(std::isnan(AreaUnderRoc(probabilities, {true, true, true, true})));
 }
 
+TEST(FitStatistics, RecallLooksAtWhatIsInViewAndFalseAreaAtWhatIsOffered) {
+  const auto block = [](bool found, bool right, double in_view, double false_area,
+                        VerdictLevel level) {
+    FitOutcome outcome = Answer(1, right, 0.9);
+    outcome.found = found;
+    outcome.pose_ok = right;
+    outcome.verdict.level = level;
+    if (found) outcome.errors = {{"in_view", in_view}, {"false_area", false_area}};
+    return outcome;
+  };
+  const std::vector<FitOutcome> outcomes = {
+      block(true, true, 1.0, 0.0, VerdictLevel::kConfirmed),
+      block(true, true, 1.0, 0.1, VerdictLevel::kLikely),
+      block(true, false, 0.0, 1.0, VerdictLevel::kUnsure),  // something else: no miss
+      block(false, false, 0.0, 0.0, VerdictLevel::kUnsure)};
+  const FitStatistics statistics = StatisticsOf(outcomes).front();
+  EXPECT_NEAR(statistics.recall, 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(statistics.false_area, 0.05, 1e-12);
+}
+
 TEST(FitStatistics, CalibrationErrorIsPromiseLessTruth) {
   const std::vector<double> probabilities(10, 0.95);
   std::vector<bool> right(10, true);
