@@ -26,7 +26,7 @@ TEST(DemoMission, FindsTheValveOfTheRoomAndWritesAReport) {
   EXPECT_NE(json["verdict"], "UNSURE");
   for (const char* file : {"report.html", "mission.foresight", "image.png", "samples.png",
                            "depth.png", "confidence.png", "masked.png", "cloud.png", "overlay.png",
-                           "fit-raw.png", "fit-foresight.png", "fit-paper.png"})
+                           "fit-raw.png", "fit-foresight-alone.png", "fit-paper-alone.png"})
     EXPECT_GT(std::filesystem::file_size(std::filesystem::path(out) / file), 1000u) << file;
   // One file to hand over: nothing is left in a write-ahead log.
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(out) / "mission.foresight-wal"));

@@ -104,7 +104,8 @@ TEST_F(FitOfAScan, TheGallerySetsAllSixSourcesSideBySide) {
   const ProgramResult result = Fit({"--roi", kRegion, "--gallery", out.string()});
   ASSERT_LE(result.exit_code, 1) << result.errors;
   const std::string page = ReadFile(out / "index.html").value();
-  for (const std::string source : {"raw", "foresight", "paper", "jbu", "tgv", "nonlocal"}) {
+  for (const std::string source :
+       {"raw", "foresight-alone", "paper-alone", "jbu-alone", "tgv-alone", "nonlocal-alone"}) {
     EXPECT_TRUE(std::filesystem::exists(out / (source + ".png"))) << source;
     EXPECT_NE(page.find(source + ".png"), std::string::npos) << source;
   }
