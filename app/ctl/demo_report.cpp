@@ -54,8 +54,9 @@ HtmlReport::Table ValveTable(const DemoOutcome& o) {
   const Eigen::Vector3d axis =
       o.scan.rig.robot_from_base.Rotate(best.base_from_object.Rotate(Eigen::Vector3d::UnitZ()));
   return {"Valve",
-          {{"verdict", fmt::format("{} ({:.0f} %): {}", ToString(o.valve.verdict.level),
-                                   100.0 * o.valve.verdict.probability, o.valve.verdict.reason)},
+          {{"verdict",
+            fmt::format("{} ({}): {}", ToString(o.valve.verdict.level),
+                        ProbabilityText(o.valve.verdict.probability), o.valve.verdict.reason)},
            {"centre in robot",
             fmt::format("{:.1f}, {:.1f}, {:.1f} mm", center.x(), center.y(), center.z())},
            {"axis in robot", fmt::format("{:.4f}, {:.4f}, {:.4f}", axis.x(), axis.y(), axis.z())},

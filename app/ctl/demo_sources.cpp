@@ -32,9 +32,10 @@ std::string TextOf(const DemoAnswer& answer) {
 }  // namespace
 
 std::string AgainstTruth(const Verdict& verdict, const ValveError& error) {
-  return fmt::format("{} ({:.0f} %), {:.1f} mm and {:.2f} deg from the truth, spokes {}",
-                     ToString(verdict.level), 100.0 * verdict.probability, 1000.0 * error.center_m,
-                     DegreesFromRadians(error.axis_rad), error.spokes == 0 ? "right" : "wrong");
+  return fmt::format("{} ({}), {:.1f} mm and {:.2f} deg from the truth, spokes {}",
+                     ToString(verdict.level), ProbabilityText(verdict.probability),
+                     1000.0 * error.center_m, DegreesFromRadians(error.axis_rad),
+                     error.spokes == 0 ? "right" : "wrong");
 }
 
 Result<std::vector<DemoAnswer>> FitToEverySource(const DemoSubject& subject,

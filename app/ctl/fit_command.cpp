@@ -20,8 +20,8 @@ Status Save(const FitArguments& arguments, const FitSubject& subject, const Dete
 
 void PrintSummary(const Detection& detection, const SensorRig& rig) {
   const Verdict& verdict = VerdictOf(detection);
-  PrintLine(fmt::format("{} ({:.0f} %): {}", ToString(verdict.level), 100.0 * verdict.probability,
-                        verdict.reason));
+  PrintLine(fmt::format("{} ({}): {}", ToString(verdict.level),
+                        ProbabilityText(verdict.probability), verdict.reason));
   const auto* terrain = std::get_if<TerrainDetection>(&detection);
   const int parts = terrain == nullptr ? 1 : static_cast<int>(terrain->surfaces.size());
   for (int part = 0; part < parts; ++part)

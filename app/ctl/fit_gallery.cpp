@@ -49,9 +49,9 @@ std::vector<std::string> RowOf(const std::string& source, const FitAnswer& answe
   const auto facts = FactsOf(*answer.detection, 0, rig.robot_from_base);
   const Verdict& verdict = VerdictOf(*answer.detection);
   const std::string pose = facts.size() > 1 ? facts[1].value : std::string();
-  row.insert(row.end(), {ToString(verdict.level), facts[0].value, pose,
-                         fmt::format("{:.0f} %", 100.0 * verdict.probability),
-                         fmt::format("{:.2f}", OriginOf(*answer.detection).seconds)});
+  row.insert(row.end(),
+             {ToString(verdict.level), facts[0].value, pose, ProbabilityText(verdict.probability),
+              fmt::format("{:.2f}", OriginOf(*answer.detection).seconds)});
   return row;
 }
 

@@ -1,5 +1,7 @@
 #include "core/fitting/verdict.h"
 
+#include <cmath>
+
 namespace foresight {
 
 const char* ToString(VerdictLevel level) {
@@ -19,6 +21,12 @@ Result<VerdictLevel> VerdictLevelFromString(const std::string& name) {
        {VerdictLevel::kUnsure, VerdictLevel::kLikely, VerdictLevel::kConfirmed})
     if (name == ToString(level)) return level;
   return Fail(ErrorCode::kBadData, "verdict '{}' is not known", name);
+}
+
+std::string ProbabilityText(double probability) {
+  if (probability > 0.99) return "over 99 %";
+  if (!(probability >= 0.01)) return "under 1 %";
+  return fmt::format("{:.0f} %", std::floor(100.0 * probability + 1e-9));
 }
 
 VerdictLevel LevelFor(double probability, bool objected) {

@@ -28,6 +28,9 @@ struct Verdict {
   static constexpr double kConfirmed = 0.95;  ///< ... and of CONFIRMED
 };
 
+/// "97 %", rounded down: nothing is ever certain. "over 99 %" from there on, "under 1 %" below.
+std::string ProbabilityText(double probability);
+
 /// The level that a probability earns; CONFIRMED only where no hard gate objects.
 VerdictLevel LevelFor(double probability, bool objected);
 

@@ -114,9 +114,9 @@ void DetectionCard::ShowVerdict(const Verdict& verdict, VerdictLevel candidate_l
                                        "QLabel { color: #16181c; font-weight: bold; }")
                             .arg(look.color.name()));
   badge_icon_->setPixmap(Icon(look.icon).pixmap(20, 20));
-  badge_text_->setText(tr("%1, %2 %")
-                           .arg(QString::fromUtf8(ToString(candidate_level)))
-                           .arg(100.0 * verdict.probability, 0, 'f', 0));
+  badge_text_->setText(
+      tr("%1, %2").arg(QString::fromUtf8(ToString(candidate_level)),
+                       QString::fromStdString(ProbabilityText(verdict.probability))));
   reason_->setText(QString::fromStdString(verdict.reason));
 }
 

@@ -30,9 +30,8 @@ const char* IconOf(const SourceAnswer& answer) {
 
 QString VerdictText(const SourceAnswer& answer) {
   if (!answer.found) return QObject::tr("Nothing found");
-  return QObject::tr("%1, %2 %")
-      .arg(QString::fromUtf8(ToString(answer.level)))
-      .arg(100.0 * answer.probability, 0, 'f', 0);
+  return QObject::tr("%1, %2").arg(QString::fromUtf8(ToString(answer.level)),
+                                   QString::fromStdString(ProbabilityText(answer.probability)));
 }
 
 QPixmap ThumbnailOf(const ColorImage& picture) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/contract.h"
+#include "core/fitting/verdict.h"
 
 namespace foresight {
 namespace {
@@ -21,6 +22,15 @@ VerdictModel TwoFeatures() {
   model.bias = 0.5;
   model.features = {{"log_margin", 3.0, 1.5, 2.0}, {"see_through", 0.1, 0.05, -1.0}};
   return model;
+}
+
+TEST(Verdict, ShowsNoProbabilityAsCertain) {
+  EXPECT_EQ(ProbabilityText(1.0), "over 99 %");
+  EXPECT_EQ(ProbabilityText(0.9962), "over 99 %");
+  EXPECT_EQ(ProbabilityText(0.948), "94 %");  // and not the 95 % that CONFIRMED would need
+  EXPECT_EQ(ProbabilityText(0.29), "29 %");
+  EXPECT_EQ(ProbabilityText(0.0), "under 1 %");
+  EXPECT_EQ(ProbabilityText(std::nan("")), "under 1 %");
 }
 
 TEST(VerdictModel, IsLogisticInStandardisedEvidence) {
