@@ -142,7 +142,7 @@ std::string Share(int part, int whole) {
 void PrintTable(const FitStatistics& s) {
   PrintLine(fmt::format("{}", s.source));
   PrintLine(fmt::format("  pose right        {}", Share(s.pose_ok, s.positives)));
-  PrintLine(fmt::format("  recall            {:.3f}", s.recall));
+  if (std::isfinite(s.recall)) PrintLine(fmt::format("  recall            {:.3f}", s.recall));
   PrintLine(fmt::format("  all right         {}", Share(s.all_ok, s.positives)));
   PrintLine(fmt::format("  CONFIRMED right   {}", Share(s.confirmed_right, s.confirmed)));
   PrintLine(fmt::format("  LIKELY right      {}", Share(s.likely_right, s.likely)));

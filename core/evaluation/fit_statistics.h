@@ -23,7 +23,7 @@ struct FitStatistics {
   int pose_ok = 0;
   int all_ok = 0;
   /// Of what was there to be found, the share found: of the positives or, where outcomes say
-  /// "in_view", of what was in view.
+  /// "in_view", of what was in view. NaN without any.
   double recall = 0.0;
   /// Mean "false_area" of the answers that are LIKELY or CONFIRMED; NaN where there is none.
   double false_area = 0.0;

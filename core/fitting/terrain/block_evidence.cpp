@@ -33,8 +33,8 @@ constexpr double kUnknownYaw_rad = RadiansFromDegrees(6.0);
 /// A band must be wide enough for beams to fall into it.
 double BandWidth(const SurfaceGrid& grid, const PlaneView& view) {
   const Eigen::Vector3d sight = view.surface.center - grid.viewpoint();
-  const double closing = std::abs(view.surface.plane.normal.dot(sight.normalized()));
-  const double spacing_m = sight.norm() * grid.step_rad().maxCoeff() / std::max(0.1, closing);
+  const double spacing_m =
+      LengthOn(view.surface.plane, sight.normalized(), sight.norm(), grid.step_rad().maxCoeff());
   return std::clamp(1.2 * spacing_m, kMinBand_m, kMaxBand_m);
 }
 
@@ -169,8 +169,8 @@ PoseCovariance BlockCovariance(const SurfaceGrid& grid, const PlaneView& view,
   const Eigen::Vector2d flat_sight(view.x.dot(sight), view.y.dot(sight));
   const Eigen::Vector2d along_sight =
       (Eigen::Rotation2Dd(-rectangle.yaw_rad) * flat_sight).normalized();
-  const double closing = std::max(0.1, std::abs(view.surface.plane.normal.dot(sight.normalized())));
-  const double spot_m = sight.norm() * grid.spot_rad() / closing;
+  const double spot_m =
+      LengthOn(view.surface.plane, sight.normalized(), sight.norm(), grid.spot_rad());
   double yaw_information = 1.0 / (kUnknownYaw_rad * kUnknownYaw_rad);
   for (int axis = 0; axis < 2; ++axis) {
     double place_information = 1.0 / (kUnknownPlace_m * kUnknownPlace_m);

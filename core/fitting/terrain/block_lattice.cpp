@@ -1,7 +1,7 @@
 #include "core/fitting/terrain/block_lattice.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,7 +132,7 @@ double Misfit(std::span<const BlockPlace> blocks, const std::vector<bool>& used,
   return misfit;
 }
 
-/// The jitter that explains the gaps best; the first of all starts the rows.
+/// The jitter that explains the gaps best, and the rows that go with it.
 Fit BestJitter(std::span<const BlockPlace> blocks, const std::vector<bool>& used,
                const Fit& start) {
   Fit best = start;

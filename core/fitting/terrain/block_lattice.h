@@ -33,7 +33,7 @@ struct BlockLattice {
 /// is hidden is better known from its neighbours than from its own edges. What each block's edges
 /// say, `blocks`, is weighed by its covariance against what the rows say, weighed by how far the
 /// blocks of this field lie off their rows. nullopt where fewer than 5 blocks are placed by
-/// edges, or one in five of them or more does not stand in rows: then nothing is known of
+/// edges, or more than one in five of them does not stand in rows: then nothing is known of
 /// neighbours. `side_m`: of a block; the pitch is 0.9 to 1.35 times that. O(blocks).
 std::optional<BlockLattice> FindBlockLattice(std::span<const BlockPlace> blocks, double side_m);
 

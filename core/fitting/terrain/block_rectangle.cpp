@@ -185,8 +185,9 @@ BlockRectangle BestRectangle(const PlaneView& view, const std::vector<PlaneView:
 Eigen::Vector2d SpotShift(const SurfaceGrid& grid, int i, const PlaneView& view) {
   const GridPoint& point = grid[i];
   const Eigen::Vector2d away(view.x.dot(point.direction), view.y.dot(point.direction));
-  const double closing = std::max(0.1, std::abs(view.surface.plane.normal.dot(point.direction)));
-  return kPastEdge * point.range_m * grid.spot_rad() / closing * away.normalized();
+  const double spot_m =
+      LengthOn(view.surface.plane, point.direction, point.range_m, grid.spot_rad());
+  return kPastEdge * spot_m * away.normalized();
 }
 
 }  // namespace

@@ -71,6 +71,12 @@ double AreaOn(const Plane& plane, const GridPoint& point, double range_m) {
   return range_m * range_m * point.solid_angle_sr / closing;
 }
 
+double LengthOn(const Plane& plane, const Eigen::Vector3d& direction, double range_m,
+                double angle_rad) {
+  constexpr double kLeast = 0.1;
+  return range_m * angle_rad / std::max(kLeast, std::abs(plane.normal.dot(direction)));
+}
+
 void RefitPlanes(const SurfaceGrid& grid, double min_area_m2, SurfacePlanes& surfaces) {
   const std::vector<std::vector<int>> points = PointsOfEach(surfaces);
   std::vector<int> renamed(surfaces.planes.size(), -1);

@@ -34,6 +34,11 @@ double DistanceSigma(const SurfaceGrid& grid, int i, const Plane& plane);
 /// plane that is not the point's own range.
 double AreaOn(const Plane& plane, const GridPoint& point, double range_m);
 
+/// How far a small angle in the plane of sight and normal reaches on a plane, met at `range_m` by a
+/// ray along `direction` (length 1); ten times its width at most.
+double LengthOn(const Plane& plane, const Eigen::Vector3d& direction, double range_m,
+                double angle_rad);
+
 /// Fits every plane again to the points that bear its label (robust least squares of ranges), and
 /// drops those that cover less than `min_area_m2`: their points belong to none.
 void RefitPlanes(const SurfaceGrid& grid, double min_area_m2, SurfacePlanes& surfaces);
