@@ -1,5 +1,7 @@
 #include "app/common/emulation.h"
 
+#include "app/common/seed_option.h"
+
 namespace foresight {
 
 void AddEmulationOptions(CLI::App& command, CLI::Option* scene, EmulationArguments& arguments) {
@@ -7,7 +9,9 @@ void AddEmulationOptions(CLI::App& command, CLI::Option* scene, EmulationArgumen
     return command.add_option(name, value, help)->needs(scene);
   };
   add("--rig", arguments.rig, "The head as it is (YAML); default: the built-in one");
-  add("--seed", arguments.seed, "Seed of all noise and faults")->capture_default_str();
+  AddSeedOption(command, "--seed", arguments.seed, "Seed of all noise and faults")
+      ->needs(scene)
+      ->capture_default_str();
   add("--lidar", arguments.lidar, "Where the lidar listens, ADDR:PORT; default: a free port");
   add("--motor", arguments.motor, "Where the motor listens, ADDR:PORT; default: a free port");
   add("--camera", arguments.camera,
@@ -15,9 +19,9 @@ void AddEmulationOptions(CLI::App& command, CLI::Option* scene, EmulationArgumen
   add("--faults", arguments.faults, "What goes wrong (YAML); default: nothing");
 }
 
-Result<std::unique_ptr<EmulatedSite>> StartEmulation(const EmulationArguments& arguments) {
+Result<std::unique_ptr<EmulatedDevices>> StartEmulation(const EmulationArguments& arguments) {
   FORESIGHT_TRY(Scene scene, LoadScene(arguments.scene));
-  EmulatedSiteOptions options;
+  EmulatedDevicesOptions options;
   options.world.seed = arguments.seed;
   if (!arguments.rig.empty()) {
     FORESIGHT_TRY(options.true_rig, LoadSensorRig(arguments.rig));
@@ -30,23 +34,23 @@ Result<std::unique_ptr<EmulatedSite>> StartEmulation(const EmulationArguments& a
   }
   options.camera = arguments.camera;
   if (!arguments.faults.empty()) {
-    FORESIGHT_TRY(options.faults, LoadSiteFaults(arguments.faults, arguments.seed));
+    FORESIGHT_TRY(options.faults, LoadDeviceFaults(arguments.faults, arguments.seed));
   }
-  return EmulatedSite::Start(std::make_shared<const Scene>(std::move(scene)), options);
+  return EmulatedDevices::Start(std::make_shared<const Scene>(std::move(scene)), options);
 }
 
-HeadConfig ConfigFor(EmulatedSite& site) {
+HeadConfig ConfigFor(EmulatedDevices& devices) {
   HeadConfig config;
-  config.name = fmt::format("emulated: {}, seed {}", site.world()->scene().name,
-                            site.world()->options().seed);
+  config.name = fmt::format("emulated: {}, seed {}", devices.world()->scene().name,
+                            devices.world()->options().seed);
   config.simulated = true;
-  config.rig = site.CalibratedRig();
-  config.lidar.address = site.lidar().address();
+  config.rig = devices.CalibratedRig();
+  config.lidar.address = devices.lidar().address();
   config.lidar.last_step = config.rig.lidar.beams - 1;
-  config.motor.host = site.motor().address().host;
-  config.motor.port = site.motor().address().port;
-  config.camera.address = site.camera().address();
-  // The emulated camera renders its pictures while the lidar's lines go on: seconds, not the
+  config.motor.host = devices.motor().address().host;
+  config.motor.port = devices.motor().address().port;
+  config.camera.address = devices.camera().address();
+  // The emulated camera renders its images while the lidar's lines go on: seconds, not the
   // milliseconds that a sensor needs.
   config.camera.frame_timeout_s = config.capture.camera_timeout_s;
   config.capture.description = config.name;

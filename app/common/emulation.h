@@ -5,7 +5,7 @@
 #include <string>
 
 #include "hardware/assembly/head_config.h"
-#include "hardware/emulator/emulated_site.h"
+#include "hardware/emulator/emulated_devices.h"
 
 namespace foresight {
 
@@ -23,9 +23,9 @@ struct EmulationArguments {
 /// Adds the options for everything but the scene; they make sense only with `scene`.
 void AddEmulationOptions(CLI::App& command, CLI::Option* scene, EmulationArguments& arguments);
 
-Result<std::unique_ptr<EmulatedSite>> StartEmulation(const EmulationArguments& arguments);
+Result<std::unique_ptr<EmulatedDevices>> StartEmulation(const EmulationArguments& arguments);
 
 /// The configuration of a head on these devices, as well calibrated as can be.
-HeadConfig ConfigFor(EmulatedSite& site);
+HeadConfig ConfigFor(EmulatedDevices& devices);
 
 }  // namespace foresight

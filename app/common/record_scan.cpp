@@ -1,14 +1,14 @@
 #include "app/common/record_scan.h"
 
-#include "app/common/fly_scan.h"
+#include "app/common/execute_scan.h"
 #include "app/common/output.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
 
-void PrintScan(const std::string& mission_file, const ScanSummary& scan, const FlownScan& flown,
-               bool json) {
+void PrintScan(const std::string& mission_file, const ScanSummary& scan,
+               const ExecutedScan& executed, int planned_lines, bool json) {
   if (json)
     PrintJson({{"mission", mission_file},
                {"scan", scan.id},
@@ -17,12 +17,13 @@ void PrintScan(const std::string& mission_file, const ScanSummary& scan, const F
                {"state", ToString(scan.state)},
                {"reason", scan.reason},
                {"lines", scan.lines},
-               {"frames", scan.frames},
-               {"seconds", flown.seconds},
-               {"cpu_share", flown.cpu_share}});
+               {"planned_lines", planned_lines},
+               {"frames", scan.images},
+               {"seconds", executed.seconds},
+               {"cpu_share", executed.cpu_fraction}});
   else
-    PrintLine(fmt::format("{}: scan {} {}, {} lines, {} pictures{}{}", mission_file, scan.id,
-                          ToString(scan.state), scan.lines, scan.frames,
+    PrintLine(fmt::format("{}: scan {} {}, {} lines, {} images{}{}", mission_file, scan.id,
+                          ToString(scan.state), scan.lines, scan.images,
                           scan.reason.empty() ? "" : ": ", scan.reason));
 }
 
@@ -40,18 +41,19 @@ std::string ToText(const ScanPrediction& p) {
 Result<ExitCode> RecordScan(SensorHead& head, const ScanPlan& plan, const std::string& mission_file,
                             bool json, const RunContext& context) {
   FORESIGHT_TRY(const auto prediction, PredictScan(plan, head.Rig(), head.Motion()));
-  fmt::print(stderr, "{}: {}\n", head.Describe(), ToText(prediction));
+  PrintNote("{}: {}", head.Describe(), ToText(prediction));
+  const RemoveUnlessUsed guard(mission_file);  // outlives the mission, which closes the file
   FORESIGHT_TRY(const auto mission, OpenOrCreateMission(mission_file));
-  FORESIGHT_TRY(const FlownScan flown, FlyScan(head, plan, mission, context));
+  FORESIGHT_TRY(const ExecutedScan executed, ExecuteScan(head, plan, mission, context));
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
   FORESIGHT_CHECK(mission->Close());
   for (const ScanSummary& scan : scans) {
-    if (scan.id != flown.id) continue;
-    PrintScan(mission_file, scan, flown, json);
+    if (scan.id != executed.id) continue;
+    PrintScan(mission_file, scan, executed, prediction.lines, json);
     return scan.state == ScanState::kComplete ? ExitCode::kDone : ExitCode::kNegative;
   }
   return Fail(ErrorCode::kBadData, "{}: scan {} is missing after it was recorded", mission_file,
-              flown.id);
+              executed.id);
 }
 
 }  // namespace foresight

@@ -15,6 +15,7 @@ using Invocation = std::function<Result<ExitCode>(const RunContext&)>;
 
 /// Adds a subcommand and its options to `app`; when it is chosen, parsing fills `invocation`.
 void AddScanCommand(CLI::App& app, Invocation& invocation);
+void AddCloudCommand(CLI::App& app, Invocation& invocation);
 void AddDepthCommand(CLI::App& app, Invocation& invocation);
 void AddFitCommand(CLI::App& app, Invocation& invocation);
 /// `app` is the command `fit`.
@@ -27,6 +28,7 @@ void AddRenderCommand(CLI::App& app, Invocation& invocation);
 void AddDemoCommand(CLI::App& app, Invocation& invocation);
 void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 void AddHealthCommand(CLI::App& app, Invocation& invocation);
+void AddRigCommand(CLI::App& app, Invocation& invocation);
 
 /// Creates the folder for results. Fails with kIo.
 Status MakeOutputFolder(const std::string& folder);

@@ -1,7 +1,8 @@
 #include <memory>
 
-#include "app/common/fly_scan.h"
-#include "app/common/simulated_site.h"
+#include "app/common/execute_scan.h"
+#include "app/common/seed_option.h"
+#include "app/common/simulated_bench.h"
 #include "app/ctl/command.h"
 #include "app/ctl/demo_report.h"
 #include "app/ctl/save_detection.h"
@@ -32,15 +33,14 @@ ScanPlan DemoPlan() {
 Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome,
                const RunContext& context) {
   const CameraFrame* frame = NearestFrame(outcome.scan, DemoPlan().image_angles_rad.front());
-  if (frame == nullptr) return Fail(ErrorCode::kDevice, "the scan came home without a picture");
+  if (frame == nullptr) return Fail(ErrorCode::kDevice, "the scan came home without an image");
   outcome.frame = *frame;
   FORESIGHT_TRY(outcome.registered, RegisterScan(outcome.scan, context));
   FORESIGHT_TRY(outcome.depth, ComputeDepthInFrame(outcome.registered, outcome.scan.rig, *frame,
                                                    DefaultsOf(DepthMethod::kForesight), context));
   const auto roi = RegionOfTrueValve(truth, world, frame->motor_angle_rad);
   if (!roi)
-    return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the picture",
-                world.scene().name);
+    return Fail(ErrorCode::kInvalidInput, "{}: its valve is not in the image", world.scene().name);
   const DemoSubject subject{
       outcome.scan.rig, outcome.registered, outcome.depth, outcome.frame, *roi, truth, world};
   FORESIGHT_TRY(const std::vector<DemoAnswer> answers, FitToEverySource(subject, context));
@@ -72,20 +72,21 @@ void PrintOutcome(const DemoArguments& arguments, const DemoOutcome& o) {
 }
 
 Result<ExitCode> Demo(const DemoArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(const SimulatedSite site, SetUpSite(arguments.simulation));
-  if (site.world->scene().valves.empty())
+  FORESIGHT_TRY(const SimulatedBench bench, SetUpBench(arguments.simulation));
+  if (bench.world->scene().valves.empty())
     return Fail(ErrorCode::kInvalidInput, "{}: a demo mission needs a scene with a valve",
                 arguments.simulation.scene);
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   DemoOutcome outcome;
   outcome.mission_file = (std::filesystem::path(arguments.out) / "mission.foresight").string();
-  fmt::print(stderr, "scanning {}\n", site.world->scene().name);
+  PrintNote("scanning {}", bench.world->scene().name);
   FORESIGHT_TRY(const auto mission, OpenOrCreateMission(outcome.mission_file));
-  FORESIGHT_TRY(const FlownScan flown, FlyScan(*site.head, DemoPlan(), mission, context));
-  FORESIGHT_TRY(outcome.scan, mission->LoadScan(flown.id));
-  fmt::print(stderr, "computing depth and fitting the valve to every source\n");
-  FORESIGHT_CHECK(Process(*site.world, site.world->scene().valves.front(), outcome, context));
-  FORESIGHT_CHECK(SaveDetection(*mission, flown.id, outcome.valve, outcome.scan.rig));
+  FORESIGHT_TRY(const ExecutedScan executed,
+                ExecuteScan(*bench.head, DemoPlan(), mission, context));
+  FORESIGHT_TRY(outcome.scan, mission->LoadScan(executed.id));
+  PrintNote("computing depth and fitting the valve to every source");
+  FORESIGHT_CHECK(Process(*bench.world, bench.world->scene().valves.front(), outcome, context));
+  FORESIGHT_CHECK(SaveDetection(*mission, executed.id, outcome.valve, outcome.scan.rig));
   FORESIGHT_CHECK(mission->Close());
   FORESIGHT_CHECK(WriteHtmlReport(ReportOf(outcome), arguments.out));
   PrintOutcome(arguments, outcome);
@@ -97,10 +98,10 @@ Result<ExitCode> Demo(const DemoArguments& arguments, const RunContext& context)
 void AddDemoCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<DemoArguments>();
   CLI::App* command = app.add_subcommand(
-      "demo", "Fly the demo mission: scan, depth, valve, and a report with pictures");
+      "demo", "Run the demo mission: scan, depth, valve, and a report with images");
   command->add_option("--scene", arguments->simulation.scene, "Scene file (YAML) with a valve")
       ->required();
-  command->add_option("--seed", arguments->simulation.seed, "Seed of all noise")
+  AddSeedOption(*command, "--seed", arguments->simulation.seed, "Seed of all noise")
       ->capture_default_str();
   command->add_option("-o,--out", arguments->out, "Folder for the report and the mission file")
       ->capture_default_str();

@@ -6,6 +6,7 @@
 #include "core/pictures/detection_picture.h"
 #include "core/pictures/draw.h"
 #include "core/pictures/sample_picture.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -16,12 +17,14 @@ HtmlReport::Table ScanTable(const DemoOutcome& o) {
   const ScanPlan& plan = o.scan.plan;
   return {"Scan",
           {{"head", o.scan.source},
+           {"rig", fmt::format("{}, {}", o.scan.rig.name, ShortRigId(o.scan.rig))},
+           {"camera model", std::string(o.scan.rig.camera.Name())},
            {"state", ToString(o.scan.state)},
            {"scope",
             fmt::format("{:.0f} to {:.0f} deg at {:.0f} deg/s", DegreesFromRadians(plan.from_rad),
                         DegreesFromRadians(plan.to_rad), DegreesFromRadians(plan.speed_rad_s))},
            {"lines", fmt::format("{}", o.scan.lines.size())},
-           {"pictures", fmt::format("{}", o.scan.frames.size())},
+           {"images", fmt::format("{}", o.scan.frames.size())},
            {"mission file", o.mission_file}}};
 }
 
@@ -34,7 +37,7 @@ HtmlReport::Table DepthTable(const DemoOutcome& o) {
     return fmt::format("{}", count[static_cast<int>(reason)]);
   };
   return {"Depth",
-          {{"samples in the picture",
+          {{"samples in the image",
             fmt::format("{} ({:.1f} % of the pixels where the lidar looked)",
                         o.depth.samples.samples.size(), 100.0 * LocalDensity(o.depth.samples))},
            {"flying, rejected", text(RejectReason::kFlying)},
@@ -63,7 +66,7 @@ HtmlReport::Table ValveTable(const DemoOutcome& o) {
            {"rim diameter", fmt::format("{:.1f} mm", 2000.0 * best.model.rim_radius_m)},
            {"spokes", fmt::format("{}", best.model.spokes)},
            {"rays", fmt::format("{}, {} hits, {:.0f} % agree", o.valve.evidence.rays,
-                                o.valve.evidence.hits, 100.0 * o.valve.evidence.inlier_share)},
+                                o.valve.evidence.hits, 100.0 * o.valve.evidence.inlier_ratio)},
            {"time", fmt::format("{:.2f} s", o.valve.origin.seconds)}}};
 }
 
@@ -124,9 +127,9 @@ HtmlReport ReportOf(const DemoOutcome& o) {
       DegreesFromRadians(o.error.axis_rad));
   report.tables = {ScanTable(o), DepthTable(o), ValveTable(o), TruthTable(o), o.sources};
   report.pictures = {
-      {"image.png", "Picture", "What the camera saw.", o.frame.image},
+      {"image.png", "Image", "What the camera saw.", o.frame.image},
       {"samples.png", "Raw samples",
-       "Lidar returns in the picture. " + span +
+       "Lidar returns in the image. " + span +
            " Orange: flying, light blue: isolated, pink: flipping.",
        PaintSamples(o.depth.samples, range)},
       {"depth.png", "Depth", "Upsampled, nothing masked. " + span,
@@ -136,7 +139,7 @@ HtmlReport ReportOf(const DemoOutcome& o) {
       {"masked.png", "Masked depth", "Hatched pixels are not to be trusted. " + span, masked},
       {"cloud.png", "Cloud", "The lidar's points from above and aside, with the fitted template.",
        CloudPicture(o)},
-      {"overlay.png", "Fit on the picture", "Yellow: the region; green: the fitted template.",
+      {"overlay.png", "Fit on the image", "Yellow: the region; green: the fitted template.",
        WithOverlay(o.frame.image, o)},
       {"overlay-depth.png", "Fit on the masked depth",
        "Yellow: the region; green: the fitted template.", WithOverlay(masked, o)}};

@@ -38,6 +38,8 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
   const double image_deg = DegreesFromRadians(opened.frame.motor_angle_rad);
   if (arguments.json)
     PrintJson({{"scan", opened.id},
+               {"scan_state", ToString(opened.scan.state)},
+               {"scan_reason", opened.scan.reason},
                {"image_deg", image_deg},
                {"samples", count},
                {"rejected", count - result.samples.KeptCount()},

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "app/common/output.h"
 #include "core/depth/depth_method.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
@@ -73,11 +74,11 @@ void AddConfidenceArguments(CLI::App& command, DepthArguments& arguments) {
             "Terms of Eq. (9): G H, or exp(G + H) as printed (paper, jbu)");
   command
       .add_option("--threshold", arguments.threshold,
-                  "Confidence below this share of the reference is masked")
+                  "Confidence below this fraction of the reference is masked")
       ->check(CLI::Range(0.0, 1.0));
   AddChoice(
       command, "--mask-reference", arguments.mask_reference, kMaskReferences,
-      "Reference of the mask: the largest confidence in the picture, or a full neighbourhood's");
+      "Reference of the mask: the largest confidence in the image, or a full neighbourhood's");
 }
 
 void ChooseFlying(FlyingRule rule, FlyingPointOptions& options) {
@@ -171,6 +172,16 @@ void AddDepthArguments(CLI::App& command, DepthArguments& arguments) {
   AddConfidenceArguments(command, arguments);
 }
 
+std::vector<std::string> DepthOptionNames() {
+  CLI::App command;
+  DepthArguments arguments;
+  AddDepthArguments(command, arguments);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    if (option != command.get_help_ptr()) names.push_back(option->get_name());
+  return names;
+}
+
 std::string MethodNames() {
   std::string names;
   for (const DepthMethodInfo& info : DepthMethods())
@@ -200,10 +211,9 @@ Status WriteDepthFiles(const DepthResult& result, const std::filesystem::path& f
 
 void WarnOfLowDensity(const DepthResult& result) {
   if (!result.BelowDensityFloor()) return;
-  fmt::print(stderr,
-             "only {:.2f} % of the pixels are measured; below {:.0f} % the depth map is not to be "
-             "trusted\n",
-             100.0 * result.density, 100.0 * ScanPrediction::kMinDensity);
+  PrintNote(
+      "only {:.2f} % of the pixels are measured; below {:.0f} % the depth map is not to be trusted",
+      100.0 * result.density, 100.0 * ScanPrediction::kMinDensity);
 }
 
 }  // namespace foresight

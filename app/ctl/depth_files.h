@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/depth/pipeline.h"
 
@@ -36,6 +37,8 @@ struct DepthArguments {
 };
 
 void AddDepthArguments(CLI::App& command, DepthArguments& arguments);
+/// What AddDepthArguments adds: "--method", ...
+std::vector<std::string> DepthOptionNames();
 /// Fails with kInvalidOptions for an unknown method, or an option that the method does not have.
 Result<DepthOptions> DepthOptionsFrom(const DepthArguments& arguments);
 /// "paper, jbu, ..."

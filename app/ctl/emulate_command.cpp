@@ -15,10 +15,10 @@ struct EmulateArguments {
   bool json = false;
 };
 
-void PrintAddresses(EmulatedSite& site, const EmulateArguments& arguments) {
-  const std::string lidar = site.lidar().address().ToText();
-  const std::string motor = site.motor().address().ToText();
-  const std::string& camera = site.camera().address();
+void PrintAddresses(EmulatedDevices& devices, const EmulateArguments& arguments) {
+  const std::string lidar = devices.lidar().address().ToText();
+  const std::string motor = devices.motor().address().ToText();
+  const std::string& camera = devices.camera().address();
   if (arguments.json)
     PrintJson({{"lidar", lidar},
                {"motor", motor},
@@ -39,10 +39,11 @@ void WaitForTheEnd(double seconds, const RunContext& context) {
 }
 
 Result<ExitCode> Emulate(const EmulateArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(const auto site, StartEmulation(arguments.emulation));
+  FORESIGHT_TRY(const auto devices, StartEmulation(arguments.emulation));
   if (!arguments.head_config.empty())
-    FORESIGHT_CHECK(SaveHeadConfig(ConfigFor(*site), arguments.head_config));
-  PrintAddresses(*site, arguments);
+    FORESIGHT_CHECK(SaveHeadConfig(ConfigFor(*devices), arguments.head_config));
+  PrintAddresses(*devices, arguments);
+  FORESIGHT_CHECK(CheckOutput());  // nobody would know where they are
   WaitForTheEnd(arguments.seconds, context);
   return ExitCode::kDone;
 }

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/common/seed_option.h"
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
 #include "app/ctl/evaluate_pictures.h"
@@ -37,7 +38,7 @@ Result<std::vector<DepthMethod>> MethodsFrom(const std::vector<std::string>& nam
 }
 
 void Announce(const std::string& scene, DepthMethod method) {
-  fmt::print(stderr, "{}: {}\n", scene, InfoOf(method).title);
+  PrintNote("{}: {}", scene, InfoOf(method).title);
 }
 
 RayOfPixel RayOfRightView(const StereoScene& scene) {
@@ -47,7 +48,7 @@ RayOfPixel RayOfRightView(const StereoScene& scene) {
 }
 
 /// Of the picture's middle: a fisheye's far sides, metres away, would leave little room for it.
-RayOfPixel RayOfCamera(const FisheyeCamera& camera) {
+RayOfPixel RayOfCamera(const CameraModel& camera) {
   constexpr double kLargestTangent = 1.2;
   return [&camera](const Eigen::Vector2d& pixel) -> Eigen::Vector2d {
     const auto ray = camera.UnprojectToPlane(pixel);
@@ -83,7 +84,7 @@ Status EvaluateSimulated(const std::string& file, const std::vector<DepthMethod>
   options.world.seed = arguments.seed;
   options.calibration_error.rotation_rad = RadiansFromDegrees(arguments.rotation_error_deg);
   options.calibration_error.translation_m = arguments.translation_error_mm / 1000.0;
-  fmt::print(stderr, "{}: simulated scan\n", scene.name);
+  PrintNote("{}: simulated scan", scene.name);
   FORESIGHT_TRY(
       const SimulatedTrial trial,
       MakeSimulatedTrial(std::make_shared<const Scene>(std::move(scene)), options, context));
@@ -135,9 +136,8 @@ void AddEvaluateCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("--method", arguments->methods, "Depth methods, or all: " + MethodNames())
       ->delimiter(',')
       ->capture_default_str();
-  command
-      ->add_option("--seed", arguments->seed,
-                   "Seed of the noise, and of the direction of the calibration's error")
+  AddSeedOption(*command, "--seed", arguments->seed,
+                "Seed of the noise, and of the direction of the calibration's error")
       ->capture_default_str();
   command
       ->add_option("--scale", arguments->scale,

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <regex>
 #include <set>
 
+#include "app/common/seed_option.h"
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
 #include "core/base/atomic_file.h"
@@ -51,13 +50,13 @@ class OutcomeTable {
  public:
   Status Open(const std::string& path) {
     if (path.empty()) return {};
-    if (std::filesystem::exists(path)) {
+    path_ = path;
+    FORESIGHT_TRY(const std::filesystem::path target, ResolveOutput(path));
+    if (std::error_code error; std::filesystem::exists(target, error)) {
       FORESIGHT_TRY(outcomes_, LoadFitOutcomes(path));
       FORESIGHT_CHECK(DropTornLine(path));
     }
-    stream_.open(path, std::ios::app);
-    if (!stream_) return Fail(ErrorCode::kIo, "{}: cannot be written", path);
-    return {};
+    return AppendToFile(path, "");  // not after hours of trials
   }
 
   std::set<std::uint64_t> Seeds() const {
@@ -66,12 +65,14 @@ class OutcomeTable {
     return seeds;
   }
 
-  void Add(const std::vector<FitOutcome>& outcomes) {
+  /// Fails with kIo where they could not be written, e.g. on a disk that is full.
+  Status Add(const std::vector<FitOutcome>& outcomes) {
     const std::lock_guard lock(mutex_);
+    outcomes_.insert(outcomes_.end(), outcomes.begin(), outcomes.end());
+    if (path_.empty()) return {};
     std::string lines;
     for (const FitOutcome& outcome : outcomes) lines += FitOutcomeToJson(outcome) + "\n";
-    if (stream_.is_open()) stream_ << lines << std::flush;
-    outcomes_.insert(outcomes_.end(), outcomes.begin(), outcomes.end());
+    return AppendToFile(path_, lines);
   }
 
   /// In the order of their seeds, whatever threads did.
@@ -93,8 +94,8 @@ class OutcomeTable {
   }
 
   std::mutex mutex_;
+  std::string path_;  ///< empty = kept in memory only
   std::vector<FitOutcome> outcomes_;
-  std::ofstream stream_;
 };
 
 /// As many seeds from the first on as were asked for, of scenes that hold the object, hold none, or
@@ -119,21 +120,26 @@ Status RunTrials(const FitPopulation& population, const EvaluateFitsArguments& a
   Status failure;
   int finished = 0;
   const bool whole = ParallelFor(static_cast<int>(std::ssize(seeds)), context, [&](int i) {
-    const auto outcomes =
-        RunFitTrial(population, seeds[static_cast<std::size_t>(i)], options, context);
-    if (outcomes) table.Add(*outcomes);
+    {
+      const std::lock_guard lock(mutex);
+      if (!failure && failure.error().code == ErrorCode::kIo) return;  // nothing could be kept
+    }
+    const std::uint64_t seed = seeds[static_cast<std::size_t>(i)];
+    const auto outcomes = RunFitTrial(population, seed, options, context);
+    const Status kept = outcomes ? table.Add(*outcomes) : Status();
     const std::lock_guard lock(mutex);
     if (!outcomes && failure)
-      failure = Fail(outcomes.error().code, "seed {}: {}", seeds[static_cast<std::size_t>(i)],
-                     outcomes.error().message);
-    fmt::print(stderr, "\r{} of {} scenes", ++finished, seeds.size());
+      failure = Fail(outcomes.error().code, "seed {}: {}", seed, outcomes.error().message);
+    if (!kept) failure = kept;
+    ++finished;
+    PrintProgress(fmt::format("{} of {} scenes", finished, seeds.size()),
+                  finished == std::ssize(seeds) ? ProgressEnd::kLast : ProgressEnd::kMore);
   });
-  if (!seeds.empty()) fmt::print(stderr, "\n");
   if (!whole) return Fail(ErrorCode::kCancelled, "the trials were cancelled");
   return failure;
 }
 
-std::string Share(int part, int whole) {
+std::string FractionText(int part, int whole) {
   return whole > 0
              ? fmt::format("{:.3f} ({} of {})", static_cast<double>(part) / whole, part, whole)
              : "-";
@@ -141,11 +147,11 @@ std::string Share(int part, int whole) {
 
 void PrintTable(const FitStatistics& s) {
   PrintLine(fmt::format("{}", s.source));
-  PrintLine(fmt::format("  pose right        {}", Share(s.pose_ok, s.positives)));
+  PrintLine(fmt::format("  pose right        {}", FractionText(s.pose_ok, s.positives)));
   if (std::isfinite(s.recall)) PrintLine(fmt::format("  recall            {:.3f}", s.recall));
-  PrintLine(fmt::format("  all right         {}", Share(s.all_ok, s.positives)));
-  PrintLine(fmt::format("  CONFIRMED right   {}", Share(s.confirmed_right, s.confirmed)));
-  PrintLine(fmt::format("  LIKELY right      {}", Share(s.likely_right, s.likely)));
+  PrintLine(fmt::format("  all right         {}", FractionText(s.all_ok, s.positives)));
+  PrintLine(fmt::format("  CONFIRMED right   {}", FractionText(s.confirmed_right, s.confirmed)));
+  PrintLine(fmt::format("  LIKELY right      {}", FractionText(s.likely_right, s.likely)));
   PrintLine(fmt::format("  negatives         {} scenes, {} CONFIRMED, {} LIKELY", s.negatives,
                         s.negatives_confirmed, s.negatives_likely));
   if (std::isfinite(s.false_area))
@@ -183,26 +189,28 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"seconds", {{"median", Finite(s.seconds_median)}, {"p95", Finite(s.seconds_p95)}}}};
 }
 
-/// The outcomes of scenes whose description fits a pattern.
-Result<std::vector<FitOutcome>> Counted(std::vector<FitOutcome> outcomes,
-                                        const std::string& pattern) {
-  if (pattern.empty()) return outcomes;
+/// Which scenes are counted; an empty pattern fits all.
+Result<std::regex> PatternFrom(const std::string& text) {
+  constexpr std::size_t kLongest = 200;  // the standard's regex calls itself for each bracket
+  if (text.size() > kLongest)
+    return Fail(ErrorCode::kInvalidOptions, "--what: {} characters are more than {}", text.size(),
+                kLongest);
   try {
-    const std::regex what(pattern);
-    std::erase_if(outcomes, [&](const FitOutcome& o) { return !std::regex_search(o.what, what); });
+    return std::regex(text);
   } catch (const std::regex_error& error) {
-    return Fail(ErrorCode::kInvalidOptions, "--what {}: {}", pattern, error.what());
+    return Fail(ErrorCode::kInvalidOptions, "--what {}: {}", text, error.what());
   }
-  return outcomes;
 }
 
 Result<ExitCode> EvaluateFits(const EvaluateFitsArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
+  FORESIGHT_TRY(const std::regex what, PatternFrom(arguments.what));
   OutcomeTable table;
   FORESIGHT_CHECK(table.Open(arguments.table));
   FORESIGHT_CHECK(RunTrials(*population, arguments, table, context));
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  FORESIGHT_TRY(const std::vector<FitOutcome> counted, Counted(table.Sorted(), arguments.what));
+  std::vector<FitOutcome> counted = table.Sorted();
+  std::erase_if(counted, [&](const FitOutcome& o) { return !std::regex_search(o.what, what); });
   for (const FitStatistics& statistics : StatisticsOf(counted)) {
     if (arguments.json)
       json.push_back(ToJson(statistics));
@@ -222,7 +230,7 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("object", arguments->kind, "valve, drill or terrain")
       ->required()
       ->check(CLI::IsMember(FitPopulationKinds()));
-  command->add_option("--first-seed", arguments->first_seed, "Seed of the first scene")
+  AddSeedOption(*command, "--first-seed", arguments->first_seed, "Seed of the first scene")
       ->capture_default_str();
   command->add_option("--count", arguments->count, "Number of scenes")
       ->check(CLI::Range(1, 1000000))

@@ -210,7 +210,7 @@ Status EvaluationPictures::WritePage() const {
   page.title = "Depth methods against ground truth";
   page.summary =
       "Percentiles of |depth - truth| in mm over the pixels that have a truth and that the mask "
-      "keeps; coverage is the kept share of the pixels with a truth, holes that of the pixels "
+      "keeps; coverage is the kept fraction of the pixels with a truth, holes that of the pixels "
       "without one. Each picture opens in full size.";
   page.header = {"scene",       "method",      "A80",     "A95",      "coverage", "holes",
                  "A80 no mask", "A95 no mask", "samples", "rejected", "seconds"};

@@ -1,5 +1,6 @@
 #include "app/ctl/fit_arguments.h"
 
+#include "app/common/seed_option.h"
 #include "core/base/atomic_file.h"
 #include "core/depth/depth_method.h"
 #include "core/detection/detection_json.h"
@@ -53,7 +54,7 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->group(kGroup);
   command
       .add_option("--density", arguments.density,
-                  "With --depth: share of its pixels with a measurement of their own")
+                  "With --depth: fraction of its pixels with a measurement of their own")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str()
       ->group(kGroup);
@@ -73,7 +74,7 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->group(kGroup);
   command
       .add_option("--rig", arguments.rig,
-                  "Calibration of the head whose camera took the picture (YAML)")
+                  "Calibration of the head whose camera took the image (YAML)")
       ->group(kGroup);
 }
 
@@ -97,11 +98,13 @@ std::vector<std::string> SourceNames() {
 }
 
 void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
+  arguments.command = &command;
   AddScanArguments(command, arguments.scan, NeedMission::kNo);
   AddDepthArguments(command, arguments.depth);
   AddRegionArguments(command, arguments.region);
   AddSourceArguments(command, arguments);
-  command.add_option("--seed", arguments.seed, "Seed of the random search")->capture_default_str();
+  AddSeedOption(command, "--seed", arguments.seed, "Seed of the random search")
+      ->capture_default_str();
   command.add_flag("--json", arguments.json, "Print the answer as JSON");
   command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
 }
@@ -126,6 +129,54 @@ void AddFitArguments(CLI::App& command, FitArguments& arguments) {
                      "Fit to every source and set the answers side by side in this folder");
 }
 
+namespace {
+
+/// Options of another kind of subject, or of another source: they would change nothing, and nobody
+/// would know.
+Status RefuseGiven(const FitArguments& a, std::initializer_list<const char*> options,
+                   const char* why) {
+  for (const char* option : options)
+    if (a.command->count(option) > 0) return Fail(ErrorCode::kInvalidOptions, "{} {}", option, why);
+  return {};
+}
+
+Status RefuseDepthOptions(const FitArguments& a, const char* why) {
+  for (const std::string& option : DepthOptionNames())
+    FORESIGHT_CHECK(RefuseGiven(a, {option.c_str()}, why));
+  return {};
+}
+
+Status CheckForScan(const FitArguments& a) {
+  FORESIGHT_CHECK(RefuseGiven(a, {"--viewpoint", "--up"}, "goes with --cloud, not with a mission"));
+  FORESIGHT_CHECK(RefuseGiven(a, {"--density"}, "goes with --depth, not with a mission"));
+  FORESIGHT_CHECK(
+      RefuseGiven(a, {"--rig"}, "is not for a mission: its scans have their own calibration"));
+  if (!a.gallery.empty()) return RefuseGiven(a, {"--method"}, "is not for --gallery: it tries all");
+  if (a.source == "raw")
+    return RefuseDepthOptions(a, "goes with a depth map; the fit is to raw: give --source depth");
+  if (!a.source.starts_with(kDepthAlias))
+    return RefuseGiven(a, {"--method"}, "goes with --source depth; --source names a method itself");
+  return {};
+}
+
+Status CheckForDepthMap(const FitArguments& a) {
+  FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --depth"));
+  FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission: the map of --depth is made already"));
+  return RefuseGiven(a, {"--viewpoint", "--up"}, "goes with --cloud, not with --depth");
+}
+
+Status CheckForCloud(const FitArguments& a) {
+  FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --cloud"));
+  FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission, not with --cloud"));
+  FORESIGHT_CHECK(RefuseGiven(a, {"--density"}, "goes with --depth, not with --cloud"));
+  if (!a.rig.empty())
+    return RefuseGiven(a, {"--up"},
+                       "is not for a cloud with --rig, which says how the head stands");
+  return RefuseGiven(a, {"--image"}, "needs the camera's calibration: --rig");
+}
+
+}  // namespace
+
 Status CheckFitArguments(const FitArguments& a) {
   const int subjects =
       int(!a.scan.mission.empty()) + int(!a.depth_file.empty()) + int(!a.cloud_file.empty());
@@ -143,10 +194,11 @@ Status CheckFitArguments(const FitArguments& a) {
     return Fail(ErrorCode::kInvalidOptions, "--cloud needs where it was seen from: --viewpoint");
   if (!a.cloud_file.empty() && regions == 1 && r.box.empty() && a.rig.empty())
     return Fail(ErrorCode::kInvalidOptions,
-                "a region in a picture of a cloud needs the camera's calibration: --rig");
+                "a region in an image of a cloud needs the camera's calibration: --rig");
   if (a.scan.mission.empty() && (a.save || !a.gallery.empty()))
     return Fail(ErrorCode::kInvalidOptions, "--save and --gallery need a mission file");
-  return {};
+  if (!a.scan.mission.empty()) return CheckForScan(a);
+  return a.depth_file.empty() ? CheckForCloud(a) : CheckForDepthMap(a);
 }
 
 Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,

@@ -20,6 +20,7 @@ struct RegionArguments {
 };
 
 struct FitArguments {
+  const CLI::App* command = nullptr;  ///< knows which options were given
   ObjectKind kind = ObjectKind::kValve;
   ScanArguments scan;
   DepthArguments depth;

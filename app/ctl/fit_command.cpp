@@ -29,6 +29,15 @@ void PrintSummary(const Detection& detection, const SensorRig& rig) {
       PrintLine(fmt::format("{:<15} {}", fact.name, fact.value));
 }
 
+/// A fit in a scan tells how that scan ended.
+std::string WithScanState(const std::string& detection, const FitSubject& subject) {
+  if (!subject.scan) return detection;
+  auto json = nlohmann::ordered_json::parse(detection);
+  json["scan_state"] = ToString(subject.scan->scan.state);
+  json["scan_reason"] = subject.scan->scan.reason;
+  return json.dump(2);
+}
+
 Result<ExitCode> Fit(const FitArguments& arguments, const RunContext& context) {
   FORESIGHT_CHECK(CheckFitArguments(arguments));
   FORESIGHT_TRY(const FitSubject subject, OpenFitSubject(arguments, context.Part(0.0, 0.1)));
@@ -37,17 +46,20 @@ Result<ExitCode> Fit(const FitArguments& arguments, const RunContext& context) {
   if (!arguments.gallery.empty())
     FORESIGHT_CHECK(
         WriteFitGallery(subject, arguments, answer, arguments.gallery, context.Part(all, 1.0)));
-  if (!answer.detection && arguments.json && IsNegative(answer.detection.error()))
+  if (!answer.detection && arguments.json && IsNegative(answer.detection.error())) {
+    PrintNote("foresightctl: {}", answer.detection.error().message);
     PrintJson({{"kind", ToString(arguments.kind)},
                {"verdict", "UNSURE"},
                {"probability", 0.0},
                {"reason", answer.detection.error().message}});
+    return ExitCode::kNegative;
+  }
   FORESIGHT_TRY(const Detection detection, answer.detection);
   if (arguments.save) FORESIGHT_CHECK(Save(arguments, subject, detection));
   if (!arguments.picture.empty())
     FORESIGHT_CHECK(WritePng(arguments.picture, PictureOf(subject, detection)));
   if (arguments.json)
-    PrintLine(DetectionToJson(detection, subject.rig.robot_from_base));
+    PrintLine(WithScanState(DetectionToJson(detection, subject.rig.robot_from_base), subject));
   else
     PrintSummary(detection, subject.rig);
   return VerdictOf(detection).level == VerdictLevel::kUnsure ? ExitCode::kNegative

@@ -35,7 +35,7 @@ void PrintSummary(const CylinderDetection& found, const SensorRig& rig) {
   PrintLine(fmt::format("{:<15} {:.3f}, {:.3f}, {:.3f}; +- {:.1f} deg", "Axis", axis.x(), axis.y(),
                         axis.z(), DegreesFromRadians(found.sigma_axis_rad)));
   PrintLine(fmt::format("{:<15} {} beams on it, {:.0f} % agree, {:.0f} % went through", "Support",
-                        evidence.hits, 100.0 * evidence.inlier_share,
+                        evidence.hits, 100.0 * evidence.inlier_ratio,
                         100.0 * evidence.see_through));
   PrintLine(fmt::format("{:<15} median {:.0f} mm; {:.0f} deg of the girth seen", "Residual",
                         1000.0 * evidence.residual_mad_m,
@@ -62,11 +62,14 @@ Result<ExitCode> Fit(const FitCylinderArguments& arguments, const RunContext& co
   FORESIGHT_CHECK(CheckFitArguments(arguments.fit));
   FORESIGHT_TRY(const FitSubject subject, OpenFitSubject(arguments.fit, context.Part(0.0, 0.2)));
   const auto answer = FitIn(subject, arguments, context.Part(0.2, 1.0));
-  if (!answer && arguments.fit.json && IsNegative(answer.error()))
+  if (!answer && arguments.fit.json && IsNegative(answer.error())) {
+    PrintNote("foresightctl: {}", answer.error().message);
     PrintJson({{"kind", "cylinder"},
                {"verdict", "UNSURE"},
                {"probability", nullptr},
                {"reason", answer.error().message}});
+    return ExitCode::kNegative;
+  }
   FORESIGHT_TRY(const CylinderDetection found, answer);
   if (!arguments.fit.picture.empty())
     FORESIGHT_CHECK(WritePng(arguments.fit.picture, PictureOf(subject, {OutlineOf(found)})));

@@ -14,7 +14,7 @@
 namespace foresight {
 namespace {
 
-/// The camera's picture, and the depth map where the source is one, both with the answer in them.
+/// The camera's image, and the depth map where the source is one, both with the answer in them.
 struct Pictures {
   ColorImage image;
   ColorImage depth;  ///< empty for raw
@@ -88,7 +88,7 @@ Status WriteFitGallery(const FitSubject& subject, const FitArguments& arguments,
     const Pictures pictures = PicturesOf(subject, answer);
     page.rows.push_back(RowOf(source, answer, subject.rig));
     ComparisonPage::Column column{SourceTitle(source), page.rows.back()[1], {}};
-    column.pictures.push_back({source + ".png", "in the camera's picture"});
+    column.pictures.push_back({source + ".png", "in the camera's image"});
     FORESIGHT_CHECK(WritePng(path / (source + ".png"), pictures.image));
     if (!pictures.depth.empty()) {
       column.pictures.push_back({source + "_depth.png", "in the depth map"});

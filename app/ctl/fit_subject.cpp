@@ -72,7 +72,7 @@ Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
 
 Status OpenDepthMap(const FitArguments& arguments, FitSubject& subject) {
   FORESIGHT_TRY(subject.depth_m, ReadDepth(arguments.depth_file));
-  const FisheyeCamera& camera = subject.rig.camera;
+  const CameraModel& camera = subject.rig.camera;
   if (subject.depth_m.width() == camera.width && subject.depth_m.height() == camera.height)
     return {};
   return Fail(ErrorCode::kInvalidInput, "{} is {} x {}, but the camera of {} {} x {}",
@@ -80,7 +80,7 @@ Status OpenDepthMap(const FitArguments& arguments, FitSubject& subject) {
               arguments.rig, camera.width, camera.height);
 }
 
-Status CheckInPicture(const Roi& roi, const FisheyeCamera& camera) {
+Status CheckInImage(const Roi& roi, const CameraModel& camera) {
   const auto* image = std::get_if<ImageRoi>(&roi);
   if (image == nullptr) return {};
   const PixelBox box = image->Bounds();
@@ -88,7 +88,7 @@ Status CheckInPicture(const Roi& roi, const FisheyeCamera& camera) {
       box.low.y() <= camera.height - 1)
     return {};
   return Fail(ErrorCode::kInvalidOptions,
-              "region: {:.0f},{:.0f} to {:.0f},{:.0f} lies outside the picture of {} x {}",
+              "region: {:.0f},{:.0f} to {:.0f},{:.0f} lies outside the image of {} x {}",
               box.low.x(), box.low.y(), box.high.x(), box.high.y(), camera.width, camera.height);
 }
 
@@ -158,10 +158,14 @@ Result<FitSubject> OpenFitSubject(const FitArguments& arguments, const RunContex
   if (region.rectangle.empty() && region.polygon.empty() && region.two_clicks.empty() &&
       region.box.empty()) {
     subject.roi = BoxAround(subject.points);
+    const Status sound = CheckRoi(subject.roi);
+    if (!sound)
+      return Fail(ErrorCode::kInvalidInput, "{}: all of its points: {}; give a smaller --box",
+                  arguments.cloud_file, sound.error().message);
     return subject;
   }
   FORESIGHT_TRY(subject.roi, RegionFrom(region, subject.motor_rad, subject.rig.robot_from_base));
-  FORESIGHT_CHECK(CheckInPicture(subject.roi, subject.rig.camera));
+  FORESIGHT_CHECK(CheckInImage(subject.roi, subject.rig.camera));
   return subject;
 }
 

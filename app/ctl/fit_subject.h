@@ -13,7 +13,7 @@ namespace foresight {
 /// What a fit is made in: a scan of a mission, a depth map, or a point cloud.
 struct FitSubject {
   SensorRig rig;
-  double motor_rad = 0.0;  ///< of the picture that regions are drawn on
+  double motor_rad = 0.0;  ///< of the image that regions are drawn on
   Roi roi;
 
   std::optional<OpenedScan> scan;
@@ -45,7 +45,7 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
 /// There is an answer, and it is no: whoever reads JSON wants it as JSON.
 bool IsNegative(const Error& error);
 
-/// The answer drawn into what was looked at: the camera's picture, the depth map in colours, or
+/// The answer drawn into what was looked at: the camera's image, the depth map in colours, or
 /// the cloud as seen from its viewpoint.
 ColorImage PictureOf(const FitSubject& subject, const Detection& detection);
 ColorImage PictureOf(const FitSubject& subject, const std::vector<Outline>& outlines);

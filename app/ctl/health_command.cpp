@@ -35,7 +35,7 @@ class DeviceBench {
       return Fail(ErrorCode::kDevice, "{}; {}; {}", lidar.error().message, camera.error().message,
                   motor.error().message);
     for (const Status* status : {&lidar, &camera, &motor})
-      if (!*status) fmt::print(stderr, "{}\n", status->error().message);
+      if (!*status) PrintNoteLine(status->error().message);
     return {};
   }
 
@@ -79,7 +79,7 @@ std::string AsJson(double time_s, const HeadHealth& health, const HeadDiagnosis&
   add("lidar", diagnosis.lidar);
   add("camera", diagnosis.camera);
   add("motor", diagnosis.motor);
-  return line.dump();
+  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 Result<ExitCode> Report(DeviceBench& bench, const HealthArguments& arguments,
@@ -96,12 +96,13 @@ Result<ExitCode> Report(DeviceBench& bench, const HealthArguments& arguments,
     const HeadDiagnosis diagnosis = watch.Update(time_s, health);
     worst = std::max(worst, diagnosis.Worst());
     PrintLine(arguments.json ? AsJson(time_s, health, diagnosis) : AsText(health, diagnosis));
+    FORESIGHT_CHECK(CheckOutput());  // nobody reads on
   }
   return worst == DeviceCondition::kWell ? ExitCode::kDone : ExitCode::kNegative;
 }
 
 Result<ExitCode> ShowHealth(const HealthArguments& arguments, const RunContext& context) {
-  std::unique_ptr<EmulatedSite> emulated;
+  std::unique_ptr<EmulatedDevices> emulated;
   HeadConfig config;
   if (arguments.emulation.scene.empty()) {
     FORESIGHT_TRY(config, LoadHeadConfig(arguments.head_config));

@@ -1,5 +1,4 @@
 // foresightctl: everything the workstation can do, without a window.
-#include <cstdio>
 #include <exception>
 
 #include "app/common/run_program.h"
@@ -15,6 +14,7 @@ int Main(int argc, char** argv) {
   Invocation invocation;
   AddScanCommand(app, invocation);
   AddDepthCommand(app, invocation);
+  AddCloudCommand(app, invocation);
   AddFitCommand(app, invocation);
   AddUpsampleCommand(app, invocation);
   AddEvaluateCommand(app, invocation);
@@ -24,6 +24,7 @@ int Main(int argc, char** argv) {
   AddDemoCommand(app, invocation);
   AddEmulateCommand(app, invocation);
   AddHealthCommand(app, invocation);
+  AddRigCommand(app, invocation);
   return RunProgram("foresightctl", app, argc, argv,
                     [&](const RunContext& context) { return invocation(context); });
 }
@@ -35,7 +36,7 @@ int main(int argc, char** argv) {
   try {
     return foresight::Main(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "foresightctl: internal error: {}\n", error.what());
+    foresight::PrintNote("foresightctl: internal error: {}", error.what());
     return static_cast<int>(foresight::ExitCode::kBadData);
   }
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/common/seed_option.h"
 #include "app/ctl/command.h"
 #include "app/ctl/true_valve.h"
 #include "core/geometry/angles.h"
@@ -51,7 +52,7 @@ Result<ExitCode> Render(const RenderArguments& arguments, const RunContext& cont
   options.motor.enabled = false;
   const World world(std::make_shared<const Scene>(std::move(scene)), rig, options);
   const double motor_rad = RadiansFromDegrees(arguments.angle_deg);
-  const CameraFrame frame = world.TakePicture(
+  const CameraFrame frame = world.CaptureImage(
       0, 0.0, 0.004, 0.0, [&](double) { return motor_rad; }, context);
   DepthImage depth_mm = world.TrueDepth(motor_rad, context);
   for (float& value : depth_mm.values()) value *= 1000.0f;
@@ -82,7 +83,7 @@ Result<ExitCode> Render(const RenderArguments& arguments, const RunContext& cont
 void AddRenderCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command =
-      app.add_subcommand("render", "Render a scene: the camera's picture and its true depth");
+      app.add_subcommand("render", "Render a scene: the camera's image and its true depth");
   command->add_option("scene,--scene", arguments->scene, "Scene file (YAML)")->required();
   command->add_option("--rig", arguments->rig,
                       "Calibration of the head (YAML); default: the built-in one");
@@ -90,7 +91,7 @@ void AddRenderCommand(CLI::App& app, Invocation& invocation) {
       ->add_option("--angle", arguments->angle_deg, "Angle of the plate in degrees, up is positive")
       ->check(CLI::Range(-90.0, 90.0))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Seed of the camera's noise")
+  AddSeedOption(*command, "--seed", arguments->seed, "Seed of the camera's noise")
       ->capture_default_str();
   command->add_option("-o,--out", arguments->out, "Folder for image.png, depth.pfm (mm), rig.yaml")
       ->capture_default_str();

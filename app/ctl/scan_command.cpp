@@ -2,7 +2,8 @@
 #include <optional>
 
 #include "app/common/record_scan.h"
-#include "app/common/simulated_site.h"
+#include "app/common/seed_option.h"
+#include "app/common/simulated_bench.h"
 #include "app/ctl/command.h"
 #include "core/geometry/angles.h"
 #include "hardware/assembly/real_head.h"
@@ -13,6 +14,7 @@ namespace {
 struct ScanCommandArguments {
   SimulationArguments simulation;
   std::string head_config;  ///< of a real head, in place of the simulation
+  std::string calibration;  ///< in place of the head's own; empty = that
   double from_deg = -30.0;
   double to_deg = 30.0;
   double speed_deg_s = 10.0;
@@ -33,7 +35,7 @@ ScanPlan PlanFrom(const ScanCommandArguments& arguments, const CameraSettings& u
   plan.speed_rad_s = RadiansFromDegrees(arguments.speed_deg_s);
   plan.exposure_s = arguments.exposure_ms ? 1e-3 * *arguments.exposure_ms : usual.exposure_s;
   plan.gain_db = usual.gain_db;
-  if (arguments.stop_and_shoot) plan.picture_mode = ScanPlan::PictureMode::kStopAndShoot;
+  if (arguments.stop_and_shoot) plan.image_mode = ScanPlan::ImageMode::kStopAndShoot;
   plan.max_blur_px = arguments.max_blur_px;
   plan.passes = arguments.passes;
   plan.image_angles_rad.clear();
@@ -69,17 +71,25 @@ Result<ExitCode> Predict(const ScanCommandArguments& arguments, const ScanPlan& 
   return prediction.density < ScanPrediction::kMinDensity ? ExitCode::kNegative : ExitCode::kDone;
 }
 
-Result<ExitCode> ScanSite(const ScanCommandArguments& arguments, const RunContext& context) {
+Status PutCalibrationInForce(SensorHead& head, const std::string& file) {
+  if (file.empty()) return {};
+  FORESIGHT_TRY(const SensorRig rig, LoadSensorRig(file));
+  return head.SetRig(rig);
+}
+
+Result<ExitCode> ScanOnBench(const ScanCommandArguments& arguments, const RunContext& context) {
   FORESIGHT_CHECK(PlanFrom(arguments, {}).Check());
   if (arguments.predict) return Predict(arguments, PlanFrom(arguments, {}));
   if (!arguments.head_config.empty()) {
     FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(arguments.head_config));
     const auto head = MakeRealHead(config);
+    FORESIGHT_CHECK(PutCalibrationInForce(*head, arguments.calibration));
     return RecordScan(*head, PlanFrom(arguments, config.exposure), arguments.out, arguments.json,
                       context);
   }
-  FORESIGHT_TRY(const SimulatedSite site, SetUpSite(arguments.simulation));
-  return RecordScan(*site.head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
+  FORESIGHT_TRY(const SimulatedBench bench, SetUpBench(arguments.simulation));
+  FORESIGHT_CHECK(PutCalibrationInForce(*bench.head, arguments.calibration));
+  return RecordScan(*bench.head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
 }
 
 }  // namespace
@@ -87,11 +97,11 @@ Result<ExitCode> ScanSite(const ScanCommandArguments& arguments, const RunContex
 void AddScanCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<ScanCommandArguments>();
   CLI::App* command =
-      app.add_subcommand("scan", "Fly a scan with a simulated or a real head and record it");
+      app.add_subcommand("scan", "Execute a scan with a simulated or a real head and record it");
   command->add_option("--scene", arguments->simulation.scene, "Scene file (YAML)");
   command->add_option("--rig", arguments->simulation.rig,
                       "The head as it is (YAML); default: the built-in one");
-  command->add_option("--seed", arguments->simulation.seed, "Seed of all noise")
+  AddSeedOption(*command, "--seed", arguments->simulation.seed, "Seed of all noise")
       ->capture_default_str();
   command->add_flag("--real-time", arguments->simulation.real_time,
                     "Let the sweep take its real time");
@@ -102,6 +112,8 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
       ->excludes("--rig")
       ->excludes("--seed")
       ->excludes("--real-time");
+  command->add_option("--calibration", arguments->calibration,
+                      "Calibration to put in force (YAML), in place of the head's");
   command
       ->add_option("--from", arguments->from_deg, "Begin of the scope in degrees, up is positive")
       ->capture_default_str();
@@ -110,15 +122,15 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("--speed", arguments->speed_deg_s, "Degrees a second")->capture_default_str();
   command
       ->add_option("--images", arguments->image_deg,
-                   "Angles of pictures in degrees; default: the middle")
+                   "Angles of images in degrees; default: the middle")
       ->delimiter(',');
   command->add_option("--exposure", arguments->exposure_ms,
                       "Exposure in milliseconds; default: the head's");
   command->add_flag("--stop-and-shoot", arguments->stop_and_shoot,
-                    "Take the pictures after the sweep, standing still");
+                    "Take the images after the sweep, standing still");
   command
       ->add_option("--max-blur", arguments->max_blur_px,
-                   "Most motion blur of a picture taken in passing, in pixels: caps the exposure")
+                   "Most motion blur of an image taken in passing, in pixels: caps the exposure")
       ->capture_default_str();
   command->add_option("--passes", arguments->passes, "1: one way; 2: there and back in one scan")
       ->capture_default_str();
@@ -130,7 +142,9 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
     const bool no_head = arguments->simulation.scene.empty() && arguments->head_config.empty();
     if (!arguments->predict && no_head) throw CLI::RequiredError("--scene or --head-config");
     if (!arguments->predict && arguments->out.empty()) throw CLI::RequiredError("--out");
-    invocation = [arguments](const RunContext& context) { return ScanSite(*arguments, context); };
+    invocation = [arguments](const RunContext& context) {
+      return ScanOnBench(*arguments, context);
+    };
   });
 }
 

@@ -2,13 +2,13 @@
 
 #include <optional>
 
-#include "core/fitting/valve/valve_detection.h"
 #include "core/fitting/roi.h"
+#include "core/fitting/valve/valve_detection.h"
 #include "core/simulation/world.h"
 
 namespace foresight {
 
-/// The rectangle that an operator would draw round a scene's valve in the picture taken at
+/// The rectangle that an operator would draw round a scene's valve in the image taken at
 /// `motor_rad`; nullopt when it does not appear there.
 std::optional<ImageRoi> RegionOfTrueValve(const ValveTruth& valve, const World& world,
                                           double motor_rad);

@@ -51,11 +51,9 @@ Result<ExitCode> Upsample(const UpsampleArguments& arguments, const RunContext& 
   FORESIGHT_TRY(AlignedSamples samples, ImportSamples(rows, image.width(), image.height(),
                                                       arguments.rig.empty() ? nullptr : &rig.camera,
                                                       arguments.samples, &outside));
-  if (arguments.rig.empty())
-    fmt::print(stderr, "no --rig: Eq. (7) compares depths instead of points\n");
+  if (arguments.rig.empty()) PrintNote("no --rig: Eq. (7) compares depths instead of points");
   if (outside > 0)
-    fmt::print(stderr, "{}: {} samples outside the picture are left out\n", arguments.samples,
-               outside);
+    PrintNote("{}: {} samples outside the image are left out", arguments.samples, outside);
   FORESIGHT_TRY(const DepthResult result,
                 ComputeDepth(std::move(samples), image, options, context));
   WarnOfLowDensity(result);
@@ -71,14 +69,14 @@ Result<ExitCode> Upsample(const UpsampleArguments& arguments, const RunContext& 
 void AddUpsampleCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<UpsampleArguments>();
   CLI::App* command =
-      app.add_subcommand("upsample", "Make a dense depth map from a picture and sparse samples");
-  command->add_option("image,--image", arguments->image, "The picture (PNG)")->required();
+      app.add_subcommand("upsample", "Make a dense depth map from an image and sparse samples");
+  command->add_option("image,--image", arguments->image, "The image (PNG)")->required();
   command
       ->add_option("samples,--samples", arguments->samples,
                    "CSV with the columns line,beam,u,v,depth_mm")
       ->required();
   command->add_option("--rig", arguments->rig,
-                      "Calibration of the head whose camera took the picture (YAML)");
+                      "Calibration of the head whose camera took the image (YAML)");
   command
       ->add_option("-o,--out", arguments->out,
                    "Folder for depth.pfm (mm), confidence.pfm, mask.png")

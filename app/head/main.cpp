@@ -1,10 +1,11 @@
-// foresight-head: the program on the robot. It owns the head's devices and flies scans into mission
-// files.
+// foresight-head: the program on the robot. It owns the head's devices and executes scans into
+// mission files.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <memory>
 
 #include "app/common/emulation.h"
+#include "app/common/output.h"
 #include "app/common/record_scan.h"
 #include "app/common/run_program.h"
 #include "core/base/atomic_file.h"
@@ -17,35 +18,40 @@ namespace {
 struct Arguments {
   std::string head_config;
   EmulationArguments emulation;
+  std::string calibration;  ///< in place of the head's own; empty = that
   std::string plan;
   std::string out;
   bool json = false;
 };
 
 /// The devices that are emulated here, if any, and the head on them, through the sockets.
-struct Site {
-  std::unique_ptr<EmulatedSite> emulated;
+struct HeadBench {
+  std::unique_ptr<EmulatedDevices> emulated;
   std::unique_ptr<SensorHead> head;  ///< last: goes first
 };
 
-Result<Site> SetUp(const Arguments& arguments) {
-  Site site;
+Result<HeadBench> SetUp(const Arguments& arguments) {
+  HeadBench bench;
   if (!arguments.emulation.scene.empty()) {
-    FORESIGHT_TRY(site.emulated, StartEmulation(arguments.emulation));
-    site.head = MakeRealHead(ConfigFor(*site.emulated));
-    return site;
+    FORESIGHT_TRY(bench.emulated, StartEmulation(arguments.emulation));
+    bench.head = MakeRealHead(ConfigFor(*bench.emulated));
+    return bench;
   }
   FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(arguments.head_config));
-  site.head = MakeRealHead(config);
-  return site;
+  bench.head = MakeRealHead(config);
+  return bench;
 }
 
 Result<ExitCode> Run(const Arguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const std::string json, ReadFile(arguments.plan));
   FORESIGHT_TRY(const ScanPlan plan, PlanFromJson(json, arguments.plan));
   FORESIGHT_CHECK(plan.Check());
-  FORESIGHT_TRY(const Site site, SetUp(arguments));
-  return RecordScan(*site.head, plan, arguments.out, arguments.json, context);
+  FORESIGHT_TRY(const HeadBench bench, SetUp(arguments));
+  if (!arguments.calibration.empty()) {
+    FORESIGHT_TRY(const SensorRig rig, LoadSensorRig(arguments.calibration));
+    FORESIGHT_CHECK(bench.head->SetRig(rig));
+  }
+  return RecordScan(*bench.head, plan, arguments.out, arguments.json, context);
 }
 
 int Main(int argc, char** argv) {
@@ -58,7 +64,9 @@ int Main(int argc, char** argv) {
                      "Scene file (YAML): emulate the devices in this process, on real sockets");
   config->excludes(emulate);
   AddEmulationOptions(app, emulate, arguments.emulation);
-  app.add_option("--scan", arguments.plan, "Scan plan (JSON) to fly")->required();
+  app.add_option("--calibration", arguments.calibration,
+                 "Calibration to put in force (YAML), in place of the head's");
+  app.add_option("--scan", arguments.plan, "Scan plan (JSON) to execute")->required();
   app.add_option("-o,--out", arguments.out, "Mission file; a scan is added to one that exists")
       ->required();
   app.add_flag("--json", arguments.json, "Print the result as JSON");
@@ -77,7 +85,7 @@ int main(int argc, char** argv) {
   try {
     return foresight::Main(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "foresight-head: internal error: {}\n", error.what());
+    foresight::PrintNote("foresight-head: internal error: {}", error.what());
     return static_cast<int>(foresight::ExitCode::kBadData);
   }
 }

@@ -5,6 +5,7 @@
 #include <QSettings>
 
 #include "app/common/emulation.h"
+#include "app/common/seed_option.h"
 #include "app/workstation/main_window.h"
 #include "app/workstation/quit_on_signal.h"
 #include "app/workstation/unattended.h"
@@ -21,7 +22,8 @@ struct Options {
   std::string scene;             ///< empty: the valve scene that comes with the program
   EmulationArguments emulation;  ///< its scene, rig and seed; rig and seed are the simulation's too
   std::string head_config;       ///< of a real head, in place of a scene
-  std::string mission;
+  std::string open;              ///< a mission to review
+  std::string mission;  ///< the file to record into; empty: a new one in the user's data folder
   bool fast = false;
   UnattendedOptions unattended;
 };
@@ -35,7 +37,7 @@ int Parse(int argc, char** argv, Options* options) {
                      "Scene file: emulate the devices in this process, on real sockets")
           ->excludes("--scene");
   app.add_option("--rig", emulation.rig, "Calibration file of the simulated or emulated head");
-  app.add_option("--seed", emulation.seed, "Seed of the simulated noise and faults");
+  AddSeedOption(app, "--seed", emulation.seed, "Seed of the simulated noise and faults");
   app.add_option("--faults", emulation.faults, "What goes wrong with emulated devices (YAML)")
       ->needs(emulate);
   app.add_flag("--fast", options->fast, "Let the simulated head's time run as fast as it can")
@@ -45,10 +47,13 @@ int Parse(int argc, char** argv, Options* options) {
                      "A real head and its devices (YAML), in place of the simulated one");
   for (const char* other : {"--scene", "--emulate", "--rig", "--seed", "--fast"})
     config->excludes(other);
-  app.add_option("--open", options->mission, "Mission file to show");
+  app.add_option("--open", options->open, "Mission file to look at, beside the live session");
+  app.add_option("--mission", options->mission,
+                 "Mission file to record into, a new one or one to continue "
+                 "(default: a new one in the user's data folder)");
   app.add_flag("--scan", options->unattended.scan, "Start a scan as soon as the head is ready");
   app.add_option("--screenshot", options->unattended.screenshot,
-                 "Save a picture of the window when all is computed, then quit");
+                 "Save an image of the window when all is computed, then quit");
   app.set_version_flag("--version", FORESIGHT_VERSION);
   try {
     app.parse(argc, argv);
@@ -68,7 +73,7 @@ std::string DefaultScene() {
 }
 
 struct Head {
-  std::unique_ptr<EmulatedSite> emulated;  ///< the devices behind the head, if they are here
+  std::unique_ptr<EmulatedDevices> emulated;  ///< the devices behind the head, if they are here
   std::shared_ptr<SensorHead> head;
   SessionMode mode = SessionMode::kSimulation;
 };
@@ -79,6 +84,21 @@ Result<Head> MakeEmulatedHead(const EmulationArguments& arguments) {
   FORESIGHT_TRY(head.emulated, StartEmulation(arguments));
   head.head = MakeRealHead(ConfigFor(*head.emulated));
   return head;
+}
+
+/// Missions of programs that ended without closing them: nothing is lost, and that is said.
+void OfferLeftBehind(Workbench* bench) {
+  const QStringList left = RecordingViewModel::LeftBehind(RecordingViewModel::DefaultFolder());
+  if (left.isEmpty()) return;
+  bench->log.add(
+      {Notice::Level::kWarning,
+       QCoreApplication::translate("Main",
+                                   "The program ended unexpectedly the last time; its "
+                                   "mission was kept: %1.")
+           .arg(left.first()),
+       QCoreApplication::translate("Main",
+                                   "Look at it with Open for review (Ctrl+O), or go on in it "
+                                   "with Record into another file (Ctrl+Shift+S).")});
 }
 
 /// In this process, without drivers.
@@ -121,16 +141,23 @@ int Run(int argc, char** argv) {
   const SessionMode mode = head->mode;
   Workbench bench(std::move(head->head), mode);
   const QuitOnSignal quit_on_signal([&bench] { bench.head.StopForGood(); });
+  OfferLeftBehind(&bench);
+  if (!options.mission.empty())
+    bench.recording.Begin(QString::fromStdString(options.mission));
+  else
+    bench.recording.BeginInFolder(RecordingViewModel::DefaultFolder());
   MainWindow window(&bench);
   QSettings settings;
   const bool attended = options.unattended.screenshot.empty();
-  if (attended) window.RestoreLayout(settings);  // every picture shows the same layout
   window.show();
+  if (attended) window.RestoreLayout(settings);  // every image shows the same layout
   // A real motor turns when the operator says so.
   if (mode == SessionMode::kSimulation || options.unattended.scan) bench.head.home();
-  if (!options.mission.empty()) bench.mission.Open(QString::fromStdString(options.mission));
+  if (!options.open.empty()) bench.reviewer.Open(QString::fromStdString(options.open));
   Unattended unattended(&bench, &window, options.unattended);
   const int outcome = QApplication::exec();
+  if (!bench.recording.WriteAll())
+    LogError("{}: not everything could be written", bench.recording.Path().toStdString());
   if (attended) window.SaveLayout(&settings);
   return outcome;
 }

@@ -2,10 +2,12 @@
 
 #include <qtadvanceddocking/DockAreaWidget.h>
 #include <qtadvanceddocking/DockManager.h>
+#include <qtadvanceddocking/FloatingDockContainer.h>
 
-#include <QCloseEvent>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QMenuBar>
+#include <QScreen>
 #include <QSettings>
 #include <QSplitter>
 #include <QStatusBar>
@@ -13,12 +15,15 @@
 #include <QVBoxLayout>
 
 #include "app/workstation/actions.h"
+#include "app/workstation/document_stack.h"
+#include "app/workstation/keys_everywhere.h"
 #include "app/workstation/shortcut_sheet.h"
 #include "ui/panels/dock_style.h"
 #include "ui/panels/head_panel.h"
 #include "ui/panels/head_strip.h"
+#include "ui/panels/log_panel.h"
+#include "ui/panels/log_strip.h"
 #include "ui/panels/mission_panel.h"
-#include "ui/panels/notice_strip.h"
 #include "ui/panels/objects_panel.h"
 #include "ui/panels/source_gallery.h"
 #include "ui/panels/task_strip.h"
@@ -30,82 +35,177 @@ namespace foresight {
 namespace {
 
 /// Counts up when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 1;
+constexpr int kLayoutVersion = 2;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
+constexpr QSize kUsualSize(1600, 1000);
+/// On a lower screen the mission shares a place with the head.
+constexpr int kLowHeight = 800;
+
+CloudPane* MakeCloudPane(Desk* desk) {
+  return new CloudPane(&desk->session, &desk->fit);
+}
+
+ImagePane* MakeImagePane(Desk* desk) {
+  return new ImagePane(&desk->session, &desk->fit, &desk->layers);
+}
+
+DepthPane* MakeDepthPane(Desk* desk, LiveDepthViewModel* live) {
+  return new DepthPane(
+      {&desk->session, &desk->depth, &desk->fit, &desk->layers, &desk->compare, live});
+}
 
 }  // namespace
 
 MainWindow::MainWindow(Workbench* bench, QWidget* parent)
     : QMainWindow(parent),
       bench_(bench),
-      actions_(new Actions(bench, this)),
-      image_(new ImagePane(&bench->session, &bench->fit, &bench->layers)),
-      depth_(new DepthPane({&bench->session, &bench->depth, &bench->fit, &bench->layers,
-                            &bench->compare, &bench->live})),
-      cloud_(new CloudPane(&bench->session, &bench->fit)),
-      notices_(new NoticeStrip) {
-  setWindowTitle(tr("Foresight"));
-  BuildBars();
+      image_(MakeImagePane(&bench->live)),
+      depth_(MakeDepthPane(&bench->live, &bench->live_depth)),
+      cloud_(MakeCloudPane(&bench->live)) {
+  AddWindowCommands();
+  actions_ = new Actions(&bench_->commands, this);
+  new KeysEverywhere(&bench_->commands, this);
+  BuildMenus();
   BuildCentre();
   BuildDocks();
-  BindViews();
-  resize(1600, 1000);
-  first_layout_ = docks_->saveState(kLayoutVersion);
+  for (Desk* desk : {&bench_->live, &bench_->review})
+    connect(&desk->gallery, &SourceGalleryModel::finished, this, [this, desk] {
+      gallery_->Show(desk->gallery.Answers());
+      gallery_dock_->toggleView(true);
+    });
+  connect(bench_, &Workbench::shownChanged, this, &MainWindow::ShowDocument);
+  connect(&bench_->reviewer, &ReviewViewModel::changed, this, &MainWindow::ShowDocument);
+  ShowDocument();
+  const QRect room = screen()->availableGeometry();
+  resize(kUsualSize.boundedTo(room.size()));
 }
 
-void MainWindow::SaveLayout(QSettings* settings) const {
-  settings->setValue(kLayoutKey, docks_->saveState(kLayoutVersion));
-  settings->setValue(kGeometryKey, saveGeometry());
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  // Not before: only now the docks have the sizes that they are to come back to.
+  if (first_layout_.isEmpty()) first_layout_ = docks_->saveState(kLayoutVersion);
 }
 
-void MainWindow::RestoreLayout(const QSettings& settings) {
-  restoreGeometry(settings.value(kGeometryKey).toByteArray());
-  const QByteArray layout = settings.value(kLayoutKey).toByteArray();
-  if (!layout.isEmpty()) docks_->restoreState(layout, kLayoutVersion);
+void MainWindow::AddWindowCommands() {
+  CommandTable& commands = bench_->commands;
+  const QString missions = tr("Missions (*.foresight)"), clouds = tr("Clouds (*.ply)");
+  const QString suffix = QStringLiteral("foresight");
+  commands.Add({.id = "file.open",
+                .menu = "file",
+                .icon = "open",
+                .text = tr("Open for review"),
+                .tip = tr("Look at a saved mission; recording goes on"),
+                .keys = QStringLiteral("Ctrl+O"),
+                .in_tool_bar = true,
+                .run = [this, missions] {
+                  ChooseFile(false, tr("Open a mission for review"), missions, {},
+                             [this](const QString& path) { bench_->reviewer.Open(path); });
+                }});
+  commands.Add({.id = "file.copy",
+                .menu = "file",
+                .icon = "save",
+                .text = tr("Copy mission to"),
+                .tip = tr("Write a complete copy of the mission that is shown; recording goes on "
+                          "where it is"),
+                .keys = QStringLiteral("Ctrl+S"),
+                .in_tool_bar = true,
+                .run = [this, missions, suffix] {
+                  const bool review = bench_->ShowsReview();
+                  ChooseFile(true, tr("Copy the mission to"), missions, suffix,
+                             [this, review](const QString& path) {
+                               review ? bench_->reviewer.CopyTo(path)
+                                      : bench_->recording.CopyTo(path);
+                             });
+                }});
+  commands.Add({.id = "recording.file",
+                .menu = "file",
+                .text = tr("Record into another file"),
+                .tip = tr("Go on recording in a new mission file, or in one that is there"),
+                .keys = QStringLiteral("Ctrl+Shift+S"),
+                .run =
+                    [this, missions, suffix] {
+                      ChooseFile(true, tr("Record into"), missions, suffix,
+                                 [this](const QString& path) { bench_->recording.SwitchTo(path); });
+                    },
+                .why_not =
+                    [this] {
+                      return bench_->head.Scanning() ? tr("A scan is running; wait for its end.")
+                                                     : QString();
+                    }});
+  commands.Add({.id = "file.export_cloud",
+                .menu = "file",
+                .icon = "export",
+                .text = tr("Export cloud"),
+                .tip = tr("Write the lidar's points as PLY, in the robot's frame"),
+                .keys = QStringLiteral("Ctrl+E"),
+                .in_tool_bar = true,
+                .run =
+                    [this, clouds] {
+                      Desk* desk = &bench_->Shown();
+                      ChooseFile(true, tr("Export cloud"), clouds, QStringLiteral("ply"),
+                                 [desk](const QString& path) { desk->exporter.ExportCloud(path); });
+                    },
+                .why_not =
+                    [this] {
+                      return bench_->Shown().exporter.CanExport() ? QString()
+                                                                  : tr("There is no cloud yet.");
+                    }});
+  commands.Add({.id = "file.quit",
+                .menu = "file",
+                .text = tr("Quit"),
+                .tip = tr("Close the workstation; everything is kept"),
+                .keys = QStringLiteral("Ctrl+Q"),
+                .run = [this] { close(); }});
+  commands.Add({.id = "view.reset",
+                .menu = "view",
+                .text = tr("Reset view"),
+                .tip = tr("Show everything again"),
+                .keys = QStringLiteral("Home"),
+                .run = [this] {
+                  for (auto* canvas : findChildren<CloudCanvas*>()) canvas->ResetView();
+                  for (auto* canvas : findChildren<ImageCanvas*>()) canvas->ShowAll();
+                  for (auto* canvas : findChildren<DepthCanvas*>()) canvas->ShowAll();
+                }});
+  commands.Add({.id = "view.reset_layout",
+                .menu = "view",
+                .text = tr("Reset layout"),
+                .tip = tr("Put every pane back to its place"),
+                .keys = QStringLiteral("Ctrl+Shift+L"),
+                .run = [this] { ResetLayout(); }});
+  commands.Add({.id = "help.shortcuts",
+                .menu = "help",
+                .icon = "help",
+                .text = tr("Shortcuts"),
+                .tip = tr("List all keys"),
+                .keys = QStringLiteral("F1"),
+                .run = [this] { ShowShortcutSheet(bench_->commands, this); }});
 }
 
-void MainWindow::ResetLayout() {
-  docks_->restoreState(first_layout_, kLayoutVersion);
-}
-
-void MainWindow::BuildBars() {
-  for (QAction* action : actions_->All())
-    if (!actions_->OfPanes().contains(action)) addAction(action);
-  auto* file = menuBar()->addMenu(tr("&File"));
-  file->addActions({actions_->open, actions_->save, actions_->export_cloud});
-  file->addSeparator();
-  file->addAction(actions_->quit);
-  auto* head = menuBar()->addMenu(tr("&Head"));
-  head->addActions({actions_->scan, actions_->abort, actions_->home, actions_->stop});
-  auto* object = menuBar()->addMenu(tr("&Object"));
-  object->addActions({actions_->region_tool, actions_->valve_tool, actions_->drill_tool,
-                      actions_->terrain_tool, actions_->leave_tool, actions_->fit,
-                      actions_->compare_sources, actions_->next_candidate,
-                      actions_->previous_candidate, actions_->undo_region});
-  view_menu_ = menuBar()->addMenu(tr("&View"));
-  view_menu_->addActions({actions_->reset_view, actions_->toggle_mask, actions_->toggle_layer,
-                          actions_->toggle_rejected});
+void MainWindow::BuildMenus() {
+  addActions(actions_->All());
+  const auto menu = [this](const char* id, const QString& title) {
+    QMenu* added = menuBar()->addMenu(title);
+    added->addActions(actions_->OfMenu(id));
+    added->setToolTipsVisible(true);
+    return added;
+  };
+  menu("file", tr("&File"));
+  menu("edit", tr("&Edit"));
+  menu("head", tr("&Head"));
+  menu("object", tr("&Object"));
+  view_menu_ = menu("view", tr("&View"));
   view_menu_->addSeparator();
-  view_menu_->addAction(actions_->reset_layout);
-  view_menu_->addSeparator();
-  menuBar()->addMenu(tr("H&elp"))->addAction(actions_->shortcuts);
+  menu("help", tr("H&elp"));
 
   auto* bar = addToolBar(tr("Tools"));
   bar->setObjectName(QStringLiteral("tools"));
   bar->setMovable(false);
   bar->setIconSize({20, 20});
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  bar->addActions({actions_->open, actions_->save, actions_->export_cloud});
-  bar->addSeparator();
-  bar->addActions({actions_->region_tool, actions_->valve_tool, actions_->drill_tool,
-                   actions_->terrain_tool, actions_->fit, actions_->undo_region});
+  bar->addActions(actions_->OfToolBar());
 
-  statusBar()->addPermanentWidget(
-      new TaskStrip({bench_->depth.Runner(), bench_->compare.Runner(), bench_->fit.Runner(),
-                     bench_->gallery.Runner(), bench_->mission.Runner(),
-                     bench_->exporter.Runner()}),
-      1);
+  statusBar()->addPermanentWidget(new TaskStrip(&bench_->tasks), 1);
   statusBar()->setSizeGripEnabled(false);
 }
 
@@ -114,8 +214,10 @@ void MainWindow::BuildCentre() {
   auto* layout = new QVBoxLayout(centre);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addWidget(new HeadStrip(&bench_->head, &bench_->session));
-  layout->addWidget(notices_);
+  strip_ = new HeadStrip(&bench_->head, &bench_->commands);
+  log_ = new LogStrip(&bench_->log, &bench_->commands);
+  layout->addWidget(strip_);
+  layout->addWidget(log_);
   SetUpDocks();
   docks_ = new ads::CDockManager(centre);
   StyleDocks(docks_);
@@ -127,82 +229,121 @@ ads::CDockWidget* MainWindow::Dock(const char* name, const QString& title, QWidg
   auto* dock = new ads::CDockWidget(title);
   dock->setObjectName(QString::fromLatin1(name));  // saved layouts know docks by it
   dock->setWidget(content, ads::CDockWidget::ForceNoScrollArea);
+  dock->setMinimumSizeHintMode(ads::CDockWidget::MinimumSizeHintFromContent);
   dock->setAccessibleName(title);
   view_menu_->addAction(dock->toggleViewAction());
   return dock;
 }
 
-void MainWindow::BuildDocks() {
-  auto* centre =
-      docks_->addDockWidget(ads::CenterDockWidgetArea, Dock("cloud", tr("3D cloud"), cloud_));
-  auto* left = docks_->addDockWidget(
-      ads::LeftDockWidgetArea, Dock("head", tr("Head and scan"), new HeadPanel(&bench_->head)));
-  docks_->addDockWidget(
-      ads::RightDockWidgetArea,
-      Dock("objects", tr("Objects"), new ObjectsPanel(&bench_->session, &bench_->fit)));
-  auto* top =
-      docks_->addDockWidget(ads::TopDockWidgetArea, Dock("picture", tr("Picture"), image_), centre);
-  docks_->addDockWidget(ads::RightDockWidgetArea, Dock("depth", tr("Depth"), depth_), top);
-  docks_->addDockWidget(ads::BottomDockWidgetArea,
-                        Dock("mission", tr("Mission"), new MissionPanel(&bench_->mission)), left);
-  docks_->setSplitterSizes(centre, {430, 470});
-  docks_->setSplitterSizes(left, {620, 240});
-  docks_->setSplitterSizes(top, {500, 500});
-  for (auto* splitter : docks_->findChildren<QSplitter*>())
-    if (splitter->count() == 3) splitter->setSizes({290, 980, 330});
+DocumentStack* MainWindow::Stack(QWidget* live, std::function<QWidget*(Desk*)> make) {
+  auto* stack =
+      new DocumentStack(live, [this, make = std::move(make)] { return make(&bench_->review); });
+  stacks_ << stack;
+  return stack;
 }
 
-void MainWindow::BindViews() {
-  connect(&bench_->session, &SessionModel::noticed, notices_, &NoticeStrip::show);
-  for (QWidget* pane : {static_cast<QWidget*>(image_), static_cast<QWidget*>(depth_),
-                        static_cast<QWidget*>(cloud_)})
-    pane->addActions(actions_->OfPanes());
-  connect(actions_->reset_view, &QAction::triggered, cloud_->Canvas(), &CloudCanvas::ResetView);
-  connect(actions_->reset_view, &QAction::triggered, image_->Canvas(), &ImageCanvas::ShowAll);
-  connect(actions_->reset_view, &QAction::triggered, depth_->Canvas(), &DepthCanvas::ShowAll);
-  connect(&bench_->gallery, &SourceGalleryModel::finished, this,
-          [this] { ShowSourceGallery(bench_->gallery.Answers(), this); });
-  connect(actions_->reset_layout, &QAction::triggered, this, &MainWindow::ResetLayout);
-  connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
-  connect(actions_->shortcuts, &QAction::triggered, this,
-          [this] { ShowShortcutSheet(actions_->All(), this); });
-  const QString missions = tr("Missions (*.foresight)"), clouds = tr("Clouds (*.ply)");
-  connect(actions_->open, &QAction::triggered, this, [this, missions] {
-    ChooseFile(false, tr("Open mission"), missions, {},
-               [this](const QString& path) { bench_->mission.Open(path); });
-  });
-  connect(actions_->save, &QAction::triggered, this, [this, missions] {
-    ChooseFile(true, tr("Save mission as"), missions, QStringLiteral("foresight"),
-               [this](const QString& path) { bench_->mission.SaveAs(path); });
-  });
-  connect(actions_->export_cloud, &QAction::triggered, this, [this, clouds] {
-    ChooseFile(true, tr("Export cloud"), clouds, QStringLiteral("ply"),
-               [this](const QString& path) { bench_->exporter.ExportCloud(path); });
-  });
+void MainWindow::BuildDocks() {
+  CommandTable* commands = &bench_->commands;
+  const auto objects = [commands](Desk* desk) {
+    return new ObjectsPanel(&desk->session, &desk->fit, commands);
+  };
+  mission_ = new MissionPanel(&bench_->recording, &bench_->reviewer, commands);
+  gallery_ = new SourceGallery;
+
+  auto* centre = docks_->addDockWidget(ads::CenterDockWidgetArea,
+                                       Dock("cloud", tr("3D cloud"), Stack(cloud_, MakeCloudPane)));
+  auto* left = docks_->addDockWidget(
+      ads::LeftDockWidgetArea,
+      Dock("head", tr("Head"), new HeadPanel(&bench_->head, commands)));
+  docks_->addDockWidget(ads::RightDockWidgetArea,
+                        Dock("objects", tr("Objects"), Stack(objects(&bench_->live), objects)));
+  auto* top = docks_->addDockWidget(
+      ads::TopDockWidgetArea, Dock("picture", tr("Image"), Stack(image_, MakeImagePane)), centre);
+  docks_->addDockWidget(
+      ads::RightDockWidgetArea,
+      Dock("depth", tr("Depth"),
+           Stack(depth_, [](Desk* desk) { return MakeDepthPane(desk, nullptr); })),
+      top);
+  auto* mission = Dock("mission", tr("Mission"), mission_);
+  if (screen()->availableGeometry().height() >= kLowHeight) {
+    docks_->addDockWidget(ads::BottomDockWidgetArea, mission, left);
+    docks_->setSplitterSizes(left, {620, 240});
+  } else {
+    docks_->addDockWidgetTabToArea(mission, left);
+    left->setCurrentIndex(0);
+  }
+  gallery_dock_ = Dock("sources", tr("Sources"), gallery_);
+  auto* log = Dock("log", tr("Messages"), new LogPanel(&bench_->log));
+  auto* bottom = docks_->addDockWidget(ads::BottomDockWidgetArea, log, centre);
+  docks_->addDockWidgetTabToArea(gallery_dock_, bottom);
+  log->toggleView(false);
+  gallery_dock_->toggleView(false);
+  docks_->setSplitterSizes(top, {500, 500});
+  for (auto* splitter : docks_->findChildren<QSplitter*>())
+    if (splitter->count() == 3 && splitter->orientation() == Qt::Horizontal)
+      splitter->setSizes({290, 980, 330});
+}
+
+void MainWindow::ShowDocument() {
+  const bool review = bench_->ShowsReview();
+  for (DocumentStack* stack : stacks_) stack->ShowDocument(review);
+  mission_->ShowDocument(review);
+  const ReviewViewModel& reviewer = bench_->reviewer;
+  const QString file = QFileInfo(reviewer.Path()).fileName();
+  strip_->ShowDocument(
+      bench_->Shown().session.Mode(),
+      tr("%1, scan %2 of %3").arg(file).arg(reviewer.ScanIndex() + 1).arg(reviewer.Scans().size()));
+  setWindowTitle(review ? tr("Foresight, review of %1").arg(file) : tr("Foresight"));
+}
+
+void MainWindow::SaveLayout(QSettings* settings) const {
+  settings->setValue(kLayoutKey, docks_->saveState(kLayoutVersion));
+  settings->setValue(kGeometryKey, saveGeometry());
+}
+
+void MainWindow::RestoreLayout(const QSettings& settings) {
+  restoreGeometry(settings.value(kGeometryKey).toByteArray());
+  const QByteArray layout = settings.value(kLayoutKey).toByteArray();
+  if (!layout.isEmpty()) docks_->restoreState(layout, kLayoutVersion);
+  BringFloatingDocksBack();
+}
+
+void MainWindow::BringFloatingDocksBack() {
+  const QRect room = screen()->availableGeometry();
+  for (ads::CFloatingDockContainer* floating : docks_->floatingWidgets()) {
+    if (!floating->hasTopLevelDockWidget() && floating->dockWidgets().isEmpty()) continue;
+    bool any_open = false;
+    for (const ads::CDockWidget* dock : floating->dockWidgets())
+      any_open = any_open || !dock->isClosed();
+    if (!any_open) continue;
+    // A dock that was saved on another screen, or collapsed, must be found again.
+    const QSize size = floating->size().expandedTo({320, 240}).boundedTo(room.size());
+    QRect place(floating->pos(), size);
+    if (!room.contains(place.center())) place.moveCenter(room.center());
+    place.moveTop(std::max(place.top(), room.top() + 40));
+    floating->setGeometry(place);
+    floating->show();
+  }
+}
+
+void MainWindow::ResetLayout() {
+  docks_->restoreState(first_layout_, kLayoutVersion);
 }
 
 void MainWindow::ChooseFile(bool save, const QString& title, const QString& filter,
                             const QString& suffix, const std::function<void(QString)>& chosen) {
   auto* dialog = new QFileDialog(this, title, {}, filter);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setObjectName(QStringLiteral("file_dialog"));
+  // A dialogue of the desktop's would keep the keys to itself, F12 among them.
+  dialog->setOption(QFileDialog::DontUseNativeDialog);
   dialog->setAcceptMode(save ? QFileDialog::AcceptSave : QFileDialog::AcceptOpen);
   dialog->setFileMode(save ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
   dialog->setDefaultSuffix(suffix);
+  dialog->setDirectory(QFileInfo(bench_->recording.Path()).path());
   connect(dialog, &QFileDialog::fileSelected, this, chosen);
   dialog->setModal(false);  // a scan may be running: the stop button must stay within reach
   dialog->show();
-}
-
-void MainWindow::closeEvent(QCloseEvent* event) {
-  if (bench_->mission.UnsavedScans() == 0 || close_was_asked_) {
-    event->accept();
-    return;
-  }
-  close_was_asked_ = true;
-  bench_->session.Report({Notice::Level::kWarning,
-                          tr("Scans that are not saved: %1.").arg(bench_->mission.UnsavedScans()),
-                          tr("Save the mission (Ctrl+S), or close again to discard them.")});
-  event->ignore();
 }
 
 }  // namespace foresight

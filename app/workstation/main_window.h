@@ -1,10 +1,12 @@
 #pragma once
 
 #include <QMainWindow>
+#include <functional>
 
 #include "app/workstation/workbench.h"
 
 namespace ads {
+class CDockAreaWidget;
 class CDockManager;
 class CDockWidget;
 }  // namespace ads
@@ -16,49 +18,64 @@ namespace foresight {
 class Actions;
 class CloudPane;
 class DepthPane;
+class DocumentStack;
+class HeadStrip;
 class ImagePane;
-class NoticeStrip;
+class LogStrip;
+class MissionPanel;
+class SourceGallery;
 
-/// Places docks and actions; everything else lives in the view-models, views and panels.
+/// Places docks, menus and keys; everything else lives in the view-models, views and panels. Shows
+/// the live document or the one for review, and says which.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
  public:
   explicit MainWindow(Workbench* bench, QWidget* parent = nullptr);
 
+  /// The panes of the live document.
   ImagePane* Image() { return image_; }
   DepthPane* Depth() { return depth_; }
   CloudPane* Cloud() { return cloud_; }
-  NoticeStrip* Notices() { return notices_; }
+  MissionPanel* Mission() { return mission_; }
+  LogStrip* Log() { return log_; }
+  SourceGallery* Gallery() { return gallery_; }
 
   /// Where the panes are and how large the window is; kept from one run to the next.
   void SaveLayout(QSettings* settings) const;
-  /// A layout of another version of the program is left alone.
+  /// Call it when the window is shown. A layout of another version of the program is left alone.
   void RestoreLayout(const QSettings& settings);
   void ResetLayout();
 
  protected:
-  void closeEvent(QCloseEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
-  void BuildBars();
+  void AddWindowCommands();
+  void BuildMenus();
   void BuildCentre();
   void BuildDocks();
   ads::CDockWidget* Dock(const char* name, const QString& title, QWidget* content);
-  void BindViews();
+  DocumentStack* Stack(QWidget* live, std::function<QWidget*(Desk*)> make);
+  void ShowDocument();
+  void BringFloatingDocksBack();
   void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
                   const std::function<void(QString)>& chosen);
 
   Workbench* bench_;
-  Actions* actions_;
+  Actions* actions_ = nullptr;
   ImagePane* image_;
   DepthPane* depth_;
   CloudPane* cloud_;
-  NoticeStrip* notices_;
-  ads::CDockManager* docks_;
-  QMenu* view_menu_;
+  HeadStrip* strip_ = nullptr;
+  LogStrip* log_ = nullptr;
+  MissionPanel* mission_ = nullptr;
+  SourceGallery* gallery_ = nullptr;
+  QVector<DocumentStack*> stacks_;
+  ads::CDockManager* docks_ = nullptr;
+  ads::CDockWidget* gallery_dock_ = nullptr;
+  QMenu* view_menu_ = nullptr;
   QByteArray first_layout_;
-  bool close_was_asked_ = false;
 };
 
 }  // namespace foresight

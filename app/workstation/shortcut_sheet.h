@@ -1,13 +1,12 @@
 #pragma once
 
-#include <QAction>
-#include <QVector>
+#include "ui/viewmodels/command_table.h"
 
 class QWidget;
 
 namespace foresight {
 
 /// Opens a window with the keys of these actions. It does not block the one below.
-void ShowShortcutSheet(const QVector<QAction*>& actions, QWidget* parent);
+void ShowShortcutSheet(const CommandTable& commands, QWidget* parent);
 
 }  // namespace foresight

@@ -1,14 +1,24 @@
 #include "app/workstation/unattended.h"
 
+#include <QBuffer>
 #include <QCoreApplication>
 #include <QPixmap>
 
+#include "core/base/atomic_file.h"
 #include "core/base/log.h"
 
 namespace foresight {
 namespace {
 
 constexpr int kIdleLooks = 10;  // the panes draw after the last result has come
+
+Status Save(const QPixmap& image, const std::string& file) {
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  if (!image.save(&buffer, "PNG"))
+    return Fail(ErrorCode::kIo, "{}: the window cannot be made a PNG image", file);
+  return WriteFileAtomically(file, {bytes.constData(), static_cast<std::size_t>(bytes.size())});
+}
 
 }  // namespace
 
@@ -28,8 +38,8 @@ void Unattended::Look() {
   idle_looks_ = bench_->Idle() ? idle_looks_ + 1 : 0;
   if (options_.screenshot.empty() || idle_looks_ < kIdleLooks) return;
   timer_.stop();
-  const bool saved = window_->grab().save(QString::fromStdString(options_.screenshot));
-  if (!saved) LogError("{}: cannot write the picture", options_.screenshot);
+  const Status saved = Save(window_->grab(), options_.screenshot);
+  if (!saved) LogError("{}", saved.error().message);
   QCoreApplication::exit(saved ? 0 : 1);
 }
 

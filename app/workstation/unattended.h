@@ -12,7 +12,7 @@ namespace foresight {
 /// What the program does without an operator, from its command line.
 struct UnattendedOptions {
   bool scan = false;       ///< start a scan as soon as the head is ready
-  std::string screenshot;  ///< save a picture of the window when all is computed, then quit
+  std::string screenshot;  ///< save an image of the window when all is computed, then quit
 };
 
 /// Carries these out, by looking at the view-models ten times a second.

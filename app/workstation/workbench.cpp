@@ -1,27 +1,65 @@
 #include "app/workstation/workbench.h"
 
+#include "app/workstation/commands.h"
+
 namespace foresight {
 
 Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
-    : session(mode),
-      head(std::move(sensor_head)),
-      depth(&session),
-      compare(&session, &depth),
-      fit(&session),
-      gallery(&session, &fit),
-      mission(&session),
-      exporter(&session),
-      flow(&head, &session, mode),
-      live(&head, &session) {
-  head.SetRecorderSource([this] { return mission.Recorder(); });
-  QObject::connect(&head, &HeadViewModel::scanEnded, &mission, &MissionViewModel::keepScan);
-  QObject::connect(&fit, &FitViewModel::objectFound, &mission, &MissionViewModel::keepObject);
+    : head(std::move(sensor_head)),
+      live(mode, &tasks),
+      review(SessionMode::kReplay, &tasks),
+      recording(&live.session),
+      reviewer(&review.session),
+      flow(&head, &live.session),
+      live_depth(&head, &live.session) {
+  qRegisterMetaType<Notice>("foresight::Notice");
+  head.SetRecorderSource([this] { return recording.Recorder(); });
+  connect(&head, &HeadViewModel::scanStarted, this, [this] { log.close(kScanTopic); });
+  connect(&head, &HeadViewModel::stopReleased, this, [this] { log.close(kStopTopic); });
+  connect(&head, &HeadViewModel::scanStarted, &recording, &RecordingViewModel::refreshList);
+  connect(&head, &HeadViewModel::scanEnded, &recording, &RecordingViewModel::keepScan);
+  connect(&recording, &RecordingViewModel::allWritten, this,
+          [this] { log.close(kRecordingTopic); });
+  for (SessionModel* session : {&live.session, &review.session})
+    connect(session, &SessionModel::noticed, &log, &LogModel::add);
+  connect(&log, &LogModel::added, &recording, &RecordingViewModel::keepNotice);
+  connect(&reviewer, &ReviewViewModel::opened, this, &Workbench::showReview);
+  connect(&commands, &CommandTable::refused, this, [this](const QString& text, const QString& why) {
+    log.add({Notice::Level::kInfo, tr("%1 is not possible now.").arg(text), why});
+  });
+  connect(&commands, &CommandTable::ran, &recording, &RecordingViewModel::keepCommand);
+  AddCommands(this);
+  KeepCommandsCurrent();
+}
+
+void Workbench::KeepCommandsCurrent() {
+  const auto refresh = [this] { commands.refresh(); };
+  connect(&head, &HeadViewModel::statusChanged, this, refresh);
+  connect(&head, &HeadViewModel::planChanged, this, refresh);
+  connect(&recording, &RecordingViewModel::changed, this, refresh);
+  connect(&reviewer, &ReviewViewModel::changed, this, refresh);
+  connect(this, &Workbench::shownChanged, this, refresh);
+  for (Desk* desk : {&live, &review}) {
+    connect(&desk->fit, &FitViewModel::changed, this, refresh);
+    connect(&desk->session, &SessionModel::objectsChanged, this, refresh);
+    connect(desk->session.Undo(), &UndoStack::changed, this, refresh);
+  }
 }
 
 bool Workbench::Idle() {
-  return !head.Scanning() && !depth.Runner()->Busy() && !compare.Runner()->Busy() &&
-         !fit.Runner()->Busy() && !gallery.Runner()->Busy() && !mission.Runner()->Busy() &&
-         !exporter.Runner()->Busy();
+  return !head.Scanning() && tasks.Idle();
+}
+
+void Workbench::showReview() {
+  if (shows_review_) return;
+  shows_review_ = true;
+  Q_EMIT shownChanged();
+}
+
+void Workbench::backToLive() {
+  if (!shows_review_) return;
+  shows_review_ = false;
+  Q_EMIT shownChanged();
 }
 
 }  // namespace foresight

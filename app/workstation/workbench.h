@@ -1,39 +1,56 @@
 #pragma once
 
+#include <QObject>
 #include <memory>
 
-#include "ui/viewmodels/compare_view_model.h"
-#include "ui/viewmodels/depth_view_model.h"
-#include "ui/viewmodels/export_view_model.h"
-#include "ui/viewmodels/fit_view_model.h"
+#include "app/workstation/desk.h"
+#include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
-#include "ui/viewmodels/layers_view_model.h"
 #include "ui/viewmodels/live_depth_view_model.h"
-#include "ui/viewmodels/mission_view_model.h"
+#include "ui/viewmodels/log_model.h"
+#include "ui/viewmodels/recording_view_model.h"
+#include "ui/viewmodels/review_view_model.h"
 #include "ui/viewmodels/scan_flow.h"
-#include "ui/viewmodels/session_model.h"
-#include "ui/viewmodels/source_gallery_model.h"
 
 namespace foresight {
 
-/// All view-models of the workstation, wired to each other and to one head.
-struct Workbench {
-  Workbench(std::shared_ptr<SensorHead> head, SessionMode mode);
+/// All view-models of the workstation, wired to each other and to one head. It has two documents:
+/// the live one, fed by the head and always recorded, and one for review. The window shows one.
+class Workbench : public QObject {
+  Q_OBJECT
 
-  SessionModel session;
+ public:
+  /// `mode` is kLive or kSimulation.
+  Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode);
+
+  TaskQueue tasks;
+  LogModel log;
   HeadViewModel head;
-  DepthViewModel depth;
-  LayersViewModel layers;
-  CompareViewModel compare;
-  FitViewModel fit;
-  SourceGalleryModel gallery;
-  MissionViewModel mission;
-  ExportViewModel exporter;
+  Desk live;
+  Desk review;
+  RecordingViewModel recording;
+  ReviewViewModel reviewer;
   ScanFlow flow;
-  LiveDepthViewModel live;
+  LiveDepthViewModel live_depth;
+  CommandTable commands;
 
+  /// Whether the window shows the document for review.
+  bool ShowsReview() const { return shows_review_; }
+  Desk& Shown() { return shows_review_ ? review : live; }
   /// Nothing runs and the last scan has its depth.
   bool Idle();
+
+ public Q_SLOTS:
+  void showReview();
+  void backToLive();
+
+ Q_SIGNALS:
+  void shownChanged();
+
+ private:
+  void KeepCommandsCurrent();
+
+  bool shows_review_ = false;
 };
 
 }  // namespace foresight

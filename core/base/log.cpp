@@ -5,6 +5,8 @@
 
 #include <mutex>
 
+#include "core/base/printable.h"
+
 namespace foresight {
 namespace {
 
@@ -45,7 +47,7 @@ Listener& TheListener() {
 }  // namespace
 
 void Log(LogLevel level, std::string_view message) {
-  Logger().log(ToSpdlog(level), message);
+  Logger().log(ToSpdlog(level), Printable(message));
   const std::lock_guard lock(TheListener().mutex);
   if (TheListener().function) TheListener().function(level, message);
 }

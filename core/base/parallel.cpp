@@ -1,11 +1,13 @@
 #include "core/base/parallel.h"
 
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 namespace foresight {
 
@@ -33,10 +35,16 @@ bool ParallelFor(int count, const RunContext& context, const std::function<void(
       failed = true;
     }
   };
-  {
-    std::vector<std::jthread> workers;
-    for (int t = 1; t < threads; ++t) workers.emplace_back(work);
+  if (threads == 1) {
     work();
+  } else {
+    // TBB's threads are made once in the program. Where none is free, this one does it all.
+    tbb::task_arena(threads).execute([&] {
+      tbb::task_group helpers;
+      for (int t = 1; t < threads; ++t) helpers.run(work);
+      work();
+      helpers.wait();
+    });
   }
   if (failure) std::rethrow_exception(failure);
   return !context.Cancelled();

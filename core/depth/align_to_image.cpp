@@ -8,7 +8,7 @@ Status AlignMoreLines(const RegisteredScan& scan, int first_line, const SensorRi
                       double motor_rad, AlignedSamples& aligned, const RunContext& context) {
   FORESIGHT_CHECK(rig.Check());
   if (!std::isfinite(motor_rad))
-    return Fail(ErrorCode::kInvalidInput, "alignment: the picture has no motor angle");
+    return Fail(ErrorCode::kInvalidInput, "alignment: the image has no motor angle");
   const Rigid<frame::Camera, frame::Base> camera_from_base = rig.CameraFromBase(motor_rad);
   aligned.motor_rad = motor_rad;
   aligned.width = rig.camera.width;
@@ -37,7 +37,7 @@ Status AlignMoreLines(const RegisteredScan& scan, int first_line, const SensorRi
       sample.point = point.cast<float>();
       aligned.samples.push_back(sample);
     }
-    context.Report(static_cast<double>(line + 1) / scan.lines, "projecting into the picture");
+    context.Report(static_cast<double>(line + 1) / scan.lines, "projecting into the image");
   }
   aligned.reasons.resize(aligned.samples.size(), RejectReason::kKept);
   return {};
@@ -50,7 +50,7 @@ Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig&
   if (aligned.samples.empty())
     return Fail(
         ErrorCode::kTooFewPoints,
-        "no lidar return lies in the picture taken at {:.1f} deg; scan a scope that covers it",
+        "no lidar return lies in the image taken at {:.1f} deg; scan a scope that covers it",
         motor_rad * 57.29577951308232);
   return aligned;
 }

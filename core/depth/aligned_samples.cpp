@@ -55,7 +55,7 @@ Status AlignedSamples::Check() const {
 Status CheckUpsamplingInput(const AlignedSamples& samples, const ColorImage& guide) {
   if (guide.width() != samples.width || guide.height() != samples.height)
     return Fail(ErrorCode::kInvalidInput,
-                "the picture has {} x {} pixels, but the samples were projected into {} x {}",
+                "the image has {} x {} pixels, but the samples were projected into {} x {}",
                 guide.width(), guide.height(), samples.width, samples.height);
   if (samples.KeptCount() == 0)
     return Fail(ErrorCode::kTooFewPoints, "none of {} samples is left to upsample",

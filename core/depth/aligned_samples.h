@@ -46,7 +46,7 @@ struct AlignedSamples {
   int height = 0;
   int lines = 0;  ///< of the lidar grid
   int beams = 0;
-  /// The motor's angle of the picture; NaN = not known.
+  /// The motor's angle of the image; NaN = not known.
   double motor_rad = std::numeric_limits<double>::quiet_NaN();
   std::vector<AlignedSample> samples;
   std::vector<RejectReason> reasons;  ///< one a sample
@@ -91,7 +91,7 @@ Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig&
 
 /// The same for a scan that grows: adds the returns of the lines from `first_line` on to samples
 /// that AlignToImage, or this, made of the lines before them, or to empty ones. Nothing in the
-/// picture is no failure here. O(points of these lines).
+/// image is no failure here. O(points of these lines).
 Status AlignMoreLines(const RegisteredScan& scan, int first_line, const SensorRig& rig,
                       double motor_rad, AlignedSamples& aligned, const RunContext& context);
 

@@ -15,7 +15,7 @@ constexpr std::array<DepthMethodInfo, 5> kMethods = {{
     {DepthMethod::kJointBilateral, "jbu", "Joint bilateral (Kopf 2007)",
      "One pass of the joint filter over the raw samples; only pixels out of reach stay empty."},
     {DepthMethod::kTgv, "tgv", "Total generalized variation (Ferstl 2013)",
-     "Planes that break at edges of the picture, fitted to the raw samples; fills every pixel."},
+     "Planes that break at edges of the image, fitted to the raw samples; fills every pixel."},
     {DepthMethod::kNonlocal, "nonlocal", "Nonlocal means (Park 2011)",
      "Least squares that ties pixels with similar surroundings, on the raw samples; fills every "
      "pixel."},

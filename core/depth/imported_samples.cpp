@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t kMaxGridPlaces = 100'000'000;
 
-Result<Eigen::Vector3f> PointOf(const CsvSample& row, const FisheyeCamera* camera,
+Result<Eigen::Vector3f> PointOf(const CsvSample& row, const CameraModel* camera,
                                 const std::string& source) {
   const double depth_m = 1e-3 * row.depth_mm;
   if (camera == nullptr) return Eigen::Vector3f(0.0f, 0.0f, static_cast<float>(depth_m));
@@ -22,11 +22,11 @@ Result<Eigen::Vector3f> PointOf(const CsvSample& row, const FisheyeCamera* camer
 }  // namespace
 
 Result<AlignedSamples> ImportSamples(std::span<const CsvSample> rows, int width, int height,
-                                     const FisheyeCamera* camera, const std::string& source,
+                                     const CameraModel* camera, const std::string& source,
                                      int* outside) {
   if (camera != nullptr && (camera->width != width || camera->height != height))
     return Fail(ErrorCode::kInvalidInput,
-                "the camera is calibrated for {} x {} pixels, but the picture has {} x {}",
+                "the camera is calibrated for {} x {} pixels, but the image has {} x {}",
                 camera->width, camera->height, width, height);
   AlignedSamples samples;
   samples.width = width;
@@ -54,7 +54,7 @@ Result<AlignedSamples> ImportSamples(std::span<const CsvSample> rows, int width,
   }
   if (samples.samples.empty())
     return Fail(ErrorCode::kTooFewPoints,
-                "{}: none of {} samples lies in the picture of {} x {} pixels", source, rows.size(),
+                "{}: none of {} samples lies in the image of {} x {} pixels", source, rows.size(),
                 width, height);
   samples.reasons.assign(samples.samples.size(), RejectReason::kKept);
   if (camera != nullptr) samples.rays = RaysOf(*camera);

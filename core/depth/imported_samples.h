@@ -5,7 +5,7 @@
 
 #include "core/depth/aligned_samples.h"
 #include "core/io/csv_samples.h"
-#include "core/sensor/fisheye_camera.h"
+#include "core/sensor/camera_model.h"
 
 namespace foresight {
 
@@ -15,7 +15,7 @@ namespace foresight {
 /// kInvalidInput (camera of another size), kBadData (a place of the lidar's grid named twice, a
 /// grid of more than 100 million places; `source` names the file) and kTooFewPoints.
 Result<AlignedSamples> ImportSamples(std::span<const CsvSample> rows, int width, int height,
-                                     const FisheyeCamera* camera, const std::string& source,
+                                     const CameraModel* camera, const std::string& source,
                                      int* outside);
 
 /// The reverse, millimetres.

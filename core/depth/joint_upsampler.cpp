@@ -56,14 +56,14 @@ double NominalConfidence(const UpsampleOptions& options, const SpatialKernel& sp
 }  // namespace
 
 Status JointUpsampler::Update(const AlignedSamples& samples, const RunContext& context) {
-  std::optional<MappedSamples> before = std::exchange(made_, std::nullopt);
+  std::optional<MappedSamples> before = std::exchange(cached_, std::nullopt);
   FORESIGHT_CHECK(options_.Check());
   FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide_));
   const double density = LocalDensity(samples);
   const double sigma_px =
       options_.sigma_spatial_px > 0.0 ? options_.sigma_spatial_px : SpatialSigmaForDensity(density);
   if (before && sigma_px != dense_.sigma_spatial_px) before.reset();
-  if (!before) BeginAnew(sigma_px);
+  if (!before) Reset(sigma_px);
 
   MappedSamples now(samples);
   const SpatialKernel spatial(sigma_px, options_.radius_in_sigmas * sigma_px);
@@ -78,11 +78,11 @@ Status JointUpsampler::Update(const AlignedSamples& samples, const RunContext& c
     dense_.max_confidence = std::max(dense_.max_confidence, c);
   dense_.mean_change_m =
       MeanChanges(change_sums_, pixels_, static_cast<std::size_t>(options_.iterations));
-  made_ = std::move(now);
+  cached_ = std::move(now);
   return {};
 }
 
-void JointUpsampler::BeginAnew(double sigma_px) {
+void JointUpsampler::Reset(double sigma_px) {
   const auto passes = static_cast<std::size_t>(options_.iterations);
   const auto blocks = static_cast<std::size_t>((guide_.height() + kBlockRows - 1) / kBlockRows);
   if (gray_.empty()) gray_ = ToGray(guide_);

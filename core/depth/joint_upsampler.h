@@ -31,21 +31,21 @@ class JointUpsampler {
   const DenseDepth& dense() const { return dense_; }
   /// The same, to keep; the next Update does all again.
   DenseDepth TakeDense() {
-    made_.reset();
+    cached_.reset();
     return std::move(dense_);
   }
   /// How many rows the last Update filtered.
   int filtered_rows() const { return filtered_rows_; }
 
  private:
-  void BeginAnew(double sigma_px);
+  void Reset(double sigma_px);
   Status FilterRowsOf(const SparseDepthMap& map, const SpatialKernel& spatial,
                       const std::vector<int>& blocks, const RunContext& context);
 
   const ColorImage& guide_;
   UpsampleOptions options_;
-  GrayImage gray_;                     ///< of the guide, from the first Update on
-  std::optional<MappedSamples> made_;  ///< what dense_ was made from; none = nothing can be kept
+  GrayImage gray_;                       ///< of the guide, from the first Update on
+  std::optional<MappedSamples> cached_;  ///< what dense_ was made from; none = nothing can be kept
   DenseDepth dense_;
   // One place a block: the sums do not depend on which thread came first.
   std::vector<double> change_sums_;   ///< metres; a block's passes side by side

@@ -10,26 +10,26 @@ namespace {
 
 constexpr int kBlockRows = 8;
 
-void ConvertRows(const ColorImage& picture, int top, LabImage& lab_image) {
-  const int rows = std::min(kBlockRows, picture.height() - top);
-  const cv::Mat rgb(rows, picture.width(), CV_8UC3, const_cast<Rgb8*>(picture.row(top)));
+void ConvertRows(const ColorImage& image, int top, LabImage& lab_image) {
+  const int rows = std::min(kBlockRows, image.height() - top);
+  const cv::Mat rgb(rows, image.width(), CV_8UC3, const_cast<Rgb8*>(image.row(top)));
   cv::Mat scaled, lab;
   rgb.convertTo(scaled, CV_32F, 1.0 / 255.0);
   cv::cvtColor(scaled, lab, cv::COLOR_RGB2Lab);
   cv::Mat planes[3];
   for (int c = 0; c < 3; ++c)
-    planes[c] = cv::Mat(rows, picture.width(), CV_32F, lab_image.channels[c].row(top));
+    planes[c] = cv::Mat(rows, image.width(), CV_32F, lab_image.channels[c].row(top));
   cv::split(lab, planes);
 }
 
 }  // namespace
 
-Result<LabImage> ToLab(const ColorImage& picture, const RunContext& context) {
+Result<LabImage> ToLab(const ColorImage& image, const RunContext& context) {
   LabImage lab;
-  for (auto& channel : lab.channels) channel = FloatImage(picture.width(), picture.height());
-  const int blocks = (picture.height() + kBlockRows - 1) / kBlockRows;
-  const bool finished = ParallelFor(
-      blocks, context, [&](int block) { ConvertRows(picture, block * kBlockRows, lab); });
+  for (auto& channel : lab.channels) channel = FloatImage(image.width(), image.height());
+  const int blocks = (image.height() + kBlockRows - 1) / kBlockRows;
+  const bool finished =
+      ParallelFor(blocks, context, [&](int block) { ConvertRows(image, block * kBlockRows, lab); });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
   return lab;
 }

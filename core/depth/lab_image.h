@@ -6,12 +6,12 @@
 
 namespace foresight {
 
-/// A picture in CIELAB, L in [0, 100].
+/// An image in CIELAB, L in [0, 100].
 struct LabImage {
   FloatImage channels[3];
 };
 
 /// Converts from sRGB. Fails with kCancelled. O(pixels).
-Result<LabImage> ToLab(const ColorImage& picture, const RunContext& context);
+Result<LabImage> ToLab(const ColorImage& image, const RunContext& context);
 
 }  // namespace foresight

@@ -62,7 +62,7 @@ Status LiveDepth::AlignNewLines(const RegisteredScan& scan, const RunContext& co
   seen_ = scan;
   if (samples.empty())
     return Fail(ErrorCode::kTooFewPoints,
-                "no return of the {} lidar lines so far lies in the picture taken at {:.1f} deg",
+                "no return of the {} lidar lines so far lies in the image taken at {:.1f} deg",
                 scan.lines, frame_.motor_angle_rad * 57.29577951308232);
   return {};
 }

@@ -9,12 +9,12 @@ namespace foresight {
 namespace {
 
 /// Planes need a smaller window than averages: there is no slope to be biased by.
-constexpr double kSigmaShare = 0.6;
+constexpr double kSigmaFraction = 0.6;
 
 }  // namespace
 
 double LocalPlaneSigmaForDensity(double density) {
-  return kSigmaShare * SpatialSigmaForDensity(density);
+  return kSigmaFraction * SpatialSigmaForDensity(density);
 }
 
 Status LocalPlaneOptions::Check() const {

@@ -117,7 +117,7 @@ void FilterBlock(const PlaneFilter& filter, const SupportModel& support, const M
 
 }  // namespace
 
-bool LocalPlaneUpsampler::Made::SameWindow(const Made& other) const {
+bool LocalPlaneUpsampler::Cached::SameWindow(const Cached& other) const {
   return sigma_px == other.sigma_px && spacing.along_line_px == other.spacing.along_line_px &&
          spacing.between_lines_px == other.spacing.between_lines_px &&
          samples.samples.rays == other.samples.samples.rays;
@@ -125,47 +125,47 @@ bool LocalPlaneUpsampler::Made::SameWindow(const Made& other) const {
 
 Status LocalPlaneUpsampler::Update(const AlignedSamples& samples, const RunContext& context) {
   // A failure on the way leaves nothing behind.
-  const std::optional<Made> last = std::exchange(made_, std::nullopt);
+  const std::optional<Cached> last = std::exchange(cached_, std::nullopt);
   FORESIGHT_CHECK(options_.Check());
   FORESIGHT_CHECK(CheckUpsamplingInput(samples, guide_));
   if (lab_.channels[0].empty()) {
     FORESIGHT_TRY(lab_, ToLab(guide_, context));
   }
-  FORESIGHT_TRY(Made now, Describe(samples));
-  const Made* before = last && last->SameWindow(now) ? &*last : nullptr;
+  FORESIGHT_TRY(Cached now, Describe(samples));
+  const Cached* before = last && last->SameWindow(now) ? &*last : nullptr;
   const SampleChange change =
       before ? CompareSamples(before->samples, now.samples) : EverythingNew(now.samples);
   FORESIGHT_CHECK(FindPlanes(before, change, now, context));
   FORESIGHT_CHECK(FindCells(before, change, now, context));
-  if (!before) BeginAnew(now.sigma_px);
+  if (!before) Reset(now.sigma_px);
   FORESIGHT_CHECK(FilterPixels(before, change, now, context));
-  made_ = std::move(now);
+  cached_ = std::move(now);
   return {};
 }
 
-Result<LocalPlaneUpsampler::Made> LocalPlaneUpsampler::Describe(
+Result<LocalPlaneUpsampler::Cached> LocalPlaneUpsampler::Describe(
     const AlignedSamples& samples) const {
   FORESIGHT_TRY(const SampleSpacing spacing, SpacingOf(samples, options_));
   const double sigma_px = options_.sigma_spatial_px > 0.0
                               ? options_.sigma_spatial_px
                               : LocalPlaneSigmaForDensity(LocalDensity(samples));
-  Made made{MappedSamples(samples), spacing, sigma_px,
-            SpatialKernel(sigma_px, options_.radius_in_sigmas * sigma_px)};
-  for (std::size_t c = 0; c < made.sample_lab.size(); ++c)
-    made.sample_lab[c] = made.samples.map.ValuesAt(lab_.channels[c]);
-  made.planes = LevelPlanes(made.samples.map, samples);
-  made.slopes = SlopesOnGrid(made.samples.map, samples, made.planes);
-  return made;
+  Cached cached{MappedSamples(samples), spacing, sigma_px,
+                SpatialKernel(sigma_px, options_.radius_in_sigmas * sigma_px)};
+  for (std::size_t c = 0; c < cached.sample_lab.size(); ++c)
+    cached.sample_lab[c] = cached.samples.map.ValuesAt(lab_.channels[c]);
+  cached.planes = LevelPlanes(cached.samples.map, samples);
+  cached.slopes = SlopesOnGrid(cached.samples.map, samples, cached.planes);
+  return cached;
 }
 
-PlaneFilter LocalPlaneUpsampler::FilterOf(const Made& made) const {
-  PlaneFilter filter{made.samples.map,
-                     made.planes,
-                     made.spatial,
+PlaneFilter LocalPlaneUpsampler::FilterOf(const Cached& cached) const {
+  PlaneFilter filter{cached.samples.map,
+                     cached.planes,
+                     cached.spatial,
                      {&lab_.channels[0], &lab_.channels[1], &lab_.channels[2]},
-                     {made.sample_lab[0], made.sample_lab[1], made.sample_lab[2]}};
-  if (const auto& rays = made.samples.samples.rays) filter.ray = {&rays->x, &rays->y};
-  filter.sigma_spatial_px = static_cast<float>(made.sigma_px);
+                     {cached.sample_lab[0], cached.sample_lab[1], cached.sample_lab[2]}};
+  if (const auto& rays = cached.samples.samples.rays) filter.ray = {&rays->x, &rays->y};
+  filter.sigma_spatial_px = static_cast<float>(cached.sigma_px);
   filter.sigma_colour = static_cast<float>(options_.sigma_color);
   filter.sigma_depth_m = static_cast<float>(options_.sigma_depth_m);
   filter.ridge = static_cast<float>(options_.ridge);
@@ -174,8 +174,8 @@ PlaneFilter LocalPlaneUpsampler::FilterOf(const Made& made) const {
 }
 
 /// From level planes to those of each sample's surroundings.
-Status LocalPlaneUpsampler::FindPlanes(const Made* before, const SampleChange& change, Made& now,
-                                       const RunContext& context) const {
+Status LocalPlaneUpsampler::FindPlanes(const Cached* before, const SampleChange& change,
+                                       Cached& now, const RunContext& context) const {
   const SparseDepthMap& map = now.samples.map;
   RowSet rows = change.rows.GrownBy(now.spatial.radius());
   if (before) {
@@ -195,7 +195,7 @@ Status LocalPlaneUpsampler::FindPlanes(const Made* before, const SampleChange& c
   return {};
 }
 
-Status LocalPlaneUpsampler::FindCells(const Made* before, const SampleChange& change, Made& now,
+Status LocalPlaneUpsampler::FindCells(const Cached* before, const SampleChange& change, Cached& now,
                                       const RunContext& context) const {
   const SparseDepthMap& map = now.samples.map;
   RowSet rows = change.rows;
@@ -209,7 +209,7 @@ Status LocalPlaneUpsampler::FindCells(const Made* before, const SampleChange& ch
                               rows, now.inside, context);
 }
 
-void LocalPlaneUpsampler::BeginAnew(double sigma_px) {
+void LocalPlaneUpsampler::Reset(double sigma_px) {
   dense_ = DenseDepth();
   dense_.sigma_spatial_px = sigma_px;
   dense_.depth_m = DepthImage(guide_.width(), guide_.height());
@@ -219,8 +219,8 @@ void LocalPlaneUpsampler::BeginAnew(double sigma_px) {
     dense_.iterations.assign(static_cast<std::size_t>(options_.iterations) + 1, dense_.depth_m);
 }
 
-Status LocalPlaneUpsampler::FilterPixels(const Made* before, const SampleChange& change,
-                                         const Made& now, const RunContext& context) {
+Status LocalPlaneUpsampler::FilterPixels(const Cached* before, const SampleChange& change,
+                                         const Cached& now, const RunContext& context) {
   const SparseDepthMap& map = now.samples.map;
   const PlaneFilter filter = FilterOf(now);
   const SupportModel support{map,

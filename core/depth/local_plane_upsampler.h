@@ -16,7 +16,7 @@ namespace foresight {
 /// again what the changed samples can influence. What it hands out never depends on the way there:
 /// it equals the answer to the last samples alone in every bit.
 ///
-/// With R = radius_in_sigmas * sigma_s, in rows of the picture:
+/// With R = radius_in_sigmas * sigma_s, in rows of the image:
 ///   a sample's plane      its disc: changed samples within R; and its slopes, which its neighbours
 ///                         on the lidar's grid decide, wherever these are seen
 ///   a pixel's plane       its disc: samples within R that changed or whose plane changed
@@ -41,7 +41,7 @@ class LocalPlaneUpsampler {
   const DenseDepth& dense() const { return dense_; }
   /// The same, to keep; the next Update does all again.
   DenseDepth TakeDense() {
-    made_.reset();
+    cached_.reset();
     return std::move(dense_);
   }
   /// How many rows the last Update filtered.
@@ -49,7 +49,7 @@ class LocalPlaneUpsampler {
 
  private:
   /// What the dense map was made from.
-  struct Made {
+  struct Cached {
     MappedSamples samples;
     SampleSpacing spacing;
     double sigma_px;
@@ -59,23 +59,23 @@ class LocalPlaneUpsampler {
     std::vector<SamplePlane> planes = {};
     MaskImage inside = {};  ///< connected cells
 
-    bool SameWindow(const Made& other) const;
+    bool SameWindow(const Cached& other) const;
   };
 
-  Result<Made> Describe(const AlignedSamples& samples) const;
-  PlaneFilter FilterOf(const Made& made) const;
-  Status FindPlanes(const Made* before, const SampleChange& change, Made& now,
+  Result<Cached> Describe(const AlignedSamples& samples) const;
+  PlaneFilter FilterOf(const Cached& cached) const;
+  Status FindPlanes(const Cached* before, const SampleChange& change, Cached& now,
                     const RunContext& context) const;
-  Status FindCells(const Made* before, const SampleChange& change, Made& now,
+  Status FindCells(const Cached* before, const SampleChange& change, Cached& now,
                    const RunContext& context) const;
-  void BeginAnew(double sigma_px);
-  Status FilterPixels(const Made* before, const SampleChange& change, const Made& now,
+  void Reset(double sigma_px);
+  Status FilterPixels(const Cached* before, const SampleChange& change, const Cached& now,
                       const RunContext& context);
 
   const ColorImage& guide_;
   LocalPlaneOptions options_;
-  LabImage lab_;              ///< of the guide, from the first Update on
-  std::optional<Made> made_;  ///< none = nothing can be kept
+  LabImage lab_;                  ///< of the guide, from the first Update on
+  std::optional<Cached> cached_;  ///< none = nothing can be kept
   DenseDepth dense_;
   int filtered_rows_ = 0;
 };

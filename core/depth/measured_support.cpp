@@ -13,10 +13,10 @@ namespace {
 /// docs/evaluation.md.
 constexpr float kBias = 0.81f;
 constexpr float kPerCell = -3.22f;      ///< distance of the nearest supporter, in cells
-constexpr float kPerWeight2 = 4.89f;    ///< squared share of the nominal weight
+constexpr float kPerWeight2 = 4.89f;    ///< squared fraction of the nominal weight
 constexpr float kOneSidedRow = -0.87f;  ///< no supporter within reach to the left or to the right
 constexpr float kOneSidedColumn = -0.09f;
-constexpr float kPerAgreement = 0.90f;  ///< share of the weight of the pixel's colour
+constexpr float kPerAgreement = 0.90f;  ///< fraction of the weight of the pixel's colour
 constexpr float kInsideCell = 1.17f;
 constexpr float kReachCells = 1.25f;
 constexpr float kFarthestCells = 1.5f;

@@ -54,7 +54,7 @@ struct PlaneRow {
 
 /// For each pixel of row `y` the probability that its depth is right, within 50 mm or 1 %; 0 where
 /// there is none. It knows how many samples agree with the pixel's plane against what their spacing
-/// promises, what share of those of its colour do, how near the nearest one is in cells of the
+/// promises, what fraction of those of its colour do, how near the nearest one is in cells of the
 /// lidar's grid, whether there are some on each side, and whether the pixel lies inside a cell on
 /// one surface. O(samples around the row * samples' spacing).
 void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/depth/lidar_coverage.h"
 #include "core/depth/pixel_graph.h"
 #include "core/depth/sample_fill.h"
 
@@ -122,9 +123,9 @@ Status NonlocalOptions::Check() const {
   if (!positive(sigma_color))
     return Fail(ErrorCode::kInvalidOptions, "nonlocal: sigma_color {} is not positive",
                 sigma_color);
-  if (!positive(nonlocal_share))
+  if (!positive(nonlocal_fraction))
     return Fail(ErrorCode::kInvalidOptions, "nonlocal: nonlocal_share {} is not positive",
-                nonlocal_share);
+                nonlocal_fraction);
   FORESIGHT_CHECK(within(window_radius_px, 2, 20, "window_radius_px"));
   FORESIGHT_CHECK(within(patch_radius_px, 0, 10, "patch_radius_px"));
   FORESIGHT_CHECK(within(similar_pixels, 1, 16, "similar_pixels"));
@@ -151,7 +152,8 @@ Result<DenseDepth> UpsampleNonlocal(const AlignedSamples& samples, const ColorIm
   if (context.Cancelled()) return cancelled();
   DenseDepth dense;
   dense.depth_m = solver.Depth();
-  dense.confidence = FloatImage(guide.width(), guide.height(), 1.0f);
+  dense.confidence = LidarCoverage(samples);
+  dense.has_confidence = false;
   dense.max_confidence = 1.0f;
   return dense;
 }

@@ -8,13 +8,13 @@ namespace foresight {
 /// segmentation and saliency. The share and sigma_color are not theirs: they were chosen on quarter
 /// size Middlebury scenes.
 struct NonlocalOptions {
-  double smoothness = 0.3;      ///< lambda, of the mean over a pixel's connections
-  double nonlocal_share = 0.1;  ///< what a similar pixel counts beside a neighbour
-  double sigma_color = 5.0;     ///< levels of 8 bits, root mean square over the channels
-  int window_radius_px = 5;     ///< similar pixels are looked for in 11 x 11
-  int patch_radius_px = 1;      ///< and compared by 3 x 3
-  int similar_pixels = 8;       ///< so many of them are connected to each pixel
-  int iterations = 200;         ///< conjugate gradient steps at most
+  double smoothness = 0.3;         ///< lambda, of the mean over a pixel's connections
+  double nonlocal_fraction = 0.1;  ///< what a similar pixel counts beside a neighbour
+  double sigma_color = 5.0;        ///< levels of 8 bits, root mean square over the channels
+  int window_radius_px = 5;        ///< similar pixels are looked for in 11 x 11
+  int patch_radius_px = 1;         ///< and compared by 3 x 3
+  int similar_pixels = 8;          ///< so many of them are connected to each pixel
+  int iterations = 200;            ///< conjugate gradient steps at most
 
   Status Check() const;
 };

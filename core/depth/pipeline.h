@@ -59,7 +59,7 @@ Status RejectOutliers(AlignedSamples& samples, const DepthOptions& options,
 Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide,
                                  const DepthOptions& options, const RunContext& context);
 
-/// The depth map of one of the head's pictures: AlignToImage at the picture's own angle, then
+/// The depth map of one of the head's images: AlignToImage at the image's own angle, then
 /// ComputeDepth. Fails as these do.
 Result<DepthResult> ComputeDepthInFrame(const RegisteredScan& scan, const SensorRig& rig,
                                         const CameraFrame& frame, const DepthOptions& options,

@@ -12,7 +12,7 @@
 namespace foresight {
 namespace {
 
-/// Keeps every pixel connected, so that the picture can slow the depth down but never cut it off.
+/// Keeps every pixel connected, so that the image can slow the depth down but never cut it off.
 constexpr double kLeastWeight = 1e-4;
 constexpr float kOutside = std::numeric_limits<float>::infinity();
 constexpr std::int32_t kNobody = -1;
@@ -39,21 +39,21 @@ std::vector<Offset> SearchOffsets(int radius) {
 }
 
 /// The channels as floats with the border repeated, so that windows need no tests.
-class PaddedPicture {
+class PaddedImage {
  public:
-  PaddedPicture(const ColorImage& picture, int margin) : margin_(margin) {
+  PaddedImage(const ColorImage& image, int margin) : margin_(margin) {
     for (FloatImage& channel : channels_)
-      channel = FloatImage(picture.width() + 2 * margin, picture.height() + 2 * margin);
+      channel = FloatImage(image.width() + 2 * margin, image.height() + 2 * margin);
     for (int y = 0; y < channels_[0].height(); ++y)
       for (int x = 0; x < channels_[0].width(); ++x) {
-        const Rgb8 pixel = picture(std::clamp(x - margin, 0, picture.width() - 1),
-                                   std::clamp(y - margin, 0, picture.height() - 1));
+        const Rgb8 pixel = image(std::clamp(x - margin, 0, image.width() - 1),
+                                 std::clamp(y - margin, 0, image.height() - 1));
         channels_[0](x, y) = pixel.r;
         channels_[1](x, y) = pixel.g;
         channels_[2](x, y) = pixel.b;
       }
   }
-  /// Row y of the picture, from -margin to height + margin; index 0 is column 0.
+  /// Row y of the image, from -margin to height + margin; index 0 is column 0.
   const float* Row(std::size_t channel, int y) const {
     return channels_[channel].row(y + margin_) + margin_;
   }
@@ -66,13 +66,13 @@ class PaddedPicture {
 /// Finds the edges of one row of pixels at a time; a thread has its own.
 class RowSearch {
  public:
-  RowSearch(const ColorImage& picture, const PaddedPicture& padded, const NonlocalOptions& options)
-      : width_(picture.width()),
-        height_(picture.height()),
+  RowSearch(const ColorImage& image, const PaddedImage& padded, const NonlocalOptions& options)
+      : width_(image.width()),
+        height_(image.height()),
         padded_(padded),
         patch_radius_(options.patch_radius_px),
         similar_(static_cast<std::size_t>(options.similar_pixels)),
-        share_(options.nonlocal_share),
+        fraction_(options.nonlocal_fraction),
         offsets_(SearchOffsets(options.window_radius_px)),
         exponent_(-1.0 / (2.0 * 3.0 * options.sigma_color * options.sigma_color)),
         columns_(static_cast<std::size_t>(width_ + 2 * patch_radius_)),
@@ -97,9 +97,9 @@ class RowSearch {
  private:
   bool Contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
-  PixelGraph::Edge EdgeTo(int x, int y, double squared_difference, double share) const {
+  PixelGraph::Edge EdgeTo(int x, int y, double squared_difference, double fraction) const {
     const double weight = std::max(kLeastWeight, std::exp(exponent_ * squared_difference));
-    return {y * width_ + x, static_cast<float>(share * weight)};
+    return {y * width_ + x, static_cast<float>(fraction * weight)};
   }
 
   PixelGraph::Edge ToNeighbour(int x, int y, const Offset& offset) const {
@@ -146,15 +146,15 @@ class RowSearch {
       const auto& [cost, o] = best_[i];
       edges[i] = cost == kOutside
                      ? PixelGraph::Edge{kNobody, 0.0f}
-                     : EdgeTo(x + offsets_[o].x, y + offsets_[o].y, cost / pixels, share_);
+                     : EdgeTo(x + offsets_[o].x, y + offsets_[o].y, cost / pixels, fraction_);
     }
   }
 
   int width_, height_;
-  const PaddedPicture& padded_;
+  const PaddedImage& padded_;
   int patch_radius_;
   std::size_t similar_;
-  double share_;
+  double fraction_;
   std::vector<Offset> offsets_;
   double exponent_;
   std::vector<float> columns_;
@@ -164,25 +164,25 @@ class RowSearch {
 
 }  // namespace
 
-std::optional<PixelGraph> PixelGraph::Of(const ColorImage& picture, const NonlocalOptions& options,
+std::optional<PixelGraph> PixelGraph::Of(const ColorImage& image, const NonlocalOptions& options,
                                          const RunContext& context) {
-  const PaddedPicture padded(picture, options.window_radius_px + options.patch_radius_px);
-  const std::size_t per_pixel = RowSearch(picture, padded, options).EdgesPerPixel();
-  std::vector<Edge> outgoing(picture.size() * per_pixel);
+  const PaddedImage padded(image, options.window_radius_px + options.patch_radius_px);
+  const std::size_t per_pixel = RowSearch(image, padded, options).EdgesPerPixel();
+  std::vector<Edge> outgoing(image.size() * per_pixel);
   constexpr int kBandRows = 16;
-  const int bands = (picture.height() + kBandRows - 1) / kBandRows;
-  const std::size_t row_edges = static_cast<std::size_t>(picture.width()) * per_pixel;
+  const int bands = (image.height() + kBandRows - 1) / kBandRows;
+  const std::size_t row_edges = static_cast<std::size_t>(image.width()) * per_pixel;
   std::atomic<int> bands_done{0};
   const bool finished = ParallelFor(bands, context, [&](int band) {
-    RowSearch search(picture, padded, options);
-    const int end = std::min((band + 1) * kBandRows, picture.height());
+    RowSearch search(image, padded, options);
+    const int end = std::min((band + 1) * kBandRows, image.height());
     for (int y = band * kBandRows; y < end; ++y)
       search.Find(y,
                   std::span(outgoing).subspan(static_cast<std::size_t>(y) * row_edges, row_edges));
     context.Report(static_cast<double>(++bands_done) / bands, "comparing patches");
   });
   if (!finished) return std::nullopt;
-  return PixelGraph(picture.width(), picture.height(), outgoing, per_pixel);
+  return PixelGraph(image.width(), image.height(), outgoing, per_pixel);
 }
 
 PixelGraph::PixelGraph(int width, int height, std::span<const Edge> outgoing,

@@ -12,7 +12,7 @@ namespace foresight {
 
 struct NonlocalOptions;
 
-/// Which pixels of a picture are likely to have the same depth, and how likely: an undirected
+/// Which pixels of an image are likely to have the same depth, and how likely: an undirected
 /// graph. Pixels are numbered row by row.
 class PixelGraph {
  public:
@@ -23,7 +23,7 @@ class PixelGraph {
 
   /// Connects each pixel with its 8 neighbours and with the most similar ones of its window. Empty
   /// when cancelled.
-  static std::optional<PixelGraph> Of(const ColorImage& picture, const NonlocalOptions& options,
+  static std::optional<PixelGraph> Of(const ColorImage& image, const NonlocalOptions& options,
                                       const RunContext& context);
 
   int width() const { return width_; }

@@ -18,7 +18,7 @@ struct SamplePlane {
   float inverse_depth = 0.0f;  ///< 1 / m
   float slope_x = 0.0f;        ///< 1 / m and coordinate
   float slope_y = 0.0f;
-  float support = 1.0f;  ///< the share of its neighbours' weight that agrees, in [0, 1]
+  float support = 1.0f;  ///< the fraction of its neighbours' weight that agrees, in [0, 1]
 };
 
 /// Slopes from which the search for a sample's plane starts. Eight, as many as the narrowest common

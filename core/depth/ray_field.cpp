@@ -5,14 +5,14 @@
 #include <mutex>
 #include <utility>
 
-#include "core/sensor/fisheye_camera.h"
+#include "core/sensor/camera_model.h"
 
 namespace foresight {
 namespace {
 
 constexpr std::size_t kKeptFields = 3;
 
-std::shared_ptr<const RayField> MakeRays(const FisheyeCamera& camera) {
+std::shared_ptr<const RayField> MakeRays(const CameraModel& camera) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   auto rays = std::make_shared<RayField>();
   rays->x = FloatImage(camera.width, camera.height, kNaN);
@@ -28,9 +28,9 @@ std::shared_ptr<const RayField> MakeRays(const FisheyeCamera& camera) {
 
 }  // namespace
 
-std::shared_ptr<const RayField> RaysOf(const FisheyeCamera& camera) {
+std::shared_ptr<const RayField> RaysOf(const CameraModel& camera) {
   static std::mutex mutex;
-  static std::deque<std::pair<FisheyeCamera, std::shared_ptr<const RayField>>> kept;
+  static std::deque<std::pair<CameraModel, std::shared_ptr<const RayField>>> kept;
   const std::lock_guard lock(mutex);
   for (const auto& [known, rays] : kept)
     if (known == camera) return rays;

@@ -6,7 +6,7 @@
 
 namespace foresight {
 
-struct FisheyeCamera;
+struct CameraModel;
 
 /// Where each pixel of an image looks: (X/Z, Y/Z) of its ray. A plane in space is exactly linear in
 /// these, whatever the lens. NaN at 90 deg from the axis and beyond.
@@ -16,7 +16,7 @@ struct RayField {
 };
 
 /// The rays of a camera's pixels. The last few cameras' fields are kept and shared, as the same
-/// camera is asked for with each picture. Safe from any thread.
-std::shared_ptr<const RayField> RaysOf(const FisheyeCamera& camera);
+/// camera is asked for with each image. Safe from any thread.
+std::shared_ptr<const RayField> RaysOf(const CameraModel& camera);
 
 }  // namespace foresight

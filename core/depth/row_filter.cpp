@@ -49,7 +49,7 @@ namespace HWY_NAMESPACE {
 struct Sums {
   Vector weight;      ///< N_p
   Vector offset;      ///< sum of weight * (depth of the sample - last depth)
-  Vector confidence;  ///< this pass's share of C
+  Vector confidence;  ///< this pass's fraction of C
 
   // Written out: gcc compiles a constructor of its own making for the wrong instruction set.
   HWY_INLINE Sums()
@@ -62,10 +62,10 @@ struct Sums {
     both.confidence = hn::Add(confidence, other.confidence);
     return both;
   }
-  HWY_INLINE void Add(Vector weight_of_sample, Vector offset_of_sample, Vector share) {
+  HWY_INLINE void Add(Vector weight_of_sample, Vector offset_of_sample, Vector fraction) {
     weight = hn::Add(weight, weight_of_sample);
     offset = hn::MulAdd(weight_of_sample, offset_of_sample, offset);
-    confidence = hn::Add(confidence, share);
+    confidence = hn::Add(confidence, fraction);
   }
 };
 
@@ -76,7 +76,7 @@ struct ProductTerms {
   HWY_INLINE static Vector ListedWeight(Vector g, Vector k_exponent) {
     return hn::Mul(g, Exp2OfMinus<kWeightShift>(k_exponent));
   }
-  HWY_INLINE static Vector ListedShare(Vector g) { return g; }
+  HWY_INLINE static Vector ListedFraction(Vector g) { return g; }
   HWY_INLINE static Vector Unguided(Vector listed) { return listed; }
   HWY_INLINE static Vector Guided(Vector listed, Vector h) { return hn::Mul(listed, h); }
 };
@@ -90,7 +90,7 @@ struct LiteralTerms {
   HWY_INLINE static Vector ListedWeight(Vector g, Vector k_exponent) {
     return InDisc(g, hn::Add(g, Exp2OfMinus(k_exponent)));
   }
-  HWY_INLINE static Vector ListedShare(Vector g) { return InDisc(g, g); }
+  HWY_INLINE static Vector ListedFraction(Vector g) { return InDisc(g, g); }
   HWY_INLINE static Vector Unguided(Vector listed) { return Exp2OfMinus(listed); }
   HWY_INLINE static Vector Guided(Vector listed, Vector h) {
     return Exp2OfMinus(hn::NegMulAdd(h, hn::Set(Floats(), kLog2E), listed));
@@ -105,20 +105,20 @@ struct LiteralTerms {
 };
 
 /// How a pass sums: the form of the weights and that of the confidence are chosen apart.
-template <class Weights, class Shares>
+template <class Weights, class Fractions>
 struct Terms {
   static constexpr float kNoSupportScaled = kNoSupport * Weights::kScale;
 
-  HWY_INLINE static void Prepare(Vector g, Vector k_exponent, Vector& weight, Vector& share) {
+  HWY_INLINE static void Prepare(Vector g, Vector k_exponent, Vector& weight, Vector& fraction) {
     weight = Weights::ListedWeight(g, k_exponent);
-    share = Shares::ListedShare(g);
+    fraction = Fractions::ListedFraction(g);
   }
-  HWY_INLINE static void AddUnguided(Vector weight, Vector share, Vector offset, Sums& sums) {
-    sums.Add(Weights::Unguided(weight), offset, Shares::Unguided(share));
+  HWY_INLINE static void AddUnguided(Vector weight, Vector fraction, Vector offset, Sums& sums) {
+    sums.Add(Weights::Unguided(weight), offset, Fractions::Unguided(fraction));
   }
-  HWY_INLINE static void AddGuided(Vector weight, Vector share, Vector offset, Sums& sums) {
+  HWY_INLINE static void AddGuided(Vector weight, Vector fraction, Vector offset, Sums& sums) {
     const Vector h = Exp2OfMinus(hn::Mul(offset, offset));
-    sums.Add(Weights::Guided(weight, h), offset, Shares::Guided(share, h));
+    sums.Add(Weights::Guided(weight, h), offset, Fractions::Guided(fraction, h));
   }
 };
 
@@ -155,12 +155,12 @@ HWY_INLINE Sums GatherTile(const JointFilter& filter, JointFilterScratch& scratc
     const auto q = static_cast<std::size_t>(scratch.selected[i]);
     const Vector g = LoadTile(disc - rows[q] * stride - columns[q], stride);
     const Vector difference = hn::Sub(intensity, hn::Set(f, filter.sample_intensity[q]));
-    Vector listed, share;
-    T::Prepare(g, hn::Mul(hn::Mul(difference, k_scale), difference), listed, share);
+    Vector listed, fraction;
+    T::Prepare(g, hn::Mul(hn::Mul(difference, k_scale), difference), listed, fraction);
     hn::Store(listed, f, weight + 2 * i * kLanes);
-    hn::Store(share, f, weight + (2 * i + 1) * kLanes);
+    hn::Store(fraction, f, weight + (2 * i + 1) * kLanes);
     depth[i] = unit.From(filter.samples.depths_m()[q]);
-    T::AddUnguided(listed, share, hn::Set(f, depth[i]), sums);
+    T::AddUnguided(listed, fraction, hn::Set(f, depth[i]), sums);
   }
   return sums;
 }

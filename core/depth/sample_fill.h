@@ -18,7 +18,7 @@ struct SampleImage {
 /// when no sample is kept.
 Result<SampleImage> AverageByPixel(const AlignedSamples& samples, const ColorImage& guide);
 
-/// A depth for every pixel that ignores the picture, where iterative methods start: pixels with
+/// A depth for every pixel that ignores the image, where iterative methods start: pixels with
 /// samples keep their mean, others take theirs from ever coarser averages. O(pixels).
 DepthImage FillSmoothly(const SampleImage& samples);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/depth/lidar_coverage.h"
 #include "core/depth/sample_fill.h"
 
 namespace foresight {
@@ -234,7 +235,8 @@ Result<DenseDepth> UpsampleTgv(const AlignedSamples& samples, const ColorImage& 
   }
   DenseDepth dense;
   dense.depth_m = solver.Depth();
-  dense.confidence = FloatImage(guide.width(), guide.height(), 1.0f);
+  dense.confidence = LidarCoverage(samples);
+  dense.has_confidence = false;
   dense.max_confidence = 1.0f;
   return dense;
 }

@@ -33,6 +33,8 @@ struct UpsampleOptions {
 struct DenseDepth {
   DepthImage depth_m;           ///< metres along z; NaN where no sample supports the pixel
   FloatImage confidence;        ///< C of Eq. (9); 0 where there is no depth
+  /// False: the method knows none, and `confidence` is the lidar's coverage, 1 or 0 (LidarCoverage).
+  bool has_confidence = true;
   float max_confidence = 0.0f;  ///< the largest in the image
   /// What a pixel amid samples at the image's density that all agree would have; 1 where the
   /// confidence is absolute.

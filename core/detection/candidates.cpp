@@ -9,12 +9,14 @@
 namespace foresight {
 namespace {
 
-/// The candidate of a detection that has one best answer and rivals.
+constexpr double kComparable_nats = 3.0;  ///< a ratio of 1 : 20
+
+/// The candidate of a detection that has one best answer and alternatives.
 template <class Found>
 const auto& Chosen(const Found& found, int candidate) {
-  const int last = static_cast<int>(found.rivals.size());
+  const int last = static_cast<int>(found.alternatives.size());
   const int index = std::clamp(candidate, 0, last);
-  return index == 0 ? found.best : found.rivals[static_cast<std::size_t>(index - 1)];
+  return index == 0 ? found.best : found.alternatives[static_cast<std::size_t>(index - 1)];
 }
 
 const TerrainSurface* Chosen(const TerrainDetection& terrain, int candidate) {
@@ -41,22 +43,24 @@ std::string Describe(const TerrainSurface& surface) {
                      1000.0 * surface.size_m.y(), DegreesFromRadians(surface.toehold.slope_rad));
 }
 
-const char* MarginInWords(double nats) {
-  if (!(nats >= 0.0)) return "not comparable";
-  if (nats < 3.0) return "about as likely";
-  if (nats < 10.0) return "a little less likely";
-  if (nats < 50.0) return "clearly less likely";
-  return "far less likely";
-}
-
 template <class Found>
 std::string TextOf(const Found& found, int candidate) {
   const auto& chosen = Chosen(found, candidate);
-  if (candidate <= 0 || found.rivals.empty()) return Describe(chosen.model);
+  if (candidate <= 0 || found.alternatives.empty()) return Describe(chosen.model);
   const double nats = found.best.log_likelihood - chosen.log_likelihood;
-  const int count = static_cast<int>(found.rivals.size());
-  return fmt::format("rival {} of {}: {}, {} ({:.0f} nats)", std::min(candidate, count), count,
-                     Describe(chosen.model), MarginInWords(nats), nats);
+  const int count = static_cast<int>(found.alternatives.size());
+  return fmt::format("alternative {} of {}: {}, {}", std::min(candidate, count), count,
+                     Describe(chosen.model), MarginInWords(nats));
+}
+
+template <class Found>
+std::optional<double> MarginOf(const Found& found, int candidate) {
+  if (candidate <= 0 || found.alternatives.empty()) return std::nullopt;
+  return found.best.log_likelihood - Chosen(found, candidate).log_likelihood;
+}
+
+std::optional<double> MarginOf(const TerrainDetection&, int) {
+  return std::nullopt;
 }
 
 std::string TextOf(const TerrainDetection& terrain, int candidate) {
@@ -79,11 +83,24 @@ Rigid<frame::Base, frame::Object> PoseOf(const TerrainDetection& terrain, int ca
 
 }  // namespace
 
+const char* MarginInWords(double nats) {
+  if (!(nats >= 0.0)) return "not comparable";
+  if (nats < kComparable_nats) return "about as likely";
+  if (nats < 10.0) return "a little less likely";
+  if (nats < 50.0) return "clearly less likely";
+  return "far less likely";
+}
+
+std::optional<double> MarginBehindBest(const Detection& detection, int candidate) {
+  return std::visit([candidate](const auto& found) { return MarginOf(found, candidate); },
+                    detection);
+}
+
 int CandidateCount(const Detection& detection) {
   if (const auto* valve = std::get_if<ValveDetection>(&detection))
-    return 1 + static_cast<int>(valve->rivals.size());
+    return 1 + static_cast<int>(valve->alternatives.size());
   if (const auto* drill = std::get_if<DrillDetection>(&detection))
-    return 1 + static_cast<int>(drill->rivals.size());
+    return 1 + static_cast<int>(drill->alternatives.size());
   return static_cast<int>(std::get<TerrainDetection>(detection).surfaces.size());
 }
 
@@ -97,7 +114,9 @@ VerdictLevel CandidateLevel(const Detection& detection, int candidate) {
     return surface == nullptr ? VerdictLevel::kUnsure : surface->verdict.level;
   }
   const VerdictLevel best = VerdictOf(detection).level;
-  return candidate > 0 ? std::min(best, VerdictLevel::kLikely) : best;
+  const auto behind = MarginBehindBest(detection, candidate);
+  if (!behind) return best;
+  return *behind < kComparable_nats ? std::min(best, VerdictLevel::kLikely) : VerdictLevel::kUnsure;
 }
 
 std::string CandidateText(const Detection& detection, int candidate) {

@@ -10,7 +10,7 @@ namespace {
 Json EvidenceJson(const CylinderEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
-          {"inlier_share", evidence.inlier_share},
+          {"inlier_share", evidence.inlier_ratio},
           {"see_through", evidence.see_through},
           {"residual_mad_m", evidence.residual_mad_m},
           {"range_sigma_m", evidence.range_sigma_m},
@@ -35,7 +35,7 @@ std::string CylinderToJson(const CylinderDetection& cylinder,
                 {"probability", nullptr},
                 {"reason", cylinder.reason}};
   AddOrigin(cylinder.origin, value);
-  return value.dump(2);
+  return value.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace foresight

@@ -4,6 +4,7 @@
 
 #include "core/detection/json_values.h"
 #include "core/detection/object_json.h"
+#include "core/io/json_reader.h"
 
 namespace foresight {
 namespace {
@@ -25,12 +26,13 @@ std::string DetectionToJson(const Detection& detection,
   value["kind"] = KindOf(detection);
   AddVerdict(VerdictOf(detection), value);
   AddOrigin(OriginOf(detection), value);
-  return value.dump(2);
+  // What a text was made of may hold bytes that are no UTF-8; JSON may not.
+  return value.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 Result<Detection> DetectionFromJson(std::string_view text) {
   try {
-    const Json value = Json::parse(text);
+    const Json value = ParseJson(text);
     Detection detection = ObjectFrom(value);
     std::visit(
         [&value](auto& found) {
@@ -39,6 +41,8 @@ Result<Detection> DetectionFromJson(std::string_view text) {
         },
         detection);
     return detection;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& failure) {
     return Fail(ErrorCode::kBadData, "detection: {}", failure.what());
   }

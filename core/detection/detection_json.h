@@ -9,7 +9,7 @@
 namespace foresight {
 
 /// A detection as JSON, docs/formats.md: what a robot's planner needs (poses in base and in robot)
-/// and what an operator saw (verdict, evidence, rivals, region). Metres and radians.
+/// and what an operator saw (verdict, evidence, alternatives, region). Metres and radians.
 std::string DetectionToJson(const Detection& detection,
                             const Rigid<frame::Robot, frame::Base>& robot_from_base);
 

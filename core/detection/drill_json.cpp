@@ -3,9 +3,12 @@
 
 #include "core/detection/json_values.h"
 #include "core/detection/object_json.h"
+#include "core/io/json_reader.h"
 
 namespace foresight {
 namespace {
+
+constexpr std::size_t kMostParts = 1000;
 
 const char* NameOf(SolidPart::Shape shape) {
   constexpr const char* kNames[] = {"box", "cylinder", "capsule"};
@@ -47,30 +50,33 @@ Json CandidateJson(const DrillCandidate& drill,
 Json EvidenceJson(const DrillEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
-          {"inlier_share", evidence.inlier_share},
+          {"inlier_share", evidence.inlier_ratio},
           {"see_through", evidence.see_through},
           {"rms_m", evidence.rms_m},
           {"yaw_margin_nats", evidence.yaw_margin_nats},
           {"flip_margin_nats", evidence.flip_margin_nats},
           {"head_nats", evidence.head_nats},
           {"gain_nats", evidence.gain_nats},
-          {"rival_margin_nats", evidence.rival_margin_nats},
-          {"best_rival", evidence.best_rival}};
+          {"rival_margin_nats", evidence.alternative_margin_nats},
+          {"best_rival", evidence.best_alternative}};
 }
 
 DrillModel ModelFrom(const Json& value) {
   DrillModel model;
   model.template_name = value.at("template");
-  model.scale = value.at("scale");
+  model.scale = NumberIn(value, "scale", 0.01, 100.0);
   model.body_tilt_rad = Vector2From(value.at("body_tilt_rad"));
-  model.bit_length_m = value.at("bit_length_m");
+  model.bit_length_m = SizeIn(value, "bit_length_m");
   model.object_from_grasp = PartPoseFrom(value.at("object_from_grasp"));
-  model.trigger_m = Vector3From(value.at("trigger_m"));
-  model.bit_tip_m = Vector3From(value.at("bit_tip_m"));
-  for (const Json& part : value.at("parts"))
+  model.trigger_m = PointOnObjectIn(value, "trigger_m");
+  model.bit_tip_m = PointOnObjectIn(value, "bit_tip_m");
+  for (const Json& part : ListIn(value, "parts", kMostParts)) {
     model.parts.push_back({part.at("name"), ShapeFrom(part.at("shape")),
                            PartPoseFrom(part.at("object_from_part")),
-                           Vector3From(part.at("size_m"))});
+                           PointOnObjectIn(part, "size_m")});
+    if (const Status status = model.parts.back().Check(); !status)
+      throw std::invalid_argument(status.error().message);
+  }
   return model;
 }
 
@@ -81,17 +87,17 @@ DrillCandidate CandidateFrom(const Json& value) {
 
 DrillEvidence EvidenceFrom(const Json& value) {
   DrillEvidence evidence;
-  evidence.rays = value.at("rays");
-  evidence.hits = value.at("hits");
-  evidence.inlier_share = NumberFrom(value.at("inlier_share"));
+  evidence.rays = CountIn(value, "rays");
+  evidence.hits = CountIn(value, "hits");
+  evidence.inlier_ratio = NumberFrom(value.at("inlier_share"));
   evidence.see_through = NumberFrom(value.at("see_through"));
   evidence.rms_m = NumberFrom(value.at("rms_m"));
   evidence.yaw_margin_nats = NumberFrom(value.at("yaw_margin_nats"));
   evidence.flip_margin_nats = NumberFrom(value.at("flip_margin_nats"));
   evidence.head_nats = NumberFrom(value.at("head_nats"));
   evidence.gain_nats = NumberFrom(value.at("gain_nats"));
-  evidence.rival_margin_nats = NumberFrom(value.at("rival_margin_nats"));
-  evidence.best_rival = value.at("best_rival");
+  evidence.alternative_margin_nats = NumberFrom(value.at("rival_margin_nats"));
+  evidence.best_alternative = value.at("best_rival");
   return evidence;
 }
 
@@ -113,10 +119,10 @@ Json GraspToJson(const DrillCandidate& drill,
 
 Json ToJson(const DrillDetection& detection,
             const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  Json rivals = Json::array();
-  for (const DrillCandidate& rival : detection.rivals) {
-    rivals.push_back(CandidateJson(rival, robot_from_base));
-    rivals.back()["margin_nats"] = detection.best.log_likelihood - rival.log_likelihood;
+  Json alternatives = Json::array();
+  for (const DrillCandidate& alternative : detection.alternatives) {
+    alternatives.push_back(CandidateJson(alternative, robot_from_base));
+    alternatives.back()["margin_nats"] = detection.best.log_likelihood - alternative.log_likelihood;
   }
   Json value = {{"best", CandidateJson(detection.best, robot_from_base)},
                 {"grasp", GraspToJson(detection.best, robot_from_base)},
@@ -126,7 +132,7 @@ Json ToJson(const DrillDetection& detection,
                 {"covariance", ToJson(detection.covariance)},
                 {"table", nullptr},
                 {"evidence", EvidenceJson(detection.evidence)},
-                {"rivals", rivals}};
+                {"alternatives", alternatives}};
   if (detection.table)
     value["table"] = {{"normal", ToJson(detection.table->normal)},
                       {"offset_m", detection.table->offset}};
@@ -143,7 +149,8 @@ DrillDetection DrillFrom(const Json& value) {
   if (const Json& table = value.at("table"); !table.is_null())
     detection.table = Plane{Vector3From(table.at("normal")), NumberFrom(table.at("offset_m"))};
   detection.evidence = EvidenceFrom(value.at("evidence"));
-  for (const Json& rival : value.at("rivals")) detection.rivals.push_back(CandidateFrom(rival));
+  for (const Json& alternative : AlternativesIn(value))
+    detection.alternatives.push_back(CandidateFrom(alternative));
   return detection;
 }
 

@@ -41,8 +41,9 @@ std::string Direction(const Eigen::Vector3d& in_robot) {
                      up_deg < 0.0 ? "down" : "up");
 }
 
-std::string WithSigma(const std::string& text, const std::string& sigma) {
-  return fmt::format("{} (sigma {})", text, sigma);
+/// `sigma` is that of the best answer, and says nothing of another one.
+std::string WithSigma(const std::string& text, const std::string& sigma, int candidate = 0) {
+  return candidate > 0 ? text : fmt::format("{} (sigma {})", text, sigma);
 }
 
 std::string SigmaOfPlace(const Eigen::Vector3d& sigma_m) {
@@ -53,44 +54,47 @@ std::string SigmaOfPlace(const Eigen::Vector3d& sigma_m) {
 template <class Evidence>
 std::string Support(const Evidence& evidence) {
   return fmt::format("{} of {} rays hit, {:.0f} % agree, RMS {}", evidence.hits, evidence.rays,
-                     100.0 * evidence.inlier_share, Millimetres(evidence.rms_m, 1));
+                     100.0 * evidence.inlier_ratio, Millimetres(evidence.rms_m, 1));
 }
 
 void AddFacts(const ValveDetection& valve, int candidate, const RobotFromBase& robot_from_base,
               std::vector<Fact>& facts) {
   const auto pose = robot_from_base * CandidatePose(valve, candidate);
   const bool lever = valve.best.model.IsLever();
-  facts.push_back({lever ? "Pivot" : "Centre",
-                   WithSigma(Place(pose.translation()), SigmaOfPlace(valve.sigma_position_m))});
+  facts.push_back(
+      {lever ? "Pivot" : "Centre",
+       WithSigma(Place(pose.translation()), SigmaOfPlace(valve.sigma_position_m), candidate)});
   facts.push_back({"Axis (z)", WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
-                                         Degrees(valve.sigma_axis_rad))});
+                                         Degrees(valve.sigma_axis_rad), candidate)});
   facts.push_back({lever ? "Lever (x)" : "Spoke (x)",
                    valve.phase_observable
                        ? WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
-                                   Degrees(valve.sigma_phase_rad))
+                                   Degrees(valve.sigma_phase_rad), candidate)
                        : "angle not observable"});
-  facts.push_back({"Support", Support(valve.evidence)});
+  if (candidate <= 0) facts.push_back({"Support", Support(valve.evidence)});
 }
 
 void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& robot_from_base,
               std::vector<Fact>& facts) {
   const auto pose = robot_from_base * CandidatePose(drill, candidate);
-  const DrillModel& model =
-      candidate > 0 && !drill.rivals.empty()
-          ? drill.rivals[std::min(drill.rivals.size(), static_cast<std::size_t>(candidate)) - 1]
-                .model
-          : drill.best.model;
-  facts.push_back(
-      {"Foot", WithSigma(Place(pose.translation()), SigmaOfPlace(drill.sigma_position_m))});
+  const DrillModel& model = candidate > 0 && !drill.alternatives.empty()
+                                ? drill
+                                      .alternatives[std::min(drill.alternatives.size(),
+                                                             static_cast<std::size_t>(candidate)) -
+                                                    1]
+                                      .model
+                                : drill.best.model;
+  facts.push_back({"Foot", WithSigma(Place(pose.translation()),
+                                     SigmaOfPlace(drill.sigma_position_m), candidate)});
   facts.push_back({"Bit points (x)", WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
-                                               Degrees(drill.sigma_yaw_rad))});
+                                               Degrees(drill.sigma_yaw_rad), candidate)});
   facts.push_back({"Body (z)", WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
-                                         Degrees(drill.sigma_axis_rad))});
+                                         Degrees(drill.sigma_axis_rad), candidate)});
   facts.push_back({"Grasp", Place((pose * model.object_from_grasp).translation())});
   facts.push_back({"Trigger", Place(pose * model.trigger_m)});
   facts.push_back({"Bit tip", Place(pose * model.bit_tip_m)});
-  facts.push_back(
-      {"Turned round", fmt::format("{:.0f} nats less likely", drill.evidence.flip_margin_nats)});
+  if (candidate > 0) return;
+  facts.push_back({"Turned round", MarginInWords(drill.evidence.flip_margin_nats)});
   facts.push_back({"Support", Support(drill.evidence)});
 }
 
@@ -130,18 +134,6 @@ std::vector<Fact> FactsOf(const Detection& detection, int candidate,
   std::visit([&](const auto& found) { AddFacts(found, candidate, robot_from_base, facts); },
              detection);
   return facts;
-}
-
-std::string AdviceOn(const Detection& detection) {
-  switch (VerdictOf(detection).level) {
-    case VerdictLevel::kConfirmed:
-      return "Good to act on.";
-    case VerdictLevel::kLikely:
-      return "Compare the outline with the picture and step through the rivals before acting.";
-    case VerdictLevel::kUnsure:
-      break;
-  }
-  return "Do not act on this. Draw the region closer, or scan slower or from nearer.";
 }
 
 std::string SourceTitle(const std::string& source) {

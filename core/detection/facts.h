@@ -15,13 +15,10 @@ struct Fact {
 
 /// What an operator reads of a candidate, the same words on the screen and on the command line:
 /// what it is, its pose in the robot's frame (x forward, y left, z up; millimetres and degrees)
-/// with deviations, sizes, and how the measurements support it.
+/// with deviations, sizes, and how the measurements support it. Deviations and support are known of
+/// the best answer alone: an alternative is told without them.
 std::vector<Fact> FactsOf(const Detection& detection, int candidate,
                           const Rigid<frame::Robot, frame::Base>& robot_from_base);
-
-/// One sentence of advice that follows from the verdict: what to do with the answer, or to get a
-/// better one.
-std::string AdviceOn(const Detection& detection);
 
 /// "lidar returns", or the title of a depth method.
 std::string SourceTitle(const std::string& source);

@@ -1,12 +1,19 @@
 #include "core/detection/json_values.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/io/json_reader.h"
+
 namespace foresight {
 namespace {
+
+constexpr std::size_t kMostCorners = 10'000;
+constexpr double kFarthest_px = 1e6;
 
 Json FrameJson(const Eigen::Quaterniond& q, const Eigen::Vector3d& position) {
   return {{"position_m", ToJson(position)},
@@ -22,7 +29,11 @@ Rigid<To, frame::Object> FrameFrom(const Json& value) {
   const Eigen::Quaterniond rotation(q.at(0), q.at(1), q.at(2), q.at(3));
   if (!(std::abs(rotation.norm() - 1.0) < 1e-6))
     throw std::invalid_argument("quaternion_wxyz has not length 1");
-  return {rotation, Vector3From(value.at("position_m"))};
+  const Eigen::Vector3d position = Vector3From(value.at("position_m"));
+  if (!(position.array().abs() <= kFarthest_m).all())
+    throw std::invalid_argument(fmt::format("position_m ({}, {}, {}) is not within {} m",
+                                            position.x(), position.y(), position.z(), kFarthest_m));
+  return {rotation, position};
 }
 
 VerdictLevel LevelFrom(const std::string& name) {
@@ -45,7 +56,12 @@ Roi RoiFrom(const Json& value) {
     return BoxRoi{PoseFrom(value.at("base_from_box")), Vector3From(value.at("size_m"))};
   ImageRoi roi;
   roi.motor_rad = NumberFrom(value.at("motor_rad"));
-  for (const Json& corner : value.at("polygon_px")) roi.polygon.push_back(Vector2From(corner));
+  for (const Json& corner : ListIn(value, "polygon_px", kMostCorners)) {
+    roi.polygon.push_back(Vector2From(corner));
+    if (!(roi.polygon.back().array().abs() <= kFarthest_px).all())
+      throw std::invalid_argument(fmt::format("a corner of polygon_px is at ({}, {})",
+                                              roi.polygon.back().x(), roi.polygon.back().y()));
+  }
   return roi;
 }
 
@@ -61,6 +77,22 @@ Json ToJson(const Eigen::Vector3d& v) {
 
 double NumberFrom(const Json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+double SizeIn(const Json& object, const char* key) {
+  return NumberIn(object, key, 0.0, kLargestObject_m);
+}
+
+int CountIn(const Json& object, const char* key) {
+  return IntegerIn(object, key, 0, std::numeric_limits<int>::max());
+}
+
+Eigen::Vector3d PointOnObjectIn(const Json& object, const char* key) {
+  const Eigen::Vector3d point = Vector3From(object.at(key));
+  if (!(point.array().abs() <= kLargestObject_m).all())
+    throw std::invalid_argument(fmt::format("'{}' is ({}, {}, {}), not within {} m", key, point.x(),
+                                            point.y(), point.z(), kLargestObject_m));
+  return point;
 }
 
 Eigen::Vector2d Vector2From(const Json& value) {
@@ -117,7 +149,7 @@ void AddVerdict(const Verdict& verdict, Json& object) {
   object["probability"] = verdict.probability;
   object["reason"] = verdict.reason;
   object["features"] = verdict.features;
-  object["gates"] = verdict.objections;
+  object["gates"] = verdict.failed_gates;
 }
 
 Verdict VerdictFrom(const Json& object) {
@@ -129,8 +161,13 @@ Verdict VerdictFrom(const Json& object) {
   if (object.contains("features"))
     for (const Json& feature : object.at("features"))
       verdict.features.push_back(NumberFrom(feature));
-  if (object.contains("gates")) object.at("gates").get_to(verdict.objections);
+  if (object.contains("gates")) object.at("gates").get_to(verdict.failed_gates);
   return verdict;
+}
+
+const Json& AlternativesIn(const Json& object) {
+  const char* key = object.contains("rivals") ? "rivals" : "alternatives";
+  return ListIn(object, key, kMostAlternatives);
 }
 
 void AddOrigin(const FitOrigin& origin, Json& object) {

@@ -16,6 +16,14 @@ using Json = nlohmann::json;
 Json ToJson(const Eigen::Vector2d& v);
 Json ToJson(const Eigen::Vector3d& v);
 double NumberFrom(const Json& value);
+/// A length of a part of an object: 0 to kLargestObject_m.
+double SizeIn(const Json& object, const char* key);
+/// How many of something there were: 0 to 2^31 - 1.
+int CountIn(const Json& object, const char* key);
+/// A point or a size in the object's frame, within kLargestObject_m.
+Eigen::Vector3d PointOnObjectIn(const Json& object, const char* key);
+inline constexpr double kLargestObject_m = 10.0;
+inline constexpr std::size_t kMostAlternatives = 1000;
 Eigen::Vector2d Vector2From(const Json& value);
 Eigen::Vector3d Vector3From(const Json& value);
 
@@ -24,7 +32,8 @@ Eigen::Vector3d Vector3From(const Json& value);
 Json ToJson(const Rigid<frame::Robot, frame::Object>& pose);
 Json ToJson(const Rigid<frame::Base, frame::Object>& pose);
 Json ToJson(const Rigid<frame::Object, frame::Object>& pose);
-/// Position and rotation; the axes follow from them.
+/// Position, within kFarthest_m, and rotation; the axes follow from them.
+inline constexpr double kFarthest_m = 100'000.0;
 Rigid<frame::Base, frame::Object> PoseFrom(const Json& value);
 Rigid<frame::Object, frame::Object> PartPoseFrom(const Json& value);
 
@@ -35,6 +44,9 @@ PoseCovariance CovarianceFrom(const Json& object);
 /// `verdict`, `probability`, `reason`, `features`: members of what the verdict is about.
 void AddVerdict(const Verdict& verdict, Json& object);
 Verdict VerdictFrom(const Json& object);
+
+/// The array `alternatives`, or `rivals` as earlier programs called it.
+const Json& AlternativesIn(const Json& object);
 
 /// `roi`, `source`, `seconds`.
 void AddOrigin(const FitOrigin& origin, Json& object);

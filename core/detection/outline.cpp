@@ -38,11 +38,11 @@ std::vector<Outline> TerrainOutlines(const TerrainDetection& terrain, int candid
 }
 
 Wireframe TemplateOf(const Detection& detection, int candidate) {
-  const auto rival = static_cast<std::size_t>(std::max(0, candidate - 1));
+  const auto alternative = static_cast<std::size_t>(std::max(0, candidate - 1));
   if (const auto* valve = std::get_if<ValveDetection>(&detection))
-    return WireframeOf(candidate > 0 ? valve->rivals[rival].model : valve->best.model);
+    return WireframeOf(candidate > 0 ? valve->alternatives[alternative].model : valve->best.model);
   const auto& drill = std::get<DrillDetection>(detection);
-  return WireframeOf(candidate > 0 ? drill.rivals[rival].model : drill.best.model);
+  return WireframeOf(candidate > 0 ? drill.alternatives[alternative].model : drill.best.model);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct LocalRay {
 
 using Distance = std::function<double(const Eigen::Vector3d&)>;
 
-/// Where a ray first meets a surface, by sphere tracing within reach of the measured range.
+/// Where a ray first intersects a surface, by sphere tracing within reach of the measured range.
 std::optional<double> Trace(const LocalRay& ray, double range_m, const Distance& distance) {
   constexpr double kTouching_m = 5e-4;
   constexpr int kMaxSteps = 100;
@@ -33,8 +33,8 @@ std::optional<double> Trace(const LocalRay& ray, double range_m, const Distance&
   return std::nullopt;
 }
 
-/// Where a ray meets a rectangle in the plane z = 0.
-std::optional<double> MeetRectangle(const LocalRay& ray, const Eigen::Vector2d& size_m) {
+/// Where a ray intersects a rectangle in the plane z = 0.
+std::optional<double> IntersectRectangle(const LocalRay& ray, const Eigen::Vector2d& size_m) {
   if (std::abs(ray.direction.z()) < 1e-6) return std::nullopt;
   const double along = -ray.origin.z() / ray.direction.z();
   const Eigen::Vector2d at = (ray.origin + along * ray.direction).head<2>();
@@ -67,7 +67,7 @@ std::vector<Residual> OfTerrain(const TerrainDetection& terrain, const RaySet& r
     std::optional<double> nearest;
     for (const TerrainSurface& surface : terrain.surfaces) {
       const auto met =
-          MeetRectangle(InObject(ray, surface.base_from_object.Inverse()), surface.size_m);
+          IntersectRectangle(InObject(ray, surface.base_from_object.Inverse()), surface.size_m);
       if (met && (!nearest || std::abs(*met - ray.range_m) < std::abs(*nearest - ray.range_m)))
         nearest = met;
     }
@@ -78,8 +78,9 @@ std::vector<Residual> OfTerrain(const TerrainDetection& terrain, const RaySet& r
 
 template <class Found>
 const auto& ModelOf(const Found& found, int candidate) {
-  const int index = std::clamp(candidate, 0, static_cast<int>(found.rivals.size()));
-  return index == 0 ? found.best.model : found.rivals[static_cast<std::size_t>(index - 1)].model;
+  const int index = std::clamp(candidate, 0, static_cast<int>(found.alternatives.size()));
+  return index == 0 ? found.best.model
+                    : found.alternatives[static_cast<std::size_t>(index - 1)].model;
 }
 
 }  // namespace

@@ -3,9 +3,13 @@
 
 #include "core/detection/json_values.h"
 #include "core/detection/object_json.h"
+#include "core/io/json_reader.h"
 
 namespace foresight {
 namespace {
+
+constexpr double kLargestSurface_m = 1000.0;
+constexpr std::size_t kMostSurfaces = 10'000;
 
 const char* NameOf(TerrainSurface::Kind kind) {
   constexpr const char* kNames[] = {"block", "ground", "unknown"};
@@ -30,11 +34,11 @@ Json EvidenceJson(const BlockEvidence& evidence) {
 
 BlockEvidence EvidenceFrom(const Json& value) {
   BlockEvidence evidence;
-  evidence.points = value.at("points");
+  evidence.points = CountIn(value, "points");
   evidence.cover = NumberFrom(value.at("cover"));
   evidence.see_through = NumberFrom(value.at("see_through"));
   evidence.outside = NumberFrom(value.at("outside"));
-  evidence.confirmed_edges = value.at("confirmed_edges");
+  evidence.confirmed_edges = IntegerIn(value, "confirmed_edges", 0, 4);
   evidence.rms_m = NumberFrom(value.at("rms_m"));
   return evidence;
 }
@@ -77,6 +81,8 @@ TerrainSurface SurfaceFrom(const Json& value) {
   surface.kind = KindFrom(value.at("kind"));
   surface.base_from_object = PoseFrom(value.at("base_from_object"));
   surface.size_m = Vector2From(value.at("size_m"));
+  if (!(surface.size_m.array().abs() <= kLargestSurface_m).all())
+    throw std::invalid_argument("'size_m' of a surface is beyond a kilometre");
   surface.covariance = CovarianceFrom(value);
   surface.evidence = EvidenceFrom(value.at("evidence"));
   surface.toehold = ToeholdFrom(value.at("toehold"));
@@ -98,7 +104,7 @@ Json ToJson(const TerrainDetection& detection,
 
 TerrainDetection TerrainFrom(const Json& value) {
   TerrainDetection detection;
-  for (const Json& surface : value.at("surfaces"))
+  for (const Json& surface : ListIn(value, "surfaces", kMostSurfaces))
     detection.surfaces.push_back(SurfaceFrom(surface));
   return detection;
 }

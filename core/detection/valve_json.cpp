@@ -3,6 +3,7 @@
 
 #include "core/detection/json_values.h"
 #include "core/detection/object_json.h"
+#include "core/io/json_reader.h"
 
 namespace foresight {
 namespace {
@@ -30,7 +31,7 @@ Json CandidateJson(const ValveCandidate& valve,
 Json EvidenceJson(const ValveEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
-          {"inlier_share", evidence.inlier_share},
+          {"inlier_share", evidence.inlier_ratio},
           {"see_through", evidence.see_through},
           {"blocked_gaps", evidence.blocked_gaps},
           {"rms_m", evidence.rms_m},
@@ -48,15 +49,17 @@ ValveModel::Kind KindFrom(const std::string& name) {
 
 ValveModel ModelFrom(const Json& value) {
   ValveModel model;
-  model.rim_radius_m = value.at("rim_radius_m");
-  model.tube_radius_m = value.at("tube_radius_m");
-  model.spokes = value.at("spokes");
-  model.spoke_radius_m = value.at("spoke_radius_m");
-  model.hub_radius_m = value.at("hub_radius_m");
-  model.dish_m = value.at("dish_m");
+  model.rim_radius_m = SizeIn(value, "rim_radius_m");
+  model.tube_radius_m = SizeIn(value, "tube_radius_m");
+  model.spokes = IntegerIn(value, "spokes", 0, 6);
+  model.spoke_radius_m = SizeIn(value, "spoke_radius_m");
+  model.hub_radius_m = SizeIn(value, "hub_radius_m");
+  model.dish_m = NumberIn(value, "dish_m", -kLargestObject_m, kLargestObject_m);
   // Records older than levers hold wheels.
   model.kind = KindFrom(value.value("kind", ToString(ValveModel::Kind::kWheel)));
-  if (value.contains("lever_length_m")) model.lever_length_m = NumberFrom(value["lever_length_m"]);
+  if (value.contains("lever_length_m")) model.lever_length_m = SizeIn(value, "lever_length_m");
+  if (const Status status = model.Check(); !status)
+    throw std::invalid_argument(status.error().message);
   return model;
 }
 
@@ -69,9 +72,9 @@ ValveCandidate CandidateFrom(const Json& value) {
 
 ValveEvidence EvidenceFrom(const Json& value) {
   ValveEvidence evidence;
-  evidence.rays = value.at("rays");
-  evidence.hits = value.at("hits");
-  evidence.inlier_share = NumberFrom(value.at("inlier_share"));
+  evidence.rays = CountIn(value, "rays");
+  evidence.hits = CountIn(value, "hits");
+  evidence.inlier_ratio = NumberFrom(value.at("inlier_share"));
   evidence.see_through = NumberFrom(value.at("see_through"));
   evidence.blocked_gaps = NumberFrom(value.at("blocked_gaps"));
   evidence.rms_m = NumberFrom(value.at("rms_m"));
@@ -86,10 +89,10 @@ ValveEvidence EvidenceFrom(const Json& value) {
 
 Json ToJson(const ValveDetection& detection,
             const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  Json rivals = Json::array();
-  for (const ValveCandidate& rival : detection.rivals) {
-    rivals.push_back(CandidateJson(rival, robot_from_base));
-    rivals.back()["margin_nats"] = detection.best.log_likelihood - rival.log_likelihood;
+  Json alternatives = Json::array();
+  for (const ValveCandidate& alternative : detection.alternatives) {
+    alternatives.push_back(CandidateJson(alternative, robot_from_base));
+    alternatives.back()["margin_nats"] = detection.best.log_likelihood - alternative.log_likelihood;
   }
   return {{"best", CandidateJson(detection.best, robot_from_base)},
           {"phase_observable", detection.phase_observable},
@@ -98,7 +101,7 @@ Json ToJson(const ValveDetection& detection,
           {"sigma_phase_rad", detection.sigma_phase_rad},
           {"covariance", ToJson(detection.covariance)},
           {"evidence", EvidenceJson(detection.evidence)},
-          {"rivals", rivals}};
+          {"alternatives", alternatives}};
 }
 
 ValveDetection ValveFrom(const Json& value) {
@@ -110,7 +113,8 @@ ValveDetection ValveFrom(const Json& value) {
   detection.sigma_phase_rad = NumberFrom(value.at("sigma_phase_rad"));
   detection.covariance = CovarianceFrom(value);
   detection.evidence = EvidenceFrom(value.at("evidence"));
-  for (const Json& rival : value.at("rivals")) detection.rivals.push_back(CandidateFrom(rival));
+  for (const Json& alternative : AlternativesIn(value))
+    detection.alternatives.push_back(CandidateFrom(alternative));
   return detection;
 }
 

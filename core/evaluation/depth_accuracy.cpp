@@ -42,11 +42,11 @@ Result<DepthAccuracy> ScoreDepth(const DepthImage& depth_m, const MaskImage& mas
   accuracy.scored = static_cast<std::int64_t>(errors_mm.size());
   accuracy.a80_mm = Percentile(errors_mm, 80.0);
   accuracy.a95_mm = Percentile(errors_mm, 95.0);
-  const auto share = [](std::int64_t part, std::int64_t whole) {
+  const auto fraction = [](std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
-  accuracy.coverage = share(accuracy.scored, with_truth);
-  accuracy.unscored_kept = share(invented, without_truth);
+  accuracy.coverage = fraction(accuracy.scored, with_truth);
+  accuracy.unscored_kept = fraction(invented, without_truth);
   return accuracy;
 }
 

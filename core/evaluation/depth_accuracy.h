@@ -13,8 +13,8 @@ namespace foresight {
 struct DepthAccuracy {
   double a80_mm = 0.0;  ///< NaN when no pixel is scored
   double a95_mm = 0.0;
-  double coverage = 0.0;       ///< kept share of the pixels with a truth
-  double unscored_kept = 0.0;  ///< kept share of the pixels without one: invented depth
+  double coverage = 0.0;       ///< kept fraction of the pixels with a truth
+  double unscored_kept = 0.0;  ///< kept fraction of the pixels without one: invented depth
   std::int64_t scored = 0;     ///< pixels the percentiles are of
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/evaluation/drill_look_alikes.h"
+#include "core/evaluation/drill_distractors.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/scene_objects.h"
 #include "core/simulation/shapes.h"
@@ -22,8 +22,8 @@ constexpr double kFocusHeight_m = 0.12;  // the middle of a drill over its table
 constexpr double kFocusForward_m = 0.025;
 constexpr double kFocusRadius_m = 0.17;
 
-bool Chance(Random& random, double share) {
-  return random.Uniform() < share;
+bool Chance(Random& random, double fraction) {
+  return random.Uniform() < fraction;
 }
 
 Material RandomMaterial(Random& random) {
@@ -242,8 +242,8 @@ FitTrialScene RandomDrillScene(std::uint64_t seed) {
   trial.positive = !Chance(random, 1.0 / 6.0);
   const bool half = !trial.positive && Chance(random, 0.15);
   const bool far = trial.positive && Chance(random, 0.2);
-  const auto all = DrillLookAlikes();
-  const DrillLookAlike thing =
+  const auto all = DrillDistractors();
+  const DrillDistractor thing =
       all[static_cast<std::size_t>(random.Index(static_cast<int>(all.size())))];
   const bool drill = trial.positive || half;
   const Place place = RandomPlace(far, random);
@@ -251,8 +251,8 @@ FitTrialScene RandomDrillScene(std::uint64_t seed) {
   scene->lights.push_back({{0.3, random.Uniform(-1.5, 1.5), 2.6}, random.Uniform(0.8, 1.4)});
   AddRoom(place, random, *scene);
 
-  const bool edge = !drill && thing == DrillLookAlike::kTableEdge;
-  const bool bare = !drill && thing == DrillLookAlike::kWall;
+  const bool edge = !drill && thing == DrillDistractor::kTableEdge;
+  const bool bare = !drill && thing == DrillDistractor::kWall;
   const double front_m = edge ? random.Uniform(-0.05, 0.05) : random.Uniform(0.10, 0.30);
   const double depth_m = front_m + random.Uniform(0.35, 0.7);
   if (!bare) AddTable(place, front_m, depth_m, random, *scene);
@@ -266,7 +266,7 @@ FitTrialScene RandomDrillScene(std::uint64_t seed) {
   if (drill)
     pose = AddRandomDrill(place, shape.shape, random, *scene);
   else
-    AddDrillLookAlike(thing, pose, RandomMaterial(random), random, *scene);
+    AddDrillDistractor(thing, pose, RandomMaterial(random), random, *scene);
   const double forward =
       drill && shape.shape.kind != DrillShape::Kind::kCutOut ? kFocusForward_m : 0.0;
   trial.what = drill ? shape.name + (far ? ", beyond 2 m" : "") : NameOf(thing);

@@ -16,7 +16,7 @@ struct StereoEvaluationOptions {
 /// uses where the method has one, and the testbed's own sampling steps.
 DepthOptions TestbedOptionsOf(DepthMethod method);
 
-/// A scored depth map with what it was computed from: for pictures.
+/// A scored depth map with what it was computed from: for images.
 struct StereoRun {
   StereoScene scene;  ///< enlarged where that was asked for
   DepthImage truth_m;

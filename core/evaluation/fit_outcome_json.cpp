@@ -27,6 +27,7 @@ VerdictLevel LevelFrom(const std::string& name) {
 
 FitOutcome OutcomeFrom(const ordered_json& value) {
   FitOutcome outcome;
+  if (!value.at("seed").is_number_unsigned()) throw std::invalid_argument("'seed' is no seed");
   outcome.seed = value.at("seed");
   outcome.what = value.at("what");
   outcome.source = value.at("source");
@@ -65,7 +66,7 @@ std::string FitOutcomeToJson(const FitOutcome& outcome) {
                              {"errors", errors},
                              {"seconds", Number(outcome.seconds)},
                              {"reason", outcome.reason}};
-  return json.dump();
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 Result<FitOutcome> FitOutcomeFromJson(std::string_view line) {

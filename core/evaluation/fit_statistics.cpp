@@ -10,10 +10,10 @@
 namespace foresight {
 namespace {
 
-double Quantile(std::vector<double> values, double share) {
+double Quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
-  const double at = share * static_cast<double>(values.size() - 1);
+  const double at = fraction * static_cast<double>(values.size() - 1);
   const auto low = static_cast<std::size_t>(at);
   const std::size_t high = std::min(low + 1, values.size() - 1);
   return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);

@@ -22,7 +22,7 @@ struct FitStatistics {
   int found = 0;  ///< answers to positives
   int pose_ok = 0;
   int all_ok = 0;
-  /// Of what was there to be found, the share found: of the positives or, where outcomes say
+  /// Of what was there to be found, the fraction found: of the positives or, where outcomes say
   /// "in_view", of what was in view. NaN without any.
   double recall = 0.0;
   /// Mean "false_area" of the answers that are LIKELY or CONFIRMED; NaN where there is none.

@@ -47,9 +47,9 @@ Result<ImageRoi> DrawnRegion(const FitTrialScene& scene, const World& world, dou
   return roi;
 }
 
-Result<Scan> Simulated(const World& world, const ScanPlan& plan, bool with_picture,
+Result<Scan> Simulated(const World& world, const ScanPlan& plan, bool with_image,
                        const RunContext& context) {
-  if (with_picture) return SimulateScan(world, plan, context);
+  if (with_image) return SimulateScan(world, plan, context);
   FORESIGHT_TRY(Scan scan, SimulateSweep(world, plan, context));
   CameraFrame frame;
   frame.motor_angle_rad = frame.target_angle_rad = plan.image_angles_rad.front();
@@ -72,7 +72,7 @@ void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const s
 
 }  // namespace
 
-bool FitTrialOptions::NeedsPicture() const {
+bool FitTrialOptions::NeedsImage() const {
   return std::any_of(sources.begin(), sources.end(),
                      [](const NamedSource& source) { return source.source != FitSource::kRaw; });
 }
@@ -91,7 +91,7 @@ Result<FitTrial> MakeFitTrial(const FitPopulation& population, std::uint64_t see
   scene.world.camera.samples_side = 1;
   FORESIGHT_CHECK(scene.world.Check());
   const World world(scene.scene, DefaultSensorRig(), scene.world);
-  FORESIGHT_TRY(Scan scan, Simulated(world, scene.plan, options.NeedsPicture(), context));
+  FORESIGHT_TRY(Scan scan, Simulated(world, scene.plan, options.NeedsImage(), context));
   if (options.rig_error) scan.rig = MiscalibratedRig(scan.rig, *options.rig_error, seed);
   FORESIGHT_TRY(RegisteredScan cloud, RegisterScan(scan, context));
   const double motor_rad = scan.frames.front().motor_angle_rad;

@@ -17,7 +17,7 @@ namespace foresight {
 /// A scene that a fit is tried on, drawn at random by a seed, and how it is looked at.
 struct FitTrialScene {
   std::shared_ptr<const Scene> scene;
-  ScanPlan plan;       ///< upwards, with one picture
+  ScanPlan plan;       ///< upwards, with one image
   WorldOptions world;  ///< with a noise of its own
   std::string what;    ///< "wheel of 4 spokes", "half a wheel"
   bool positive = true;
@@ -61,7 +61,7 @@ class FitPopulation {
   virtual ~FitPopulation() = default;
   virtual ObjectKind Kind() const = 0;
   /// About one in six is a negative: other things, an empty region, a wall, half an object, a
-  /// table's edge, look-alikes.
+  /// table's edge, distractors.
   virtual FitTrialScene MakeScene(std::uint64_t seed) const = 0;
   /// What the fit is asked for; the programs' defaults.
   virtual FitOptions Options(const SensorRig& rig) const {
@@ -80,7 +80,7 @@ struct FitTrialOptions {
   std::vector<NamedSource> sources = {{}};    ///< what is fitted to; the lidar's returns
   std::optional<CalibrationError> rig_error;  ///< of the believed rig; none = perfect
 
-  bool NeedsPicture() const;
+  bool NeedsImage() const;
   Status Check() const;
 };
 

@@ -10,7 +10,7 @@ namespace foresight {
 namespace {
 
 constexpr float kOutlier_m = 0.050f;
-constexpr float kOutlierShare = 0.01f;
+constexpr float kOutlierFraction = 0.01f;
 
 /// Precision and recall of the rejection over the samples whose pixel has a truth.
 void ScoreRejection(const AlignedSamples& samples, const DepthImage& truth_m, MethodScore& score) {
@@ -22,7 +22,7 @@ void ScoreRejection(const AlignedSamples& samples, const DepthImage& truth_m, Me
     const float truth = truth_m(x, y);
     if (std::isnan(truth)) continue;
     const float error = std::abs(s.depth_m - truth);
-    const bool outlier = error > kOutlier_m && error > kOutlierShare * truth;
+    const bool outlier = error > kOutlier_m && error > kOutlierFraction * truth;
     const bool was_rejected = samples.reasons[i] != RejectReason::kKept;
     outliers += outlier ? 1.0 : 0.0;
     rejected += was_rejected ? 1.0 : 0.0;

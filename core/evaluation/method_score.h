@@ -21,7 +21,7 @@ struct MethodScore {
   double seconds = 0.0;           ///< of the depth pipeline, without loading and scoring
 };
 
-/// A score with the result that it is of: for pictures.
+/// A score with the result that it is of: for images.
 struct ScoredDepth {
   MethodScore score;
   DepthResult result;

@@ -21,11 +21,10 @@ Eigen::Vector3d RandomDirection(Random& random) {
 /// The true depth at the pixels that the lidar could see, NaN at the others.
 Result<DepthImage> TruthSeenByLidar(const World& world, const ScanPlan& plan,
                                     const RunContext& context) {
-  const double picture_rad = plan.image_angles_rad.front();
-  DepthImage truth_m = world.TrueDepth(picture_rad, context);
+  const double image_rad = plan.image_angles_rad.front();
+  DepthImage truth_m = world.TrueDepth(image_rad, context);
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the true depth was cancelled");
-  const MaskImage seen =
-      world.SeenByLidar(truth_m, picture_rad, plan.from_rad, plan.to_rad, context);
+  const MaskImage seen = world.SeenByLidar(truth_m, image_rad, plan.from_rad, plan.to_rad, context);
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the true depth was cancelled");
   for (std::size_t i = 0; i < truth_m.size(); ++i)
     if (seen.values()[i] == 0) truth_m.values()[i] = std::numeric_limits<float>::quiet_NaN();

@@ -23,12 +23,12 @@ struct CalibrationError {
 SensorRig MiscalibratedRig(const SensorRig& true_rig, const CalibrationError& error,
                            std::uint64_t seed);
 
-/// -40 to 20 deg at 10 deg/s, one picture at -10 deg: the objects of the shipped scenes are in
+/// -40 to 20 deg at 10 deg/s, one image at -10 deg: the objects of the shipped scenes are in
 /// view.
 ScanPlan SimulatedTrialPlan();
 
 struct SimulatedTrialOptions {
-  ScanPlan plan = SimulatedTrialPlan();  ///< upwards; only its first picture is used
+  ScanPlan plan = SimulatedTrialPlan();  ///< upwards; only its first image is used
   WorldOptions world;                    ///< its seed draws the calibration's error too
   SensorRig true_rig = DefaultSensorRig();
   CalibrationError calibration_error;
@@ -42,7 +42,7 @@ struct SimulatedTrial {
   SensorRig rig;  ///< the believed one
   RegisteredScan cloud;
   CameraFrame frame;
-  /// z in the true camera, at its true place when the picture was taken. NaN where the lidar could
+  /// z in the true camera, at its true place when the image was taken. NaN where the lidar could
   /// not see the surface during the sweep, or where there is none.
   DepthImage truth_m;
 };

@@ -10,6 +10,13 @@
 namespace foresight {
 namespace {
 
+/// Also where it cannot be looked at, as a circle of links: whoever reads it says so then.
+bool IsThere(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::symlink_status(path, error).type() !=
+         std::filesystem::file_type::not_found;
+}
+
 /// A view's disparity in the reduced sets of the third evaluation, and in the full-size folders.
 struct DisparityNames {
   const char* reduced;
@@ -22,7 +29,7 @@ constexpr DisparityNames kRightNames = {"disp1GT.pfm", "disp1.pfm"};
 std::filesystem::path FindDisparity(const std::filesystem::path& folder,
                                     const DisparityNames& names) {
   for (const char* name : {names.reduced, names.full_size})
-    if (std::filesystem::exists(folder / name)) return folder / name;
+    if (IsThere(folder / name)) return folder / name;
   return {};
 }
 
@@ -91,7 +98,7 @@ Result<StereoScene> LoadStereoScene(const std::filesystem::path& folder) {
 
   scene.left_in_both = MaskImage(scene.right.width(), scene.right.height(), 255);
   const std::filesystem::path mask = folder / "mask0nocc.png";
-  if (std::filesystem::exists(mask)) {
+  if (IsThere(mask)) {
     FORESIGHT_TRY(scene.left_in_both, ReadPngGray(mask));
     FORESIGHT_CHECK(CheckSize(scene.left_in_both, mask, scene));
   }

@@ -17,8 +17,8 @@ namespace foresight {
 /// and its normal within 5 deg, and is right in every respect within 25 mm and 2.5 deg. One outcome
 /// a surface offered, one a block in view that is missed, at least one a scene. Errors:
 /// "center_mm", "tilt_deg", "yaw_deg" (up to quarter turns), "height_mm" (along the normal),
-/// "toehold_iou", "false_area" (share of the toehold with no block under it), "in_view" (1 = found
-/// a block that is in view).
+/// "toehold_iou", "false_area" (fraction of the toehold with no block under it), "in_view" (1 =
+/// found a block that is in view).
 class TerrainPopulation : public FitPopulation {
  public:
   /// `graph_cut`: false to measure what it is worth.

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/evaluation/terrain_look_alikes.h"
-#include "core/evaluation/terrain_stage.h"
+#include "core/evaluation/terrain_distractors.h"
+#include "core/evaluation/terrain_layout.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/scene_objects.h"
 
@@ -19,7 +19,7 @@ constexpr int kColumns = 3;
 constexpr double kLayer_m = 0.19;
 constexpr int kLayers = 3;
 constexpr double kTilt_rad = RadiansFromDegrees(15.0);
-constexpr double kFlatShare = 0.15;
+constexpr double kFlatFraction = 0.15;
 constexpr double kJitter_m = 0.008;
 constexpr int kNegativeEvery = 6;
 constexpr std::uint64_t kScatterStream = 4344;
@@ -28,19 +28,19 @@ constexpr double kApart_m = 0.60;   // between the middles of scattered blocks
 
 /// Stands on its lowest edge: tilted about x (towards y or away) or y, or flat.
 Eigen::Quaterniond BlockTilt(int row, int column, Random& random) {
-  if (random.Uniform() < kFlatShare) return Eigen::Quaterniond::Identity();
+  if (random.Uniform() < kFlatFraction) return Eigen::Quaterniond::Identity();
   const double tilt = kTilt_rad * random.Uniform(0.9, 1.1);
   const int way = (2 * row + column + (row % 2)) % 4;
   const Eigen::Vector3d axis = way % 2 == 0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   return Eigen::Quaterniond(Eigen::AngleAxisd(way < 2 ? tilt : -tilt, axis));
 }
 
-void AddCell(const TerrainStage& stage, const Eigen::Vector2d& at, double yaw_rad, int layer,
+void AddCell(const TerrainLayout& layout, const Eigen::Vector2d& at, double yaw_rad, int layer,
              const Eigen::Quaterniond& tilt, const Material& material, Random& random,
              Scene& scene) {
   const double base_m = layer * kLayer_m;
   if (layer > 0)
-    AddBox("base", {0.38, 0.38, base_m}, stage.At({at.x(), at.y(), 0.5 * base_m}, yaw_rad),
+    AddBox("base", {0.38, 0.38, base_m}, layout.At({at.x(), at.y(), 0.5 * base_m}, yaw_rad),
            material, scene);
   BlockObject block;
   block.name = "block";
@@ -55,14 +55,14 @@ void AddCell(const TerrainStage& stage, const Eigen::Vector2d& at, double yaw_ra
                .z());
   const Eigen::Vector3d shift(random.Uniform(-kJitter_m, kJitter_m),
                               random.Uniform(-kJitter_m, kJitter_m), 0.0);
-  const auto cell = stage.At(Eigen::Vector3d(at.x(), at.y(), base_m + height_m) + shift,
-                             yaw_rad + RadiansFromDegrees(random.Uniform(-1.5, 1.5)));
+  const auto cell = layout.At(Eigen::Vector3d(at.x(), at.y(), base_m + height_m) + shift,
+                              yaw_rad + RadiansFromDegrees(random.Uniform(-1.5, 1.5)));
   block.robot_from_object = {cell.rotation() * tilt, cell.translation()};
   AddBlock(block, scene);
 }
 
 /// A field of blocks that rises away from the robot.
-void AddField(const TerrainStage& stage, int rows, Random& random, Scene& scene) {
+void AddField(const TerrainLayout& layout, int rows, Random& random, Scene& scene) {
   const double pitch_m = random.Uniform(0.405, 0.440);
   const Material one = RandomConcrete(random), other = RandomConcrete(random);
   for (int row = 0; row < rows; ++row)
@@ -72,12 +72,12 @@ void AddField(const TerrainStage& stage, int rows, Random& random, Scene& scene)
       const Eigen::Vector2d at((row - 0.5 * (rows - 1)) * pitch_m,
                                (column - 0.5 * (kColumns - 1)) * pitch_m);
       const Eigen::Quaterniond tilt = BlockTilt(row, column, random);
-      AddCell(stage, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random, scene);
+      AddCell(layout, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random, scene);
     }
 }
 
 /// A few blocks that stand as they fell, in no rows.
-void AddScatteredBlocks(const TerrainStage& stage, int rows, Random& random, Scene& scene) {
+void AddScatteredBlocks(const TerrainLayout& layout, int rows, Random& random, Scene& scene) {
   const Material material = RandomConcrete(random);
   const int count = 2 + random.Index(5);
   std::vector<Eigen::Vector2d> places;
@@ -88,7 +88,7 @@ void AddScatteredBlocks(const TerrainStage& stage, int rows, Random& random, Sce
       continue;
     places.push_back(at);
     const Eigen::Quaterniond tilt = BlockTilt(random.Index(4), random.Index(4), random);
-    AddCell(stage, at, random.Uniform(-std::numbers::pi, std::numbers::pi), random.Index(2), tilt,
+    AddCell(layout, at, random.Uniform(-std::numbers::pi, std::numbers::pi), random.Index(2), tilt,
             material, random, scene);
   }
 }
@@ -108,31 +108,31 @@ ScanPlan RandomPlan(Random& random) {
 FitTrialScene RandomTerrainScene(std::uint64_t seed) {
   Random random(seed, kSceneStream);
   const int rows = 3 + random.Index(3);
-  TerrainStage stage;
-  stage.ground_m = random.Uniform(-0.20, 0.30);  // 1.6 to 1.1 m below the head
-  stage.yaw_rad = RadiansFromDegrees(random.Uniform(-20.0, 20.0));
+  TerrainLayout layout;
+  layout.ground_m = random.Uniform(-0.20, 0.30);  // 1.6 to 1.1 m below the head
+  layout.yaw_rad = RadiansFromDegrees(random.Uniform(-20.0, 20.0));
   const double near_m = random.Uniform(0.75, 1.05);
-  stage.middle_m = {near_m + 0.21 * rows, random.Uniform(-0.15, 0.15)};
+  layout.middle_m = {near_m + 0.21 * rows, random.Uniform(-0.15, 0.15)};
 
   auto scene = std::make_shared<Scene>();
   FitTrialScene trial;
-  AddHall(stage, random, *scene);
+  AddHall(layout, random, *scene);
   trial.positive = random.Index(kNegativeEvery) != 0;
   Random scatter(seed, kScatterStream);
   if (trial.positive && scatter.Index(kScatteredEvery) == 0) {
-    AddScatteredBlocks(stage, rows, scatter, *scene);
+    AddScatteredBlocks(layout, rows, scatter, *scene);
     trial.what = "scattered blocks";
   } else if (trial.positive) {
-    AddField(stage, rows, random, *scene);
+    AddField(layout, rows, random, *scene);
     trial.what = fmt::format("field of {} x {} blocks", rows, kColumns);
   } else {
-    trial.what = AddTerrainLookAlike(stage, random, *scene);
+    trial.what = AddTerrainDistractor(layout, random, *scene);
   }
   scene->name = trial.what;
   trial.scene = scene;
   trial.plan = RandomPlan(random);
   trial.world.lidar.sigma_base_m = random.Uniform(0.004, 0.020);
-  trial.focus_m = {stage.middle_m.x(), stage.middle_m.y(), stage.ground_m + 0.2};
+  trial.focus_m = {layout.middle_m.x(), layout.middle_m.y(), layout.ground_m + 0.2};
   trial.focus_radius_m = 0.5 * std::hypot(0.42 * rows, 0.42 * kColumns);
   return trial;
 }

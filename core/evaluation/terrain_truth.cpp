@@ -90,7 +90,7 @@ bool Holds(const TrueBlock& block, const Eigen::Vector3d& in_base, double margin
          std::abs(at.y()) < 0.5 * block.size_m.y() - margin_m;
 }
 
-/// Overlap of the claimed foothold with the true one, as a share of both together.
+/// Overlap of the claimed foothold with the true one, as a fraction of both together.
 double ToeholdOverlap(const TerrainSurface& found, const TrueBlock& truth) {
   const double margin_m = 0.25 * (found.size_m - found.toehold.size_m).sum();
   const double claimed = found.toehold.size_m.prod();
@@ -103,7 +103,7 @@ double ToeholdOverlap(const TerrainSurface& found, const TrueBlock& truth) {
   return both / (claimed + right - both);
 }
 
-/// Share of the claimed foothold that no block's top is under.
+/// Fraction of the claimed foothold that no block's top is under.
 double FalseArea(const TerrainSurface& found, std::span<const TrueBlock> blocks) {
   int off = 0;
   const auto points = Spread(found.toehold.size_m, 40);

@@ -11,7 +11,7 @@ namespace foresight {
 struct TrueBlock {
   Rigid<frame::Base, frame::Object> base_from_object;
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
-  /// Share of its top that lidar and camera see, inside the region.
+  /// Fraction of its top that lidar and camera see, inside the region.
   double seen = 0.0;
 
   bool Visible() const { return seen > 0.6; }

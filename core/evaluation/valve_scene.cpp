@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/evaluation/valve_look_alikes.h"
+#include "core/evaluation/valve_distractors.h"
 #include "core/geometry/angles.h"
+#include "core/geometry/rotation_between.h"
 #include "core/simulation/scene_objects.h"
 #include "core/simulation/shapes.h"
 
@@ -17,8 +18,8 @@ constexpr double kHeadHeight_m = 1.4;  // of DefaultSensorRig, and 0.1 m in fron
 constexpr double kHeadForward_m = 0.1;
 constexpr double kFarRoom_m = 4.0;
 
-bool Chance(Random& random, double share) {
-  return random.Uniform() < share;
+bool Chance(Random& random, double fraction) {
+  return random.Uniform() < fraction;
 }
 
 Material RandomMaterial(Random& random) {
@@ -97,8 +98,7 @@ void AddRectangle(const char* name, const Eigen::Vector3d& center, const Eigen::
   SceneMesh mesh;
   mesh.name = name;
   mesh.material = material;
-  mesh.robot_from_object = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal),
-                            center};
+  mesh.robot_from_object = {RotationBetween(Eigen::Vector3d::UnitZ(), normal), center};
   AppendShape(RectangleShape(size_m, size_m), mesh.robot_from_object, mesh);
   scene.meshes.push_back(std::move(mesh));
 }
@@ -196,9 +196,9 @@ FitTrialScene RandomValveScene(std::uint64_t seed) {
   Place place = RandomPlace(distance_m, random);
   auto scene = std::make_shared<Scene>();
   scene->lights.push_back({{0.3, random.Uniform(-1.5, 1.5), 2.6}, random.Uniform(0.8, 1.4)});
-  const LookAlike thing =
-      LookAlikes()[static_cast<std::size_t>(random.Index(static_cast<int>(LookAlikes().size())))];
-  const bool empty = !trial.positive && thing == LookAlike::kEmptyRegion;
+  const Distractor thing =
+      Distractors()[static_cast<std::size_t>(random.Index(static_cast<int>(Distractors().size())))];
+  const bool empty = !trial.positive && thing == Distractor::kEmptyRegion;
   // A tenth hang free, the room's far wall behind them.
   AddRoom(place, !empty && !Chance(random, 0.1), random, *scene);
   if (trial.positive) {
@@ -210,10 +210,10 @@ FitTrialScene RandomValveScene(std::uint64_t seed) {
                       Eigen::Vector3d(0.5 * model.lever_length_m, 0.0, 0.0);
   } else {
     trial.what = foresight::NameOf(thing);
-    const LookAlikePlace at{
+    const DistractorPlace at{
         ValvePose(place.center, place.axis, random.Uniform(0.0, 2.0 * std::numbers::pi)),
         std::clamp(model.rim_radius_m, 0.1, 0.24), place.wall_m};
-    AddLookAlike(thing, at, RandomMaterial(random), random, *scene);
+    AddDistractor(thing, at, RandomMaterial(random), random, *scene);
     trial.focus_m = place.center;
     trial.focus_radius_m = at.radius_m;
   }

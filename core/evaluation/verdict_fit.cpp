@@ -22,18 +22,18 @@ struct Example {
 };
 
 /// Of the answers in scenes without the object.
-double WeightOfNegatives(std::span<const FitOutcome> outcomes, double share) {
+double WeightOfNegatives(std::span<const FitOutcome> outcomes, double fraction) {
   std::set<std::uint64_t> positives, negatives;
   for (const FitOutcome& outcome : outcomes)
     (outcome.positive ? positives : negatives).insert(outcome.seed);
   if (negatives.empty()) return 1.0;
-  return std::min(1.0, share / (1.0 - share) * static_cast<double>(positives.size()) /
+  return std::min(1.0, fraction / (1.0 - fraction) * static_cast<double>(positives.size()) /
                            static_cast<double>(negatives.size()));
 }
 
 std::vector<Example> ExamplesFrom(std::span<const FitOutcome> outcomes,
                                   const VerdictFitOptions& options) {
-  const double of_negatives = WeightOfNegatives(outcomes, options.negative_share);
+  const double of_negatives = WeightOfNegatives(outcomes, options.negative_fraction);
   std::vector<Example> examples;
   for (const FitOutcome& outcome : outcomes) {
     const std::vector<double>& values = outcome.verdict.features;
@@ -127,9 +127,9 @@ std::vector<double> CrossValidated(const std::vector<Example>& examples,
 Status VerdictFitOptions::Check() const {
   if (features.empty())
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: there are no features", object);
-  if (!(negative_share > 0.0 && negative_share < 1.0))
+  if (!(negative_fraction > 0.0 && negative_fraction < 1.0))
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: negative_share {} is not in (0, 1)",
-                object, negative_share);
+                object, negative_fraction);
   if (!(ridge >= 0.0) || folds < 2)
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: ridge {} or folds {} is not usable",
                 object, ridge, folds);

@@ -16,7 +16,7 @@ struct VerdictFitOptions {
   std::vector<std::string> features;  ///< names, as Verdict::features holds them
   /// Of the scenes. Where more hold something else they count for less, as if these were as many:
   /// extra negatives teach what must not be confirmed, not that drills are rare.
-  double negative_share = 1.0 / 6.0;
+  double negative_fraction = 1.0 / 6.0;
   double ridge = 1.0;  ///< pull of each weight towards 0, in fits' worth
   int folds = 5;
 

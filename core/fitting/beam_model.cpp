@@ -9,8 +9,8 @@ double BackgroundDensity(const RangeRay& ray, std::span<const Plane> planes, dou
   double density = 0.0;
   for (const Plane& plane : planes)
     density += NormalDensity(ray.range_m - RangeToPlane(ray, plane), sigma_m);
-  return BeamModel::kPlaneShare / static_cast<double>(planes.size()) * density +
-         (1.0 - BeamModel::kPlaneShare) * BeamModel::kUniform;
+  return BeamModel::kPlaneFraction / static_cast<double>(planes.size()) * density +
+         (1.0 - BeamModel::kPlaneFraction) * BeamModel::kUniform;
 }
 
 }  // namespace foresight

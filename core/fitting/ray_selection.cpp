@@ -15,9 +15,9 @@ bool Usable(const RangeRay& ray) {
 RaySet Thinned(const RaySet& rays, int count, Random& random) {
   RaySet thinned = rays;
   thinned.rays = RandomSubset(rays.rays, count, random);
-  const double share = static_cast<double>(thinned.rays.size()) /
-                       static_cast<double>(std::max<std::size_t>(1, rays.rays.size()));
-  thinned.samples_per_ray = std::min(1.0, rays.samples_per_ray / share);
+  const double fraction = static_cast<double>(thinned.rays.size()) /
+                          static_cast<double>(std::max<std::size_t>(1, rays.rays.size()));
+  thinned.samples_per_ray = std::min(1.0, rays.samples_per_ray / fraction);
   return thinned;
 }
 

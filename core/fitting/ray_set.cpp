@@ -13,7 +13,7 @@ namespace {
 // map is known no better than this.
 constexpr double kDenseEdgeBlur_px = 4.0;
 // Of a UTM-30LX; docs/simulation.md has the source.
-constexpr double kSpotHeight_rad = 0.012;
+constexpr double kFootprintHeight_rad = 0.012;
 
 bool InBox(const PixelBox& box, const Eigen::Vector2d& pixel) {
   return (pixel.array() >= box.low.array()).all() && (pixel.array() <= box.high.array()).all();
@@ -35,7 +35,7 @@ bool InBoxOrThrough(const BoxRoi& box, BoxRays box_rays, const Eigen::Vector3d& 
   return box_rays == BoxRays::kEndInside ? box.Contains(point) : box.Crosses(origin, point);
 }
 
-/// A region made ready for many points: an ImageRoi asks where a point appears in its picture.
+/// A region made ready for many points: an ImageRoi asks where a point appears in its image.
 class RegionTest {
  public:
   /// @param rig may be null for a BoxRoi.
@@ -76,12 +76,12 @@ PixelBox PixelsToLookAt(const Roi& roi, int width, int height) {
   return {clamped(box.low.array().ceil()), clamped(box.high.array().floor())};
 }
 
-Status CheckPicture(const Roi& roi, double motor_rad) {
-  constexpr double kSamePicture_rad = 1e-6;
+Status CheckImage(const Roi& roi, double motor_rad) {
+  constexpr double kSameImage_rad = 1e-6;
   const auto* image = std::get_if<ImageRoi>(&roi);
-  if (image == nullptr || std::abs(image->motor_rad - motor_rad) <= kSamePicture_rad) return {};
+  if (image == nullptr || std::abs(image->motor_rad - motor_rad) <= kSameImage_rad) return {};
   return Fail(ErrorCode::kInvalidInput,
-              "the region was drawn on the picture at {:.2f} deg, the depth map belongs to the one "
+              "the region was drawn on the image at {:.2f} deg, the depth map belongs to the one "
               "at {:.2f} deg",
               DegreesFromRadians(image->motor_rad), DegreesFromRadians(motor_rad));
 }
@@ -116,7 +116,7 @@ Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, co
   RaySet set;
   set.sigma_m = sigma_m;
   set.footprint_rad = rig.lidar.angle_step_rad;
-  set.spot_height_rad = kSpotHeight_rad;
+  set.footprint_height_rad = kFootprintHeight_rad;
   const RegionTest region(&rig, roi, box_rays);
   for (int line = 0; line < scan.lines; ++line) {
     const Eigen::Vector3d origin = scan.origins[static_cast<std::size_t>(line)].cast<double>();
@@ -140,7 +140,7 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
                              double motor_rad, const Roi& roi, int stride, double sigma_m,
                              double density, BoxRays box_rays) {
   FORESIGHT_CHECK(CheckRoi(roi));
-  FORESIGHT_CHECK(CheckPicture(roi, motor_rad));
+  FORESIGHT_CHECK(CheckImage(roi, motor_rad));
   FORESIGHT_CHECK(CheckSigma(sigma_m));
   if (stride < 1)
     return Fail(ErrorCode::kInvalidOptions, "rays of a region: stride {} is below 1", stride);
@@ -191,7 +191,7 @@ Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
                 viewpoint.x(), viewpoint.y(), viewpoint.z());
   if (rig == nullptr && std::holds_alternative<ImageRoi>(roi))
     return Fail(ErrorCode::kInvalidInput,
-                "a region in a picture of a cloud needs the calibration of the head");
+                "a region in an image of a cloud needs the calibration of the head");
   RaySet set;
   set.sigma_m = sigma_m;
   set.viewpoint = viewpoint;

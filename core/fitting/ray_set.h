@@ -32,9 +32,9 @@ struct RaySet {
   double footprint_rad = 0.004;                         ///< full angle between neighbouring rays
   bool dense = false;            ///< from an upsampled map: neighbouring rays are not independent
   double samples_per_ray = 1.0;  ///< independent measurements behind a ray; < 1 for a dense map
-  /// Full angle of a beam's spot across its scan line; 0 = round, footprint_rad wide. Where a spot
-  /// lies on two surfaces the range is one in between.
-  double spot_height_rad = 0.0;
+  /// Full angle of a beam's footprint across its scan line; 0 = round, footprint_rad wide. Where a
+  /// footprint lies on two surfaces the range is one in between.
+  double footprint_height_rad = 0.0;
   /// The lidar's own returns in the region, behind a dense map; null where they are not known. A
   /// map guesses between them, so they have a say in which of several answers is right and where it
   /// is.
@@ -49,15 +49,15 @@ enum class BoxRays {
 
 /// The raw lidar returns inside the region, also those that the depth filters would reject: a fit
 /// has its own model of bad returns. Origins are the lidar's on each line. An ImageRoi holds what
-/// appears inside its polygon in its picture. Fails with kInvalidInput (the region) and
+/// appears inside its polygon in its image. Fails with kInvalidInput (the region) and
 /// kTooFewPoints (nothing inside it). O(points).
 Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const Roi& roi,
                             double sigma_m, BoxRays box_rays = BoxRays::kEndInside);
 
-/// The masked dense depth of the picture taken at `motor_rad` inside the region; every `stride`-th
-/// pixel in both directions, seen from the camera's centre. `density` is the share of pixels with a
-/// lidar measurement of their own: an upsampled map holds no more independent measurements than
-/// went into it. Fails with kInvalidInput (the region, also one drawn on another picture; the
+/// The masked dense depth of the image taken at `motor_rad` inside the region; every `stride`-th
+/// pixel in both directions, seen from the camera's centre. `density` is the fraction of pixels
+/// with a lidar measurement of their own: an upsampled map holds no more independent measurements
+/// than went into it. Fails with kInvalidInput (the region, also one drawn on another image; the
 /// stride; the map's size) and kTooFewPoints. O(pixels of the region).
 Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
                              double motor_rad, const Roi& roi, int stride, double sigma_m,

@@ -22,7 +22,7 @@ struct Verdict {
   std::vector<double> features;
   /// The hard gates that keep it from being CONFIRMED, whatever its probability, a sentence each,
   /// the weightiest first; empty when none does.
-  std::vector<std::string> objections = {};
+  std::vector<std::string> failed_gates = {};
 
   static constexpr double kLikely = 0.70;     ///< least probability of LIKELY
   static constexpr double kConfirmed = 0.95;  ///< ... and of CONFIRMED

@@ -105,9 +105,9 @@ std::string VerdictModel::Reservation() const {
                      fits);
 }
 
-void VerdictModel::AddReservation(std::vector<std::string>& objections) const {
+void VerdictModel::AddReservation(std::vector<std::string>& failed_gates) const {
   if (std::string reservation = Reservation(); !reservation.empty())
-    objections.push_back(std::move(reservation));
+    failed_gates.push_back(std::move(reservation));
 }
 
 std::string VerdictModel::ToYaml() const {

@@ -54,7 +54,7 @@ struct VerdictModel {
   /// Empty when it is large enough.
   std::string Reservation() const;
   /// Adds that to what objects already.
-  void AddReservation(std::vector<std::string>& objections) const;
+  void AddReservation(std::vector<std::string>& failed_gates) const;
   static constexpr int kLeastFits = 150;
 
   std::string ToYaml() const;

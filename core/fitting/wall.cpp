@@ -5,8 +5,8 @@
 namespace foresight {
 namespace {
 
-constexpr double kMinWallShare = 0.15;    // of the points that are looked at
-constexpr double kMaxBehindShare = 0.20;  // more behind a plane than this: it is no background
+constexpr double kMinWallFraction = 0.15;    // of the points that are looked at
+constexpr double kMaxBehindFraction = 0.20;  // more behind a plane than this: it is no background
 constexpr int kMaxPlanes = 3;
 
 Plane Facing(Plane plane, const Eigen::Vector3d& viewpoint) {
@@ -32,7 +32,7 @@ WallSplit SplitWall(const RaySet& rays, Random& random) {
     PlaneSearchOptions options;
     options.inlier_distance_m = 2.0 * rays.sigma_m;
     options.min_inliers =
-        std::max(20, static_cast<int>(kMinWallShare * static_cast<double>(candidates.size())));
+        std::max(20, static_cast<int>(kMinWallFraction * static_cast<double>(candidates.size())));
     const auto plane = FindDominantPlane(candidates, options, random);
     if (!plane) break;
     const Plane facing = Facing(*plane, rays.viewpoint);
@@ -40,7 +40,7 @@ WallSplit SplitWall(const RaySet& rays, Random& random) {
     for (const Eigen::Vector3d& point : candidates)
       if (facing.Distance(point) < -clearance) behind.push_back(point);
     if (static_cast<double>(behind.size()) >
-        kMaxBehindShare * static_cast<double>(candidates.size()))
+        kMaxBehindFraction * static_cast<double>(candidates.size()))
       candidates = std::move(behind);
     else
       split.wall = facing;

@@ -15,7 +15,7 @@ struct WallSplit {
   std::vector<Eigen::Vector3d> foreground;  ///< in base: nearer than the wall, or all without one
 };
 
-/// Range at which a ray meets the front of a plane; 1e9 when it never does.
+/// Range at which a ray intersects the front of a plane; 1e9 when it never does.
 double RangeToPlane(const RangeRay& ray, const Plane& plane);
 
 /// Finds the plane that most of the region's background belongs to. Nothing large may lie behind

@@ -21,6 +21,15 @@ class Rigid {
 
   static Rigid Identity() { return {}; }
 
+  /// From a rotation that has the length 1 to the last digits: it is kept bit for bit, as a file
+  /// has it, where the constructor would divide by the length once more.
+  static Rigid FromUnit(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) {
+    Rigid rigid;
+    rigid.rotation_ = rotation;
+    rigid.translation_ = translation;
+    return rigid;
+  }
+
   const Eigen::Quaterniond& rotation() const { return rotation_; }
   const Eigen::Vector3d& translation() const { return translation_; }
   Eigen::Matrix3d RotationMatrix() const { return rotation_.toRotationMatrix(); }

@@ -30,6 +30,10 @@ struct Field {
   }
 };
 
+// So that points times bytes cannot overflow.
+constexpr std::size_t kMostFields = 1000;
+constexpr std::size_t kMostRecordBytes = std::size_t{1} << 20;
+
 struct Header {
   std::vector<Field> fields;
   std::size_t points = 0;
@@ -95,6 +99,9 @@ Result<Header> ReadHeader(std::string_view& rest, const std::string& source) {
     return Fail(ErrorCode::kBadData, "{}: PCD header without DATA, or without 0 to {} points",
                 source, kMostCloudPoints);
   header.points = *points;
+  if (header.fields.size() > kMostFields || header.RecordBytes() > kMostRecordBytes)
+    return Fail(ErrorCode::kBadData, "{}: PCD header: {} fields of {} bytes a point are too many",
+                source, header.fields.size(), header.RecordBytes());
   return header;
 }
 

@@ -83,7 +83,7 @@ Result<FloatImage> ReadPfm(const std::filesystem::path& path) {
 Status WritePfm(const std::filesystem::path& path, const FloatImage& image) {
   static_assert(std::endian::native == std::endian::little, "rows are written as they lie");
   if (image.empty() || image.width() > kMaxSide || image.height() > kMaxSide)
-    return Fail(ErrorCode::kInvalidInput, "{}: a picture of {} x {} cannot become a float map",
+    return Fail(ErrorCode::kInvalidInput, "{}: an image of {} x {} cannot become a float map",
                 path.string(), image.width(), image.height());
   std::string bytes = fmt::format("Pf\n{} {}\n-1.0\n", image.width(), image.height());
   const std::size_t row_bytes = sizeof(float) * static_cast<std::size_t>(image.width());

@@ -12,7 +12,8 @@ namespace foresight {
 
 /// PNG files of every colour type. 16-bit samples are scaled to 8 bits, palettes are resolved,
 /// alpha is dropped (not blended), no gamma is applied: equal numbers in the file stay equal. Fails
-/// with kIo, or with kBadData where the bytes are damaged or a side is longer than 20000 pixels.
+/// with kIo, or with kBadData where the bytes are damaged or a side is longer than 20000 pixels or
+/// the image has more than 200 million.
 Result<ColorImage> ReadPng(const std::filesystem::path& path);
 /// Same; colours become luminance.
 Result<GrayImage> ReadPngGray(const std::filesystem::path& path);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <new>
 #include <vector>
 
 #include "core/base/atomic_file.h"
@@ -13,7 +14,9 @@ namespace foresight {
 namespace {
 
 constexpr png_uint_32 kMaxSide = 20000;
-// deflate cannot expand more than 1032 times: a small file that claims a huge picture is damaged,
+// No camera of ours, and 600 MB as colours: a small file can hold that many equal pixels.
+constexpr std::uint64_t kMostPixels = 200'000'000;
+// deflate cannot expand more than 1032 times: a small file that claims a huge image is damaged,
 // and it is refused before the memory for it is asked for.
 constexpr std::size_t kMaxExpansion = 1040;
 
@@ -43,7 +46,7 @@ void OnWarning(png_structp, png_const_charp) {}
 void OnRead(png_structp png, png_bytep target, std::size_t count) {
   auto* decoder = static_cast<Decoder*>(png_get_io_ptr(png));
   if (count > decoder->bytes.size() - decoder->offset)
-    png_error(png, "the file ends within the picture");
+    png_error(png, "the file ends within the image");
   std::memcpy(target, decoder->bytes.data() + decoder->offset, count);
   decoder->offset += count;
 }
@@ -62,7 +65,7 @@ bool Start(Decoder& decoder, Layout layout) {
   png_read_info(decoder.png, decoder.info);
 
   if (layout == Layout::kGray16) {
-    // Numbers, not a picture: nothing is scaled or converted.
+    // Numbers, not an image: nothing is scaled or converted.
     if (png_get_color_type(decoder.png, decoder.info) != PNG_COLOR_TYPE_GRAY ||
         png_get_bit_depth(decoder.png, decoder.info) != 16)
       png_error(decoder.png, "not one channel of 16 bits");
@@ -111,14 +114,22 @@ Result<Image<Pixel>> Decode(std::string_view bytes, const std::string& source, L
                 width);
   // One bit a pixel is the densest that a file can hold.
   if (std::size_t{width} * height / 8 > bytes.size() * kMaxExpansion)
-    return Fail(ErrorCode::kBadData, "{}: {} bytes cannot hold a picture of {} x {}", source,
+    return Fail(ErrorCode::kBadData, "{}: {} bytes cannot hold an image of {} x {}", source,
                 bytes.size(), width, height);
-  Image<Pixel> image(static_cast<int>(width), static_cast<int>(height));
-  std::vector<png_bytep> rows(height);
-  for (png_uint_32 y = 0; y < height; ++y)
-    rows[y] = reinterpret_cast<png_bytep>(image.row(static_cast<int>(y)));
-  if (!ReadRows(decoder, rows.data())) return fail();
-  return image;
+  if (std::uint64_t{width} * height > kMostPixels)
+    return Fail(ErrorCode::kBadData, "{}: {} x {} pixels are more than {} million", source, width,
+                height, kMostPixels / 1'000'000);
+  try {
+    Image<Pixel> image(static_cast<int>(width), static_cast<int>(height));
+    std::vector<png_bytep> rows(height);
+    for (png_uint_32 y = 0; y < height; ++y)
+      rows[y] = reinterpret_cast<png_bytep>(image.row(static_cast<int>(y)));
+    if (!ReadRows(decoder, rows.data())) return fail();
+    return image;
+  } catch (const std::bad_alloc&) {
+    return Fail(ErrorCode::kIo, "{}: its {} x {} pixels do not fit into memory", source, width,
+                height);
+  }
 }
 
 }  // namespace

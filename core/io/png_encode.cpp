@@ -13,7 +13,7 @@ namespace foresight {
 namespace {
 
 constexpr int kMaxSide = 20000;
-// A 1288 x 964 picture takes a third of the time of zlib's default level for a few per cent more
+// A 1288 x 964 image takes a third of the time of zlib's default level for a few per cent more
 // bytes, and the recorder must keep up with the camera.
 constexpr int kCompressionLevel = 3;
 
@@ -76,7 +76,7 @@ bool WriteRows(Encoder& encoder, int width, int height, Layout layout, png_bytep
 template <class Pixel>
 Result<std::string> Encode(const Image<Pixel>& image, Layout layout) {
   if (image.empty() || image.width() > kMaxSide || image.height() > kMaxSide)
-    return Fail(ErrorCode::kInvalidInput, "a picture of {} x {} cannot become a PNG file",
+    return Fail(ErrorCode::kInvalidInput, "an image of {} x {} cannot become a PNG file",
                 image.width(), image.height());
   Encoder encoder;
   std::vector<png_bytep> rows;

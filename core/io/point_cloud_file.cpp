@@ -1,9 +1,11 @@
 #include "core/io/point_cloud_file.h"
 
 #include <bit>
+#include <chrono>
 #include <string>
 
 #include "core/base/atomic_file.h"
+#include "core/base/printable.h"
 
 namespace foresight {
 namespace {
@@ -26,16 +28,38 @@ void AppendCommonFields(std::string& bytes, const CloudPoint& point) {
 
 constexpr std::size_t kMaxBytesPerPoint = 28;
 
+/// "2026-11-22T13:06:33.250Z"
+std::string UtcText(std::int64_t utc_ns) {
+  using namespace std::chrono;
+  const sys_time<nanoseconds> time{nanoseconds(utc_ns)};
+  const auto day = floor<days>(time);
+  const year_month_day date(day);
+  const hh_mm_ss clock(floor<milliseconds>(time - day));
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", int{date.year()},
+                     unsigned{date.month()}, unsigned{date.day()}, clock.hours().count(),
+                     clock.minutes().count(), clock.seconds().count(), clock.subseconds().count());
+}
+
+/// One line a fact, each after `mark`: how the format begins a comment.
+std::string Comments(const char* mark, const CloudOrigin& origin) {
+  std::string lines = fmt::format("{} unit metre\n", mark);
+  if (!origin.frame.empty()) lines += fmt::format("{} frame {}\n", mark, Printable(origin.frame));
+  if (!origin.scan_uuid.empty())
+    lines += fmt::format("{} scan {} {}\n", mark, Printable(origin.scan_uuid),
+                         UtcText(origin.scan_utc_ns));
+  return lines;
+}
+
 }  // namespace
 
 Status WritePly(const std::filesystem::path& path, std::span<const CloudPoint> points,
-                CloudColors colors) {
+                CloudColors colors, const CloudOrigin& origin) {
   const bool has_color = colors == CloudColors::kRgb;
   std::string bytes = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\n"
+      "ply\nformat binary_little_endian 1.0\n{}element vertex {}\n"
       "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
       "property int line\nproperty int step\n{}end_header\n",
-      points.size(),
+      Comments("comment", origin), points.size(),
       has_color ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "");
   bytes.reserve(bytes.size() + points.size() * kMaxBytesPerPoint);
   for (const CloudPoint& point : points) {
@@ -46,14 +70,14 @@ Status WritePly(const std::filesystem::path& path, std::span<const CloudPoint> p
 }
 
 Status WritePcd(const std::filesystem::path& path, std::span<const CloudPoint> points,
-                CloudColors colors) {
+                CloudColors colors, const CloudOrigin& origin) {
   const bool has_color = colors == CloudColors::kRgb;
   std::string bytes = fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+      "# .PCD v0.7 - Point Cloud Data file format\n{}VERSION 0.7\n"
       "FIELDS x y z intensity line step{}\nSIZE 4 4 4 4 4 4{}\nTYPE F F F F I I{}\n"
       "COUNT 1 1 1 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
-      has_color ? " rgb" : "", has_color ? " 4" : "", has_color ? " F" : "", has_color ? " 1" : "",
-      points.size(), points.size());
+      Comments("#", origin), has_color ? " rgb" : "", has_color ? " 4" : "", has_color ? " F" : "",
+      has_color ? " 1" : "", points.size(), points.size());
   bytes.reserve(bytes.size() + points.size() * kMaxBytesPerPoint);
   for (const CloudPoint& point : points) {
     AppendCommonFields(bytes, point);

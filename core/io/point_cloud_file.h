@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "core/base/image.h"
 #include "core/base/result.h"
@@ -22,12 +23,19 @@ struct CloudPoint {
 
 enum class CloudColors { kNone, kRgb };
 
+/// Where the points come from; stands in the file's comments, and so does that the unit is metres.
+struct CloudOrigin {
+  std::string frame;             ///< "robot", "base"; empty = the caller's own, not named
+  std::string scan_uuid;         ///< empty = of no scan
+  std::int64_t scan_utc_ns = 0;  ///< when the scan began, since 1970
+};
+
 /// Binary little-endian PLY. Writes the whole file or nothing; fails with kIo.
 Status WritePly(const std::filesystem::path& path, std::span<const CloudPoint> points,
-                CloudColors colors);
+                CloudColors colors, const CloudOrigin& origin = {});
 
 /// Binary PCD 0.7, unorganised, identity viewpoint; the colour is PCL's packed `rgb`. Same errors.
 Status WritePcd(const std::filesystem::path& path, std::span<const CloudPoint> points,
-                CloudColors colors);
+                CloudColors colors, const CloudOrigin& origin = {});
 
 }  // namespace foresight

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/printable.h"
+
 namespace foresight {
 
 YamlMap::YamlMap(YAML::Node node, std::string source)
@@ -120,6 +122,10 @@ void YamlMap::Fault(const YAML::Node& at, const std::string& what) const {
 
 Status ParseYaml(const std::string& text, const std::string& source,
                  const std::function<void(YamlMap&)>& body) {
+  if (const std::size_t at = FirstInvalidUtf8(text); at != std::string::npos)
+    return Fail(ErrorCode::kBadData, "{}:{}: byte {:#04x} is no UTF-8", source,
+                1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'),
+                static_cast<unsigned char>(text[at]));
   try {
     YamlMap map(YAML::Load(text), source);
     body(map);

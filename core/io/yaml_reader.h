@@ -57,7 +57,7 @@ class YamlMap {
 };
 
 /// Parses `text` and hands its top mapping to `body`; faults and yaml-cpp's exceptions become
-/// kBadData.
+/// kBadData, and so does text that is no UTF-8.
 Status ParseYaml(const std::string& text, const std::string& source,
                  const std::function<void(YamlMap&)>& body);
 

@@ -1,44 +1,54 @@
 #include "core/mission/mission_file.h"
 
-#include <fstream>
+#include <unistd.h>
+
+#include <atomic>
 #include <mutex>
 #include <optional>
+#include <type_traits>
 
+#include "core/base/atomic_file.h"
 #include "core/base/log.h"
 #include "core/io/png.h"
-#include "core/mission/annotation_rows.h"
+#include "core/mission/file_handle.h"
+#include "core/mission/migrations.h"
 #include "core/mission/mission_schema.h"
+#include "core/mission/record_rows.h"
 #include "core/mission/scan_rows.h"
+#include "core/mission/thumbnail.h"
 
 namespace foresight {
 namespace {
 
 constexpr const char* kLeftRunning = "the recording program ended before the scan did";
+constexpr const char* kReviewKey = "review_of";  ///< in the table meta of a review
+constexpr std::string_view kReviewSuffix = ".review.foresight";
 
+/// SQLite puts its files beside the real one.
 std::filesystem::path Neighbour(const std::filesystem::path& path, const char* suffix) {
-  return path.string() + suffix;
+  std::error_code error;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
+  return (error ? path : real).string() + suffix;
 }
 
-bool HasBytes(const std::filesystem::path& path) {
+bool Exists(const std::filesystem::path& path) {
   std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  return !error && size > 0;
+  return std::filesystem::exists(path, error);
 }
+
+/// What SQLite writes at the beginning of every file.
+struct DatabaseHeader {
+  bool write_ahead = false;  ///< the last writer did not close it, or is still there
+};
 
 /// Catches what is no database at all before SQLite would make one of it.
-Status CheckIsDatabase(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    return Fail(ErrorCode::kIo, "{}: {}", path.string(),
-                std::filesystem::exists(path, error) ? "is not a file" : "does not exist");
-  std::ifstream stream(path, std::ios::binary);
-  std::string magic(16, '\0');
-  stream.read(magic.data(), 16);
-  if (!stream && stream.gcount() == 0 && std::filesystem::file_size(path, error) > 0)
-    return Fail(ErrorCode::kIo, "{}: cannot read", path.string());
-  if (magic != std::string("SQLite format 3\0", 16))
-    return Fail(ErrorCode::kBadData, "{}: is not a mission file", path.string());
-  return {};
+Result<DatabaseHeader> ReadHeader(const MissionFileHandle& handle, const std::string& file) {
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  constexpr std::size_t kReadVersion = 19;  // 2 = write-ahead log
+  FORESIGHT_TRY(const std::string bytes, handle.FirstBytes(kReadVersion + 1));
+  if (bytes.size() <= kReadVersion || !bytes.starts_with(kMagic))
+    return Fail(ErrorCode::kBadData, "{}: is not a mission file", file);
+  return DatabaseHeader{bytes[kReadVersion] == 2};
 }
 
 Status QuickCheck(const SqliteDatabase& database, const std::string& file) {
@@ -95,12 +105,57 @@ class Savepoint {
   SqliteDatabase* database_;
 };
 
+/// Everything that is read during its life is of one moment.
+class Snapshot {
+ public:
+  static Result<Snapshot> Begin(SqliteDatabase& database) {
+    if (database.InTransaction()) return Snapshot(nullptr);
+    FORESIGHT_CHECK(database.Run("BEGIN"));
+    return Snapshot(&database);
+  }
+  Snapshot(Snapshot&& other) noexcept : database_(std::exchange(other.database_, nullptr)) {}
+  Snapshot& operator=(Snapshot&&) = delete;
+  ~Snapshot() {
+    // Nothing was written: there is nothing that could be lost.
+    if (database_ != nullptr) (void)database_->Run("ROLLBACK");
+  }
+
+ private:
+  explicit Snapshot(SqliteDatabase* database) : database_(database) {}
+  SqliteDatabase* database_;
+};
+
+/// Leaves one file where a writer could not, because somebody was still reading. SQLite refuses it
+/// where anybody still is.
+void MergeLog(const std::filesystem::path& path) {
+  auto database = SqliteDatabase::Open(path, SqliteDatabase::Mode::kReadWrite);
+  if (database) (void)database->Run("PRAGMA journal_mode = DELETE");
+}
+
+void RemoveNeighbours(const std::filesystem::path& path) {
+  std::error_code ignored;
+  for (const char* suffix : {"-wal", "-shm", "-journal"})
+    std::filesystem::remove(Neighbour(path, suffix), ignored);
+}
+
+Status MarkAsReview(SqliteDatabase& database, const std::filesystem::path& path) {
+  FORESIGHT_TRY(SqliteStatement insert,
+                database.Prepare("INSERT INTO meta(key, value) VALUES(?, ?)"));
+  return insert.BindText(kReviewKey).BindText(path.filename().string()).Run();
+}
+
+bool CanWriteTo(const std::filesystem::path& folder) {
+  return ::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0;
+}
+
 }  // namespace
 
 struct MissionFile::Impl {
-  Impl(std::filesystem::path where, SqliteDatabase opened, bool may_write)
+  Impl(std::filesystem::path where, MissionFileHandle the_handle, SqliteDatabase opened,
+       bool may_write)
       : path(std::move(where)),
         file(path.string()),
+        handle(std::move(the_handle)),
         database(std::move(opened)),
         writable(may_write) {}
 
@@ -108,9 +163,15 @@ struct MissionFile::Impl {
   std::recursive_mutex mutex;
   const std::filesystem::path path;
   const std::string file;
-  std::optional<SqliteDatabase> database;  ///< empty once closed
+  std::optional<MissionFileHandle> handle;  ///< outlives the connection
+  std::optional<SqliteDatabase> database;   ///< empty once closed
   const bool writable;
+  bool review = false;
+  bool closed_properly = true;
+  /// A log that was there before anybody recorded: a crash left it, and a reader leaves it alone.
+  bool found_log = false;
   std::int64_t running_scan = 0;  ///< 0 = none; ids begin at 1
+  std::atomic<bool> wants_thumbnail{false};
   std::optional<std::int64_t> last_seq;
   std::optional<double> last_sample_s;
 
@@ -146,11 +207,101 @@ struct MissionFile::Impl {
     return {};
   }
 
-  /// A row in state running when nobody records: read as what it is.
-  void TellWhatWasLeftRunning(ScanRow& row) const {
+  /// Runs `body(format)` on one moment of the file.
+  template <class Body>
+  auto Read(const Body& body) -> std::invoke_result_t<Body, int> {
+    const std::lock_guard lock(mutex);
+    FORESIGHT_CHECK(CheckOpen());
+    FORESIGHT_TRY(const Snapshot snapshot, Snapshot::Begin(*database));
+    // A writer may have brought the file to another format since it was opened.
+    FORESIGHT_TRY(const int format, MissionFormat(*database, file));
+    return body(format);
+  }
+
+  /// A row in state running when nobody records: read as what it is. `recorded_before` = there was
+  /// a writer before the row was read.
+  void TellWhatWasLeftRunning(ScanRow& row, bool recorded_before) const {
     if (row.state != ScanState::kRunning || row.id == running_scan) return;
+    if (!writable && (recorded_before || handle->HasWriter())) return;
     row.state = ScanState::kInterrupted;
     row.reason = kLeftRunning;
+  }
+
+  bool Recorded() const { return handle && handle->HasWriter(); }
+
+  Result<ScanRow> ReadRow(std::int64_t id, bool recorded_before) {
+    FORESIGHT_TRY(ScanRow row, Rows().ReadScanRow(id));
+    TellWhatWasLeftRunning(row, recorded_before);
+    return row;
+  }
+
+  Result<std::vector<ScanSummary>> Summaries(std::optional<std::int64_t> id, int format,
+                                             bool recorded_before) {
+    std::vector<ScanRow> rows;
+    if (id) {
+      FORESIGHT_TRY(ScanRow row, Rows().ReadScanRow(*id));
+      rows.push_back(std::move(row));
+    } else {
+      FORESIGHT_TRY(rows, Rows().ReadScanRows());
+    }
+    FORESIGHT_TRY(const auto objects, CountObjects(*database, format));
+    std::map<std::int64_t, std::string> thumbnails;
+    if (format > 1) {
+      FORESIGHT_TRY(thumbnails, Rows().ReadThumbnails(id, false));
+    }
+    std::vector<ScanSummary> scans;
+    for (ScanRow& row : rows) {
+      if (row.lines < 0) {
+        FORESIGHT_TRY(row.lines, Rows().CountLines(row.id));
+        FORESIGHT_TRY(row.frames, Rows().CountFrames(row.id));
+      }
+      TellWhatWasLeftRunning(row, recorded_before);
+      const auto count = objects.find(row.id);
+      FORESIGHT_TRY(const double begin_s, Rows().FirstLineTime(row.id));
+      const std::int64_t begin_utc_ns = row.start_utc_ns + static_cast<std::int64_t>(1e9 * begin_s);
+      scans.push_back({row.id, row.uuid, row.start_utc_ns, begin_utc_ns, row.source, row.simulated,
+                       row.plan, row.state, row.reason, row.lines, row.frames,
+                       count == objects.end() ? 0 : count->second, std::move(thumbnails[row.id])});
+    }
+    return scans;
+  }
+
+  /// Completes what names a record's scan; both ids agree afterwards.
+  template <class Record>
+  Status FindScan(Record& record, const char* what) {
+    if (record.scan_id == 0 && record.scan_uuid.empty())
+      return Fail(ErrorCode::kInvalidInput, "{}: a {} must name its scan", file, what);
+    FORESIGHT_TRY(const std::vector<ScanRow> rows, Rows().ReadScanRows());
+    for (const ScanRow& row : rows) {
+      if (record.scan_id != 0 ? row.id != record.scan_id : row.uuid != record.scan_uuid) continue;
+      if (!record.scan_uuid.empty() && record.scan_uuid != row.uuid)
+        return Fail(ErrorCode::kInvalidInput, "{}: scan {} is {}, not {}", file, row.id, row.uuid,
+                    record.scan_uuid);
+      record.scan_id = row.id;
+      record.scan_uuid = row.uuid;
+      return {};
+    }
+    if (review && record.scan_id == 0) return {};
+    if (record.scan_id != 0)
+      return Fail(ErrorCode::kInvalidInput, "{}: there is no scan {} for a {}", file,
+                  record.scan_id, what);
+    return Fail(ErrorCode::kInvalidInput, "{}: there is no scan {} for a {}", file,
+                record.scan_uuid, what);
+  }
+
+  Result<std::optional<std::int64_t>> IdOfUuid(const char* table, const std::string& uuid) {
+    FORESIGHT_TRY(
+        SqliteStatement select,
+        database->Prepare(fmt::format("SELECT id FROM {} WHERE uuid = ?", table).c_str()));
+    select.BindText(uuid);
+    FORESIGHT_TRY(const bool found, select.Step());
+    if (!found) return std::nullopt;
+    return select.Integer(0);
+  }
+
+  Result<bool> ReadIsReview() const {
+    FORESIGHT_TRY(SqliteStatement select, database->Prepare("SELECT 1 FROM meta WHERE key = ?"));
+    return select.BindText(kReviewKey).Step();
   }
 
   Status InterruptLeftovers() {
@@ -172,60 +323,121 @@ const std::filesystem::path& MissionFile::path() const {
   return impl_->path;
 }
 
+bool MissionFile::IsReview() const {
+  return impl_->review;
+}
+
+bool MissionFile::IsBeingRecorded() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->Recorded();
+}
+
+bool MissionFile::WasClosedProperly() const {
+  return impl_->closed_properly;
+}
+
 Result<std::unique_ptr<MissionFile>> MissionFile::OpenForWriting(const std::filesystem::path& path,
-                                                                 bool create) {
+                                                                 MissionFileHandle handle,
+                                                                 OpenHow how) {
   using Mode = SqliteDatabase::Mode;
   const std::string file = path.string();
+  const bool create = how != OpenHow::kExisting;
+  DatabaseHeader header;
+  if (!create) {
+    FORESIGHT_TRY(header, ReadHeader(handle, file));
+  }
+  FORESIGHT_CHECK(handle.LockForWriting());
   FORESIGHT_TRY(SqliteDatabase database,
                 SqliteDatabase::Open(path, create ? Mode::kCreate : Mode::kReadWrite));
-  // One program at a time: two recorders in one file would interrupt each other's scans. It also
-  // keeps the write-ahead log's index in memory, so no third file appears.
-  FORESIGHT_CHECK(database.Run("PRAGMA locking_mode = EXCLUSIVE"));
-  if (!create) {
-    FORESIGHT_CHECK(CheckMissionSchema(database, file));
-    FORESIGHT_CHECK(CheckSize(database, path));
-    FORESIGHT_CHECK(QuickCheck(database, file));
-  }
   // Three lines of 1081 beams fill a page; only one would fit into the default size.
   if (create) FORESIGHT_CHECK(database.Run("PRAGMA page_size = 8192"));
+  int format = kMissionFormatVersion;
+  if (!create) {
+    FORESIGHT_TRY(format, CheckMissionSchema(database, file));
+    FORESIGHT_CHECK(CheckSize(database, path));
+    FORESIGHT_CHECK(CheckSmallTables(database, format, file));
+  }
   FORESIGHT_CHECK(SetDurable(database, file));
   if (create) FORESIGHT_CHECK(CreateMissionSchema(database));
-  auto impl = std::make_unique<Impl>(path, std::move(database), true);
+  if (how == OpenHow::kCreateReview) FORESIGHT_CHECK(MarkAsReview(database, path));
+  FORESIGHT_CHECK(MigrateMission(database, format, file));
+  auto impl = std::make_unique<Impl>(path, std::move(handle), std::move(database), true);
+  impl->closed_properly = !header.write_ahead;
+  FORESIGHT_TRY(impl->review, impl->ReadIsReview());
   FORESIGHT_CHECK(impl->InterruptLeftovers());
   return std::unique_ptr<MissionFile>(new MissionFile(std::move(impl)));
 }
 
-Result<std::unique_ptr<MissionFile>> MissionFile::Create(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error))
-    return Fail(ErrorCode::kIo, "{}: exists already", path.string());
+Result<std::unique_ptr<MissionFile>> MissionFile::MakeNew(const std::filesystem::path& path,
+                                                          OpenHow how) {
+  FORESIGHT_TRY(MissionFileHandle handle, MissionFileHandle::Create(path));
   // A log left by a deleted mission of the same name would be played into the new one.
-  std::filesystem::remove(Neighbour(path, "-wal"), error);
-  std::filesystem::remove(Neighbour(path, "-journal"), error);
-  return OpenForWriting(path, true);
+  RemoveNeighbours(path);
+  auto made = OpenForWriting(path, std::move(handle), how);
+  Status status = made ? SyncFolderOf(path) : tl::unexpected(made.error());
+  if (status) return made;
+  made = tl::unexpected(status.error());
+  RemoveNeighbours(path);  // no stub is left that would block the path
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  return made;
+}
+
+Result<std::unique_ptr<MissionFile>> MissionFile::Create(const std::filesystem::path& path) {
+  return MakeNew(path, OpenHow::kCreate);
 }
 
 Result<std::unique_ptr<MissionFile>> MissionFile::Open(const std::filesystem::path& path) {
-  FORESIGHT_CHECK(CheckIsDatabase(path));
-  return OpenForWriting(path, false);
+  FORESIGHT_TRY(MissionFileHandle handle, MissionFileHandle::Open(path));
+  return OpenForWriting(path, std::move(handle), OpenHow::kExisting);
 }
 
 Result<std::unique_ptr<MissionFile>> MissionFile::OpenReadOnly(const std::filesystem::path& path) {
-  FORESIGHT_CHECK(CheckIsDatabase(path));
-  // Without a log beside it the file is complete by itself, and can be read where nothing may be
-  // written, not even SQLite's lock and index files.
-  std::error_code error;
-  const bool complete = !std::filesystem::exists(Neighbour(path, "-wal"), error) &&
-                        !HasBytes(Neighbour(path, "-journal"));
   using Mode = SqliteDatabase::Mode;
-  FORESIGHT_TRY(SqliteDatabase database,
-                SqliteDatabase::Open(path, complete ? Mode::kImmutable : Mode::kReadOnly));
   const std::string file = path.string();
-  FORESIGHT_CHECK(CheckMissionSchema(database, file));
-  FORESIGHT_CHECK(CheckSize(database, path));
-  FORESIGHT_CHECK(QuickCheck(database, file));
-  return std::unique_ptr<MissionFile>(
-      new MissionFile(std::make_unique<Impl>(path, std::move(database), false)));
+  FORESIGHT_TRY(MissionFileHandle handle, MissionFileHandle::Open(path));
+  const bool recorded = handle.HasWriter();
+  FORESIGHT_TRY(const DatabaseHeader header, ReadHeader(handle, file));
+  const bool log = Exists(Neighbour(path, "-wal"));
+  // A copy of a recording without its log: SQLite would make one, which a reader may not.
+  const bool alone = header.write_ahead && !log && !recorded;
+  FORESIGHT_TRY(SqliteDatabase database,
+                SqliteDatabase::Open(path, alone ? Mode::kImmutable : Mode::kReadOnly));
+  FORESIGHT_TRY(const int format, CheckMissionSchema(database, file));
+  if (!recorded) FORESIGHT_CHECK(CheckSize(database, path));
+  FORESIGHT_CHECK(CheckSmallTables(database, format, file));
+  auto impl = std::make_unique<Impl>(path, std::move(handle), std::move(database), false);
+  impl->closed_properly = !header.write_ahead;
+  impl->found_log = log && !recorded;
+  FORESIGHT_TRY(impl->review, impl->ReadIsReview());
+  return std::unique_ptr<MissionFile>(new MissionFile(std::move(impl)));
+}
+
+Result<std::filesystem::path> MissionFile::ReviewPathOf(const std::filesystem::path& mission,
+                                                        const std::filesystem::path& folder) {
+  std::string name = mission.filename().string();
+  if (name.ends_with(kReviewSuffix))
+    return Fail(ErrorCode::kInvalidInput, "{}: is a review itself", mission.string());
+  constexpr std::string_view kSuffix = ".foresight";
+  if (name.ends_with(kSuffix) && name.size() > kSuffix.size())
+    name.resize(name.size() - kSuffix.size());
+  name += kReviewSuffix;
+  const std::filesystem::path beside = mission.parent_path() / name;
+  if (::access(beside.c_str(), W_OK) == 0) return beside;
+  if (!Exists(beside) && CanWriteTo(mission.parent_path())) return beside;
+  if (!folder.empty() && CanWriteTo(folder)) return folder / name;
+  return Fail(ErrorCode::kIo, "{}: cannot be written; give a folder for the review",
+              beside.string());
+}
+
+Result<std::unique_ptr<MissionFile>> MissionFile::OpenReviewOf(
+    const std::filesystem::path& mission, const std::filesystem::path& folder) {
+  FORESIGHT_TRY(const std::filesystem::path path, ReviewPathOf(mission, folder));
+  if (!Exists(path)) return MakeNew(path, OpenHow::kCreateReview);
+  FORESIGHT_TRY(std::unique_ptr<MissionFile> review, Open(path));
+  if (!review->IsReview())
+    return Fail(ErrorCode::kBadData, "{}: is a mission, not the review of one", path.string());
+  return review;
 }
 
 Result<std::int64_t> MissionFile::BeginScan(const Scan& header) {
@@ -242,6 +454,7 @@ Result<std::int64_t> MissionFile::BeginScan(const Scan& header) {
     return {};
   }));
   impl_->running_scan = id;
+  impl_->wants_thumbnail = true;
   impl_->last_seq.reset();
   impl_->last_sample_s.reset();
   return id;
@@ -277,9 +490,19 @@ Status MissionFile::AppendMotorSamples(std::int64_t scan_id, std::span<const Mot
 Status MissionFile::AppendFrame(std::int64_t scan_id, const CameraFrame& frame) {
   // Before the lock: it takes as long as a line's period.
   FORESIGHT_TRY(const std::string png, EncodePng(frame.image));
+  std::string thumbnail;
+  if (impl_->wants_thumbnail) {
+    FORESIGHT_TRY(thumbnail, ThumbnailOf(frame.image));
+  }
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckRunning(scan_id));
-  return impl_->Write([&] { return impl_->Rows().InsertFrame(scan_id, frame, png); });
+  const bool first = impl_->wants_thumbnail && !thumbnail.empty();
+  const Status written = impl_->Write([&]() -> Status {
+    FORESIGHT_CHECK(impl_->Rows().InsertFrame(scan_id, frame, png));
+    return first ? impl_->Rows().InsertThumbnail(scan_id, thumbnail) : Status{};
+  });
+  if (written && first) impl_->wants_thumbnail = false;
+  return written;
 }
 
 Status MissionFile::EndScan(std::int64_t scan_id, ScanState state, const std::string& reason) {
@@ -309,43 +532,123 @@ Status MissionFile::Batch(const std::function<Status()>& body) {
 }
 
 Result<std::vector<ScanSummary>> MissionFile::ListScans() const {
-  const std::lock_guard lock(impl_->mutex);
-  FORESIGHT_CHECK(impl_->CheckOpen());
-  FORESIGHT_TRY(std::vector<ScanRow> rows, impl_->Rows().ReadScanRows());
-  std::vector<ScanSummary> scans;
-  for (ScanRow& row : rows) {
-    if (row.lines < 0) {
-      FORESIGHT_TRY(row.lines, impl_->Rows().CountLines(row.id));
-      FORESIGHT_TRY(row.frames, impl_->Rows().CountFrames(row.id));
-    }
-    impl_->TellWhatWasLeftRunning(row);
-    scans.push_back({row.id, row.uuid, row.start_utc_ns, row.source, row.simulated, row.plan,
-                     row.state, row.reason, row.lines, row.frames});
-  }
-  return scans;
+  const bool recorded = IsBeingRecorded();
+  return impl_->Read([&](int format) { return impl_->Summaries(std::nullopt, format, recorded); });
+}
+
+Result<ScanSummary> MissionFile::Summary(std::int64_t id) const {
+  const bool recorded = IsBeingRecorded();
+  return impl_->Read([&](int format) -> Result<ScanSummary> {
+    FORESIGHT_TRY(std::vector<ScanSummary> scans, impl_->Summaries(id, format, recorded));
+    return std::move(scans.front());
+  });
+}
+
+Result<Scan> MissionFile::LoadHeader(std::int64_t id) const {
+  const bool recorded = IsBeingRecorded();
+  return impl_->Read([&](int) -> Result<Scan> {
+    FORESIGHT_TRY(const ScanRow row, impl_->ReadRow(id, recorded));
+    return impl_->Rows().ReadHeader(row);
+  });
 }
 
 Result<Scan> MissionFile::LoadScan(std::int64_t id) const {
-  const std::lock_guard lock(impl_->mutex);
-  FORESIGHT_CHECK(impl_->CheckOpen());
-  FORESIGHT_TRY(Scan scan, impl_->Rows().ReadScan(id));
-  if (scan.state == ScanState::kRunning && id != impl_->running_scan) {
-    scan.state = ScanState::kInterrupted;
-    scan.reason = kLeftRunning;
-  }
-  return scan;
+  const bool recorded = IsBeingRecorded();
+  return impl_->Read([&](int) -> Result<Scan> {
+    FORESIGHT_TRY(ScanRow row, impl_->Rows().ReadScanRow(id));
+    FORESIGHT_TRY(Scan scan, impl_->Rows().ReadScan(row));
+    impl_->TellWhatWasLeftRunning(row, recorded);
+    scan.state = row.state;
+    scan.reason = row.reason;
+    return scan;
+  });
+}
+
+Result<std::vector<LidarLine>> MissionFile::LoadLines(std::int64_t id, std::int64_t first_seq,
+                                                      std::size_t at_most) const {
+  return impl_->Read([&](int) -> Result<std::vector<LidarLine>> {
+    FORESIGHT_CHECK(impl_->Rows().ReadScanRow(id));
+    return impl_->Rows().ReadLines(id, first_seq, at_most);
+  });
+}
+
+Result<MotorTrack> MissionFile::LoadTrack(std::int64_t id) const {
+  return impl_->Read([&](int) -> Result<MotorTrack> {
+    FORESIGHT_TRY(const ScanRow row, impl_->Rows().ReadScanRow(id));
+    return impl_->Rows().ReadTrack(row);
+  });
+}
+
+Result<std::vector<ImageSummary>> MissionFile::ListImages(std::int64_t id) const {
+  return impl_->Read([&](int) -> Result<std::vector<ImageSummary>> {
+    FORESIGHT_TRY(const ScanRow row, impl_->Rows().ReadScanRow(id));
+    return impl_->Rows().ReadImageList(row);
+  });
+}
+
+Result<CameraFrame> MissionFile::LoadImage(std::int64_t id, std::int64_t position) const {
+  return impl_->Read([&](int) -> Result<CameraFrame> {
+    FORESIGHT_CHECK(impl_->Rows().ReadScanRow(id));
+    return impl_->Rows().ReadImage(id, position);
+  });
 }
 
 Result<std::int64_t> MissionFile::AddDetection(const DetectionRecord& detection) {
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckWritable());
-  return InsertDetection(*impl_->database, detection);
+  DetectionRecord record = detection;
+  record.id = 0;
+  if (record.uuid.empty()) record.uuid = NewUuid();
+  FORESIGHT_TRY(const auto known, impl_->IdOfUuid("detection", record.uuid));
+  if (known) return *known;
+  FORESIGHT_CHECK(impl_->FindScan(record, "detection"));
+  return InsertDetection(*impl_->database, record);
 }
 
-Result<std::vector<DetectionRecord>> MissionFile::ListDetections() const {
+Status MissionFile::AddDetectionEvent(std::int64_t detection_id, const DetectionEvent& event) {
   const std::lock_guard lock(impl_->mutex);
-  FORESIGHT_CHECK(impl_->CheckOpen());
-  return ReadDetections(*impl_->database, impl_->file);
+  FORESIGHT_CHECK(impl_->CheckWritable());
+  FORESIGHT_TRY(SqliteStatement select,
+                impl_->database->Prepare("SELECT 1 FROM detection WHERE id = ?"));
+  FORESIGHT_TRY(const bool found, select.Bind(detection_id).Step());
+  if (!found)
+    return Fail(ErrorCode::kInvalidInput, "{}: there is no detection {}", impl_->file,
+                detection_id);
+  return InsertDetectionEvent(*impl_->database, detection_id, event);
+}
+
+Result<std::vector<DetectionRecord>> MissionFile::ListDetections(
+    std::optional<std::int64_t> scan_id) const {
+  return impl_->Read(
+      [&](int format) { return ReadDetections(*impl_->database, format, scan_id, impl_->file); });
+}
+
+Result<std::vector<DetectionEvent>> MissionFile::ListDetectionEvents(
+    std::int64_t detection_id) const {
+  return impl_->Read([&](int format) -> Result<std::vector<DetectionEvent>> {
+    if (format == 1) return std::vector<DetectionEvent>();
+    FORESIGHT_TRY(auto events, ReadDetectionEvents(*impl_->database, impl_->file));
+    return std::move(events[detection_id]);
+  });
+}
+
+Result<std::int64_t> MissionFile::AddDepth(const DepthRecord& depth) {
+  const std::lock_guard lock(impl_->mutex);
+  FORESIGHT_CHECK(impl_->CheckWritable());
+  DepthRecord record = depth;
+  if (record.uuid.empty()) record.uuid = NewUuid();
+  FORESIGHT_TRY(const auto known, impl_->IdOfUuid("depth", record.uuid));
+  if (known) return *known;
+  FORESIGHT_CHECK(impl_->FindScan(record, "depth map"));
+  return InsertDepth(*impl_->database, record);
+}
+
+Result<std::vector<DepthRecord>> MissionFile::ListDepths(
+    std::optional<std::int64_t> scan_id) const {
+  return impl_->Read([&](int format) -> Result<std::vector<DepthRecord>> {
+    if (format == 1) return std::vector<DepthRecord>();
+    return ReadDepths(*impl_->database, scan_id, impl_->file);
+  });
 }
 
 Result<std::int64_t> MissionFile::AddEvent(const EventRecord& event) {
@@ -355,18 +658,17 @@ Result<std::int64_t> MissionFile::AddEvent(const EventRecord& event) {
 }
 
 Result<std::vector<EventRecord>> MissionFile::ListEvents() const {
-  const std::lock_guard lock(impl_->mutex);
-  FORESIGHT_CHECK(impl_->CheckOpen());
-  return ReadEvents(*impl_->database, impl_->file);
+  return impl_->Read([&](int) { return ReadEvents(*impl_->database, impl_->file); });
 }
 
 Status MissionFile::Verify(const RunContext& context) const {
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, ListScans());
-  {
-    const std::lock_guard lock(impl_->mutex);
-    FORESIGHT_CHECK(impl_->CheckOpen());
+  const Status structure = impl_->Read([&](int format) -> Status {
     FORESIGHT_CHECK(QuickCheck(*impl_->database, impl_->file));
-  }
+    if (format > 1) FORESIGHT_CHECK(impl_->Rows().ReadThumbnails(std::nullopt, true));
+    return {};
+  });
+  FORESIGHT_CHECK(structure);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (context.Cancelled())
       return Fail(ErrorCode::kCancelled, "{}: the check was cancelled", impl_->file);
@@ -374,27 +676,35 @@ Status MissionFile::Verify(const RunContext& context) const {
     FORESIGHT_CHECK(LoadScan(scans[i].id));
   }
   FORESIGHT_CHECK(ListDetections());
+  FORESIGHT_CHECK(ListDepths());
   FORESIGHT_CHECK(ListEvents());
   return {};
 }
 
-Status MissionFile::ExportTo(const std::filesystem::path& target) const {
+Status MissionFile::ExportTo(const std::filesystem::path& path) const {
+  if (impl_->writable) {  // the recording goes on meanwhile
+    FORESIGHT_TRY(const std::unique_ptr<MissionFile> reader, OpenReadOnly(impl_->path));
+    return reader->ExportTo(path);
+  }
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckOpen());
+  FORESIGHT_TRY(const std::filesystem::path target, ResolveOutput(path));
   std::error_code error;
   if (std::filesystem::equivalent(target, impl_->path, error))
     return Fail(ErrorCode::kInvalidInput, "{}: cannot be exported onto itself", impl_->file);
   const std::filesystem::path part = Neighbour(target, ".part");
   std::filesystem::remove(part, error);
   FORESIGHT_TRY(SqliteStatement copy, impl_->database->Prepare("VACUUM INTO ?"));
-  if (Status status = copy.BindText(part.string()).Run(); !status) {
+  Status status = copy.BindText(part.string()).Run();
+  if (status) status = SyncFile(part);
+  if (!status) {
     std::filesystem::remove(part, error);
     return Fail(ErrorCode::kIo, "{}: cannot export: {}", target.string(), status.error().message);
   }
   std::filesystem::rename(part, target, error);
   if (error)
     return Fail(ErrorCode::kIo, "{}: cannot replace: {}", target.string(), error.message());
-  return {};
+  return SyncFolderOf(target);
 }
 
 Status MissionFile::Close() {
@@ -405,8 +715,13 @@ Status MissionFile::Close() {
     status = impl_->EndScan(impl_->running_scan, ScanState::kInterrupted,
                             "the mission file was closed during the scan");
   if (impl_->writable && status) status = impl_->database->Run("PRAGMA wal_checkpoint(TRUNCATE)");
-  if (impl_->writable && status) status = impl_->database->Run("PRAGMA journal_mode = DELETE");
+  // Refused while somebody reads; then the last reader does it.
+  if (impl_->writable && status) (void)impl_->database->Run("PRAGMA journal_mode = DELETE");
   impl_->database.reset();
+  if (!impl_->writable && !impl_->found_log && !impl_->handle->HasWriter() &&
+      Exists(Neighbour(impl_->path, "-wal")))
+    MergeLog(impl_->path);
+  impl_->handle.reset();
   return status;
 }
 

@@ -4,68 +4,38 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/mission/mission_records.h"
 #include "core/sensor/scan.h"
 
 namespace foresight {
 
-/// What a list of scans shows, without loading them.
-struct ScanSummary {
-  std::int64_t id = 0;
-  std::string uuid;
-  std::int64_t start_utc_ns = 0;
-  std::string source;
-  bool simulated = false;
-  ScanPlan plan;
-  ScanState state = ScanState::kRunning;
-  std::string reason;
-  std::int64_t lines = 0;
-  std::int64_t frames = 0;
-};
+class MissionFileHandle;
 
-/// An answer found in a scan, as JSON of its kind ("valve", "drill", "terrain").
-struct DetectionRecord {
-  std::int64_t id = 0;  ///< given by the file
-  std::int64_t scan_id = 0;
-  std::string kind;
-  std::int64_t utc_ns = 0;
-  std::string json;
-
-  bool operator==(const DetectionRecord&) const = default;
-};
-
-/// Something that happened, for the mission's log.
-struct EventRecord {
-  std::int64_t id = 0;  ///< given by the file
-  std::int64_t utc_ns = 0;
-  std::string source;    ///< "head", "operator", ...
-  std::string severity;  ///< "info", "warning", "error"
-  std::string text;
-  std::string json;  ///< more about it, may be empty
-
-  bool operator==(const EventRecord&) const = default;
-};
-
-/// A mission in one SQLite file (docs/formats.md): scans with all their raw data, detections and
-/// events. A line, frame or sample that was appended is on the disk when the call returns. Every
-/// row carries a checksum: damage becomes an error naming the file and the row, never a wrong
-/// number.
+/// A mission in one SQLite file (docs/formats.md): scans with all their raw data, detections, depth
+/// maps and events. What was appended or added is on the disk when the call returns. Every row
+/// carries a checksum: damage becomes an error naming the file and the row, never a wrong number.
 ///
-/// One program writes a file at a time; meanwhile others are told that it is in use. All calls are
-/// safe from any thread. Errors: kIo (disk, rights, in use), kBadData (damaged, another format),
-/// kState (read-only, or no such scan is running), kInvalidInput (an impossible value or id).
+/// One program writes a file at a time; another writer is told that it is in use. Any number of
+/// readers, each with a MissionFile of its own (OpenReadOnly), read meanwhile, in this program and
+/// in others, and never wait for the writer nor make it wait. All calls are safe from any thread.
+/// Errors: kIo (disk, rights, in use), kBadData (damaged, a newer format), kState (read-only, or no
+/// such scan is running), kInvalidInput (an impossible value or id).
 class MissionFile {
  public:
   /// Makes a new file; fails with kIo when there is one.
   static Result<std::unique_ptr<MissionFile>> Create(const std::filesystem::path& path);
-  /// Opens for reading and writing. A scan that a crash left running becomes interrupted.
+  /// Opens for reading and writing. A scan that a crash left running becomes interrupted, and a
+  /// file of an earlier format gets the present one.
   static Result<std::unique_ptr<MissionFile>> Open(const std::filesystem::path& path);
-  /// Opens without ever writing, also on read-only media. A scan left running reads as interrupted.
+  /// Opens for reading only, also on read-only media; a file of an earlier format is read as it is.
+  /// A scan that is being recorded reads as running, one that a crash left running as interrupted.
   static Result<std::unique_ptr<MissionFile>> OpenReadOnly(const std::filesystem::path& path);
 
   /// Closes as Close() does; a failure is only logged.
@@ -73,7 +43,25 @@ class MissionFile {
   MissionFile(const MissionFile&) = delete;
   MissionFile& operator=(const MissionFile&) = delete;
 
+  /// Opens, or makes, the file beside a mission that takes what is found while it is reviewed:
+  /// `NAME.review.foresight`. It has no scans of its own; its detections and depth maps name their
+  /// scan by scan_uuid. Where the mission's folder cannot be written it lies in `folder` instead.
+  static Result<std::unique_ptr<MissionFile>> OpenReviewOf(
+      const std::filesystem::path& mission, const std::filesystem::path& folder = {});
+  /// Where OpenReviewOf finds or makes the file. Fails with kInvalidInput where `mission` is a
+  /// review itself, kIo where neither folder can be written.
+  static Result<std::filesystem::path> ReviewPathOf(const std::filesystem::path& mission,
+                                                    const std::filesystem::path& folder = {});
+
   const std::filesystem::path& path() const;
+  /// Whether this is the file beside a mission, without scans of its own.
+  bool IsReview() const;
+  /// Whether a program has the file open for writing now, this one included.
+  bool IsBeingRecorded() const;
+  /// False where the file was not closed by who wrote it: it is being recorded, the program
+  /// crashed, or somebody copied it without the `-wal` beside it; the newest rows may be missing
+  /// then.
+  bool WasClosedProperly() const;
 
   /// Begins a scan with everything of `header` but its lines, track and frames; returns its id. One
   /// scan runs at a time.
@@ -88,29 +76,60 @@ class MissionFile {
   /// second. What was appended before a failure is kept.
   Status Batch(const std::function<Status()>& body);
 
+  // Reading. Each call sees one moment of the file, and decodes no more than it returns.
+
   Result<std::vector<ScanSummary>> ListScans() const;
+  Result<ScanSummary> Summary(std::int64_t id) const;
+  /// Everything of a scan but its lines, track and frames.
+  Result<Scan> LoadHeader(std::int64_t id) const;
   /// The whole scan: lines, track, frames and plan bit for bit, the rig as SensorRigToYaml keeps
   /// it.
   Result<Scan> LoadScan(std::int64_t id) const;
+  /// At most `at_most` lines, from that with seq `first_seq` or the next one on; none behind the
+  /// last.
+  Result<std::vector<LidarLine>> LoadLines(std::int64_t id, std::int64_t first_seq,
+                                           std::size_t at_most) const;
+  Result<MotorTrack> LoadTrack(std::int64_t id) const;
+  /// In the order in which they came: `position` counts from 0.
+  Result<std::vector<ImageSummary>> ListImages(std::int64_t id) const;
+  Result<CameraFrame> LoadImage(std::int64_t id, std::int64_t position) const;
 
-  /// Returns the new id. `detection.id` is ignored.
+  /// Returns the new id, or that of the detection with the same uuid, which stays as it is. The
+  /// scan must be in the file, but for a review. `id` and the present state (name, decision) are
+  /// ignored.
   Result<std::int64_t> AddDetection(const DetectionRecord& detection);
-  Result<std::vector<DetectionRecord>> ListDetections() const;
+  Status AddDetectionEvent(std::int64_t detection_id, const DetectionEvent& event);
+  /// Of one scan or of all, with their present state; deleted ones too.
+  Result<std::vector<DetectionRecord>> ListDetections(
+      std::optional<std::int64_t> scan_id = std::nullopt) const;
+  /// What was done to a detection, oldest first.
+  Result<std::vector<DetectionEvent>> ListDetectionEvents(std::int64_t detection_id) const;
+
+  /// As AddDetection.
+  Result<std::int64_t> AddDepth(const DepthRecord& depth);
+  Result<std::vector<DepthRecord>> ListDepths(
+      std::optional<std::int64_t> scan_id = std::nullopt) const;
+
   Result<std::int64_t> AddEvent(const EventRecord& event);
   Result<std::vector<EventRecord>> ListEvents() const;
 
   /// Reads everything there is and checks it.
   Status Verify(const RunContext& context) const;
-  /// Writes a compact copy: one file, complete without its neighbours. Replaces `target`.
+  /// Writes a compact copy: one file, complete without its neighbours, also while the mission is
+  /// being recorded, which goes on meanwhile. Replaces `target`.
   Status ExportTo(const std::filesystem::path& target) const;
-  /// Ends a running scan as interrupted and leaves one single file. Nothing can be called after it.
+  /// Ends a running scan as interrupted. Who closes last, writer or reader, leaves one single file.
+  /// Nothing can be called after it.
   Status Close();
 
  private:
   struct Impl;
+  enum class OpenHow { kCreate, kCreateReview, kExisting };
   explicit MissionFile(std::unique_ptr<Impl> impl);
   static Result<std::unique_ptr<MissionFile>> OpenForWriting(const std::filesystem::path& path,
-                                                             bool create);
+                                                             MissionFileHandle handle, OpenHow how);
+  static Result<std::unique_ptr<MissionFile>> MakeNew(const std::filesystem::path& path,
+                                                      OpenHow how);
 
   std::unique_ptr<Impl> impl_;
 };

@@ -1,8 +1,12 @@
 #include "core/mission/scan_rows.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "core/io/png.h"
 #include "core/mission/line_codec.h"
@@ -63,8 +67,32 @@ std::int64_t MotorChecksum(std::int64_t scan_id, std::int64_t batch, std::string
   return RowChecksum().Add(scan_id).Add(batch).Add(data).value();
 }
 
+std::int64_t ThumbnailChecksum(std::int64_t scan_id, std::string_view png) {
+  return RowChecksum().Add(scan_id).Add(png).value();
+}
+
 std::int64_t CalibrationChecksum(std::int64_t id, std::string_view yaml) {
   return RowChecksum().Add(id).Add(yaml).value();
+}
+
+/// Columns 0 to 8 of an image; the PNG, or its beginning, is behind them.
+constexpr const char* kImageColumns =
+    "position, seq, time_s, exposure_s, gain_db, motor_angle_rad, target_angle_rad, data_crc32, "
+    "crc32";
+constexpr int kPngColumn = 9;
+constexpr std::size_t kPngHeaderBytes = 24;  ///< with the size, big-endian, in the last eight
+
+Result<std::pair<int, int>> PngSize(std::string_view header, const std::string& where) {
+  constexpr std::string_view kMagic("\x89PNG\r\n\x1a\n", 8);
+  if (header.size() < kPngHeaderBytes || !header.starts_with(kMagic))
+    return Fail(ErrorCode::kBadData, "{} is damaged (not a PNG)", where);
+  const auto number = [&header](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(header[i]);
+    return static_cast<int>(value);
+  };
+  return std::pair(number(16), number(20));
 }
 
 }  // namespace
@@ -188,28 +216,49 @@ Status ScanRows::InsertFrame(std::int64_t scan_id, const CameraFrame& frame,
 }
 
 Status ScanRows::EndScan(std::int64_t scan_id, ScanState state, const std::string& reason) {
-  FORESIGHT_TRY(std::vector<ScanRow> rows, ReadScanRows());
-  for (ScanRow& row : rows) {
-    if (row.id != scan_id) continue;
-    row.state = state;
-    row.reason = reason;
-    FORESIGHT_TRY(row.lines, CountLines(scan_id));
-    FORESIGHT_TRY(row.frames, CountFrames(scan_id));
-    FORESIGHT_TRY(row.motor_batches,
-                  Query("SELECT count(*) FROM motor WHERE scan_id = ?", scan_id));
-    FORESIGHT_TRY(SqliteStatement update,
-                  database_.Prepare("UPDATE scan SET state = ?, reason = ?, lines = ?, frames = ?, "
-                                    "motor_batches = ?, crc32 = ? WHERE id = ?"));
-    return update.BindText(ToString(state))
-        .BindText(reason)
-        .Bind(row.lines)
-        .Bind(row.frames)
-        .Bind(row.motor_batches)
-        .Bind(Checksum(row))
-        .Bind(scan_id)
-        .Run();
+  FORESIGHT_TRY(ScanRow row, ReadScanRow(scan_id));
+  row.state = state;
+  row.reason = reason;
+  FORESIGHT_TRY(row.lines, CountLines(scan_id));
+  FORESIGHT_TRY(row.frames, CountFrames(scan_id));
+  FORESIGHT_TRY(row.motor_batches, Query("SELECT count(*) FROM motor WHERE scan_id = ?", scan_id));
+  FORESIGHT_TRY(SqliteStatement update,
+                database_.Prepare("UPDATE scan SET state = ?, reason = ?, lines = ?, frames = ?, "
+                                  "motor_batches = ?, crc32 = ? WHERE id = ?"));
+  return update.BindText(ToString(state))
+      .BindText(reason)
+      .Bind(row.lines)
+      .Bind(row.frames)
+      .Bind(row.motor_batches)
+      .Bind(Checksum(row))
+      .Bind(scan_id)
+      .Run();
+}
+
+Status ScanRows::InsertThumbnail(std::int64_t scan_id, const std::string& png) {
+  FORESIGHT_TRY(SqliteStatement insert,
+                database_.Prepare("INSERT INTO thumbnail(scan_id, png, crc32) VALUES(?, ?, ?)"));
+  return insert.Bind(scan_id).BindBlob(png).Bind(ThumbnailChecksum(scan_id, png)).Run();
+}
+
+Result<std::map<std::int64_t, std::string>> ScanRows::ReadThumbnails(
+    std::optional<std::int64_t> scan_id, bool strict) const {
+  FORESIGHT_TRY(SqliteStatement select,
+                database_.Prepare("SELECT scan_id, png, crc32 FROM thumbnail WHERE ? < 0 OR "
+                                  "scan_id = ?"));
+  select.Bind(scan_id.value_or(-1)).Bind(scan_id.value_or(-1));
+  std::map<std::int64_t, std::string> thumbnails;
+  for (;;) {
+    FORESIGHT_TRY(const bool more, select.Step());
+    if (!more) return thumbnails;
+    const std::int64_t id = select.Integer(0);
+    std::string png = select.Blob(1);
+    if (select.Integer(2) == ThumbnailChecksum(id, png))
+      thumbnails[id] = std::move(png);
+    else if (strict)
+      return Fail(ErrorCode::kBadData, "{}: scan {}: its thumbnail is damaged (checksum)", file_,
+                  id);
   }
-  return Fail(ErrorCode::kInvalidInput, "{}: there is no scan {}", file_, scan_id);
 }
 
 Result<std::int64_t> ScanRows::CountLines(std::int64_t scan_id) const {
@@ -220,11 +269,30 @@ Result<std::int64_t> ScanRows::CountFrames(std::int64_t scan_id) const {
   return Query("SELECT count(*) FROM image WHERE scan_id = ?", scan_id);
 }
 
+Result<double> ScanRows::FirstLineTime(std::int64_t scan_id) const {
+  FORESIGHT_TRY(SqliteStatement first, database_.Prepare("SELECT time_s FROM line WHERE scan_id = ? "
+                                                         "ORDER BY seq LIMIT 1"));
+  first.Bind(scan_id);
+  FORESIGHT_TRY(const bool row, first.Step());
+  return row ? first.Number(0) : 0.0;
+}
+
 Result<std::vector<ScanRow>> ScanRows::ReadScanRows() const {
+  return ReadScanRows(std::nullopt);
+}
+
+Result<ScanRow> ScanRows::ReadScanRow(std::int64_t id) const {
+  FORESIGHT_TRY(std::vector<ScanRow> rows, ReadScanRows(std::max<std::int64_t>(0, id)));
+  if (rows.empty()) return Fail(ErrorCode::kInvalidInput, "{}: there is no scan {}", file_, id);
+  return std::move(rows.front());
+}
+
+Result<std::vector<ScanRow>> ScanRows::ReadScanRows(std::optional<std::int64_t> id) const {
   FORESIGHT_TRY(SqliteStatement select,
                 database_.Prepare("SELECT id, uuid, calibration_id, start_utc_ns, source, "
                                   "simulated, plan_json, state, reason, lines, motor_batches, "
-                                  "frames, crc32 FROM scan ORDER BY id"));
+                                  "frames, crc32 FROM scan WHERE ? < 0 OR id = ? ORDER BY id"));
+  select.Bind(id.value_or(-1)).Bind(id.value_or(-1));
   std::vector<ScanRow> rows;
   for (;;) {
     FORESIGHT_TRY(const bool more, select.Step());
@@ -265,11 +333,13 @@ Result<SensorRig> ScanRows::ReadRig(std::int64_t calibration_id) const {
   return SensorRigFromYaml(yaml, where);
 }
 
-Result<std::vector<LidarLine>> ScanRows::ReadLines(const ScanRow& scan) const {
+Result<std::vector<LidarLine>> ScanRows::ReadLines(std::int64_t scan_id, std::int64_t first_seq,
+                                                   std::size_t at_most) const {
   FORESIGHT_TRY(SqliteStatement select,
                 database_.Prepare("SELECT seq, time_s, codec, beams, has_intensity, data, crc32 "
-                                  "FROM line WHERE scan_id = ? ORDER BY seq"));
-  select.Bind(scan.id);
+                                  "FROM line WHERE scan_id = ? AND seq >= ? ORDER BY seq LIMIT ?"));
+  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max());
+  select.Bind(scan_id).Bind(first_seq).Bind(static_cast<std::int64_t>(std::min(at_most, kMost)));
   std::vector<LidarLine> lines;
   for (;;) {
     FORESIGHT_TRY(const bool more, select.Step());
@@ -282,14 +352,13 @@ Result<std::vector<LidarLine>> ScanRows::ReadLines(const ScanRow& scan) const {
     packed.beams = select.Integer(3);
     packed.has_intensity = select.Integer(4) != 0;
     packed.bytes = select.Blob(5);
-    const std::string where = fmt::format("{}: scan {}, line {}", file_, scan.id, line.seq);
-    if (select.Integer(6) != Checksum(scan.id, line, packed))
+    const std::string where = fmt::format("{}: scan {}, line {}", file_, scan_id, line.seq);
+    if (select.Integer(6) != Checksum(scan_id, line, packed))
       return Fail(ErrorCode::kBadData, "{} is damaged (checksum)", where);
     if (const Status status = UnpackLine(packed, line); !status)
       return Fail(ErrorCode::kBadData, "{}: {}", where, status.error().message);
     lines.push_back(std::move(line));
   }
-  FORESIGHT_CHECK(CheckCount(scan, "lines", lines.size(), scan.lines));
   return lines;
 }
 
@@ -323,6 +392,18 @@ Result<MotorTrack> ScanRows::ReadTrack(const ScanRow& scan) const {
 
 Result<CameraFrame> ScanRows::ReadFrame(const SqliteStatement& row, std::int64_t scan_id,
                                         std::int64_t position) const {
+  std::int64_t data_crc = 0;
+  FORESIGHT_TRY(CameraFrame frame, ReadFrameRow(row, scan_id, position, data_crc));
+  const std::string png = row.Blob(kPngColumn);
+  const std::string where = fmt::format("{}: scan {}, image {}", file_, scan_id, position);
+  if (RowChecksum().Add(png).value() != data_crc)
+    return Fail(ErrorCode::kBadData, "{} is damaged (checksum)", where);
+  FORESIGHT_TRY(frame.image, DecodePng(png, where));
+  return frame;
+}
+
+Result<CameraFrame> ScanRows::ReadFrameRow(const SqliteStatement& row, std::int64_t scan_id,
+                                           std::int64_t position, std::int64_t& data_crc) const {
   CameraFrame frame;
   frame.seq = row.Integer(1);
   frame.time_s = row.Number(2);
@@ -330,23 +411,20 @@ Result<CameraFrame> ScanRows::ReadFrame(const SqliteStatement& row, std::int64_t
   frame.gain_db = row.Number(4);
   frame.motor_angle_rad = row.Number(5);
   frame.target_angle_rad = row.Number(6);
-  const std::int64_t data_crc = row.Integer(7);
-  const std::string png = row.Blob(9);
-  const std::string where = fmt::format("{}: scan {}, picture {}", file_, scan_id, position);
-  if (row.Integer(0) != position ||
-      row.Integer(8) != Checksum(scan_id, position, frame, data_crc) ||
-      RowChecksum().Add(png).value() != data_crc)
-    return Fail(ErrorCode::kBadData, "{} is damaged (checksum)", where);
-  FORESIGHT_TRY(frame.image, DecodePng(png, where));
+  data_crc = row.Integer(7);
+  if (row.Integer(0) != position || row.Integer(8) != Checksum(scan_id, position, frame, data_crc))
+    return Fail(ErrorCode::kBadData, "{}: scan {}, image {} is damaged (checksum)", file_, scan_id,
+                position);
   return frame;
 }
 
 Result<std::vector<CameraFrame>> ScanRows::ReadFrames(const ScanRow& scan) const {
-  FORESIGHT_TRY(
-      SqliteStatement select,
-      database_.Prepare("SELECT position, seq, time_s, exposure_s, gain_db, motor_angle_rad, "
-                        "target_angle_rad, data_crc32, crc32, png FROM image LEFT JOIN image_data "
-                        "USING(scan_id, position) WHERE scan_id = ? ORDER BY position"));
+  FORESIGHT_TRY(SqliteStatement select,
+                database_.Prepare(fmt::format("SELECT {}, png FROM image LEFT JOIN image_data "
+                                              "USING(scan_id, position) WHERE scan_id = ? "
+                                              "ORDER BY position",
+                                              kImageColumns)
+                                      .c_str()));
   select.Bind(scan.id);
   std::vector<CameraFrame> frames;
   for (;;) {
@@ -356,8 +434,53 @@ Result<std::vector<CameraFrame>> ScanRows::ReadFrames(const ScanRow& scan) const
                   ReadFrame(select, scan.id, static_cast<std::int64_t>(frames.size())));
     frames.push_back(std::move(frame));
   }
-  FORESIGHT_CHECK(CheckCount(scan, "pictures", frames.size(), scan.frames));
+  FORESIGHT_CHECK(CheckCount(scan, "images", frames.size(), scan.frames));
   return frames;
+}
+
+Result<CameraFrame> ScanRows::ReadImage(std::int64_t scan_id, std::int64_t position) const {
+  FORESIGHT_TRY(SqliteStatement select,
+                database_.Prepare(fmt::format("SELECT {}, png FROM image LEFT JOIN image_data "
+                                              "USING(scan_id, position) WHERE scan_id = ? AND "
+                                              "position = ?",
+                                              kImageColumns)
+                                      .c_str()));
+  select.Bind(scan_id).Bind(position);
+  FORESIGHT_TRY(const bool found, select.Step());
+  if (!found)
+    return Fail(ErrorCode::kInvalidInput, "{}: scan {} has no image {}", file_, scan_id, position);
+  return ReadFrame(select, scan_id, position);
+}
+
+Result<std::vector<ImageSummary>> ScanRows::ReadImageList(const ScanRow& scan) const {
+  FORESIGHT_TRY(
+      SqliteStatement select,
+      database_.Prepare(fmt::format("SELECT {}, substr(png, 1, {}) FROM image LEFT JOIN image_data "
+                                    "USING(scan_id, position) WHERE scan_id = ? ORDER BY position",
+                                    kImageColumns, kPngHeaderBytes)
+                            .c_str()));
+  select.Bind(scan.id);
+  std::vector<ImageSummary> images;
+  for (;;) {
+    FORESIGHT_TRY(const bool more, select.Step());
+    if (!more) break;
+    ImageSummary image;
+    image.position = static_cast<std::int64_t>(images.size());
+    std::int64_t data_crc = 0;
+    FORESIGHT_TRY(const CameraFrame frame, ReadFrameRow(select, scan.id, image.position, data_crc));
+    image.seq = frame.seq;
+    image.time_s = frame.time_s;
+    image.exposure_s = frame.exposure_s;
+    image.gain_db = frame.gain_db;
+    image.motor_angle_rad = frame.motor_angle_rad;
+    image.target_angle_rad = frame.target_angle_rad;
+    FORESIGHT_TRY(std::tie(image.width, image.height),
+                  PngSize(select.Blob(kPngColumn),
+                          fmt::format("{}: scan {}, image {}", file_, scan.id, image.position)));
+    images.push_back(image);
+  }
+  FORESIGHT_CHECK(CheckCount(scan, "images", images.size(), scan.frames));
+  return images;
 }
 
 Status ScanRows::CheckCount(const ScanRow& scan, const char* what, std::size_t found,
@@ -368,25 +491,27 @@ Status ScanRows::CheckCount(const ScanRow& scan, const char* what, std::size_t f
               what, expected);
 }
 
-Result<Scan> ScanRows::ReadScan(std::int64_t id) const {
-  FORESIGHT_TRY(const std::vector<ScanRow> rows, ReadScanRows());
-  for (const ScanRow& row : rows) {
-    if (row.id != id) continue;
-    Scan scan;
-    scan.uuid = row.uuid;
-    scan.start_utc_ns = row.start_utc_ns;
-    scan.source = row.source;
-    scan.simulated = row.simulated;
-    scan.plan = row.plan;
-    scan.state = row.state;
-    scan.reason = row.reason;
-    FORESIGHT_TRY(scan.rig, ReadRig(row.calibration_id));
-    FORESIGHT_TRY(scan.lines, ReadLines(row));
-    FORESIGHT_TRY(scan.track, ReadTrack(row));
-    FORESIGHT_TRY(scan.frames, ReadFrames(row));
-    return scan;
-  }
-  return Fail(ErrorCode::kInvalidInput, "{}: there is no scan {}", file_, id);
+Result<Scan> ScanRows::ReadHeader(const ScanRow& row) const {
+  Scan scan;
+  scan.uuid = row.uuid;
+  scan.start_utc_ns = row.start_utc_ns;
+  scan.source = row.source;
+  scan.simulated = row.simulated;
+  scan.plan = row.plan;
+  scan.state = row.state;
+  scan.reason = row.reason;
+  FORESIGHT_TRY(scan.rig, ReadRig(row.calibration_id));
+  return scan;
+}
+
+Result<Scan> ScanRows::ReadScan(const ScanRow& row) const {
+  FORESIGHT_TRY(Scan scan, ReadHeader(row));
+  FORESIGHT_TRY(scan.lines, ReadLines(row.id, std::numeric_limits<std::int64_t>::min(),
+                                      std::numeric_limits<std::size_t>::max()));
+  FORESIGHT_CHECK(CheckCount(row, "lines", scan.lines.size(), row.lines));
+  FORESIGHT_TRY(scan.track, ReadTrack(row));
+  FORESIGHT_TRY(scan.frames, ReadFrames(row));
+  return scan;
 }
 
 }  // namespace foresight

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "core/mission/mission_records.h"
 #include "core/mission/sqlite.h"
 #include "core/sensor/scan.h"
 
@@ -34,25 +38,44 @@ class ScanRows {
   Result<std::int64_t> InsertScan(const Scan& header);
   Status InsertLine(std::int64_t scan_id, const LidarLine& line);
   Status InsertMotorSamples(std::int64_t scan_id, std::span<const MotorSample> samples);
-  /// `png` is the frame's picture.
+  /// `png` is the frame's image.
   Status InsertFrame(std::int64_t scan_id, const CameraFrame& frame, const std::string& png);
+  /// `png` is the scan's first image, small.
+  Status InsertThumbnail(std::int64_t scan_id, const std::string& png);
   /// Counts what the scan has and closes its row.
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
 
   Result<std::vector<ScanRow>> ReadScanRows() const;
+  /// Fails with kInvalidInput when there is no such scan.
+  Result<ScanRow> ReadScanRow(std::int64_t id) const;
   Result<std::int64_t> CountLines(std::int64_t scan_id) const;
   Result<std::int64_t> CountFrames(std::int64_t scan_id) const;
-  /// Fails with kInvalidInput when there is no such scan.
-  Result<Scan> ReadScan(std::int64_t id) const;
+  /// On the scan's clock; 0 where it has no line yet.
+  Result<double> FirstLineTime(std::int64_t scan_id) const;
+  /// Everything but lines, track and frames.
+  Result<Scan> ReadHeader(const ScanRow& row) const;
+  Result<Scan> ReadScan(const ScanRow& row) const;
+  /// At most `at_most` lines with seq >= first_seq.
+  Result<std::vector<LidarLine>> ReadLines(std::int64_t scan_id, std::int64_t first_seq,
+                                           std::size_t at_most) const;
+  Result<MotorTrack> ReadTrack(const ScanRow& scan) const;
+  Result<std::vector<ImageSummary>> ReadImageList(const ScanRow& scan) const;
+  /// Fails with kInvalidInput when there is no such image.
+  Result<CameraFrame> ReadImage(std::int64_t scan_id, std::int64_t position) const;
+  /// By scan. A damaged one is left out, or an error where `strict`.
+  Result<std::map<std::int64_t, std::string>> ReadThumbnails(std::optional<std::int64_t> scan_id,
+                                                             bool strict) const;
 
  private:
+  Result<std::vector<ScanRow>> ReadScanRows(std::optional<std::int64_t> id) const;
   Result<std::int64_t> CalibrationId(const std::string& rig_yaml);
   Result<SensorRig> ReadRig(std::int64_t calibration_id) const;
-  Result<std::vector<LidarLine>> ReadLines(const ScanRow& scan) const;
-  Result<MotorTrack> ReadTrack(const ScanRow& scan) const;
   Result<std::vector<CameraFrame>> ReadFrames(const ScanRow& scan) const;
   Result<CameraFrame> ReadFrame(const SqliteStatement& row, std::int64_t scan_id,
                                 std::int64_t position) const;
+  /// The image's own row, without its pixels; position must be the one asked for.
+  Result<CameraFrame> ReadFrameRow(const SqliteStatement& row, std::int64_t scan_id,
+                                   std::int64_t position, std::int64_t& data_crc) const;
   Result<std::int64_t> Query(const char* sql, std::int64_t scan_id) const;
   Status CheckCount(const ScanRow& scan, const char* what, std::size_t found,
                     std::int64_t expected) const;

@@ -3,14 +3,16 @@
 #include <sqlite3.h>
 
 #include <limits>
+#include <system_error>
 
 namespace foresight {
 namespace {
 
-/// The largest value that a row may claim to hold: a raw 20000 x 20000 picture does not belong
+/// The largest value that a row may claim to hold: a raw 20000 x 20000 image does not belong
 /// here, and a damaged length must not become an allocation.
 constexpr int kMaxValueBytes = 256 << 20;
-constexpr int kBusyTimeout_ms = 200;
+/// A writer waits for readers only while it opens and closes the file.
+constexpr int kBusyTimeout_ms = 5000;
 
 tl::unexpected<Error> SqliteFailure(sqlite3* connection, int code, const std::string& file) {
   const char* detail = connection != nullptr ? sqlite3_errmsg(connection) : sqlite3_errstr(code);
@@ -28,6 +30,14 @@ tl::unexpected<Error> SqliteFailure(sqlite3* connection, int code, const std::st
       return Fail(ErrorCode::kIo, "{}: is in use by another program", file);
     case SQLITE_READONLY:
       return Fail(ErrorCode::kIo, "{}: is write-protected", file);
+    case SQLITE_FULL:
+      return Fail(ErrorCode::kIo, "{}: the disk is full", file);
+    case SQLITE_IOERR: {
+      const int system = connection != nullptr ? sqlite3_system_errno(connection) : 0;
+      if (system == 0) return Fail(ErrorCode::kIo, "{}: {}", file, detail);
+      return Fail(ErrorCode::kIo, "{}: {}: {}", file, detail,
+                  std::generic_category().message(system));
+    }
     case SQLITE_CONSTRAINT:
       return Fail(ErrorCode::kInvalidInput, "{}: {}", file, detail);
     default:
@@ -74,6 +84,12 @@ SqliteStatement& SqliteStatement::Bind(std::int64_t value) {
 
 SqliteStatement& SqliteStatement::Bind(double value) {
   const int code = sqlite3_bind_double(statement_.get(), ++bound_, value);
+  if (code != SQLITE_OK) bind_error_ = code;
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::BindNull() {
+  const int code = sqlite3_bind_null(statement_.get(), ++bound_);
   if (code != SQLITE_OK) bind_error_ = code;
   return *this;
 }

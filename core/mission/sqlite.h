@@ -20,6 +20,7 @@ class SqliteStatement {
  public:
   SqliteStatement& Bind(std::int64_t value);
   SqliteStatement& Bind(double value);  ///< NaN is stored as NULL
+  SqliteStatement& BindNull();
   SqliteStatement& BindText(std::string_view text);
   SqliteStatement& BindBlob(std::string_view bytes);
 
@@ -53,6 +54,7 @@ class SqliteStatement {
 /// name the file.
 class SqliteDatabase {
  public:
+  /// kImmutable: of a file that nobody will change meanwhile; needs and leaves no file beside it.
   enum class Mode { kCreate, kReadWrite, kReadOnly, kImmutable };
   static Result<SqliteDatabase> Open(const std::filesystem::path& path, Mode mode);
 

@@ -10,8 +10,8 @@
 namespace foresight {
 
 /// A drill as it stands there, in the object's frame: x = the way the bit points, z = up from the
-/// surface that the foot stands on, y = z cross x; the origin is where the body's axis meets that
-/// surface (DrillTruth has the same frame). Made from a DrillTemplate (drill_template.h) by
+/// surface that the foot stands on, y = z cross x; the origin is where the body's axis intersects
+/// that surface (DrillTruth has the same frame). Made from a DrillTemplate (drill_template.h) by
 /// choosing scale, tilt and bit; it holds all that is needed to draw it and to grasp it.
 struct DrillModel {
   std::string template_name;

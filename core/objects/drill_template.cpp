@@ -2,20 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/contract.h"
+#include "core/geometry/rotation_between.h"
 
 namespace foresight {
 namespace {
 
 constexpr double kShortestBit_m = 0.002;
+constexpr double kLargest_m = 1.0;  // of what a hand holds
+constexpr std::ptrdiff_t kMostParts = 64;
+
+bool WithinHand(const Eigen::Vector3d& point_m) {
+  return (point_m.array().abs() <= kLargest_m).all();
+}
 
 SolidPart Bit(const Eigen::Vector3d& chuck_face_m, const Eigen::Vector3d& direction,
               double radius_m, double length_m) {
   SolidPart bit;
   bit.name = "bit";
   bit.shape = SolidPart::Shape::kCylinder;
-  bit.object_from_part = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction),
+  bit.object_from_part = {RotationBetween(Eigen::Vector3d::UnitZ(), direction),
                           chuck_face_m + 0.5 * length_m * direction};
   bit.size_m = {2.0 * radius_m, 2.0 * radius_m, length_m};
   return bit;
@@ -47,7 +55,8 @@ Status DrillTemplate::Check() const {
     return Fail(ErrorCode::kInvalidOptions,
                 "drill template '{}': scale {} to {} does not hold 1 within 0.5 to 2", name,
                 min_scale, max_scale);
-  if (!(bit_radius_m > 0.0 && max_bit_length_m >= 0.0 && max_bit_length_m <= 0.5))
+  if (!(bit_radius_m > 0.0 && bit_radius_m <= 0.5 && max_bit_length_m >= 0.0 &&
+        max_bit_length_m <= 0.5))
     return Fail(ErrorCode::kInvalidOptions,
                 "drill template '{}': a bit of radius {} m and up to {} m is not usable", name,
                 bit_radius_m, max_bit_length_m);
@@ -55,7 +64,26 @@ Status DrillTemplate::Check() const {
     return Fail(ErrorCode::kInvalidOptions,
                 "drill template '{}': the bit's direction has length {}", name,
                 bit_direction.norm());
-  for (const SolidPart& part : parts) FORESIGHT_CHECK(part.Check());
+  if (std::ssize(parts) > kMostParts)
+    return Fail(ErrorCode::kInvalidOptions, "drill template '{}': {} parts are more than {}", name,
+                parts.size(), kMostParts);
+  for (const SolidPart& part : parts) {
+    FORESIGHT_CHECK(part.Check());
+    if (!WithinHand(part.size_m) || !WithinHand(part.object_from_part.translation()))
+      return Fail(ErrorCode::kInvalidOptions,
+                  "drill template '{}': part '{}' of {} x {} x {} m at ({}, {}, {}) m does not fit "
+                  "into {} m; sizes are metres",
+                  name, part.name, part.size_m.x(), part.size_m.y(), part.size_m.z(),
+                  part.object_from_part.translation().x(), part.object_from_part.translation().y(),
+                  part.object_from_part.translation().z(), kLargest_m);
+  }
+  for (const auto& [member, point] :
+       {std::pair("bit's from_m", chuck_face_m), std::pair("trigger_m", trigger_m),
+        std::pair("grasp_m", object_from_grasp.translation())})
+    if (!WithinHand(point))
+      return Fail(ErrorCode::kInvalidOptions,
+                  "drill template '{}': {} ({}, {}, {}) is not within {} m of its foot", name,
+                  member, point.x(), point.y(), point.z(), kLargest_m);
   const auto is_body = [](const SolidPart& part) { return part.name == kBody; };
   if (std::none_of(parts.begin(), parts.end(), is_body))
     return Fail(ErrorCode::kInvalidOptions, "drill template '{}': no part is named '{}'", name,
@@ -88,7 +116,7 @@ DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_ra
     if (part.name == kBody)
       Lengthen(made, up.z());
     else if (part.name == kFoot)
-      made.size_m.head<2>() *= proportions.foot_share;
+      made.size_m.head<2>() *= proportions.foot_fraction;
     else if (part.object_from_part.translation().z() > grasp_height_m)
       Move(made, part.name == kTrigger ? up : Eigen::Vector3d(up + forward));
     if (part.name != kFoot) made.object_from_part = lean * made.object_from_part;

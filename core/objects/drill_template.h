@@ -13,7 +13,7 @@ namespace foresight {
 struct DrillProportions {
   double head_up_m = 0.0;  ///< of the head, the body that much longer; at most half of it shorter
   double head_forward_m = 0.0;  ///< of head, chuck and bit against the body's axis
-  double foot_share = 1.0;      ///< of the foot's length and width
+  double foot_fraction = 1.0;   ///< of the foot's length and width
 };
 
 /// A kind of drill, read from a data file (resources/templates, docs/templates.md): the parts at

@@ -4,6 +4,7 @@
 #include "core/base/contract.h"
 #include "core/base/embedded_files.h"
 #include "core/geometry/angles.h"
+#include "core/geometry/rotation_between.h"
 #include "core/io/yaml_reader.h"
 #include "core/objects/drill_template.h"
 
@@ -58,8 +59,7 @@ void ReadRound(YamlMap& map, SolidPart& part) {
   if (!(length > 1e-6)) map.Fault("'from_m' and 'to_m' are the same point");
   const double diameter = 2.0 * Positive(map, "radius_m");
   part.size_m = {diameter, diameter, length};
-  part.object_from_part = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to - from),
-                           0.5 * (from + to)};
+  part.object_from_part = {RotationBetween(Eigen::Vector3d::UnitZ(), to - from), 0.5 * (from + to)};
 }
 
 SolidPart PartOf(YamlMap& map) {

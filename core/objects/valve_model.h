@@ -29,7 +29,7 @@ struct ValveModel {
   double lever_length_m = 0.0;  ///< from the pivot to the middle of its round end
 
   static constexpr double kLeverStem_m = 0.05;     ///< length of a lever's stem
-  static constexpr double kLeverStemPerHub = 0.6;  ///< its radius, as a share of the head's
+  static constexpr double kLeverStemPerHub = 0.6;  ///< its radius, as a fraction of the head's
 
   bool IsLever() const { return kind == Kind::kLever; }
 

@@ -54,9 +54,9 @@ constexpr NineColors kCividis = {{{0, 34, 78},
 Rgb8 Balance(double x) {
   constexpr std::array<double, 3> kBelow = {0, 114, 178}, kAbove = {230, 120, 0};
   const std::array<double, 3>& end = x < 0.5 ? kBelow : kAbove;
-  const double share = std::abs(2.0 * x - 1.0);
+  const double fraction = std::abs(2.0 * x - 1.0);
   const auto mix = [&](std::size_t channel) {
-    return Byte(((1.0 - share) * 255.0 + share * end[channel]) / 255.0);
+    return Byte(((1.0 - fraction) * 255.0 + fraction * end[channel]) / 255.0);
   };
   return {mix(0), mix(1), mix(2)};
 }
@@ -65,10 +65,11 @@ Rgb8 Balance(double x) {
 Rgb8 Between(const NineColors& colors, double x) {
   const double place = x * 8.0;
   const auto below = static_cast<std::size_t>(std::min(7.0, std::floor(place)));
-  const double share = place - static_cast<double>(below);
+  const double fraction = place - static_cast<double>(below);
   const auto mix = [&](std::size_t channel) {
-    return Byte(((1.0 - share) * colors[below][channel] + share * colors[below + 1][channel]) /
-                255.0);
+    return Byte(
+        ((1.0 - fraction) * colors[below][channel] + fraction * colors[below + 1][channel]) /
+        255.0);
   };
   return {mix(0), mix(1), mix(2)};
 }

@@ -12,17 +12,17 @@ namespace {
 
 constexpr double kAside_rad = 0.40;
 constexpr double kAbove_rad = 0.22;
-/// This share of the points may lie outside the picture, in each direction.
+/// This fraction of the points may lie outside the picture, in each direction.
 constexpr double kOutside = 0.01;
 constexpr double kLeastTangent = 0.05;
 constexpr double kMargin = 1.03;
 /// In half diagonals of the points' box.
 constexpr double kLeastDistance = 1.5;
 
-/// The value below which `share` of the values lie.
-double Quantile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+/// The value below which `fraction` of the values lie.
+double Quantile(std::vector<double> values, double fraction) {
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }

@@ -50,11 +50,11 @@ void DrawOutlines(ColorImage& picture, const std::vector<Outline>& outlines, con
 }
 
 PixelLines RegionLines(const Roi& roi, const SensorRig& rig, double motor_rad) {
-  constexpr double kSamePicture_rad = 1e-6;
+  constexpr double kSameImage_rad = 1e-6;
   if (const auto* box = std::get_if<BoxRoi>(&roi))
     return ProjectWireframe(WireframeOf(*box), rig, motor_rad);
   const auto& image = std::get<ImageRoi>(roi);
-  if (image.polygon.empty() || std::abs(image.motor_rad - motor_rad) > kSamePicture_rad) return {};
+  if (image.polygon.empty() || std::abs(image.motor_rad - motor_rad) > kSameImage_rad) return {};
   PixelLines lines = {image.polygon};
   lines.front().push_back(lines.front().front());
   return lines;
@@ -70,10 +70,10 @@ ColorImage AroundRegion(const ColorImage& picture, const Roi& roi) {
   const Eigen::Vector2d last(picture.width() - 1, picture.height() - 1);
   const PixelBox box = image->Bounds();
   const Eigen::Vector2d margin = 0.5 * (box.high - box.low);
-  const auto in_picture = [&last](const Eigen::Vector2d& pixel) -> Eigen::Vector2i {
+  const auto in_image = [&last](const Eigen::Vector2d& pixel) -> Eigen::Vector2i {
     return pixel.cwiseMax(Eigen::Vector2d::Zero()).cwiseMin(last).cast<int>();
   };
-  const Eigen::Vector2i low = in_picture(box.low - margin), high = in_picture(box.high + margin);
+  const Eigen::Vector2i low = in_image(box.low - margin), high = in_image(box.high + margin);
   ColorImage part(high.x() - low.x() + 1, high.y() - low.y() + 1);
   for (int y = 0; y < part.height(); ++y)
     for (int x = 0; x < part.width(); ++x) part(x, y) = picture(x + low.x(), y + low.y());

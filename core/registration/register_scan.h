@@ -2,23 +2,23 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/base/shared_array.h"
 #include "core/sensor/scan.h"
 
 namespace foresight {
 
 /// A scan's points on the grid they were measured on: rows are lidar lines in time order, columns
-/// are beams. All vectors have lines * beams entries, row by row.
+/// are beams. All arrays have lines * beams entries, row by row. Copies share them.
 struct RegisteredScan {
   int lines = 0;
   int beams = 0;
-  std::vector<Eigen::Vector3f> points;  ///< in base, metres; NaN = no return
-  std::vector<float> range_m;    ///< along the beam, with the calibrated offset; NaN = no return
-  std::vector<float> intensity;  ///< device units; 0 where the lidar gives none
-  std::vector<Eigen::Vector3f>
+  SharedArray<Eigen::Vector3f> points;  ///< in base, metres; NaN = no return
+  SharedArray<float> range_m;    ///< along the beam, with the calibrated offset; NaN = no return
+  SharedArray<float> intensity;  ///< device units; 0 where the lidar gives none
+  SharedArray<Eigen::Vector3f>
       origins;  ///< one a line: where the lidar was, in base (middle of the line)
 
   std::size_t Index(int line, int beam) const {

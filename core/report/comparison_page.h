@@ -9,8 +9,8 @@
 namespace foresight {
 
 /// One page that sets results side by side: a table of numbers, then a section for each subject
-/// with one column for each rival. Readable in any browser without a network. The pictures are
-/// files that somebody else writes next to it.
+/// with one column for each alternative. Readable in any browser without a network. The pictures
+/// are files that somebody else writes next to it.
 struct ComparisonPage {
   struct Picture {
     std::string file;  ///< in the page's folder; empty = this place stays empty

@@ -6,7 +6,7 @@
 
 namespace foresight {
 
-/// One picture of the head's camera, with the motor's angle while it was taken.
+/// One image of the head's camera, with the motor's angle while it was taken.
 struct CameraFrame {
   std::int64_t seq = 0;
   double time_s = 0.0;  ///< middle of the exposure, on the scan's clock

@@ -14,7 +14,7 @@ Result<MotorTrack> MotorTrack::FromSamples(std::vector<MotorSample> samples) {
       return Fail(ErrorCode::kBadData, "motor track: time does not increase at sample {}", i);
   }
   MotorTrack track;
-  track.samples_ = std::move(samples);
+  track.samples_ = SharedArray<MotorSample>(std::span<const MotorSample>(samples));
   return track;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/base/shared_array.h"
 
 namespace foresight {
 
@@ -14,7 +15,7 @@ struct MotorSample {
   bool operator==(const MotorSample&) const = default;
 };
 
-/// What the encoder said during a scan, in time order.
+/// What the encoder said during a scan, in time order. Copies share the samples.
 class MotorTrack {
  public:
   MotorTrack() = default;
@@ -24,7 +25,7 @@ class MotorTrack {
   /// Appends; a sample that is not later than the last one is dropped.
   void Add(const MotorSample& sample);
 
-  std::span<const MotorSample> samples() const { return samples_; }
+  std::span<const MotorSample> samples() const { return samples_.span(); }
   bool empty() const { return samples_.empty(); }
 
   /// The motor's angle at a time: a straight line fitted to the samples around it, which averages
@@ -38,7 +39,7 @@ class MotorTrack {
   bool operator==(const MotorTrack&) const = default;
 
  private:
-  std::vector<MotorSample> samples_;
+  SharedArray<MotorSample> samples_;
 };
 
 /// Where the plate really is when the motor reports an angle: A_theta of Eq. (4)-(5). Between its

@@ -35,6 +35,15 @@ const CameraFrame* NearestFrame(const Scan& scan, double angle_rad) {
   return nearest;
 }
 
+std::int64_t BeginUtc_ns(const Scan& scan) {
+  double begin_s = 0.0;
+  if (!scan.lines.empty())
+    begin_s = scan.lines.front().time_s;
+  else if (!scan.track.samples().empty())
+    begin_s = scan.track.samples().front().time_s;
+  return scan.start_utc_ns + static_cast<std::int64_t>(1e9 * begin_s);
+}
+
 std::string NewUuid() {
   std::random_device device;
   const auto word = [&] { return device(); };

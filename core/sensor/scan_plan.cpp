@@ -33,30 +33,30 @@ Status ScanPlan::Check() const {
   if (passes != 1 && passes != 2)
     return Fail(ErrorCode::kInvalidOptions, "scan plan: passes {} is neither 1 nor 2", passes);
   if (image_angles_rad.empty() || image_angles_rad.size() > 1000)
-    return Fail(ErrorCode::kInvalidOptions,
-                "scan plan: {} pictures; between 1 and 1000 are possible", image_angles_rad.size());
+    return Fail(ErrorCode::kInvalidOptions, "scan plan: {} images; between 1 and 1000 are possible",
+                image_angles_rad.size());
   const auto [low, high] = std::minmax(from_rad, to_rad);
   for (const double angle : image_angles_rad)
     if (!(angle >= low - 1e-9 && angle <= high + 1e-9))
       return Fail(ErrorCode::kInvalidOptions,
-                  "scan plan: picture at {:.1f} deg is outside the scope {:.1f} to {:.1f} deg",
+                  "scan plan: image at {:.1f} deg is outside the scope {:.1f} to {:.1f} deg",
                   DegreesFromRadians(angle), DegreesFromRadians(low), DegreesFromRadians(high));
   return {};
 }
 
-const char* ToString(ScanPlan::PictureMode mode) {
-  return mode == ScanPlan::PictureMode::kStopAndShoot ? "stop_and_shoot" : "on_the_fly";
+const char* ToString(ScanPlan::ImageMode mode) {
+  return mode == ScanPlan::ImageMode::kStopAndShoot ? "stop_and_shoot" : "on_the_fly";
 }
 
-Result<ScanPlan::PictureMode> PictureModeFromString(const std::string& text) {
-  for (const auto mode : {ScanPlan::PictureMode::kOnTheFly, ScanPlan::PictureMode::kStopAndShoot})
+Result<ScanPlan::ImageMode> ImageModeFromString(const std::string& text) {
+  for (const auto mode : {ScanPlan::ImageMode::kOnTheFly, ScanPlan::ImageMode::kStopAndShoot})
     if (text == ToString(mode)) return mode;
-  return Fail(ErrorCode::kBadData, "picture mode '{}' is neither on_the_fly nor stop_and_shoot",
+  return Fail(ErrorCode::kBadData, "image mode '{}' is neither on_the_fly nor stop_and_shoot",
               text);
 }
 
 double ExposureOnHead(const ScanPlan& plan, const SensorRig& rig) {
-  if (plan.picture_mode == ScanPlan::PictureMode::kStopAndShoot) return plan.exposure_s;
+  if (plan.image_mode == ScanPlan::ImageMode::kStopAndShoot) return plan.exposure_s;
   return std::min(plan.exposure_s, plan.max_blur_px / (plan.speed_rad_s * rig.camera.fy));
 }
 
@@ -76,7 +76,7 @@ double RunUpTime(double speed_rad_s, const HeadMotion& motion) {
   return speed_rad_s / motion.acceleration_rad_s2 + motion.settle_s;
 }
 
-/// From the end of the last pass to the last picture, all taken standing still.
+/// From the end of the last pass to the last image, all taken standing still.
 double ShootingTime(const ScanPlan& plan, const HeadMotion& motion) {
   const double way_out =
       plan.speed_rad_s * (0.5 * plan.speed_rad_s / motion.acceleration_rad_s2 + motion.settle_s);
@@ -97,7 +97,7 @@ double ShootingTime(const ScanPlan& plan, const HeadMotion& motion) {
 double Duration(const ScanPlan& plan, const HeadMotion& motion) {
   const double pass_s = std::abs(plan.to_rad - plan.from_rad) / plan.speed_rad_s;
   const double turns_s = 2.0 * (plan.passes - 1) * RunUpTime(plan.speed_rad_s, motion);
-  const bool shoots = plan.picture_mode == ScanPlan::PictureMode::kStopAndShoot;
+  const bool shoots = plan.image_mode == ScanPlan::ImageMode::kStopAndShoot;
   return plan.passes * pass_s + turns_s + (shoots ? ShootingTime(plan, motion) : 0.0);
 }
 
@@ -128,7 +128,7 @@ Result<ScanPrediction> PredictScan(const ScanPlan& plan, const SensorRig& rig,
       1.0 / (ScanPrediction::kMinDensity * spacing_per_speed * prediction.beam_spacing_px));
   prediction.sigma_spatial_px = SpatialSigmaForDensity(prediction.density);
   prediction.exposure_s = ExposureOnHead(plan, rig);
-  if (plan.picture_mode == ScanPlan::PictureMode::kOnTheFly)
+  if (plan.image_mode == ScanPlan::ImageMode::kOnTheFly)
     prediction.blur_px = plan.speed_rad_s * prediction.exposure_s * rig.camera.fy;
   prediction.bytes = static_cast<std::int64_t>(prediction.lines) * rig.lidar.beams * 4 +
                      static_cast<std::int64_t>(plan.image_angles_rad.size()) * rig.camera.width *

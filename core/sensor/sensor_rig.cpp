@@ -1,10 +1,13 @@
 #include "core/sensor/sensor_rig.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/atomic_file.h"
 #include "core/geometry/angles.h"
 #include "core/io/yaml_reader.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -26,21 +29,50 @@ Rigid<To, From> TransformFromYaml(YamlMap map) {
   map.Finish();
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
   if (std::abs(rotation.norm() - 1.0) > 1e-3) map.Fault("quaternion_wxyz does not have length 1");
+  // What we wrote has the length 1 but for rounding, and comes back as it was.
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  if (std::abs(rotation.squaredNorm() - 1.0) <= kRounding)
+    return Rigid<To, From>::FromUnit(rotation, t);
   return {rotation, t};
 }
 
-FisheyeCamera CameraFromYaml(YamlMap map) {
-  FisheyeCamera camera;
+template <class L>
+Lens LensFromYaml(YamlMap& map) {
+  std::array<double, L::kParameters.size()> values{};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = map.Number(std::string(L::kParameters[i]));
+  return L::FromParameters(values);
+}
+
+/// Tries each alternative of Lens; nullopt where none has the name.
+template <std::size_t index = 0>
+std::optional<Lens> LensFromYaml(const std::string& model, YamlMap& map) {
+  if constexpr (index == std::variant_size_v<Lens>) {
+    return std::nullopt;
+  } else {
+    using L = std::variant_alternative_t<index, Lens>;
+    if (model == L::kModel) return LensFromYaml<L>(map);
+    return LensFromYaml<index + 1>(model, map);
+  }
+}
+
+CameraModel CameraFromYaml(YamlMap map) {
+  CameraModel camera;
   const std::string model = map.Text("model");
-  if (model != "fisheye_k") map.Fault("camera model '" + model + "' is not known; it is fisheye_k");
   camera.width = map.Integer("width");
   camera.height = map.Integer("height");
   camera.fx = map.Number("fx");
   camera.fy = map.Number("fy");
   camera.cx = map.Number("cx");
   camera.cy = map.Number("cy");
-  camera.k = map.Number("k");
+  const auto lens = LensFromYaml(model, map);
+  if (!lens)
+    map.Fault(map.Node("model"),
+              "camera model '" + model + "' is not known; it is fisheye_k, radtan, kb4 or eucm");
+  camera.lens = *lens;
   map.Finish();
+  if (const auto fault = camera.FindFault())
+    map.Fault(map.Node(std::string(fault->parameter)), "camera: " + fault->message);
   return camera;
 }
 
@@ -72,9 +104,19 @@ AngleCorrection CorrectionFromYaml(YamlMap& map) {
   return *correction;
 }
 
+Status CheckDate(const SensorRig& rig) {
+  return rig.date_utc.empty() ? Status() : CheckUtcDate(rig.date_utc);
+}
+
+Status CheckParent(const SensorRig& rig) {
+  return rig.parent_id.empty() ? Status() : CheckRigId(rig.parent_id);
+}
+
 }  // namespace
 
 Status SensorRig::Check() const {
+  FORESIGHT_CHECK(CheckDate(*this));
+  FORESIGHT_CHECK(CheckParent(*this));
   FORESIGHT_CHECK(camera.Check());
   FORESIGHT_CHECK(lidar.Check());
   for (const auto& t : {camera_from_head.translation(), camera_from_lidar.translation()})
@@ -94,7 +136,7 @@ SensorRig DefaultSensorRig() {
                 .fy = 601.0,
                 .cx = 643.5,
                 .cy = 481.5,
-                .k = 0.9413};
+                .lens = FisheyeLens{0.9413}};
   // Both sensors look along the head's z axis. The lidar sits below the camera.
   rig.camera_from_head = {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.035, -0.040)};
   Eigen::Matrix3d camera_from_lidar;
@@ -112,18 +154,26 @@ SensorRig DefaultSensorRig() {
 }
 
 std::string SensorRigToYaml(const SensorRig& rig) {
-  const FisheyeCamera& c = rig.camera;
+  const CameraModel& c = rig.camera;
   const LidarModel& l = rig.lidar;
+  const auto quoted = [](const std::string& text) {
+    YAML::Emitter emitter;
+    emitter << YAML::DoubleQuoted << text;
+    return std::string(emitter.c_str());
+  };
   std::string yaml =
       "# A sensor head's calibration: docs/formats.md. Lengths in metres, angles in radians.\n";
   yaml += fmt::format("foresight_rig: {}\n", kFormatVersion);
-  YAML::Emitter name;
-  name << YAML::DoubleQuoted << rig.name;
-  yaml += fmt::format("name: {}\n", name.c_str());
-  yaml += fmt::format(
-      "camera:\n  model: fisheye_k\n  width: {}\n  height: {}\n  fx: {}\n  fy: {}\n  cx: {}\n  cy: "
-      "{}\n  k: {}\n",
-      c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.k);
+  yaml += fmt::format("name: {}\n", quoted(rig.name));
+  yaml += fmt::format("id: \"{}\"\n", RigId(rig));
+  if (!rig.date_utc.empty()) yaml += fmt::format("date: {}\n", quoted(rig.date_utc));
+  if (!rig.parent_id.empty()) yaml += fmt::format("parent: {}\n", quoted(rig.parent_id));
+  yaml +=
+      fmt::format("camera:\n  model: {}\n  width: {}\n  height: {}\n", c.Key(), c.width, c.height);
+  const std::vector<std::string_view> names = c.ParameterNames();
+  const CameraModel::Parameters values = c.Values();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    yaml += fmt::format("  {}: {}\n", names[i], values[static_cast<Eigen::Index>(i)]);
   yaml += fmt::format(
       "lidar:\n  beams: {}\n  first_angle_rad: {}\n  angle_step_rad: {}\n  period_s: {}\n"
       "  min_range_m: {}\n  max_range_m: {}\n  range_offset_m: {}\n  stamp_offset_s: {}\n",
@@ -146,6 +196,13 @@ Result<SensorRig> SensorRigFromYaml(const std::string& yaml, const std::string& 
       map.Fault(fmt::format("rig format {} is not known; this program reads {}", version,
                             kFormatVersion));
     rig.name = map.Text("name");
+    const std::string stated_id = map.Text("id", "");
+    rig.date_utc = map.Text("date", "");
+    if (const Status date = CheckDate(rig); !date)
+      map.Fault(map.Node("date"), date.error().message);
+    rig.parent_id = map.Text("parent", "");
+    if (const Status parent = CheckParent(rig); !parent)
+      map.Fault(map.Node("parent"), parent.error().message);
     rig.camera = CameraFromYaml(map.Map("camera"));
     rig.lidar = LidarFromYaml(map.Map("lidar"));
     rig.camera_from_head =
@@ -155,6 +212,11 @@ Result<SensorRig> SensorRigFromYaml(const std::string& yaml, const std::string& 
     rig.robot_from_base = TransformFromYaml<frame::Robot, frame::Base>(map.Map("robot_from_base"));
     rig.angle_correction = CorrectionFromYaml(map);
     map.Finish();
+    if (!map.Has("id") || stated_id == RigId(rig)) return;
+    map.Fault(map.Node("id"),
+              fmt::format("the id says {}, but the values of this rig give {}: a value was changed "
+                          "after the id was written. Restore it, or delete the line with the id",
+                          stated_id, RigId(rig)));
   }));
   if (const Status status = rig.Check(); !status)
     return Fail(ErrorCode::kBadData, "{}: {}", source, status.error().message);

@@ -4,16 +4,19 @@
 #include <string>
 
 #include "core/geometry/rigid.h"
-#include "core/sensor/fisheye_camera.h"
+#include "core/sensor/camera_model.h"
 #include "core/sensor/lidar_line.h"
 #include "core/sensor/motor_track.h"
 
 namespace foresight {
 
 /// Everything a calibration knows of one head. Immutable once recorded with a scan.
+/// rig_id.h has its id.
 struct SensorRig {
   std::string name = "unnamed";
-  FisheyeCamera camera;
+  std::string date_utc;   ///< when it was calibrated, "2026-03-01T09:30:00Z"; empty = not known
+  std::string parent_id;  ///< RigId of the rig it was made from; empty = none
+  CameraModel camera;
   LidarModel lidar;
   AngleCorrection angle_correction;
   Rigid<frame::Camera, frame::Head> camera_from_head;    ///< H_mc of Eq. (5)
@@ -38,10 +41,11 @@ struct SensorRig {
 /// in front of the lidar, the motor's axis between them.
 SensorRig DefaultSensorRig();
 
-/// The rig as YAML, docs/formats.md. Numbers survive the round trip (rotations to 1e-15).
+/// The rig as YAML with its id, docs/formats.md. All values survive the round trip bit for bit.
 std::string SensorRigToYaml(const SensorRig& rig);
 
-/// Fails with kBadData, naming `source` and the line at fault.
+/// Fails with kBadData, naming `source` and the line at fault; also where the file states an id
+/// that is not that of its values.
 Result<SensorRig> SensorRigFromYaml(const std::string& yaml, const std::string& source);
 Result<SensorRig> LoadSensorRig(const std::filesystem::path& path);
 Status SaveSensorRig(const SensorRig& rig, const std::filesystem::path& path);

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-ImageSensor::ImageSensor(const FisheyeCamera& camera, const CameraNoise& noise, std::uint64_t seed)
+ImageSensor::ImageSensor(const CameraModel& camera, const CameraNoise& noise, std::uint64_t seed)
     : camera_(camera),
       noise_(noise),
       seed_(seed),
@@ -20,8 +20,8 @@ void ImageSensor::ExposeRow(std::int64_t seq, int y, double exposure_s, double g
   FORESIGHT_EXPECTS(light.size() == pixels.size(), "light for every pixel");
   const double electrons_per_light = noise_.full_well_e * exposure_s / noise_.exposure_for_white_s;
   const double number_per_electron = std::pow(10.0, gain_db / 20.0) / noise_.full_well_e;
-  Random random = NoiseStream(seed_, NoisePurpose::kPictureRow, seq, y);
-  // The gains of the pixels belong to the chip: the same in every picture.
+  Random random = NoiseStream(seed_, NoisePurpose::kImageRow, seq, y);
+  // The gains of the pixels belong to the chip: the same in every image.
   Random gains = NoiseStream(seed_, NoisePurpose::kPixelGain, 0, y);
   const auto number_of = [&](double light_value, double sensitivity) {
     double electrons = light_value * sensitivity * electrons_per_light;

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/base/image.h"
-#include "core/sensor/fisheye_camera.h"
+#include "core/sensor/camera_model.h"
 #include "core/simulation/noise_options.h"
 
 namespace foresight {
@@ -14,14 +14,14 @@ namespace foresight {
 /// gain, gamma, 8 bits.
 class ImageSensor {
  public:
-  ImageSensor(const FisheyeCamera& camera, const CameraNoise& noise, std::uint64_t seed);
+  ImageSensor(const CameraModel& camera, const CameraNoise& noise, std::uint64_t seed);
 
-  /// One row of picture `seq`. `light`: what a white surface under light 1 gives is 1.
+  /// One row of image `seq`. `light`: what a white surface under light 1 gives is 1.
   void ExposeRow(std::int64_t seq, int y, double exposure_s, double gain_db,
                  std::span<const Eigen::Vector3f> light, std::span<Rgb8> pixels) const;
 
  private:
-  FisheyeCamera camera_;
+  CameraModel camera_;
   CameraNoise noise_;
   std::uint64_t seed_;
   double corner_px_;  ///< distance of the farthest corner from the principal point

@@ -57,7 +57,8 @@ std::vector<SceneRay> LidarSimulator::RaysOfLine(
 double LidarSimulator::ReturnPower(const SceneRay& ray, const SceneHit& hit) const {
   const Material& material = caster_.scene().meshes[static_cast<std::size_t>(hit.mesh)].material;
   const double cosine = -static_cast<double>(hit.normal.dot(ray.direction));
-  // A mirror sends its share back only where the beam meets it within a few degrees of its normal.
+  // A mirror sends its fraction back only where the beam intersects it within a few degrees of its
+  // normal.
   const double mirrored = material.specular * std::pow(cosine, 200.0);
   const double diffuse = (1.0 - material.specular) * material.lidar_reflectance * cosine;
   const double range = hit.distance_m;
@@ -86,10 +87,10 @@ std::optional<LidarSimulator::Echo> LidarSimulator::StrongestEcho(
 
 std::optional<LidarSimulator::Echo> LidarSimulator::AddNoise(const std::optional<Echo>& echo,
                                                              Random& random) const {
-  // Always the same number of draws: what one beam meets does not shift the noise of the next.
+  // Always the same number of draws: what one beam intersects does not shift the noise of the next.
   const double range_error = random.Normal();
   const double power_error = random.Normal();
-  const bool spurious = random.Uniform() < noise_.spurious_share;
+  const bool spurious = random.Uniform() < noise_.spurious_fraction;
   const double spurious_range = random.Uniform(lidar_.min_range_m, lidar_.max_range_m);
   if (spurious) return Echo{spurious_range, noise_.dropout_power};
   if (!echo || !(echo->power > noise_.dropout_power)) return std::nullopt;

@@ -17,7 +17,7 @@ Status Positive(const char* name, double value) {
   return {};
 }
 
-Status Share(const char* name, double value) {
+Status CheckFraction(const char* name, double value) {
   if (!(value >= 0.0 && value <= 1.0))
     return Fail(ErrorCode::kInvalidOptions, "{} {} is not between 0 and 1", name, value);
   return {};
@@ -41,14 +41,14 @@ Status LidarNoise::Check() const {
   FORESIGHT_CHECK(RaysPerSide("lidar footprint_side", footprint_side));
   FORESIGHT_CHECK(NotNegative("lidar pulse_length_m", pulse_length_m));
   FORESIGHT_CHECK(Positive("lidar dropout_power", dropout_power));
-  return Share("lidar spurious_share", spurious_share);
+  return CheckFraction("lidar spurious_share", spurious_fraction);
 }
 
 Status CameraNoise::Check() const {
   FORESIGHT_CHECK(Positive("camera full_well_e", full_well_e));
   FORESIGHT_CHECK(NotNegative("camera read_noise_e", read_noise_e));
-  FORESIGHT_CHECK(Share("camera pixel_gain_spread", pixel_gain_spread));
-  FORESIGHT_CHECK(Share("camera vignetting", vignetting));
+  FORESIGHT_CHECK(CheckFraction("camera pixel_gain_spread", pixel_gain_spread));
+  FORESIGHT_CHECK(CheckFraction("camera vignetting", vignetting));
   FORESIGHT_CHECK(Positive("camera exposure_for_white_s", exposure_for_white_s));
   FORESIGHT_CHECK(Positive("camera gamma", gamma));
   return RaysPerSide("camera samples_side", samples_side);

@@ -16,11 +16,11 @@ struct LidarNoise {
   double walk_at_threshold_m = 0.005;  ///< such a return also reads longer by this
   double footprint_horizontal_rad = 0.005;
   double footprint_vertical_rad = 0.012;
-  int footprint_side = 3;          ///< sub-rays per side of the footprint
-  double pulse_length_m = 0.5;     ///< surfaces closer together than this merge into one return
-  double dropout_power = 0.001;    ///< weaker returns are lost: a white sheet beyond 30 m
-  double spurious_share = 0.0005;  ///< returns at a random range
-  bool enabled = true;             ///< false: exact ranges along the beam's centre, nothing lost
+  int footprint_side = 3;             ///< sub-rays per side of the footprint
+  double pulse_length_m = 0.5;        ///< surfaces closer together than this merge into one return
+  double dropout_power = 0.001;       ///< weaker returns are lost: a white sheet beyond 30 m
+  double spurious_fraction = 0.0005;  ///< returns at a random range
+  bool enabled = true;                ///< false: exact ranges along the beam's centre, nothing lost
 
   Status Check() const;
 };

@@ -11,14 +11,14 @@ enum class NoisePurpose : std::uint64_t {
   kMotorPhases = 1,
   kLidarJitter = 2,
   kLidarLine = 3,
-  kPictureJitter = 4,
-  kPictureRow = 5,
+  kImageJitter = 4,
+  kImageRow = 5,
   kPixelGain = 6,
   kCalibrationError = 7,
   kDrawnRegion = 8,
 };
 
-/// The generator of one purpose, of one line or picture, of one row: whoever draws first, and on
+/// The generator of one purpose, of one line or image, of one row: whoever draws first, and on
 /// which thread, changes nothing.
 inline Random NoiseStream(std::uint64_t seed, NoisePurpose purpose, std::int64_t seq = 0,
                           int row = 0) {

@@ -108,7 +108,7 @@ RayCaster::RayCaster(std::shared_ptr<const Scene> scene) : impl_(std::make_uniqu
   if (!impl_->device) ThrowOnError(nullptr, "starting a device");
   impl_->embree_scene.reset(rtcNewScene(impl_->device.get()));
   RTCScene embree_scene = impl_->embree_scene.get();
-  // Without it single rays slip through the edges between triangles: black specks in the picture.
+  // Without it single rays slip through the edges between triangles: black specks in the image.
   rtcSetSceneFlags(embree_scene, RTC_SCENE_FLAG_ROBUST);
   for (std::size_t i = 0; i < impl_->scene->meshes.size(); ++i)
     if (!impl_->scene->meshes[i].triangles.empty())

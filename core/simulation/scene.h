@@ -19,7 +19,7 @@ struct Material {
   Eigen::Vector3d color2 = {0.4, 0.4, 0.4};  ///< the pattern's other colour
   double pattern_size_m = 0.1;
   double lidar_reflectance = 0.5;  ///< at the laser's wavelength
-  double specular = 0.0;           ///< share that is mirrored away: such a return may be lost
+  double specular = 0.0;           ///< fraction that is mirrored away: such a return may be lost
   double emission = 0.0;           ///< light of its own; 1 = as bright as white under light 1
 };
 
@@ -40,8 +40,8 @@ struct ValveTruth {
 };
 struct DrillTruth {
   std::string name;
-  /// x = the way the bit points, z = up; the origin is where the grip's axis meets the surface that
-  /// the battery stands on.
+  /// x = the way the bit points, z = up; the origin is where the grip's axis intersects the surface
+  /// that the battery stands on.
   Rigid<frame::Robot, frame::Object> robot_from_object;
   double scale = 1.0;  ///< 1 = 0.24 m tall
   /// Lean of the grip and the head about x and y of the object, against the foot.
@@ -64,7 +64,7 @@ struct Scene {
   std::string name;
   std::vector<SceneMesh> meshes;
   std::vector<Light> lights;
-  double ambient = 0.35;  ///< light from everywhere, as a share of light 1
+  double ambient = 0.35;  ///< light from everywhere, as a fraction of light 1
   std::vector<ValveTruth> valves;
   std::vector<DrillTruth> drills;
   std::vector<BlockTruth> blocks;

@@ -15,9 +15,17 @@ using Pose = Rigid<frame::Robot, frame::Object>;
 
 constexpr int kFormatVersion = 1;
 
+/// Of sizes and places: float rays are good to a tenth of a millimetre there, and not beyond.
+constexpr double kFarthest_m = 1000.0;
+/// Of lights and of what glows: 1 is a well lit room.
+constexpr double kBrightest = 1e6;
+
+/// A number in (0, kFarthest_m]: lengths, and factors that make lengths.
 double Positive(YamlMap& map, const std::string& key) {
   const double value = map.Number(key);
   if (!(value > 0.0)) map.Fault(map.Node(key), "'" + key + "' is not positive");
+  if (!(value <= kFarthest_m))
+    map.Fault(map.Node(key), fmt::format("'{}' is {}, more than {}", key, value, kFarthest_m));
   return value;
 }
 
@@ -25,7 +33,22 @@ double Positive(YamlMap& map, const std::string& key, double fallback) {
   return map.Has(key) ? Positive(map, key) : map.Number(key, fallback);
 }
 
-double Share(YamlMap& map, const std::string& key, double fallback) {
+double Brightness(YamlMap& map, const std::string& key, double fallback) {
+  const double value = map.Number(key, fallback);
+  if (!(value >= 0.0 && value <= kBrightest))
+    map.Fault(map.Node(key), fmt::format("'{}' is {}, not 0 to {}", key, value, kBrightest));
+  return value;
+}
+
+/// A place in robot, metres.
+Eigen::Vector3d Place(YamlMap& map, const std::string& key) {
+  const Eigen::Vector3d value = map.Vector(key);
+  if (!(value.array().abs() <= kFarthest_m).all())
+    map.Fault(map.Node(key), fmt::format("'{}' is further than {} m away", key, kFarthest_m));
+  return value;
+}
+
+double ReadFraction(YamlMap& map, const std::string& key, double fallback) {
   const double value = map.Number(key, fallback);
   if (!(value >= 0.0 && value <= 1.0))
     map.Fault(map.Node(key), "'" + key + "' is not between 0 and 1");
@@ -35,6 +58,9 @@ double Share(YamlMap& map, const std::string& key, double fallback) {
 Eigen::Vector3d Size(YamlMap& map, const std::string& key, const Eigen::Vector3d& fallback) {
   const Eigen::Vector3d value = map.Vector(key, fallback);
   if (!(value.minCoeff() > 0.0)) map.Fault(map.Node(key), "'" + key + "' is not positive");
+  if (!(value.maxCoeff() <= kFarthest_m))
+    map.Fault(map.Node(key), fmt::format("'{}' has a side of {} m; {} m is the most", key,
+                                         value.maxCoeff(), kFarthest_m));
   return value;
 }
 
@@ -46,7 +72,9 @@ Eigen::Vector3d Color(YamlMap& map, const std::string& key, const Eigen::Vector3
 }
 
 Pose PoseOf(YamlMap& map) {
-  const Eigen::Vector3d position = map.Vector("position_m", Eigen::Vector3d::Zero());
+  const Eigen::Vector3d position = map.Has("position_m")
+                                       ? Place(map, "position_m")
+                                       : map.Vector("position_m", Eigen::Vector3d::Zero());
   const Eigen::Vector3d rpy_deg = map.Vector("rpy_deg", Eigen::Vector3d::Zero());
   const Eigen::Quaterniond rotation =
       Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.z()), Eigen::Vector3d::UnitZ()) *
@@ -76,17 +104,17 @@ Material MaterialOf(YamlMap map) {
   material.pattern = PatternOf(map);
   material.color2 = Color(map, "color2", material.color2);
   material.pattern_size_m = Positive(map, "pattern_size_m", material.pattern_size_m);
-  material.lidar_reflectance = Share(map, "lidar_reflectance", material.lidar_reflectance);
-  material.specular = Share(map, "specular", material.specular);
-  material.emission = map.Number("emission", material.emission);
+  material.lidar_reflectance = ReadFraction(map, "lidar_reflectance", material.lidar_reflectance);
+  material.specular = ReadFraction(map, "specular", material.specular);
+  material.emission = Brightness(map, "emission", material.emission);
   map.Finish();
   return material;
 }
 
 Light LightOf(YamlMap& map) {
   Light light;
-  light.position_m = map.Vector("position_m");
-  light.intensity = Positive(map, "intensity", light.intensity);
+  light.position_m = Place(map, "position_m");
+  light.intensity = Brightness(map, "intensity", light.intensity);
   map.Finish();
   return light;
 }
@@ -102,7 +130,7 @@ class SceneReader {
       map_.Fault(fmt::format("scene format {} is not known; this program reads {}", version,
                              kFormatVersion));
     scene_.name = map_.Text("name");
-    scene_.ambient = map_.Number("ambient", scene_.ambient);
+    scene_.ambient = Brightness(map_, "ambient", scene_.ambient);
     for (YamlMap& entry : map_.List("lights")) scene_.lights.push_back(LightOf(entry));
     ReadMaterials();
     for (YamlMap& entry : map_.List("solids")) ReadSolid(entry);
@@ -150,8 +178,8 @@ double SceneReader::LengthOrEnds(YamlMap& map, Pose& pose) const {
     pose = PoseOf(map);
     return Positive(map, "length_m");
   }
-  const Eigen::Vector3d from = map.Vector("from_m");
-  const Eigen::Vector3d to = map.Vector("to_m");
+  const Eigen::Vector3d from = Place(map, "from_m");
+  const Eigen::Vector3d to = Place(map, "to_m");
   if (!((to - from).norm() > 1e-6)) map.Fault("'from_m' and 'to_m' are the same point");
   pose = Pose() * PoseAlong(from, to);
   return (to - from).norm();
@@ -172,6 +200,8 @@ Shape SceneReader::ShapeOf(YamlMap& map, const std::string& kind, Pose& pose) co
     const std::vector<double> size = map.Numbers("size_m", 2);
     if (!(size[0] > 0.0 && size[1] > 0.0))
       map.Fault(map.Node("size_m"), "'size_m' is not positive");
+    if (!(size[0] <= kFarthest_m && size[1] <= kFarthest_m))
+      map.Fault(map.Node("size_m"), fmt::format("'size_m' has a side beyond {} m", kFarthest_m));
     return RectangleShape(size[0], size[1]);
   }
   if (kind == "sphere") return SphereShape(Positive(map, "radius_m"));
@@ -217,7 +247,7 @@ void SceneReader::ReadValve(YamlMap& map) {
   if (!(std::abs(axis.z()) < 0.99 * axis.norm()))
     map.Fault(map.Node("axis"), "'axis' is zero or vertical");
   valve.robot_from_object =
-      ValvePose(map.Vector("position_m"), axis, RadiansFromDegrees(map.Number("phase_deg", 0.0)));
+      ValvePose(Place(map, "position_m"), axis, RadiansFromDegrees(map.Number("phase_deg", 0.0)));
   valve.model.rim_radius_m = map.Number("rim_radius_m", valve.model.rim_radius_m);
   valve.model.tube_radius_m = map.Number("tube_radius_m", valve.model.tube_radius_m);
   valve.model.spokes = map.Integer("spokes", valve.model.spokes);
@@ -225,6 +255,11 @@ void SceneReader::ReadValve(YamlMap& map) {
   valve.model.hub_radius_m = map.Number("hub_radius_m", valve.model.hub_radius_m);
   valve.model.dish_m = map.Number("dish_m", valve.model.dish_m);
   if (const Status status = valve.model.Check(); !status) map.Fault(status.error().message);
+  for (const double size : {valve.model.rim_radius_m, valve.model.hub_radius_m,
+                            valve.model.spoke_radius_m, std::abs(valve.model.dish_m)})
+    if (!(size <= kFarthest_m))
+      map.Fault(fmt::format("a valve with a radius or a dish of {} m; {} m is the most", size,
+                            kFarthest_m));
   valve.stem_length_m = Positive(map, "stem_length_m", valve.stem_length_m);
   valve.stem_radius_m = Positive(map, "stem_radius_m", valve.stem_radius_m);
   valve.flange_radius_m = Positive(map, "flange_radius_m", valve.flange_radius_m);

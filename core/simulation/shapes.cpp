@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/base/contract.h"
+#include "core/geometry/rotation_between.h"
 
 namespace foresight {
 namespace {
@@ -132,8 +133,7 @@ void AppendShape(const Shape& shape, const Rigid<frame::Robot, frame::Object>& r
 Rigid<frame::Object, frame::Object> PoseAlong(const Eigen::Vector3d& from,
                                               const Eigen::Vector3d& to) {
   FORESIGHT_EXPECTS((to - from).norm() > 0.0, "two equal points make no direction");
-  return {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to - from),
-          0.5 * (from + to)};
+  return {RotationBetween(Eigen::Vector3d::UnitZ(), to - from), 0.5 * (from + to)};
 }
 
 }  // namespace foresight

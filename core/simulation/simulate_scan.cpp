@@ -39,9 +39,9 @@ MotorTrack EncoderTrack(const World& world, const ConstantSpeed& shaft, double d
 
 Result<Scan> SimulateSweep(const World& world, const ScanPlan& plan, const RunContext& context) {
   FORESIGHT_CHECK(plan.Check());
-  if (plan.passes != 1 || plan.picture_mode != ScanPlan::PictureMode::kOnTheFly)
+  if (plan.passes != 1 || plan.image_mode != ScanPlan::ImageMode::kOnTheFly)
     return Fail(ErrorCode::kInvalidOptions,
-                "simulated sweep: it has one pass, with pictures on the fly; simulate a head for "
+                "simulated sweep: it has one pass, with images on the fly; simulate a head for "
                 "other plans");
   const ConstantSpeed shaft(plan);
   const double duration_s = shaft.TimeOf(plan.to_rad);
@@ -54,12 +54,13 @@ Result<Scan> SimulateSweep(const World& world, const ScanPlan& plan, const RunCo
   scan.rig = world.true_rig();
   scan.rig.angle_correction = world.CalibratedCorrection();
   scan.track = EncoderTrack(world, shaft, duration_s);
-  scan.lines.resize(static_cast<std::size_t>(std::ceil(duration_s / period_s)));
-  const bool finished = ParallelFor(static_cast<int>(scan.lines.size()), context, [&](int i) {
-    scan.lines[static_cast<std::size_t>(i)] =
+  std::vector<LidarLine> lines(static_cast<std::size_t>(std::ceil(duration_s / period_s)));
+  const bool finished = ParallelFor(static_cast<int>(lines.size()), context, [&](int i) {
+    lines[static_cast<std::size_t>(i)] =
         world.MeasureLine(i, i * period_s, [&](double time_s) { return shaft.At(time_s); });
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "the simulated sweep was cancelled");
+  scan.lines = std::move(lines);
   scan.state = ScanState::kComplete;
   return scan;
 }
@@ -69,7 +70,7 @@ Result<Scan> SimulateScan(const World& world, const ScanPlan& plan, const RunCon
   const ConstantSpeed shaft(plan);
   for (std::size_t i = 0; i < plan.image_angles_rad.size(); ++i) {
     const double time_s = shaft.TimeOf(plan.image_angles_rad[i]);
-    CameraFrame frame = world.TakePicture(
+    CameraFrame frame = world.CaptureImage(
         static_cast<std::int64_t>(i), time_s, plan.exposure_s, plan.gain_db,
         [&](double at_s) { return shaft.At(at_s); }, context.Part(0.5, 1.0));
     if (frame.image.empty()) return Fail(ErrorCode::kCancelled, "the simulated scan was cancelled");

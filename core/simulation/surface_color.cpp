@@ -6,9 +6,9 @@
 namespace foresight {
 namespace {
 
-constexpr float kBrickAspect = 3.0f;     ///< length of a brick in rows
-constexpr float kMortarShare = 0.12f;    ///< of a row's height
-constexpr float kBrickVariation = 0.3f;  ///< of brightness from brick to brick
+constexpr float kBrickAspect = 3.0f;      ///< length of a brick in rows
+constexpr float kMortarFraction = 0.12f;  ///< of a row's height
+constexpr float kBrickVariation = 0.3f;   ///< of brightness from brick to brick
 
 /// A fixed random number in [0, 1) for a lattice cell.
 float CellValue(int x, int y, int z) {
@@ -59,7 +59,8 @@ BrickLook BrickAt(const Eigen::Vector2f& uv) {
   const float row = std::floor(uv.y());
   const float along = uv.x() / kBrickAspect + (Odd(row) ? 0.5f : 0.0f);
   const float column = std::floor(along);
-  const bool mortar = uv.y() - row < kMortarShare || (along - column) * kBrickAspect < kMortarShare;
+  const bool mortar =
+      uv.y() - row < kMortarFraction || (along - column) * kBrickAspect < kMortarFraction;
   const float value = CellValue(static_cast<int>(column), static_cast<int>(row), 7);
   return {mortar, 1.0f + kBrickVariation * (value - 0.5f)};
 }

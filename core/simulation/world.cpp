@@ -6,12 +6,12 @@
 
 #include "core/base/contract.h"
 #include "core/base/parallel.h"
+#include "core/simulation/image_renderer.h"
 #include "core/simulation/image_sensor.h"
 #include "core/simulation/lidar_simulator.h"
 #include "core/simulation/lidar_view.h"
 #include "core/simulation/motor_simulator.h"
 #include "core/simulation/noise_stream.h"
-#include "core/simulation/picture_renderer.h"
 #include "core/simulation/ray_caster.h"
 
 namespace foresight {
@@ -54,7 +54,7 @@ struct World::Impl {
   RayCaster caster;
   MotorSimulator motor;
   LidarSimulator lidar;
-  PictureRenderer renderer;
+  ImageRenderer renderer;
   ImageSensor sensor;
 };
 
@@ -97,13 +97,13 @@ LidarLine World::MeasureLine(std::int64_t seq, double time_s,
   });
 }
 
-CameraFrame World::TakePicture(std::int64_t seq, double time_s, double exposure_s, double gain_db,
-                               const std::function<double(double)>& motor_rad_at,
-                               const RunContext& context) const {
+CameraFrame World::CaptureImage(std::int64_t seq, double time_s, double exposure_s, double gain_db,
+                                const std::function<double(double)>& motor_rad_at,
+                                const RunContext& context) const {
   const double start_s = time_s - 0.5 * exposure_s;
   const bool moving_up = motor_rad_at(start_s + exposure_s) >= motor_rad_at(start_s);
-  const double jitter_rad = impl_->Jitter(NoisePurpose::kPictureJitter, seq);
-  PictureRenderer::CameraMotion motion;
+  const double jitter_rad = impl_->Jitter(NoisePurpose::kImageJitter, seq);
+  ImageRenderer::CameraMotion motion;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const double moment_s =
         start_s + exposure_s * (static_cast<double>(i) + 0.5) / static_cast<double>(motion.size());
@@ -117,7 +117,7 @@ CameraFrame World::TakePicture(std::int64_t seq, double time_s, double exposure_
                     .motor_angle_rad = EncoderAngle(motor_rad_at(time_s)),
                     .target_angle_rad = 0.0,
                     .image = {}};
-  const FisheyeCamera& camera = impl_->rig.camera;
+  const CameraModel& camera = impl_->rig.camera;
   const auto width = static_cast<std::size_t>(camera.width);
   ColorImage image(camera.width, camera.height);
   const bool finished = ParallelFor(camera.height, context, [&](int y) {
@@ -130,7 +130,7 @@ CameraFrame World::TakePicture(std::int64_t seq, double time_s, double exposure_
 }
 
 DepthImage World::TrueDepth(double motor_rad, const RunContext& context) const {
-  const FisheyeCamera& camera = impl_->rig.camera;
+  const CameraModel& camera = impl_->rig.camera;
   const auto robot_from_camera = impl_->RobotFromCamera(PlateAngle(motor_rad, true));
   DepthImage depth(camera.width, camera.height);
   const bool finished = ParallelFor(camera.height, context, [&](int y) {
@@ -142,7 +142,7 @@ DepthImage World::TrueDepth(double motor_rad, const RunContext& context) const {
 
 MaskImage World::SeenByLidar(const DepthImage& true_depth_m, double motor_rad, double from_rad,
                              double to_rad, const RunContext& context) const {
-  const FisheyeCamera& camera = impl_->rig.camera;
+  const CameraModel& camera = impl_->rig.camera;
   FORESIGHT_EXPECTS(true_depth_m.width() == camera.width && true_depth_m.height() == camera.height,
                     "the true depth is of the head's camera");
   const LidarView view(impl_->caster, impl_->rig, PlateAngle(from_rad, true),

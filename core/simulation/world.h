@@ -41,14 +41,14 @@ class World {
   LidarLine MeasureLine(std::int64_t seq, double time_s,
                         const std::function<double(double)>& motor_rad_at) const;
 
-  /// One picture, exposed around time_s. motor_angle_rad of the frame is the encoder's at
+  /// One image, exposed around time_s. motor_angle_rad of the frame is the encoder's at
   /// mid-exposure; target_angle_rad is the caller's to fill. The image is empty when the context
   /// was cancelled. About 1 s of CPU for 1288 x 964.
-  CameraFrame TakePicture(std::int64_t seq, double time_s, double exposure_s, double gain_db,
-                          const std::function<double(double)>& motor_rad_at,
-                          const RunContext& context) const;
+  CameraFrame CaptureImage(std::int64_t seq, double time_s, double exposure_s, double gain_db,
+                           const std::function<double(double)>& motor_rad_at,
+                           const RunContext& context) const;
 
-  /// The true depth along z in metres, through the pixel centres of a picture taken at a shaft
+  /// The true depth along z in metres, through the pixel centres of an image taken at a shaft
   /// angle on the way up; NaN = nothing there. Empty when the context was cancelled.
   DepthImage TrueDepth(double motor_rad, const RunContext& context) const;
 

@@ -27,7 +27,7 @@ class Camera {
   /// Starts one exposure and returns at once the `seq` of its frame, which comes from WaitForFrame.
   virtual Result<std::int64_t> Trigger() = 0;
   /// The oldest frame not yet handed out, waiting at most `timeout`; nullopt when none came. The
-  /// motor's angles in it are not filled in. Fails once for each picture that is given up.
+  /// motor's angles in it are not filled in. Fails once for each image that is given up.
   virtual Result<std::optional<CameraFrame>> WaitForFrame(std::chrono::milliseconds timeout) = 0;
   /// Never waits for the device. What a device cannot know stays at its default.
   virtual CameraHealth Health() const = 0;

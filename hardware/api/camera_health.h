@@ -9,12 +9,12 @@ namespace foresight {
 /// How well a camera and its connection do. Counters run since the driver was made.
 struct CameraHealth {
   bool connected = false;
-  bool suspect = false;             ///< a picture is overdue, and the camera has not answered since
-  std::int64_t frames = 0;          ///< handed on
-  std::int64_t lost = 0;            ///< triggers whose picture did not come
-  std::int64_t incomplete = 0;      ///< pictures with packets missing, dropped
-  std::int64_t underruns = 0;       ///< pictures that found no free buffer
-  std::int64_t resent_packets = 0;  ///< lost on the way and sent again
+  bool suspect = false;              ///< an image is overdue, and the camera has not answered since
+  std::int64_t frames = 0;           ///< handed on
+  std::int64_t lost = 0;             ///< triggers whose image did not come
+  std::int64_t incomplete = 0;       ///< images with packets missing, dropped
+  std::int64_t underruns = 0;        ///< images that found no free buffer
+  std::int64_t resent_packets = 0;   ///< lost on the way and sent again
   std::int64_t missing_packets = 0;  ///< lost for good
   int reconnects = 0;
   double temperature_c =

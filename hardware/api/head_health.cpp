@@ -67,7 +67,7 @@ std::string Describe(const LidarHealth& lidar) {
 std::string Describe(const CameraHealth& camera) {
   const std::string temperature =
       std::isfinite(camera.temperature_c) ? fmt::format(", {:.1f} °C", camera.temperature_c) : "";
-  return fmt::format("{} pictures, {} lost{}", camera.frames, camera.lost, temperature);
+  return fmt::format("{} images, {} lost{}", camera.frames, camera.lost, temperature);
 }
 
 std::string Describe(const MotorHealth& motor) {

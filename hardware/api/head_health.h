@@ -17,7 +17,7 @@ struct HeadHealth {
 
 /// "40 lines/s, 0 lost, clock offset 12.345 s": the numbers an operator looks at.
 std::string Describe(const LidarHealth& lidar);
-/// "12 pictures, 0 lost, 41.5 °C"; without a temperature where the camera has no sensor.
+/// "12 images, 0 lost, 41.5 °C"; without a temperature where the camera has no sensor.
 std::string Describe(const CameraHealth& camera);
 /// "240 polls/s, round trip 0.03 ms".
 std::string Describe(const MotorHealth& motor);

@@ -47,10 +47,10 @@ DeviceDiagnosis DiagnoseCamera(const CameraHealth& now, const CameraHealth& befo
                                const HealthLimits& limits) {
   if (!now.connected) return Missing(now.last_error);
   Findings findings;
-  if (now.suspect) findings.Add("a picture is overdue and the camera does not answer");
-  findings.AddCount(now.lost - before.lost, "pictures that did not come: {}");
-  findings.AddCount(now.incomplete - before.incomplete, "incomplete pictures: {}");
-  findings.AddCount(now.underruns - before.underruns, "pictures without a free buffer: {}");
+  if (now.suspect) findings.Add("an image is overdue and the camera does not answer");
+  findings.AddCount(now.lost - before.lost, "images that did not come: {}");
+  findings.AddCount(now.incomplete - before.incomplete, "incomplete images: {}");
+  findings.AddCount(now.underruns - before.underruns, "images without a free buffer: {}");
   findings.AddCount(now.reconnects - before.reconnects, "connected again: {} times");
   if (now.temperature_c > limits.camera_temperature_c)
     findings.Add(fmt::format("hot: {:.1f} °C", now.temperature_c));

@@ -31,7 +31,7 @@ struct HealthLimits {
   double camera_temperature_c = 70.0;    ///< most cameras' own limit of the housing
   double lidar_sync_round_trip_s = 0.1;  ///< twice 50 ms: how far its clock may be off
   double motor_round_trip_s = 0.02;      ///< several polls of the encoder
-  double slow_polls = 0.02;              ///< share of the polls
+  double slow_polls = 0.02;              ///< fraction of the polls
 };
 
 /// What is wrong now, and what went wrong since `before`.

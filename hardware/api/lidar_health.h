@@ -21,6 +21,9 @@ struct LidarHealth {
   double clock_drift_ppm = 0.0;    ///< of the device's clock against the head's; positive = slow
   double sync_round_trip_s = 0.0;  ///< of the best reading of the device's clock
   std::string last_error;          ///< empty when there was none
+  /// What is wrong with the lines that come now, e.g. "37 of 40 lines had a bad check sum in the
+  /// last 1.5 s"; empty when nothing is.
+  std::string trouble;
 };
 
 }  // namespace foresight

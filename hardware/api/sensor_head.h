@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -38,6 +39,10 @@ class ScanSink {
   virtual void OnLine(const LidarLine& line) = 0;
   virtual void OnMotorSamples(std::span<const MotorSample> samples) = 0;
   virtual void OnFrame(const CameraFrame& frame) = 0;
+  /// Why nothing more of the running scan can be kept, e.g. a full disk; nullopt while all is well.
+  /// The head asks several times a line and ends the scan as interrupted for it: a sweep that
+  /// nobody records is of no use.
+  virtual std::optional<std::string> Failure() const { return std::nullopt; }
   /// Once, before the end: how the devices did when the scan started and when it ended.
   virtual void OnDeviceHealth(const HeadHealth& /*at_start*/, const HeadHealth& /*at_end*/) {}
   virtual void OnScanEnded(ScanState state, const std::string& reason) = 0;
@@ -51,15 +56,19 @@ class SensorHead {
 
   virtual std::string Describe() const = 0;
   virtual HeadStatus Status() const = 0;
-  /// The calibration in force on the head.
+  /// The calibration in force on the head; a running scan has the one of its start.
   virtual SensorRig Rig() const = 0;
+  /// Puts another calibration in force, from the next scan on. Fails with kState unless ready or
+  /// disconnected, as SensorRig::Check() where the rig is unusable, and with kInvalidInput where it
+  /// is of a head with another number of beams or pixels; the old one stays then.
+  virtual foresight::Status SetRig(const SensorRig& rig) = 0;
   /// How it moves, for PredictScan.
   virtual HeadMotion Motion() const { return {}; }
 
   /// Connects to the devices and searches the zero reference. Fails with kState while sweeping.
   virtual foresight::Status Home() = 0;
-  /// Fails with kState unless ready, kInvalidOptions for a bad plan. `sink` lives until
-  /// OnScanEnded.
+  /// Fails with kState unless ready, kInvalidOptions for a bad plan. Once it is accepted, the sink
+  /// hears OnScanStarted and OnScanEnded whatever happens. `sink` lives until OnScanEnded.
   virtual foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) = 0;
   /// Ends the running scan as aborted for `reason` and keeps what it has; the motor stops.
   virtual void EndScan(const std::string& reason) = 0;

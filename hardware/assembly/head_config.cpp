@@ -194,7 +194,7 @@ Result<HeadConfig> HeadConfigFromYaml(const std::string& yaml, const std::string
 }
 
 Result<HeadConfig> LoadHeadConfig(const std::filesystem::path& path) {
-  FORESIGHT_TRY(const std::string yaml, ReadFile(path));
+  FORESIGHT_TRY(const std::string yaml, ReadFile(path, 1 << 20));
   return HeadConfigFromYaml(yaml, path.string(), path.parent_path());
 }
 
@@ -239,6 +239,7 @@ std::string HeadConfigToYaml(const HeadConfig& config, const std::string& rig_fi
 }
 
 Status SaveHeadConfig(const HeadConfig& config, const std::filesystem::path& path) {
+  FORESIGHT_CHECK(ResolveOutput(path));  // before there is a rig beside what is no file
   std::filesystem::path rig = path;
   rig.replace_extension(".rig.yaml");
   FORESIGHT_CHECK(SaveSensorRig(config.rig, rig));

@@ -80,7 +80,7 @@ class CameraDevice::Performer {
   }
 
   Outcome operator()(const gvcp::PacketResend& resend) const {
-    if (device_.controller_) device_.orders_.resends.push_back(resend);
+    if (device_.controller_) device_.commands_.resends.push_back(resend);
     return {};
   }
 
@@ -114,7 +114,7 @@ std::vector<std::uint8_t> CameraDevice::Answer(std::span<const std::uint8_t> pac
   PassTime(now_s);
   const auto request = gvcp::DecodeRequest(packet);
   if (!request) return {};
-  if (MayWrite(from)) last_heard_s_ = now_s;
+  if (MayWrite(from)) last_request_s_ = now_s;
   if (last_.from == from &&
       std::equal(packet.begin(), packet.end(), last_.packet.begin(), last_.packet.end()))
     return last_.answer;
@@ -137,8 +137,8 @@ std::vector<std::uint8_t> CameraDevice::Perform(const gvcp::Request& request, co
   return gvcp::EncodeAck(ack);
 }
 
-CameraDevice::Orders CameraDevice::TakeOrders() {
-  return std::exchange(orders_, {});
+CameraDevice::Commands CameraDevice::TakeCommands() {
+  return std::exchange(commands_, {});
 }
 
 AckStatus CameraDevice::WriteRegister(std::uint32_t address, std::uint32_t value,
@@ -162,7 +162,7 @@ AckStatus CameraDevice::WriteControl(std::uint32_t value, const UdpPeer& from, d
     ReleaseControl();
   } else {
     controller_ = from;
-    last_heard_s_ = now_s;
+    last_request_s_ = now_s;
   }
   return written;
 }
@@ -175,10 +175,10 @@ void CameraDevice::Follow(std::uint32_t address, std::uint32_t value, double now
     case at::kAcquisitionStop:
       return SetAcquiring(false);
     case at::kTriggerSoftware:
-      if (acquiring_ && registers_.Get(at::kTriggerMode) == 1) ++orders_.triggers;
+      if (acquiring_ && registers_.Get(at::kTriggerMode) == 1) ++commands_.triggers;
       return;
     case at::kPacketSize:
-      if ((value & kFireTestPacket) != 0) orders_.test_packet = true;
+      if ((value & kFireTestPacket) != 0) commands_.test_packet = true;
       return;
     case at::kTimestampControl:
       if ((value & kLatch) != 0) {
@@ -193,7 +193,7 @@ void CameraDevice::Follow(std::uint32_t address, std::uint32_t value, double now
 }
 
 void CameraDevice::PassTime(double now_s) {
-  if (controller_ && now_s - last_heard_s_ > 1e-3 * registers_.Get(at::kHeartbeat_ms))
+  if (controller_ && now_s - last_request_s_ > 1e-3 * registers_.Get(at::kHeartbeat_ms))
     ReleaseControl();
 }
 

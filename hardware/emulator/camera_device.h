@@ -9,14 +9,14 @@
 
 namespace foresight {
 
-/// Where a camera sends its pictures, and in what pieces.
+/// Where a camera sends its images, and in what pieces.
 struct CameraStreamSetup {
   UdpPeer to;
   std::size_t packet_bytes = 0;  ///< with all headers
   double packet_delay_s = 0.0;
 };
 
-/// A picture that is to be taken.
+/// An image that is to be taken.
 struct CameraExposure {
   double start_s = 0.0;  ///< head's clock
   double exposure_s = 0.0;
@@ -30,7 +30,7 @@ struct CameraExposure {
 class CameraDevice {
  public:
   /// What requests have set off.
-  struct Orders {
+  struct Commands {
     int triggers = 0;
     bool test_packet = false;
     std::vector<gvcp::PacketResend> resends;
@@ -44,7 +44,7 @@ class CameraDevice {
   /// lost, is answered again and not carried out again.
   std::vector<std::uint8_t> Answer(std::span<const std::uint8_t> packet, const UdpPeer& from,
                                    double now_s);
-  Orders TakeOrders();
+  Commands TakeCommands();
   /// Whoever controls it and is silent for longer than the heartbeat loses it; that ends the
   /// stream.
   void PassTime(double now_s);
@@ -52,7 +52,7 @@ class CameraDevice {
   bool acquiring() const { return acquiring_; }
   /// Counts the times that an acquisition began or ended.
   int acquisition() const { return acquisition_; }
-  /// Seconds between pictures when it runs freely.
+  /// Seconds between images when it runs freely.
   std::optional<double> FreeRunPeriod() const;
   /// With the settings in force.
   CameraExposure Expose(double start_s) const;
@@ -87,10 +87,10 @@ class CameraDevice {
   double power_on_s_;
   CameraRegisters registers_;
   std::optional<UdpPeer> controller_;
-  double last_heard_s_ = 0.0;  ///< of the controller
+  double last_request_s_ = 0.0;  ///< of the controller
   bool acquiring_ = false;
   int acquisition_ = 0;
-  Orders orders_;
+  Commands commands_;
   Repeatable last_;
 };
 

@@ -19,9 +19,9 @@ constexpr std::uint64_t kIgnoredStream = 1;
 constexpr std::uint64_t kSlowStream = 2;
 
 /// Whether the plan's fault meets the `number`th of something.
-bool Meets(std::uint64_t seed, std::uint64_t stream, std::int64_t number, double share) {
-  return share > 0.0 &&
-         Random(seed ^ (stream << 56U), static_cast<std::uint64_t>(number)).Uniform() < share;
+bool Affects(std::uint64_t seed, std::uint64_t stream, std::int64_t number, double fraction) {
+  return fraction > 0.0 &&
+         Random(seed ^ (stream << 56U), static_cast<std::uint64_t>(number)).Uniform() < fraction;
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ CameraEmulator::CameraEmulator(std::shared_ptr<const World> world,
       device_(world_->true_rig().camera.width, world_->true_rig().camera.height, options.identity,
               control_.ip(), options.faults, power_on_s_),
       next_block_(options.faults.first_block) {
-  injections_.loss_share = faults_.packet_loss_share;
+  injections_.loss_ratio = faults_.packet_loss_ratio;
   renderer_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
   server_ = std::jthread([this](const std::stop_token& stop) { Serve(stop); });
 }
@@ -65,9 +65,9 @@ CameraEmulator::~CameraEmulator() {
   wake_.Raise();
 }
 
-void CameraEmulator::InjectPacketLoss(double share) {
+void CameraEmulator::InjectPacketLoss(double fraction) {
   const std::lock_guard lock(mutex_);
-  injections_.loss_share = share;
+  injections_.loss_ratio = fraction;
 }
 
 void CameraEmulator::InjectVanish(double seconds) {
@@ -89,7 +89,7 @@ void CameraEmulator::InjectSlowFrames(int frames, double seconds) {
 void CameraEmulator::ClearFaults() {
   const std::lock_guard lock(mutex_);
   injections_ = {};
-  injections_.loss_share = faults_.packet_loss_share;
+  injections_.loss_ratio = faults_.packet_loss_ratio;
 }
 
 std::vector<CameraEmulator::Taken> CameraEmulator::taken() const {
@@ -125,7 +125,8 @@ void CameraEmulator::Serve(const std::stop_token& stop) {
         control_.Receive(buffer, std::chrono::microseconds(static_cast<int>(1e6 * wait_s)), &wake_);
     if (stop.stop_requested()) return;
     const double now_s = clock_->Now();
-    if (datagram && !GoneAt(now_s)) Hear(std::span(buffer).first(datagram->size), datagram->from);
+    if (datagram && !GoneAt(now_s))
+      HandleRequest(std::span(buffer).first(datagram->size), datagram->from);
     device_.PassTime(now_s);
     FinishAcquisition();
     if (period_s && device_.FreeRunPeriod() && now_s >= next_free_run_s_) {
@@ -135,15 +136,15 @@ void CameraEmulator::Serve(const std::stop_token& stop) {
   }
 }
 
-void CameraEmulator::Hear(std::span<const std::uint8_t> packet, const UdpPeer& from) {
+void CameraEmulator::HandleRequest(std::span<const std::uint8_t> packet, const UdpPeer& from) {
   const std::vector<std::uint8_t> answer = device_.Answer(packet, from, clock_->Now());
-  FollowOrders();
+  ApplyCommands();
   if (answer.empty()) return;
   if (const Status sent = control_.SendTo(answer, from); !sent)
     LogError("emulated camera {}", sent.error().message);
 }
 
-/// Pictures of an acquisition that is over are not sent.
+/// Images of an acquisition that is over are not sent.
 void CameraEmulator::FinishAcquisition() {
   const std::lock_guard lock(mutex_);
   if (acquisition_ == device_.acquisition()) return;
@@ -151,18 +152,19 @@ void CameraEmulator::FinishAcquisition() {
   jobs_.clear();
 }
 
-void CameraEmulator::FollowOrders() {
+void CameraEmulator::ApplyCommands() {
   FinishAcquisition();
-  const CameraDevice::Orders orders = device_.TakeOrders();
-  for (int i = 0; i < orders.triggers; ++i) Trigger(clock_->Now());
-  for (const gvcp::PacketResend& resend : orders.resends) Resend(resend);
-  if (orders.test_packet) SendTestPacket();
+  const CameraDevice::Commands commands = device_.TakeCommands();
+  for (int i = 0; i < commands.triggers; ++i) Trigger(clock_->Now());
+  for (const gvcp::PacketResend& resend : commands.resends) Resend(resend);
+  if (commands.test_packet) SendTestPacket();
 }
 
 void CameraEmulator::Trigger(double now_s) {
   Job job{device_.Expose(now_s), next_seq_++, device_.TicksAt(now_s), device_.acquisition(), 0.0};
-  const bool ignored = Meets(faults_.seed, kIgnoredStream, job.seq, faults_.ignored_trigger_share);
-  if (Meets(faults_.seed, kSlowStream, job.seq, faults_.slow_frame_share))
+  const bool ignored =
+      Affects(faults_.seed, kIgnoredStream, job.seq, faults_.ignored_trigger_fraction);
+  if (Affects(faults_.seed, kSlowStream, job.seq, faults_.slow_frame_fraction))
     job.late_s = faults_.slow_s;
   const std::lock_guard lock(mutex_);
   if (ignored || injections_.ignored_triggers > 0) {
@@ -219,11 +221,12 @@ void CameraEmulator::Work(const std::stop_token& stop) {
 void CameraEmulator::Deliver(const Job& job, const std::stop_token& stop) {
   RunContext context;
   context.stop = stop;
-  context.threads = 1;  // the other core belongs to the lidar
+  // One core belongs to the lidar.
+  context.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
   const CameraExposure& exposure = job.exposure;
   const double end_s = exposure.start_s + exposure.exposure_s;
   clock_->WaitUntil(end_s + kReadout_s + job.late_s);
-  const CameraFrame picture = world_->TakePicture(
+  const CameraFrame capture = world_->CaptureImage(
       job.seq, exposure.start_s + 0.5 * exposure.exposure_s, exposure.exposure_s, exposure.gain_db,
       [this](double time_s) { return shaft_->At(time_s).angle_rad; }, context);
   if (stop.stop_requested() || !Current(job.acquisition) || exposure.stream.to.port == 0) return;
@@ -236,9 +239,9 @@ void CameraEmulator::Deliver(const Job& job, const std::stop_token& stop) {
   frame->block = next_block_;
   next_block_ = static_cast<std::uint16_t>(next_block_ == 0xFFFF ? 1 : next_block_ + 1);
   frame->leader = {job.timestamp, exposure.format,
-                   static_cast<std::uint32_t>(picture.image.width()),
-                   static_cast<std::uint32_t>(picture.image.height())};
-  frame->pixels = EncodePixels(picture.image, exposure.format);
+                   static_cast<std::uint32_t>(capture.image.width()),
+                   static_cast<std::uint32_t>(capture.image.height())};
+  frame->pixels = EncodePixels(capture.image, exposure.format);
   frame->payload_bytes = exposure.stream.packet_bytes - gvsp::kOverheadBytes;
   ring_.Add(frame);
   SendFrame(*frame, exposure.stream, stop);
@@ -271,7 +274,7 @@ void CameraEmulator::SendPacket(const GvspFrame& frame, std::uint32_t number, co
     if (round > 0) ++counts_.resent_packets;
     const auto which = static_cast<std::uint64_t>(round) << 40U |
                        static_cast<std::uint64_t>(frame.block) << 24U | number;
-    if (Random(faults_.seed, which).Uniform() < injections_.loss_share) {
+    if (Random(faults_.seed, which).Uniform() < injections_.loss_ratio) {
       ++counts_.lost_packets;
       return;
     }

@@ -25,8 +25,8 @@ struct CameraEmulatorOptions {
 };
 
 /// A GigE Vision camera on UDP ports: what the simulated camera takes, in the packets of a real one
-/// and at the rate of a gigabit link. One thread answers requests, another renders and sends: a
-/// picture that takes a second to render delays no heartbeat. Injections act on the running device
+/// and at the rate of a gigabit link. One thread answers requests, another renders and sends: an
+/// image that takes a second to render delays no heartbeat. Injections act on the running device
 /// and may be called from any thread.
 class CameraEmulator {
  public:
@@ -43,21 +43,21 @@ class CameraEmulator {
 
   const std::string& address() const { return control_.address().host; }
 
-  /// From now on such a share of the stream's packets is lost.
-  void InjectPacketLoss(double share);
+  /// From now on such a fraction of the stream's packets is lost.
+  void InjectPacketLoss(double fraction);
   /// From now on nothing is answered or sent for so long, as with the cable pulled.
   void InjectVanish(double seconds);
   /// The next triggers are acknowledged and ignored.
   void InjectIgnoredTriggers(int triggers);
-  /// The next pictures leave late.
+  /// The next images leave late.
   void InjectSlowFrames(int frames, double seconds);
 
   /// Ends all that was injected.
   void ClearFaults();
 
-  /// A picture as it truly was taken.
+  /// An image as it truly was taken.
   struct Taken {
-    std::int64_t seq = 0;   ///< of World::TakePicture
+    std::int64_t seq = 0;   ///< of World::CaptureImage
     double middle_s = 0.0;  ///< of the exposure, on the head's clock
     double exposure_s = 0.0;
     double gain_db = 0.0;
@@ -76,7 +76,7 @@ class CameraEmulator {
   Counts counts() const;
 
  private:
-  /// A picture on its way through the camera.
+  /// An image on its way through the camera.
   struct Job {
     CameraExposure exposure;
     std::int64_t seq = 0;
@@ -85,7 +85,7 @@ class CameraEmulator {
     double late_s = 0.0;
   };
   struct Injections {
-    double loss_share = 0.0;
+    double loss_ratio = 0.0;
     double gone_until_s = 0.0;
     int ignored_triggers = 0;
     int slow_frames = 0;
@@ -98,8 +98,8 @@ class CameraEmulator {
 
   // The thread that answers:
   void Serve(const std::stop_token& stop);
-  void Hear(std::span<const std::uint8_t> packet, const UdpPeer& from);
-  void FollowOrders();
+  void HandleRequest(std::span<const std::uint8_t> packet, const UdpPeer& from);
+  void ApplyCommands();
   void Trigger(double now_s);
   void Resend(const gvcp::PacketResend& resend);
   void SendTestPacket();

@@ -8,12 +8,12 @@ namespace foresight {
 
 Status CameraFaults::Check() const {
   using Named = std::pair<const char*, double>;
-  for (const auto& [name, share] :
-       std::array<Named, 3>{{{"packet_loss_share", packet_loss_share},
-                             {"ignored_trigger_share", ignored_trigger_share},
-                             {"slow_frame_share", slow_frame_share}}})
-    if (!(share >= 0.0 && share <= 1.0))
-      return Fail(ErrorCode::kInvalidOptions, "{} must be from 0 to 1, is {}", name, share);
+  for (const auto& [name, fraction] :
+       std::array<Named, 3>{{{"packet_loss_share", packet_loss_ratio},
+                             {"ignored_trigger_share", ignored_trigger_fraction},
+                             {"slow_frame_share", slow_frame_fraction}}})
+    if (!(fraction >= 0.0 && fraction <= 1.0))
+      return Fail(ErrorCode::kInvalidOptions, "{} must be from 0 to 1, is {}", name, fraction);
   for (const auto& [name, value] : std::array<Named, 4>{{{"slow_s", slow_s},
                                                          {"vanish_after_s", vanish_after_s},
                                                          {"vanish_s", vanish_s},

@@ -108,7 +108,8 @@ cia402::TxImage EmulatedDrive::Image(double time_s) const {
 
 /// The number of the encoder's step, of which the world tells the middle.
 std::int32_t EmulatedDrive::Count(double time_s) const {
-  const double middle_rad = world_->EncoderAngle(axis_.AngleAt(time_s) - zero_rad_);
+  const double middle_rad =
+      world_->EncoderAngle(axis_.AngleAt(time_s) - zero_rad_) + encoder_offset_rad_;
   return static_cast<std::int32_t>(std::lround(middle_rad / step_rad_ - 0.5));
 }
 

@@ -14,7 +14,7 @@ struct EmulatedDriveOptions {
   double end_stop_rad = 2.0943951023931953;            ///< 120 deg either way
   double quick_stop_rad_s2 = 20.943951023931952;       ///< 6085h, 1200 deg/s^2
   double following_window_rad = 0.017453292519943295;  ///< 6065h, 1 deg
-  double watchdog_s = 0.5;  ///< without a request for so long it stops by itself
+  double watchdog_s = 0.5;  ///< without a request of its host for so long it stops by itself
   HomeSwitchOptions home_switch;
 };
 
@@ -32,12 +32,15 @@ class EmulatedDrive {
   /// Lets the cycles up to `time_s` pass.
   void Run(double time_s);
 
-  /// What the host wrote; acts in the next cycle. Every exchange feeds the watchdog.
+  /// What the host wrote; acts in the next cycle. Feeds the watchdog.
   void Write(double time_s, const cia402::RxImage& image);
   const cia402::RxImage& written() const { return rx_; }
+  /// The host that commands is there.
+  void FeedWatchdog(double time_s) { last_exchange_s_ = time_s; }
+  /// What the host reads: feeds the watchdog.
   cia402::TxImage Read(double time_s);
-  /// What Read would give. Position and velocity are those of `time_s`, the rest that of the last
-  /// cycle.
+  /// What anybody else reads. Position and velocity are those of `time_s`, the rest that of the
+  /// last cycle.
   cia402::TxImage Image(double time_s) const;
 
   /// The shaft's true angle where the drive counts 0.
@@ -46,6 +49,8 @@ class EmulatedDrive {
   // Faults.
   EmulatedAxis& axis() { return axis_; }
   HomeSwitch& home_switch() { return switch_; }
+  /// The encoder says so much more than the shaft has turned; the drive itself does not notice.
+  void SetEncoderOffset(double offset_rad) { encoder_offset_rad_ = offset_rad; }
   /// Bits 10, 12 and 13 stay as they are until then.
   void HoldStatusUntil(double time_s) { stale_until_s_ = time_s; }
 
@@ -76,6 +81,7 @@ class EmulatedDrive {
   double time_s_;
   double last_exchange_s_;
   double zero_rad_;
+  double encoder_offset_rad_ = 0.0;
 
   cia402::RxImage rx_;
   std::uint16_t last_control_ = 0;

@@ -11,11 +11,11 @@
 
 namespace foresight {
 
-/// A picture's pixels as a camera of that format sends them: one channel of each pixel for
+/// An image's pixels as a camera of that format sends them: one channel of each pixel for
 /// BayerRG8 (red at (0, 0)), the luma for Mono8.
 std::vector<std::uint8_t> EncodePixels(const ColorImage& image, gvsp::PixelFormat format);
 
-/// A picture as the packets it leaves in.
+/// An image as the packets it leaves in.
 struct GvspFrame {
   std::uint16_t block = 1;
   gvsp::Leader leader;
@@ -28,7 +28,7 @@ struct GvspFrame {
   std::vector<std::uint8_t> Packet(std::uint32_t number) const;
 };
 
-/// The camera's memory of the last pictures, for packets that got lost. Safe from any thread.
+/// The camera's memory of the last images, for packets that got lost. Safe from any thread.
 class GvspRing {
  public:
   static constexpr std::size_t kKept = 4;

@@ -11,16 +11,35 @@ constexpr std::chrono::seconds kSendTimeout{1};
 /// Nothing happens when a wait ends; whoever wants the thread wakes it.
 constexpr std::chrono::hours kForever{1};
 
+/// The device as one client sees it.
+class ClientBank final : public RegisterBank {
+ public:
+  ClientBank(RegisterDevice& device, RegisterDevice::ClientId client)
+      : device_(device), client_(client) {}
+
+  std::optional<std::vector<std::uint16_t>> Read(std::uint16_t first,
+                                                 std::uint16_t count) override {
+    return device_.Read(client_, first, count);
+  }
+  bool Write(std::uint16_t first, std::span<const std::uint16_t> values) override {
+    return device_.Write(client_, first, values);
+  }
+
+ private:
+  RegisterDevice& device_;
+  const RegisterDevice::ClientId client_;
+};
+
 }  // namespace
 
 Result<std::unique_ptr<ModbusServer>> ModbusServer::Start(const TcpAddress& address,
-                                                          RegisterBank& bank) {
+                                                          RegisterDevice& device) {
   FORESIGHT_TRY(TcpListener listener, TcpListener::Listen(address));
-  return std::unique_ptr<ModbusServer>(new ModbusServer(std::move(listener), bank));
+  return std::unique_ptr<ModbusServer>(new ModbusServer(std::move(listener), device));
 }
 
-ModbusServer::ModbusServer(TcpListener listener, RegisterBank& bank)
-    : listener_(std::move(listener)), address_(listener_.address()), bank_(bank) {
+ModbusServer::ModbusServer(TcpListener listener, RegisterDevice& device)
+    : listener_(std::move(listener)), address_(listener_.address()), device_(device) {
   thread_ = std::jthread([this](const std::stop_token& stop) { AcceptClients(stop); });
 }
 
@@ -51,6 +70,7 @@ void ModbusServer::AcceptClients(const std::stop_token& stop) {
     // A client too many is closed at once, as devices do.
     if (!*socket || clients_.size() >= kMostClients) continue;
     Client& client = clients_.emplace_back();
+    client.id = ++clients_so_far_;
     client.socket = std::move(**socket);
     client.thread =
         std::jthread([this, &client](const std::stop_token& reset) { Serve(client, reset); });
@@ -83,11 +103,12 @@ void ModbusServer::Serve(Client& client, const std::stop_token& stop) {
 
 /// Answers the whole requests at the front; false: the connection is of no use any more.
 bool ModbusServer::AnswerAll(Client& client, std::vector<std::uint8_t>& received) {
+  ClientBank bank(device_, client.id);
   for (;;) {
     const std::optional<std::size_t> length = modbus::FrameLength(received);
     if (!length) return false;
     if (*length == 0 || received.size() < *length) return true;
-    const auto answer = modbus::Answer(std::span(received).first(*length), bank_);
+    const auto answer = modbus::Answer(std::span(received).first(*length), bank);
     if (!client.socket.Send(std::as_bytes(std::span(answer)), kSendTimeout)) return false;
     received.erase(received.begin(), received.begin() + static_cast<std::ptrdiff_t>(*length));
   }

@@ -11,14 +11,29 @@
 
 namespace foresight {
 
-/// Serves registers over Modbus TCP, a thread for each of at most kMostClients clients. The bank is
-/// asked from all of them and must be safe for that; it outlives the server.
+/// A device whose registers several clients read and write.
+class RegisterDevice {
+ public:
+  /// A connection; never used twice.
+  using ClientId = std::int64_t;
+
+  virtual ~RegisterDevice() = default;
+  /// As RegisterBank's.
+  virtual std::optional<std::vector<std::uint16_t>> Read(ClientId client, std::uint16_t first,
+                                                         std::uint16_t count) = 0;
+  virtual bool Write(ClientId client, std::uint16_t first,
+                     std::span<const std::uint16_t> values) = 0;
+};
+
+/// Serves registers over Modbus TCP, a thread for each of at most kMostClients clients. The device
+/// is asked from all of them and must be safe for that; it outlives the server.
 class ModbusServer {
  public:
   static constexpr std::size_t kMostClients = 4;
 
   /// On a numeric address; port 0 takes a free one. Fails with kDevice.
-  static Result<std::unique_ptr<ModbusServer>> Start(const TcpAddress& address, RegisterBank& bank);
+  static Result<std::unique_ptr<ModbusServer>> Start(const TcpAddress& address,
+                                                     RegisterDevice& device);
   ~ModbusServer();
 
   const TcpAddress& address() const { return address_; }
@@ -29,20 +44,22 @@ class ModbusServer {
 
  private:
   struct Client {
+    RegisterDevice::ClientId id = 0;
     TcpSocket socket;
     WakeUp wake;
     std::atomic<bool> finished{false};
     std::jthread thread;  ///< last: ends before what it uses
   };
 
-  ModbusServer(TcpListener listener, RegisterBank& bank);
+  ModbusServer(TcpListener listener, RegisterDevice& device);
   void AcceptClients(const std::stop_token& stop);
   void Serve(Client& client, const std::stop_token& stop);
   bool AnswerAll(Client& client, std::vector<std::uint8_t>& received);
 
   TcpListener listener_;
   const TcpAddress address_;
-  RegisterBank& bank_;
+  RegisterDevice& device_;
+  RegisterDevice::ClientId clients_so_far_ = 0;
   std::atomic<bool> silent_{false};
   WakeUp wake_;
   std::mutex mutex_;

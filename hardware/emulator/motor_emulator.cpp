@@ -70,26 +70,29 @@ void MotorEmulator::Work(const std::stop_token& stop) {
   }
 }
 
-std::optional<std::vector<std::uint16_t>> MotorEmulator::Read(std::uint16_t first,
+std::optional<std::vector<std::uint16_t>> MotorEmulator::Read(ClientId client, std::uint16_t first,
                                                               std::uint16_t count) {
   const std::lock_guard lock(mutex_);
   const double now_s = clock_->Now();
   drive_.Run(now_s);
+  if (client == commander_) drive_.FeedWatchdog(now_s);
   if (Holds<TxImage>(first, count))
-    return Part(drive_.Read(now_s).Encode(options_.drive.word_order), first - TxImage::kFirst,
+    return Part(drive_.Image(now_s).Encode(options_.drive.word_order), first - TxImage::kFirst,
                 count);
   if (Holds<RxImage>(first, count))
     return Part(drive_.written().Encode(options_.drive.word_order), first - RxImage::kFirst, count);
   return std::nullopt;
 }
 
-bool MotorEmulator::Write(std::uint16_t first, std::span<const std::uint16_t> values) {
+bool MotorEmulator::Write(ClientId client, std::uint16_t first,
+                          std::span<const std::uint16_t> values) {
   if (!Holds<RxImage>(first, values.size())) return false;
   const std::lock_guard lock(mutex_);
   const double now_s = clock_->Now();
   drive_.Run(now_s);
   RxImage::Registers registers = drive_.written().Encode(options_.drive.word_order);
   std::copy(values.begin(), values.end(), registers.begin() + (first - RxImage::kFirst));
+  commander_ = client;
   drive_.Write(now_s, RxImage::Decode(registers, options_.drive.word_order));
   return true;
 }
@@ -146,6 +149,8 @@ void MotorEmulator::Begin(const MotorFault& fault, double time_s) {
       return drive_.HoldStatusUntil(end_s);
     case MotorFault::Kind::kTcpReset:
       return server_->ResetConnections();
+    case MotorFault::Kind::kEncoderOffset:
+      return drive_.SetEncoderOffset(MotorFault::kEncoderOffset_rad);
   }
 }
 
@@ -161,6 +166,8 @@ void MotorEmulator::End(MotorFault::Kind kind, double time_s) {
       return drive_.HoldStatusUntil(time_s);
     case MotorFault::Kind::kTcpReset:
       return;
+    case MotorFault::Kind::kEncoderOffset:
+      return drive_.SetEncoderOffset(0.0);
   }
 }
 

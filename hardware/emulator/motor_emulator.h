@@ -19,8 +19,10 @@ struct MotorEmulatorOptions {
 };
 
 /// A motor's drive on a TCP port: an EmulatedDrive behind Modbus TCP, turning the shaft that lidar
-/// and camera see. Its encoder counts from the shaft's angle at the start until it is homed.
-class MotorEmulator final : private RegisterBank {
+/// and camera see. Its encoder counts from the shaft's angle at the start until it is homed. The
+/// client that wrote last commands: its requests feed the drive's watchdog, those of others that
+/// only read do not.
+class MotorEmulator final : private RegisterDevice {
  public:
   /// The clock runs in real time. Fails with kDevice when the port is taken.
   static Result<std::unique_ptr<MotorEmulator>> Start(std::shared_ptr<const World> world,
@@ -52,8 +54,9 @@ class MotorEmulator final : private RegisterBank {
   MotorEmulator(std::shared_ptr<const World> world, std::shared_ptr<SimulatedClock> clock,
                 std::shared_ptr<SimulatedShaft> shaft, const MotorEmulatorOptions& options);
 
-  std::optional<std::vector<std::uint16_t>> Read(std::uint16_t first, std::uint16_t count) override;
-  bool Write(std::uint16_t first, std::span<const std::uint16_t> values) override;
+  std::optional<std::vector<std::uint16_t>> Read(ClientId client, std::uint16_t first,
+                                                 std::uint16_t count) override;
+  bool Write(ClientId client, std::uint16_t first, std::span<const std::uint16_t> values) override;
 
   void Work(const std::stop_token& stop);
   void RunFaults(double time_s);
@@ -67,6 +70,7 @@ class MotorEmulator final : private RegisterBank {
 
   mutable std::mutex mutex_;  ///< guards the drive and the faults
   EmulatedDrive drive_;
+  ClientId commander_ = 0;           ///< wrote last; 0 = nobody
   std::vector<MotorFault> planned_;  ///< latest first
   std::vector<Running> running_;
 

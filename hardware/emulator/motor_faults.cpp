@@ -24,6 +24,8 @@ const char* ToString(MotorFault::Kind kind) {
       return "stale status";
     case MotorFault::Kind::kTcpReset:
       return "TCP reset";
+    case MotorFault::Kind::kEncoderOffset:
+      return "encoder offset";
   }
   return "unknown fault";
 }

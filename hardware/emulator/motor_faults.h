@@ -13,8 +13,10 @@ struct MotorFault {
     kDeadLink,        ///< requests are taken and lost; the drive's watchdog stops the motor
     kStaleStatus,     ///< bits 10, 12 and 13 of the statusword stay as they are
     kTcpReset,        ///< all connections break; lasts no time
+    kEncoderOffset,   ///< the encoder says kEncoderOffset_rad too much: counts were lost
   };
-  static constexpr int kKinds = 5;
+  static constexpr int kKinds = 6;
+  static constexpr double kEncoderOffset_rad = 1.3962634015954636;  ///< 80 deg
 
   Kind kind = Kind::kTcpReset;
   double after_s = 0.0;  ///< since the emulator began

@@ -50,7 +50,13 @@ ScipDevice::ScipDevice(const LidarModel& lidar, const Identity& identity, const 
       abnormal_(faults.abnormal) {}
 
 std::uint32_t ScipDevice::ClockAt(double time_s) const {
-  const double ms = 1e3 * (time_s - power_on_s_) * (1.0 + 1e-6 * faults_.clock_ppm);
+  double age_s = time_s - power_on_s_;
+  double shift_s = clock_shift_s_;
+  if (faults_.clock_jump_s != 0.0 && age_s >= faults_.clock_jump_after_s)
+    shift_s += faults_.clock_jump_s;
+  if (clock_stopped_s_) age_s = std::min(age_s, *clock_stopped_s_ - power_on_s_);
+  if (faults_.clock_stop_after_s > 0.0) age_s = std::min(age_s, faults_.clock_stop_after_s);
+  const double ms = 1e3 * (age_s * (1.0 + 1e-6 * faults_.clock_ppm) + shift_s);
   return static_cast<std::uint32_t>(std::llround(std::floor(ms)) + clock_start_ms_) & 0xFFFFFF;
 }
 
@@ -187,8 +193,9 @@ std::string ScipDevice::Encode(const ScipRequest& request, const LidarLine& line
   scan.request = request;
   scan.stamp_ms = ClockAt(line.time_s);
   const int group = std::max(1, request.group);
-  for (int first = request.first_step; first <= request.last_step; first += group) {
-    const int last = std::min(first + group - 1, request.last_step);
+  const int last_step = request.last_step - faults_.missing_beams;
+  for (int first = request.first_step; first <= last_step; first += group) {
+    const int last = std::min(first + group - 1, last_step);
     scan.steps.push_back({{EchoOfGroup(line, first, last)}, 1});
   }
   return EncodeScipScan(scan);

@@ -40,6 +40,13 @@ class ScipDevice {
   /// Whether it has been rebooted since the last call: the connection is gone.
   bool TakeReboot();
   void EnterAbnormalState() { abnormal_ = true; }
+  /// The clock is so many seconds ahead from now on, or behind.
+  void ShiftClock(double seconds) { clock_shift_s_ += seconds; }
+  /// The clock shows what it showed at `time_s`, until it goes on as if it had never stood.
+  void StopClock(double time_s) { clock_stopped_s_ = time_s; }
+  void ResumeClock() { clock_stopped_s_.reset(); }
+  /// From now on the last beams of each scan are missing.
+  void LoseBeams(int beams) { faults_.missing_beams = beams; }
   /// Milliseconds, 24 bits.
   std::uint32_t ClockAt(double time_s) const;
 
@@ -61,6 +68,8 @@ class ScipDevice {
   LidarFaults faults_;
   double power_on_s_;
   std::uint32_t clock_start_ms_;
+  double clock_shift_s_ = 0.0;
+  std::optional<double> clock_stopped_s_;
   bool abnormal_;
   Mode mode_ = Mode::kIdle;
   ScipRequest stream_;

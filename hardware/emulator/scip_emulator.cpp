@@ -81,9 +81,33 @@ void ScipEmulator::InjectCorruptScans(int scans) {
   injections_.corrupt_scans += scans;
 }
 
+void ScipEmulator::InjectClockJump(double seconds) {
+  const std::lock_guard lock(mutex_);
+  injections_.clock_jump_s += seconds;
+  wake_.Raise();
+}
+
+void ScipEmulator::InjectStoppedClock(double seconds) {
+  const std::lock_guard lock(mutex_);
+  injections_.clock_stops_until_s = clock_->Now() + seconds;
+  wake_.Raise();
+}
+
+void ScipEmulator::InjectMissingBeams(int beams, int scans) {
+  const std::lock_guard lock(mutex_);
+  injections_.missing_beams = beams;
+  injections_.short_scans = scans;
+}
+
 void ScipEmulator::InjectAbnormalState() {
   const std::lock_guard lock(mutex_);
   injections_.abnormal = true;
+  wake_.Raise();
+}
+
+void ScipEmulator::ClearFaults() {
+  const std::lock_guard lock(mutex_);
+  injections_ = {};
   wake_.Raise();
 }
 
@@ -142,7 +166,7 @@ void ScipEmulator::ServeClient(TcpSocket& client, const std::stop_token& stop) {
     const Result<std::size_t> size = client.Receive(buffer, wait, &wake_);
     wake_.Lower();
     if (!size || !FollowInjections(client)) return;
-    if (*size > 0 && !Hear(client, {buffer.data(), *size})) return;
+    if (*size > 0 && !HandleRequest(client, {buffer.data(), *size})) return;
     if (device_.TakeReboot()) return EndReboot(client);
     if (device_.Streaming() && clock_->Now() >= TurnReady_s(next_turn_) && !SendDueLine(client))
       return;
@@ -159,6 +183,11 @@ void ScipEmulator::EndReboot(TcpSocket& client) {
 /// Whether the connection stands.
 bool ScipEmulator::FollowInjections(TcpSocket& client) {
   const std::lock_guard lock(mutex_);
+  device_.ShiftClock(std::exchange(injections_.clock_jump_s, 0.0));
+  const bool stops = clock_->Now() < injections_.clock_stops_until_s;
+  if (stops && !clock_stopped_) device_.StopClock(clock_->Now());
+  if (!stops && clock_stopped_) device_.ResumeClock();
+  clock_stopped_ = stops;
   if (std::exchange(injections_.abnormal, false)) {
     device_.BeginConnection();  // ends the stream
     device_.EnterAbnormalState();
@@ -168,7 +197,7 @@ bool ScipEmulator::FollowInjections(TcpSocket& client) {
   return false;
 }
 
-Status ScipEmulator::Hear(TcpSocket& client, std::string_view bytes) {
+Status ScipEmulator::HandleRequest(TcpSocket& client, std::string_view bytes) {
   reader_.Push(bytes);
   while (const auto request = reader_.Take()) {
     const double now_s = clock_->Now();
@@ -186,11 +215,11 @@ Status ScipEmulator::Hear(TcpSocket& client, std::string_view bytes) {
 }
 
 /// The faults that the plan holds for a turn become injections.
-void ScipEmulator::MeetFaultsOfTurn(std::int64_t turn) {
+void ScipEmulator::ApplyFaultsOfTurn(std::int64_t turn) {
   Random random(faults_.seed, static_cast<std::uint64_t>(turn));
-  const bool corrupt = random.Uniform() < faults_.corrupt_share;
-  const bool reset = random.Uniform() < faults_.reset_share;
-  const bool stall = random.Uniform() < faults_.stall_share;
+  const bool corrupt = random.Uniform() < faults_.corrupt_fraction;
+  const bool reset = random.Uniform() < faults_.reset_fraction;
+  const bool stall = random.Uniform() < faults_.stall_fraction;
   if (corrupt) InjectCorruptScans(1);
   if (reset) InjectReset();
   if (stall) InjectStall(faults_.stall_s);
@@ -199,7 +228,7 @@ void ScipEmulator::MeetFaultsOfTurn(std::int64_t turn) {
 Status ScipEmulator::SendDueLine(TcpSocket& client) {
   const std::int64_t turn = next_turn_;
   next_turn_ += device_.TurnsPerScan();
-  MeetFaultsOfTurn(turn);
+  ApplyFaultsOfTurn(turn);
   if (!FollowInjections(client))
     return Fail(ErrorCode::kDevice, "{}: was reset", client.peer().ToText());
   if (!device_.Streaming()) return {};
@@ -214,6 +243,9 @@ Status ScipEmulator::SendDueLine(TcpSocket& client) {
     }
     if (now_s < std::max(injections_.stalled_until_s, injections_.silent_until_s)) return {};
     ++counts_.scans;
+    const bool lacks_beams = injections_.short_scans > 0;
+    if (lacks_beams) --injections_.short_scans;
+    device_.LoseBeams(lacks_beams ? injections_.missing_beams : faults_.missing_beams);
     if (injections_.corrupt_scans > 0) {
       --injections_.corrupt_scans;
       ++counts_.corrupted;

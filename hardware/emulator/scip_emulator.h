@@ -43,8 +43,17 @@ class ScipEmulator {
   void InjectReset();
   /// Flips a bit in each of the next scans.
   void InjectCorruptScans(int scans);
+  /// The device's clock jumps, ahead or back.
+  void InjectClockJump(double seconds);
+  /// The device's clock stands still for so long.
+  void InjectStoppedClock(double seconds);
+  /// The next scans lack their last beams; all sums are right.
+  void InjectMissingBeams(int beams, int scans);
   /// Refuses to work until rebooted; a running stream ends.
   void InjectAbnormalState();
+
+  /// Forgets what was injected and has not happened yet.
+  void ClearFaults();
 
   struct Counts {
     int clients = 0;
@@ -67,15 +76,19 @@ class ScipEmulator {
     bool reset = false;
     bool abnormal = false;
     int corrupt_scans = 0;
+    double clock_jump_s = 0.0;
+    double clock_stops_until_s = 0.0;
+    int missing_beams = 0;
+    int short_scans = 0;
   };
 
   void Work(const std::stop_token& stop);
   void ServeClient(TcpSocket& client, const std::stop_token& stop);
-  Status Hear(TcpSocket& client, std::string_view bytes);
+  Status HandleRequest(TcpSocket& client, std::string_view bytes);
   Status SendDueLine(TcpSocket& client);
   Status Send(TcpSocket& client, std::string_view bytes);
   bool FollowInjections(TcpSocket& client);
-  void MeetFaultsOfTurn(std::int64_t turn);
+  void ApplyFaultsOfTurn(std::int64_t turn);
   void EndReboot(TcpSocket& client);
   LidarLine MeasureTurn(std::int64_t turn) const;
   double TurnReady_s(std::int64_t turn) const;
@@ -98,6 +111,7 @@ class ScipEmulator {
   ScipDevice device_;
   ScipRequestReader reader_;
   std::int64_t next_turn_ = 0;
+  bool clock_stopped_ = false;
 
   std::jthread thread_;  ///< last: it uses all of the above
 };

@@ -17,7 +17,7 @@ std::chrono::microseconds Microseconds(double seconds) {
 
 GigeCamera::GigeCamera(const GigeCameraOptions& options, std::shared_ptr<const SensorClock> clock)
     : options_(options), clock_(std::move(clock)), name_("camera " + options.address) {
-  FORESIGHT_EXPECTS(clock_ != nullptr, "pictures have a time");
+  FORESIGHT_EXPECTS(clock_ != nullptr, "images have a time");
   FORESIGHT_EXPECTS(options_.Check().has_value(), options_.Check().error().message);
   thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
 }
@@ -58,8 +58,8 @@ Status GigeCamera::Configure(const CameraSettings& settings) {
   std::unique_lock lock(mutex_);
   if (!connected_) return FailWith("is not connected");
   FORESIGHT_CHECK(CheckLimits(settings));
-  wish_.settings = settings;
-  const std::int64_t number = ++wish_.number;
+  desired_.settings = settings;
+  const std::int64_t number = ++desired_.number;
   changed_.notify_all();
   if (!changed_.wait_for(lock, Microseconds(options_.configure_timeout_s),
                          [&] { return applied_ >= number; })) {
@@ -75,7 +75,7 @@ Result<std::int64_t> GigeCamera::Trigger() {
   MarkOverdue();
   if (!connected_) return FailWith("is not connected");
   if (suspect_) return FailWith("does not answer");
-  expected_.push_back({next_seq_, clock_->Now(), std::nullopt, wish_.settings, false});
+  expected_.push_back({next_seq_, clock_->Now(), std::nullopt, desired_.settings, false});
   triggers_.push_back(next_seq_);
   changed_.notify_all();
   return next_seq_++;
@@ -96,7 +96,7 @@ Result<std::optional<CameraFrame>> GigeCamera::WaitForFrame(std::chrono::millise
       const std::int64_t seq = late->seq;
       expected_.erase(late);
       ++health_.lost;
-      health_.last_error = fmt::format("picture {} did not come within {:.0f} ms", seq,
+      health_.last_error = fmt::format("image {} did not come within {:.0f} ms", seq,
                                        1e3 * options_.frame_timeout_s);
       return FailWith(health_.last_error);
     }
@@ -119,7 +119,7 @@ double GigeCamera::DueAt(const Expected& expected) const {
   return expected.called_s + expected.settings.exposure_s + options_.frame_timeout_s;
 }
 
-/// When the next picture becomes overdue.
+/// When the next image becomes overdue.
 double GigeCamera::NextDue() const {
   double due_s = std::numeric_limits<double>::infinity();
   for (const Expected& expected : expected_)

@@ -20,7 +20,7 @@ namespace foresight {
 /// camera that is gone blocks for seconds. When the camera is lost it is opened anew, for as long
 /// as it takes, and gets the last settings again. Errors begin with "camera ADDRESS: ".
 ///
-/// A picture that is overdue by frame_timeout_s is lost: WaitForFrame fails once for each, and the
+/// An image that is overdue by frame_timeout_s is lost: WaitForFrame fails once for each, and the
 /// camera is suspect until it answers.
 class GigeCamera final : public Camera {
  public:
@@ -33,14 +33,14 @@ class GigeCamera final : public Camera {
 
   std::string Describe() const override { return name_; }
   /// Waits at most connect_timeout_s; attempts go on after a failure. Returns at once when
-  /// connected. Pictures that have not been handed out are forgotten.
+  /// connected. Images that have not been handed out are forgotten.
   Status Connect() override;
   /// Waits for the camera to take them, at most configure_timeout_s. Fails with kInvalidOptions
   /// beyond the camera's limits.
   Status Configure(const CameraSettings& settings) override;
   /// Never waits for the camera. Fails while it is not connected or suspect.
   Result<std::int64_t> Trigger() override;
-  /// Also fails when a picture is overdue. `seq` counts the triggers, `time_s` is the middle of the
+  /// Also fails when an image is overdue. `seq` counts the triggers, `time_s` is the middle of the
   /// exposure on the head's clock.
   Result<std::optional<CameraFrame>> WaitForFrame(std::chrono::milliseconds timeout) override;
 
@@ -49,7 +49,7 @@ class GigeCamera final : public Camera {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  /// A trigger whose picture is still to come.
+  /// A trigger whose image is still to come.
   struct Expected {
     std::int64_t seq = 0;
     double called_s = 0.0;
@@ -57,9 +57,9 @@ class GigeCamera final : public Camera {
     CameraSettings settings;
     bool overdue = false;
   };
-  struct SettingsWish {
+  struct DesiredSettings {
     CameraSettings settings;
-    std::int64_t number = 0;  ///< counts the wishes; 0 = none so far
+    std::int64_t number = 0;  ///< counts the requests for settings; 0 = none so far
   };
 
   // The thread:
@@ -69,10 +69,10 @@ class GigeCamera final : public Camera {
   void DropSession(const std::string& why);
   void Attend(const std::stop_token& stop);
   void WaitForWork(const std::stop_token& stop);
-  void ApplyWish();
+  void ApplyDesiredSettings();
   void SendTriggers();
-  void TakePictures();
-  void HandOn(GigeSession::Picture picture);
+  void TakeImages();
+  void HandOn(GigeSession::ReceivedImage received);
   void ProbeIfSuspect();
   void KeepHouse();
   Status ReadClock(GigeSession& session);
@@ -98,13 +98,13 @@ class GigeCamera final : public Camera {
   bool connected_ = false;
   mutable bool suspect_ = false;
   mutable bool probe_due_ = false;
-  bool pictures_waiting_ = false;  ///< in the stream of the session
+  bool images_waiting_ = false;  ///< in the stream of the session
   std::int64_t next_seq_ = 0;
   mutable std::deque<Expected> expected_;
   std::deque<std::int64_t> triggers_;  ///< not sent yet
   std::deque<CameraFrame> frames_;
-  SettingsWish wish_;
-  std::int64_t applied_ = 0;  ///< number of the wish that has been dealt with
+  DesiredSettings desired_;
+  std::int64_t applied_ = 0;  ///< number of the desired settings that were applied
   Status applied_status_;
   GigeSession::Limits limits_;
   CameraHealth health_;

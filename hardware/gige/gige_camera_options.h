@@ -24,7 +24,7 @@ struct GigeCameraOptions {
 
   double connect_timeout_s = 8.0;  ///< of Connect; longer than a crashed client keeps control
   double configure_timeout_s = 0.5;
-  double frame_retention_s = 0.2;  ///< a picture's packets are waited for so long
+  double frame_retention_s = 0.2;  ///< an image's packets are waited for so long
   int packet_bytes = 0;            ///< 0: what the network lets through, found by test packets
   double packet_delay_s = 0.0;     ///< between packets; for switches with small buffers
   int buffers = 4;

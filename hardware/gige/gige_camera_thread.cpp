@@ -1,6 +1,7 @@
 // The thread of a GigeCamera: the only one that asks the camera.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -10,11 +11,14 @@
 namespace foresight {
 namespace {
 
-/// A trigger that waited longer would take its picture at another angle.
+/// A trigger that waited longer would take its image at another angle.
 constexpr double kStaleTrigger_s = 0.1;
-/// A picture begins after its trigger was sent, but for the drift of the clocks since the last
+/// An image begins after its trigger was sent, but for the drift of the clocks since the last
 /// reading.
 constexpr double kStampError_s = 0.001;
+/// A camera begins an image within so much of its trigger: triggers nearer to each other than this
+/// cannot be told apart by time.
+constexpr double kStartDelay_s = 0.02;
 constexpr std::chrono::milliseconds kIdlePeriod{200};
 
 }  // namespace
@@ -33,7 +37,7 @@ void GigeCamera::Work(const std::stop_token& stop) {
 /// Called from threads of Aravis.
 void GigeCamera::Wake() {
   const std::lock_guard lock(mutex_);
-  pictures_waiting_ = true;
+  images_waiting_ = true;
   changed_.notify_all();
 }
 
@@ -62,16 +66,17 @@ void GigeCamera::OpenSession(const std::stop_token& stop) {
 
 Status GigeCamera::BeginSession(GigeSession& session) {
   FORESIGHT_CHECK(ReadClock(session));
-  SettingsWish wish;
+  DesiredSettings desired;
   {
     const std::lock_guard lock(mutex_);
-    wish = wish_;
+    desired = desired_;
   }
   const GigeSession::Limits& limits = session.limits();
-  wish.settings.exposure_s =
-      std::clamp(wish.settings.exposure_s, limits.shortest_s, limits.longest_s);
-  wish.settings.gain_db = std::clamp(wish.settings.gain_db, limits.lowest_db, limits.highest_db);
-  FORESIGHT_TRY(settings_, session.Apply(wish.settings));
+  desired.settings.exposure_s =
+      std::clamp(desired.settings.exposure_s, limits.shortest_s, limits.longest_s);
+  desired.settings.gain_db =
+      std::clamp(desired.settings.gain_db, limits.lowest_db, limits.highest_db);
+  FORESIGHT_TRY(settings_, session.Apply(desired.settings));
   const double temperature_c = session.ReadTemperature_c();
   backoff_s_ = 0.0;
   const GigeSession::Identity identity = session.identity();
@@ -97,7 +102,7 @@ void GigeCamera::DropSession(const std::string& why) {
     connected_ = false;
     health_.last_error = why;
     triggers_.clear();
-    applied_ = wish_.number;
+    applied_ = desired_.number;
     applied_status_ = FailWith(why);
     changed_.notify_all();
   }
@@ -107,9 +112,9 @@ void GigeCamera::DropSession(const std::string& why) {
 void GigeCamera::Attend(const std::stop_token& stop) {
   WaitForWork(stop);
   if (stop.stop_requested()) return;
-  ApplyWish();
+  ApplyDesiredSettings();
   SendTriggers();
-  TakePictures();
+  TakeImages();
   // Every further question to a camera that is silent would take seconds.
   if (session_->answering()) ProbeIfSuspect();
   if (session_->answering()) KeepHouse();
@@ -123,22 +128,22 @@ void GigeCamera::WaitForWork(const std::stop_token& stop) {
   const auto longest =
       std::min<std::chrono::duration<double>>(kIdlePeriod, std::chrono::duration<double>(due_s));
   changed_.wait_for(lock, stop, longest, [this] {
-    return pictures_waiting_ || probe_due_ || !triggers_.empty() || applied_ < wish_.number;
+    return images_waiting_ || probe_due_ || !triggers_.empty() || applied_ < desired_.number;
   });
   MarkOverdue();
 }
 
-void GigeCamera::ApplyWish() {
-  SettingsWish wish;
+void GigeCamera::ApplyDesiredSettings() {
+  DesiredSettings desired;
   {
     const std::lock_guard lock(mutex_);
-    if (applied_ >= wish_.number) return;
-    wish = wish_;
+    if (applied_ >= desired_.number) return;
+    desired = desired_;
   }
-  const Result<CameraSettings> taken = session_->Apply(wish.settings);
+  const Result<CameraSettings> taken = session_->Apply(desired.settings);
   if (taken) settings_ = *taken;
   const std::lock_guard lock(mutex_);
-  applied_ = wish.number;
+  applied_ = desired.number;
   applied_status_ = taken ? Status() : Status(FailWith(taken.error().message));
   changed_.notify_all();
 }
@@ -166,25 +171,25 @@ void GigeCamera::SendTriggers() {
   }
 }
 
-void GigeCamera::TakePictures() {
+void GigeCamera::TakeImages() {
   {
     const std::lock_guard lock(mutex_);
-    if (!std::exchange(pictures_waiting_, false)) return;
+    if (!std::exchange(images_waiting_, false)) return;
   }
-  while (std::optional<GigeSession::Picture> picture = session_->TakePicture())
-    HandOn(std::move(*picture));
+  while (std::optional<GigeSession::ReceivedImage> received = session_->TakeImage())
+    HandOn(std::move(*received));
   const std::lock_guard lock(mutex_);
   CountSession();
 }
 
-void GigeCamera::HandOn(GigeSession::Picture picture) {
+void GigeCamera::HandOn(GigeSession::ReceivedImage received) {
   const std::lock_guard lock(mutex_);
-  if (!picture.complete) {
+  if (!received.complete) {
     ++health_.incomplete;
     return;
   }
   suspect_ = false;
-  const double start_s = camera_clock_.ToHead(picture.device_s + options_.stamp_offset_s);
+  const double start_s = camera_clock_.ToHead(received.device_s + options_.stamp_offset_s);
   const bool stamped = session_->HasClock();
   const std::optional<Expected> expected = stamped ? TakeExpected(start_s) : TakeOldestExpected();
   if (!expected) return;  // of a trigger that has been given up
@@ -194,22 +199,28 @@ void GigeCamera::HandOn(GigeSession::Picture picture) {
   frame.gain_db = expected->settings.gain_db;
   // Without a clock in the camera the trigger's own time has to do.
   frame.time_s = (stamped ? start_s : *expected->sent_s) + 0.5 * frame.exposure_s;
-  frame.image = std::move(picture.image);
+  frame.image = std::move(received.image);
   frames_.push_back(std::move(frame));
   ++health_.frames;
   changed_.notify_all();
 }
 
-/// The trigger that a picture begun at `start_s` belongs to: of those sent before, the nearest. A
-/// picture of a trigger that has been given up finds none, or its stamp would have to be wrong.
+/// The trigger that an image begun at `start_s` belongs to: of those sent before, the nearest;
+/// where the clocks cannot tell several apart, the oldest of them, for images come in the order of
+/// their triggers. An image of a trigger that has been given up finds none, or its stamp would have
+/// to be wrong.
 std::optional<GigeCamera::Expected> GigeCamera::TakeExpected(double start_s) {
-  const double latest_s = start_s + kStampError_s + camera_clock_.uncertainty_s();
-  auto found = expected_.end();
-  for (auto one = expected_.begin(); one != expected_.end(); ++one)
-    if (one->sent_s && *one->sent_s <= latest_s &&
-        (found == expected_.end() ||
-         std::abs(start_s - *one->sent_s) < std::abs(start_s - *found->sent_s)))
-      found = one;
+  const double error_s = kStampError_s + camera_clock_.uncertainty_s();
+  const auto possible = [&](const Expected& one) {
+    return one.sent_s && *one.sent_s <= start_s + error_s;
+  };
+  const auto distance_s = [&](const Expected& one) { return std::abs(start_s - *one.sent_s); };
+  double nearest_s = std::numeric_limits<double>::infinity();
+  for (const Expected& one : expected_)
+    if (possible(one)) nearest_s = std::min(nearest_s, distance_s(one));
+  const auto found = std::find_if(expected_.begin(), expected_.end(), [&](const Expected& one) {
+    return possible(one) && distance_s(one) <= nearest_s + kStartDelay_s;
+  });
   if (found == expected_.end()) return std::nullopt;
   Expected taken = *found;
   expected_.erase(found);
@@ -231,13 +242,13 @@ void GigeCamera::ProbeIfSuspect() {
   }
   const Status answered = session_->Probe();
   if (!answered || !session_->answering()) return;
-  LogWarning("{}: answers, but a picture did not come", name_);
+  LogWarning("{}: answers, but an image did not come", name_);
   const std::lock_guard lock(mutex_);
   suspect_ = false;
   changed_.notify_all();
 }
 
-/// Reads the clock now and then, but not while a picture is on its way.
+/// Reads the clock now and then, but not while an image is on its way.
 void GigeCamera::KeepHouse() {
   if (std::chrono::duration<double>(SteadyClock::now() - last_reading_).count() < options_.resync_s)
     return;

@@ -158,13 +158,13 @@ Status GigeSession::Impl::ReadLimits() {
 Status GigeSession::Impl::StartStream() {
   ArvFailure failure;
   stream.reset(arv_camera_create_stream(camera.get(), &OnStream, this, failure.out()));
-  FORESIGHT_CHECK(Judge(failure, "cannot receive pictures"));
-  // A camera answers requests for lost packets; without them a picture with one hole is none.
+  FORESIGHT_CHECK(Judge(failure, "cannot receive images"));
+  // A camera answers requests for lost packets; without them an image with one hole is none.
   g_object_set(stream.get(), "packet-resend", ARV_GV_STREAM_PACKET_RESEND_ALWAYS, "socket-buffer",
                ARV_GV_STREAM_SOCKET_BUFFER_AUTO, "packet-request-ratio", 1.0, "frame-retention",
                static_cast<guint>(1e6 * options.frame_retention_s), nullptr);
   const guint payload = arv_camera_get_payload(camera.get(), failure.out());
-  FORESIGHT_CHECK(Judge(failure, "size of a picture"));
+  FORESIGHT_CHECK(Judge(failure, "size of an image"));
   for (int i = 0; i < options.buffers; ++i)
     arv_stream_push_buffer(stream.get(), arv_buffer_new_allocate(payload));
   arv_camera_start_acquisition(camera.get(), failure.out());
@@ -216,12 +216,12 @@ Status GigeSession::Trigger() {
   return impl_->Judge(failure, "trigger");
 }
 
-std::optional<GigeSession::Picture> GigeSession::TakePicture() {
+std::optional<GigeSession::ReceivedImage> GigeSession::TakeImage() {
   ArvBuffer* const buffer = arv_stream_try_pop_buffer(impl_->stream.get());
   if (!buffer) return std::nullopt;
-  Picture picture;
+  ReceivedImage received;
   if (arv_buffer_get_status(buffer) == ARV_BUFFER_STATUS_SUCCESS) {
-    picture.device_s = 1e-9 * static_cast<double>(arv_buffer_get_timestamp(buffer));
+    received.device_s = 1e-9 * static_cast<double>(arv_buffer_get_timestamp(buffer));
     std::size_t size = 0;
     const auto* const data =
         static_cast<const std::uint8_t*>(arv_buffer_get_image_data(buffer, &size));
@@ -229,12 +229,12 @@ std::optional<GigeSession::Picture> GigeSession::TakePicture() {
         ToColorImage({data, size}, impl_->options.format, arv_buffer_get_image_width(buffer),
                      arv_buffer_get_image_height(buffer));
     if (image) {
-      picture.image = std::move(*image);
-      picture.complete = true;
+      received.image = std::move(*image);
+      received.complete = true;
     }
   }
   arv_stream_push_buffer(impl_->stream.get(), buffer);
-  return picture;
+  return received;
 }
 
 bool GigeSession::HasClock() const {

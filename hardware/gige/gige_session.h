@@ -34,7 +34,7 @@ class GigeSession {
     double lowest_db = 0.0;
     double highest_db = 0.0;
   };
-  struct Picture {
+  struct ReceivedImage {
     bool complete = false;  ///< the rest is empty otherwise
     double device_s = 0.0;  ///< the device's stamp
     ColorImage image;
@@ -45,7 +45,7 @@ class GigeSession {
     std::int64_t missing_packets = 0;
   };
 
-  /// `wake` is called from threads of Aravis when a picture has come or control was lost; it lives
+  /// `wake` is called from threads of Aravis when an image has come or control was lost; it lives
   /// as long as the session. Fails also while another client controls the camera.
   static Result<std::unique_ptr<GigeSession>> Open(const GigeCameraOptions& options,
                                                    std::function<void()> wake);
@@ -58,8 +58,8 @@ class GigeSession {
   /// Returns the settings that the camera has made of it.
   Result<CameraSettings> Apply(const CameraSettings& settings);
   Status Trigger();
-  /// The next picture that has come; nullopt when none has.
-  std::optional<Picture> TakePicture();
+  /// The next image that has come; nullopt when none has.
+  std::optional<ReceivedImage> TakeImage();
 
   /// Whether the camera has a clock of its own.
   bool HasClock() const;

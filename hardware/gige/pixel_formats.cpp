@@ -79,7 +79,7 @@ Result<ColorImage> ToColorImage(Pixels pixels, Format format, int width, int hei
   if (width <= 0 || height <= 0 ||
       pixels.size() !=
           channels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
-    return Fail(ErrorCode::kBadData, "a picture of {} x {} {} has {} bytes", width, height,
+    return Fail(ErrorCode::kBadData, "an image of {} x {} {} has {} bytes", width, height,
                 ToString(format), pixels.size());
   switch (format) {
     case Format::kMono8:

@@ -22,8 +22,8 @@ std::int64_t WallClock_ns() {
 
 CaptureHead::CaptureHead(HeadDevices devices, SensorRig rig, CaptureOptions options)
     : devices_(std::move(devices)),
-      rig_(std::move(rig)),
       options_(std::move(options)),
+      rig_(std::move(rig)),
       operator_seen_s_(std::numeric_limits<double>::infinity()) {
   FORESIGHT_EXPECTS(devices_.lidar && devices_.camera && devices_.motor && devices_.clock,
                     "a head has all of its devices");
@@ -55,6 +55,28 @@ HeadStatus CaptureHead::Status() const {
   return status;
 }
 
+SensorRig CaptureHead::Rig() const {
+  const std::lock_guard lock(mutex_);
+  return rig_;
+}
+
+Status CaptureHead::SetRig(const SensorRig& rig) {
+  FORESIGHT_CHECK(rig.Check());
+  const std::lock_guard lock(mutex_);
+  if (status_.state != HeadState::kReady && status_.state != HeadState::kDisconnected)
+    return Fail(ErrorCode::kState, "{}: cannot take another calibration while {}: end that first",
+                options_.description, ToString(status_.state));
+  if (rig.lidar.beams != rig_.lidar.beams || rig.camera.width != rig_.camera.width ||
+      rig.camera.height != rig_.camera.height)
+    return Fail(ErrorCode::kInvalidInput,
+                "{}: the calibration is of another head: {} beams and {} x {} px, this head has {} "
+                "and {} x {} px",
+                options_.description, rig.lidar.beams, rig.camera.width, rig.camera.height,
+                rig_.lidar.beams, rig_.camera.width, rig_.camera.height);
+  rig_ = rig;
+  return {};
+}
+
 Status CaptureHead::Home() {
   const std::lock_guard lock(mutex_);
   if (status_.state != HeadState::kDisconnected && status_.state != HeadState::kReady &&
@@ -70,8 +92,8 @@ Status CaptureHead::Home() {
 
 Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) {
   FORESIGHT_EXPECTS(sink != nullptr, "a scan needs somewhere to go");
-  FORESIGHT_TRY(const ScanPrediction prediction, PredictScan(plan, rig_, Motion()));
   const std::lock_guard lock(mutex_);
+  FORESIGHT_TRY(const ScanPrediction prediction, PredictScan(plan, rig_, Motion()));
   if (status_.state != HeadState::kReady)
     return Fail(ErrorCode::kState, "{}: cannot scan while {}{}", options_.description,
                 ToString(status_.state),
@@ -147,6 +169,9 @@ void CaptureHead::Work(const std::stop_token& stop) {
 void CaptureHead::RunHoming(const HomeRequest& request, const std::stop_token& stop) {
   const foresight::Status homed = ConnectAndHome(request, stop);
   if (homed) {
+    // What the encoder said until now counted from another zero.
+    devices_.motor->TakeTrack();
+    encoder_.Forget();
     Update([](HeadStatus& status) {
       status.state = HeadState::kReady;
       status.message.clear();
@@ -218,8 +243,14 @@ void CaptureHead::RunScan(ScanRequest& request, const std::stop_token& stop) {
       status.lost_lines = progress.lost_lines;
     });
   };
-  CaptureSweep sweep(devices_, options_, request.header, *request.sink, hooks);
-  const SweepEnd end = sweep.Run();
+  std::optional<CaptureSweep> sweep;
+  try {
+    sweep.emplace(devices_, options_, request.header, encoder_, *request.sink, hooks);
+  } catch (const std::exception& error) {
+    EndUnbegun(request, error.what());
+    throw;
+  }
+  const SweepEnd end = sweep->Run();
   request.sink.reset();
   if (end.fault) return EnterFault(end.reason);
   Update([&](HeadStatus& status) {
@@ -235,25 +266,47 @@ void CaptureHead::LookAtMotor() {
   if (Status().state != HeadState::kReady) return;
   const Result<MotorSample> position = devices_.motor->Position();
   if (!position) return EnterFault(position.error().message);
-  devices_.motor->TakeTrack();  // nobody needs it, and it must not pile up
+  // Nobody needs the track, and it must not pile up. The plate may be turned by hand.
+  encoder_.ExpectAnyMotion(ScanPlan::kMaxSpeed_rad_s);
+  for (const MotorSample& sample : devices_.motor->TakeTrack())
+    if (const auto impossible = encoder_.Check(sample))
+      return EnterFault(fmt::format("{}: {}", devices_.motor->Describe(), *impossible));
   Update([&](HeadStatus& status) {
     status.time_s = devices_.clock->Now();
     status.angle_rad = position->angle_rad;
   });
 }
 
+/// Tells the sink of a scan that was accepted and never began.
+void CaptureHead::EndUnbegun(ScanRequest& request, const std::string& reason) {
+  try {
+    request.sink->OnScanStarted(request.header);
+    request.sink->OnScanEnded(ScanState::kInterrupted, reason);
+  } catch (const std::exception& error) {
+    LogError("{}: {}", options_.description, error.what());
+  }
+}
+
 void CaptureHead::EnterFault(const std::string& what) {
   StopMotorNow();
   LogError("{}: {}", options_.description, what);
-  Update([&](HeadStatus& status) {
-    status.state = HeadState::kFault;
-    status.speed_rad_s = 0.0;
-    status.commanded_speed_rad_s = 0.0;
+  std::optional<ScanRequest> unbegun;
+  {
+    const std::lock_guard lock(mutex_);
+    // Homing that the operator asked for meanwhile is what leads out of the fault.
+    if (std::holds_alternative<HomeRequest>(request_)) return;
+    // A scan that was accepted meanwhile must not turn a motor that has just failed.
+    if (auto* scan = std::get_if<ScanRequest>(&request_)) unbegun = std::move(*scan);
+    request_ = std::monostate();
+    status_.state = HeadState::kFault;
+    status_.speed_rad_s = 0.0;
+    status_.commanded_speed_rad_s = 0.0;
     // Told to, not known to: where the motor's own link is lost, the drive's watchdog must do it.
-    status.message = what +
-                     "; the motor was told to stop. See that it stands, check the device's power "
-                     "and cable, then home the head";
-  });
+    status_.message = what +
+                      "; the motor was told to stop. See that it stands, check the device's power "
+                      "and cable, then home the head";
+  }
+  if (unbegun) EndUnbegun(*unbegun, what);
 }
 
 void CaptureHead::StopMotorNow() noexcept {

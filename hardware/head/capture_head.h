@@ -12,6 +12,7 @@
 #include "hardware/api/sensor_head.h"
 #include "hardware/head/capture_options.h"
 #include "hardware/head/capture_sweep.h"
+#include "hardware/head/encoder_watch.h"
 #include "hardware/head/head_devices.h"
 
 namespace foresight {
@@ -30,7 +31,8 @@ class CaptureHead final : public SensorHead {
 
   std::string Describe() const override;
   HeadStatus Status() const override;
-  SensorRig Rig() const override { return rig_; }
+  SensorRig Rig() const override;
+  foresight::Status SetRig(const SensorRig& rig) override;
   HeadMotion Motion() const override { return options_.Motion(); }
   foresight::Status Home() override;
   foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
@@ -58,20 +60,22 @@ class CaptureHead final : public SensorHead {
   std::optional<std::string> OperatorLost() const;
   void LookAtMotor();
   void EnterFault(const std::string& what);
+  void EndUnbegun(ScanRequest& request, const std::string& reason);
   void StopMotorNow() noexcept;
   void Update(const std::function<void(HeadStatus&)>& change);
 
   HeadDevices devices_;
-  const SensorRig rig_;
   const CaptureOptions options_;
 
-  mutable std::mutex mutex_;  ///< guards status_, request_ and end_reason_
+  mutable std::mutex mutex_;  ///< guards rig_, status_, request_ and end_reason_
+  SensorRig rig_;
   HeadStatus status_;
   Request request_;
   std::condition_variable_any wake_;
   std::atomic<int> stop_count_{0};
   std::optional<std::string> end_reason_;  ///< why the running scan is to end
   std::atomic<double> operator_seen_s_;    ///< infinite until the first time
+  EncoderWatch encoder_;                   ///< of the thread alone
   std::jthread thread_;                    ///< last: starts when everything else is there
 };
 

@@ -14,6 +14,8 @@ Status CaptureOptions::Check() const {
   FORESIGHT_CHECK(positive(travel_speed_rad_s, "travel_speed_rad_s"));
   FORESIGHT_CHECK(positive(homing_timeout_s, "homing_timeout_s"));
   FORESIGHT_CHECK(positive(lidar_timeout_s, "lidar_timeout_s"));
+  if (!(line_floor >= 0.0 && line_floor <= 1.0))
+    return Fail(ErrorCode::kInvalidOptions, "capture: line_floor {} is not in [0, 1]", line_floor);
   FORESIGHT_CHECK(positive(camera_timeout_s, "camera_timeout_s"));
   return operator_timeout_s == 0.0 ? Status() : positive(operator_timeout_s, "operator_timeout_s");
 }

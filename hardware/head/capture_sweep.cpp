@@ -15,6 +15,8 @@ constexpr double kStandstillTimeout_s = 10.0;
 constexpr double kLateLines_s = 0.3;
 /// A GigE camera that does not answer is given up after five tries of half a second, twice.
 constexpr double kCameraAnswer_s = 6.0;
+/// As near to its target a motor counts as arrived.
+constexpr double kArrived_rad = 0.008726646259971648;  // 0.5 deg
 
 std::vector<double> InOrder(std::vector<double> angles_rad, double sign) {
   std::sort(angles_rad.begin(), angles_rad.end(),
@@ -25,16 +27,17 @@ std::vector<double> InOrder(std::vector<double> angles_rad, double sign) {
 }  // namespace
 
 CaptureSweep::CaptureSweep(HeadDevices& devices, const CaptureOptions& options, const Scan& header,
-                           ScanSink& sink, Hooks hooks)
+                           EncoderWatch& encoder, ScanSink& sink, Hooks hooks)
     : devices_(devices),
       options_(options),
       plan_(header.plan),
       header_(header),
+      encoder_(encoder),
       sink_(sink),
       hooks_(std::move(hooks)),
       exposure_s_(ExposureOnHead(plan_, header.rig)),
       sign_(plan_.to_rad > plan_.from_rad ? 1.0 : -1.0),
-      pictures_(*devices.camera, *devices.clock, InOrder(plan_.image_angles_rad, sign_)),
+      images_(*devices.camera, *devices.clock, InOrder(plan_.image_angles_rad, sign_)),
       gate_(header.rig.lidar, plan_.from_rad, plan_.to_rad),
       health_at_start_(ReadHealth(devices)) {}
 
@@ -62,17 +65,34 @@ SweepEnd CaptureSweep::RunToTheEnd() {
   sink_.OnScanStarted(header_);
   Step end = MoveToStart();
   if (!end) end = SweepThrough();
+  if (end && !end->shutting_down) DrainLines();
   end = ComeToRest(end);
   HandOnLines();
   StopLidar();
   if (!end || !end->shutting_down) {
-    const Step pictures = CollectPictures();
-    if (!end) end = pictures;
+    const Step images = CollectImages();
+    if (!end) end = images;
   }
   if (!end) end = ShootMissing();
-  HandOnPictures(true);
+  HandOnImages(true);
   Report(HeadState::kStopping);
-  return end.value_or(JudgePictures());
+  if (!end) end = JudgeLines();
+  return end ? *end : JudgeImages();
+}
+
+/// Why the sweep must end now, if it must: the operator, the program, or nowhere to put the scan.
+CaptureSweep::Step CaptureSweep::CheckInterruption() {
+  if (Step end = hooks_.interruption()) return end;
+  if (const auto failure = sink_.Failure())
+    return SweepEnd{ScanState::kInterrupted, *failure, false, false};
+  return std::nullopt;
+}
+
+CaptureSweep::Step CaptureSweep::StartMove(double angle_rad, double speed_rad_s) {
+  encoder_.ExpectAnyMotion(speed_rad_s);
+  if (const Status moving = devices_.motor->StartMove(angle_rad, speed_rad_s); !moving)
+    return DeviceFailed(moving.error().message);
+  return std::nullopt;
 }
 
 void CaptureSweep::StopLidar() {
@@ -86,12 +106,11 @@ SweepEnd CaptureSweep::DeviceFailed(const std::string& message) const {
 }
 
 CaptureSweep::Step CaptureSweep::MoveToStart() {
-  if (Step end = hooks_.interruption()) return end;
+  if (Step end = CheckInterruption()) return end;
   const Status configured = devices_.camera->Configure({exposure_s_, plan_.gain_db});
   if (!configured) return DeviceFailed(configured.error().message);
   const double start = plan_.from_rad - sign_ * options_.RunUp(plan_.speed_rad_s);
-  const Status moving = devices_.motor->StartMove(start, options_.travel_speed_rad_s);
-  if (!moving) return DeviceFailed(moving.error().message);
+  if (Step failed = StartMove(start, options_.travel_speed_rad_s)) return failed;
   return WaitForStandstill(TravelTimeout());
 }
 
@@ -106,8 +125,9 @@ CaptureSweep::Step CaptureSweep::WaitForStandstill(double timeout_s) {
   for (;;) {
     // On its way to rest nothing can stop the motor any sooner.
     if (!ending)
-      if (Step end = hooks_.interruption()) return end;
+      if (Step end = CheckInterruption()) return end;
     if (const Step failed = CheckMotor()) return failed;
+    if (const Step failed = PumpTrack(); failed && !ending) return failed;
     const Result<bool> moving = devices_.motor->Moving();
     if (!moving) return DeviceFailed(moving.error().message);
     if (!*moving) return std::nullopt;
@@ -115,7 +135,6 @@ CaptureSweep::Step CaptureSweep::WaitForStandstill(double timeout_s) {
       return DeviceFailed(fmt::format("{}: did not come to rest within {:.0f} s",
                                       devices_.motor->Describe(), timeout_s));
     devices_.clock->Sleep(kPoll);
-    if (lidar_health_ || ending) PumpTrack();
     Report(progress_.state);
   }
 }
@@ -124,8 +143,9 @@ CaptureSweep::Step CaptureSweep::SweepThrough() {
   if (const Status started = devices_.lidar->Start(); !started)
     return DeviceFailed(started.error().message);
   last_line_s_ = Now();
-  devices_.motor->TakeTrack();  // what led here is of no use to anyone
-  if (plan_.picture_mode == ScanPlan::PictureMode::kStopAndShoot) next_picture_ = pictures_.size();
+  if (Step failed = PumpTrack()) return failed;  // what led here is of no use to anyone
+  recording_ = true;
+  if (plan_.image_mode == ScanPlan::ImageMode::kStopAndShoot) next_image_ = images_.size();
   for (int pass = 0; pass < plan_.passes; ++pass)
     if (Step over = SweepPass(pass)) return over;
   return std::nullopt;
@@ -139,10 +159,11 @@ CaptureSweep::Step CaptureSweep::SweepPass(int pass) {
   }
   const double run_out = sign_ * options_.RunUp(plan_.speed_rad_s);
   const double end = back ? plan_.from_rad - run_out : plan_.to_rad + run_out;
-  if (const Status moving = devices_.motor->StartMove(end, plan_.speed_rad_s); !moving)
-    return DeviceFailed(moving.error().message);
+  if (Step failed = StartMove(end, plan_.speed_rad_s)) return failed;
+  encoder_.ExpectMotion(back ? -sign_ : sign_, plan_.speed_rad_s);
+  pass_end_rad_ = end;
   stopped_since_s_.reset();
-  while (!gate_.Passed() || next_picture_ < pictures_.size())
+  while (!gate_.Passed() || next_image_ < images_.size())
     if (Step over = SweepOnce()) return over;
   return std::nullopt;
 }
@@ -151,7 +172,7 @@ CaptureSweep::Step CaptureSweep::SweepPass(int pass) {
 CaptureSweep::Step CaptureSweep::WaitForTurn() {
   const double deadline_s = Now() + kStandstillTimeout_s;
   for (;;) {
-    if (Step end = hooks_.interruption()) return end;
+    if (Step end = CheckInterruption()) return end;
     if (Step failed = CheckMotor()) return failed;
     const Result<bool> moving = devices_.motor->Moving();
     if (!moving) return DeviceFailed(moving.error().message);
@@ -160,24 +181,25 @@ CaptureSweep::Step CaptureSweep::WaitForTurn() {
       return DeviceFailed(fmt::format("{}: did not come to rest within {:.0f} s",
                                       devices_.motor->Describe(), kStandstillTimeout_s));
     if (Step end = ReceiveLine(std::chrono::duration<double>(kPoll).count())) return end;
-    PumpTrack();
+    if (Step failed = PumpTrack()) return failed;
     HandOnLines();
-    HandOnPictures(false);
+    HandOnImages(false);
     Report(HeadState::kSweeping);
   }
 }
 
 CaptureSweep::Step CaptureSweep::SweepOnce() {
-  if (Step end = hooks_.interruption()) return end;
+  if (Step end = CheckInterruption()) return end;
   if (Step end = CheckMotor()) return end;
+  if (Step end = PumpTrack()) return end;  // before an image is taken where the motor is not
   double free_s = 0.0;
   if (Step end = TriggerWhenDue(&free_s)) return end;
   if (Step end = ReceiveLine(free_s)) return end;
   if (Step end = CheckArrival()) return end;
-  PumpTrack();
+  if (Step end = PumpTrack()) return end;
   HandOnLines();
-  if (pictures_.Waiting()) pictures_.Receive(std::chrono::milliseconds(0));
-  HandOnPictures(false);
+  if (images_.Waiting()) images_.Receive(std::chrono::milliseconds(0));
+  HandOnImages(false);
   Report(HeadState::kSweeping);
   return std::nullopt;
 }
@@ -189,12 +211,12 @@ CaptureSweep::Step CaptureSweep::CheckMotor() {
   return std::nullopt;
 }
 
-/// Takes the pictures whose angle the motor is passing; `free_s` is the time until the next one.
+/// Takes the images whose angle the motor is passing; `free_s` is the time until the next one.
 CaptureSweep::Step CaptureSweep::TriggerWhenDue(double* free_s) {
   constexpr double kTimerStep_s = 0.001;  // a device's time-out is in whole milliseconds
   *free_s = std::numeric_limits<double>::infinity();
-  while (next_picture_ < pictures_.size()) {
-    const double target = pictures_.Angle(next_picture_);
+  while (next_image_ < images_.size()) {
+    const double target = images_.Angle(next_image_);
     const double now_rad = progress_.position.angle_rad;
     // The middle of the exposure is to lie at the angle.
     const double due_s = sign_ * (target - now_rad) / plan_.speed_rad_s - 0.5 * exposure_s_;
@@ -204,7 +226,7 @@ CaptureSweep::Step CaptureSweep::TriggerWhenDue(double* free_s) {
     }
     if (due_s > 0.0)
       devices_.clock->Sleep(std::chrono::microseconds(static_cast<int>(due_s * 1e6)));
-    pictures_.Trigger(next_picture_++);
+    images_.Trigger(next_image_++);
     if (Step end = CheckMotor()) return end;
   }
   return std::nullopt;
@@ -216,19 +238,52 @@ CaptureSweep::Step CaptureSweep::ReceiveLine(double longest_wait_s) {
   Result<std::optional<LidarLine>> line = devices_.lidar->WaitForLine(timeout);
   if (!line) return DeviceFailed(line.error().message);
   if (*line) {
-    if (last_seq_ && (*line)->seq > *last_seq_ + 1)
+    if (Step failed = CheckStamp(**line)) return failed;
+    if (last_seq_ && (*line)->seq > *last_seq_ + 1) {
       progress_.lost_lines += static_cast<int>((*line)->seq - *last_seq_ - 1);
+      NoteLidarTrouble();
+    }
     last_seq_ = (*line)->seq;
     last_line_s_ = Now();
     gate_.Push(std::move(**line));
   } else if (Now() - last_line_s_ > options_.lidar_timeout_s) {
-    return DeviceFailed(fmt::format("{}: no line for {:.0f} ms", devices_.lidar->Describe(),
-                                    1e3 * (Now() - last_line_s_)));
+    NoteLidarTrouble();
+    return DeviceFailed(fmt::format(
+        "{}: {}", devices_.lidar->Describe(),
+        lidar_trouble_.empty() ? fmt::format("no line for {:.0f} ms", 1e3 * (Now() - last_line_s_))
+                               : lidar_trouble_));
   }
   return std::nullopt;
 }
 
-/// A motor that stands although lines of the scope are still to come has failed.
+void CaptureSweep::NoteLidarTrouble() {
+  std::string trouble = devices_.lidar->Health().trouble;
+  if (!trouble.empty()) lidar_trouble_ = std::move(trouble);
+}
+
+/// A line whose stamp cannot be true would wait for ever for the motor to come by, and the motor
+/// would be blamed.
+CaptureSweep::Step CaptureSweep::CheckStamp(const LidarLine& line) {
+  constexpr double kFuture_s = 0.1;  // by which two clocks may differ
+  const double ahead_s = line.time_s - Now();
+  const double since_s = last_stamp_s_ ? line.time_s - *last_stamp_s_ : 1.0;
+  last_stamp_s_ = line.time_s;
+  std::string what;
+  if (!std::isfinite(line.time_s))
+    what = "are no numbers";
+  else if (since_s == 0.0)
+    what = fmt::format("stand still at {:.3f} s", line.time_s);
+  else if (since_s < 0.0)
+    what = fmt::format("ran backwards by {:.3f} s", -since_s);
+  else if (ahead_s > kFuture_s)
+    what = fmt::format("jumped ahead by {:.3f} s", ahead_s);
+  if (what.empty()) return std::nullopt;
+  return DeviceFailed(fmt::format("{}: time stamps {}; switch the lidar off and on",
+                                  devices_.lidar->Describe(), what));
+}
+
+/// A motor that stands although lines of the scope are still to come has failed; where it stands at
+/// the end of its way, the lines are late.
 CaptureSweep::Step CaptureSweep::CheckArrival() {
   const Result<bool> moving = devices_.motor->Moving();
   if (!moving) return DeviceFailed(moving.error().message);
@@ -239,12 +294,39 @@ CaptureSweep::Step CaptureSweep::CheckArrival() {
     stopped_since_s_.reset();
   } else if (!stopped_since_s_) {
     stopped_since_s_ = Now();
+  } else if (std::abs(progress_.position.angle_rad - pass_end_rad_) <= kArrived_rad) {
+    if (Now() - *stopped_since_s_ <= options_.lidar_timeout_s) return std::nullopt;
+    NoteLidarTrouble();
+    return DeviceFailed(fmt::format(
+        "{}: the motor reached the end of the scope {:.1f} s ago, and the lines up to there have "
+        "not come: {}",
+        devices_.lidar->Describe(), Now() - *stopped_since_s_,
+        lidar_trouble_.empty()
+            ? fmt::format("time stamps are {:.1f} s late", Now() - last_stamp_s_.value_or(0.0))
+            : lidar_trouble_));
   } else if (Now() - *stopped_since_s_ > kLateLines_s) {
     return DeviceFailed(fmt::format("{}: stopped at {:.2f} deg, before the end of the scope",
                                     devices_.motor->Describe(),
                                     DegreesFromRadians(progress_.position.angle_rad)));
   }
   return std::nullopt;
+}
+
+/// Lines that were measured before the scan had to end may still be on their way.
+void CaptureSweep::DrainLines() {
+  if (!recording_) return;
+  const double end_s = Now();
+  devices_.motor->QuickStop();
+  const LidarModel& lidar = header_.rig.lidar;
+  const auto all_came = [&] { return last_stamp_s_ && *last_stamp_s_ + lidar.period_s > end_s; };
+  while (!all_came() && Now() - end_s < kLateLines_s)
+    if (ReceiveLine(lidar.period_s)) break;
+  gate_.DropAfter(end_s);
+  // The track must reach beyond the last beam before a line can be placed.
+  const double track_end_s = end_s + lidar.BeamTime(lidar.beams) + 2.0 * MotorTrack::kWindow_s;
+  while (Now() < track_end_s) devices_.clock->Sleep(kPoll);
+  PumpTrack();
+  HandOnLines();
 }
 
 /// Waits until the motor stands, which it is told to where the scan must end; `end` if it must.
@@ -255,54 +337,52 @@ CaptureSweep::Step CaptureSweep::ComeToRest(Step end) {
   return end ? end : failed;
 }
 
-CaptureSweep::Step CaptureSweep::CollectPictures() {
-  while (pictures_.Waiting() && Now() - pictures_.LastNews_s() <= options_.camera_timeout_s) {
+CaptureSweep::Step CaptureSweep::CollectImages() {
+  while (images_.Waiting() && Now() - images_.LastNews_s() <= options_.camera_timeout_s) {
     if (Step end = hooks_.interruption(); end && end->shutting_down) return end;
-    pictures_.Receive(std::chrono::milliseconds(100));
+    images_.Receive(std::chrono::milliseconds(100));
     PumpTrack();
-    HandOnPictures(false);
+    HandOnImages(false);
     Report(progress_.state);
   }
-  pictures_.StopWaiting();
+  images_.StopWaiting();
   PumpTrack();
-  HandOnPictures(false);
+  HandOnImages(false);
   return std::nullopt;
 }
 
 /// What the sweep did not bring, or was not to bring; what fails at the first time here is tried
 /// once more.
 CaptureSweep::Step CaptureSweep::ShootMissing() {
-  const bool planned = plan_.picture_mode == ScanPlan::PictureMode::kStopAndShoot;
+  const bool planned = plan_.image_mode == ScanPlan::ImageMode::kStopAndShoot;
   Step end;
-  for (int tries = planned ? 2 : 1; tries > 0 && !end && !pictures_.Missing().empty(); --tries)
-    end = ComeToRest(ShootAtRest(pictures_.Missing()));
+  for (int tries = planned ? 2 : 1; tries > 0 && !end && !images_.Missing().empty(); --tries)
+    end = ComeToRest(ShootAtRest(images_.Missing()));
   return end;
 }
 
-/// Goes to the angle of each picture, the nearest end first, and takes it while the head stands.
-CaptureSweep::Step CaptureSweep::ShootAtRest(std::vector<std::size_t> pictures) {
+/// Goes to the angle of each image, the nearest end first, and takes it while the head stands.
+CaptureSweep::Step CaptureSweep::ShootAtRest(std::vector<std::size_t> images) {
   Report(HeadState::kSweeping);
   const double here = progress_.position.angle_rad;
-  if (std::abs(pictures_.Angle(pictures.back()) - here) <
-      std::abs(pictures_.Angle(pictures.front()) - here))
-    std::reverse(pictures.begin(), pictures.end());
-  for (const std::size_t picture : pictures) {
+  if (std::abs(images_.Angle(images.back()) - here) <
+      std::abs(images_.Angle(images.front()) - here))
+    std::reverse(images.begin(), images.end());
+  for (const std::size_t image : images) {
     bool taken = false;
-    if (Step end = ShootAtRest(picture, &taken)) return end;
+    if (Step end = ShootAtRest(image, &taken)) return end;
     if (!taken) break;  // nor would it take the next one
   }
-  return CollectPictures();
+  return CollectImages();
 }
 
 /// Waits for a camera that does not take the trigger; `taken` tells whether it did in the end.
-CaptureSweep::Step CaptureSweep::ShootAtRest(std::size_t picture, bool* taken) {
-  const Status moving =
-      devices_.motor->StartMove(pictures_.Angle(picture), options_.travel_speed_rad_s);
-  if (!moving) return DeviceFailed(moving.error().message);
+CaptureSweep::Step CaptureSweep::ShootAtRest(std::size_t image, bool* taken) {
+  if (Step failed = StartMove(images_.Angle(image), options_.travel_speed_rad_s)) return failed;
   if (Step end = WaitForStandstill(TravelTimeout())) return end;
   if (Step end = StandFor(options_.settle_s)) return end;
   const double deadline_s = Now() + options_.camera_timeout_s;
-  while (!(*taken = pictures_.Trigger(picture)) && Now() < deadline_s)
+  while (!(*taken = images_.Trigger(image)) && Now() < deadline_s)
     if (Step end = StandFor(0.1)) return end;
   return *taken ? StandFor(exposure_s_ + options_.settle_s) : std::nullopt;
 }
@@ -310,19 +390,34 @@ CaptureSweep::Step CaptureSweep::ShootAtRest(std::size_t picture, bool* taken) {
 CaptureSweep::Step CaptureSweep::StandFor(double seconds) {
   const double end_s = Now() + seconds;
   while (Now() < end_s) {
-    if (Step end = hooks_.interruption()) return end;
+    if (Step end = CheckInterruption()) return end;
     if (Step failed = CheckMotor()) return failed;
     devices_.clock->Sleep(kPoll);
-    PumpTrack();
+    if (Step failed = PumpTrack()) return failed;
     Report(progress_.state);
   }
   return std::nullopt;
 }
 
-/// All lines are there; a picture that is not is worth a word, and a camera that is gone a fault.
-SweepEnd CaptureSweep::JudgePictures() {
+/// Most of the lines that were planned must have come.
+CaptureSweep::Step CaptureSweep::JudgeLines() {
+  const Result<ScanPrediction> planned = PredictScan(plan_, header_.rig);
+  if (!planned) return std::nullopt;
+  // The ends of the scope cut a line each or not, in each pass.
+  const int rounding = 2 * plan_.passes;
+  const int least = static_cast<int>(std::ceil(options_.line_floor * (planned->lines - rounding)));
+  if (progress_.lines >= least) return std::nullopt;
+  NoteLidarTrouble();
+  return SweepEnd{ScanState::kInterrupted,
+                  fmt::format("{} of {} planned lines came from the lidar{}{}", progress_.lines,
+                              planned->lines, lidar_trouble_.empty() ? "" : ": ", lidar_trouble_),
+                  false, false};
+}
+
+/// All lines are there; an image that is not is worth a word, and a camera that is gone a fault.
+SweepEnd CaptureSweep::JudgeImages() {
   SweepEnd end;
-  end.reason = pictures_.DescribeMissing();
+  end.reason = images_.DescribeMissing();
   if (end.reason.empty()) return end;
   // A camera that was only slow says so when it is asked; one that is gone takes this long to tell.
   const double deadline_s = Now() + kCameraAnswer_s;
@@ -335,9 +430,18 @@ SweepEnd CaptureSweep::JudgePictures() {
   return end;
 }
 
-void CaptureSweep::PumpTrack() {
-  const std::vector<MotorSample> samples = devices_.motor->TakeTrack();
-  if (samples.empty()) return;
+/// Fetches what the encoder said, up to what the motor cannot have done.
+CaptureSweep::Step CaptureSweep::PumpTrack() {
+  std::vector<MotorSample> samples = devices_.motor->TakeTrack();
+  std::optional<std::string> impossible;
+  for (std::size_t i = 0; i < samples.size() && !impossible; ++i)
+    if ((impossible = encoder_.Check(samples[i]))) samples.resize(i);
+  if (recording_ && !samples.empty()) KeepTrack(samples);
+  if (!impossible) return std::nullopt;
+  return DeviceFailed(fmt::format("{}: {}", devices_.motor->Describe(), *impossible));
+}
+
+void CaptureSweep::KeepTrack(const std::vector<MotorSample>& samples) {
   for (const MotorSample& sample : samples) track_.Add(sample);
   sink_.OnMotorSamples(samples);
   const auto all = track_.samples();
@@ -354,8 +458,8 @@ void CaptureSweep::HandOnLines() {
   }
 }
 
-void CaptureSweep::HandOnPictures(bool all) {
-  progress_.frames += pictures_.HandOn(track_, sink_, all);
+void CaptureSweep::HandOnImages(bool all) {
+  progress_.frames += images_.HandOn(track_, sink_, all);
 }
 
 void CaptureSweep::Report(HeadState state) {

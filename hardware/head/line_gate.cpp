@@ -24,6 +24,10 @@ std::vector<LidarLine> LineGate::Take(const MotorTrack& track) {
   return out;
 }
 
+void LineGate::DropAfter(double time_s) {
+  std::erase_if(waiting_, [time_s](const LidarLine& line) { return line.time_s > time_s; });
+}
+
 void LineGate::Judge(LidarLine line, const MotorTrack& track, std::vector<LidarLine>& out) {
   if (passed_) return;
   const double first = sign_ * track.AngleAt(line.time_s + lidar_.BeamTime(0));

@@ -20,6 +20,8 @@ class LineGate {
   void Push(LidarLine line) { waiting_.push_back(std::move(line)); }
   /// The lines that can be handed on now, in order.
   std::vector<LidarLine> Take(const MotorTrack& track);
+  /// Forgets waiting lines with a stamp after `time_s`.
+  void DropAfter(double time_s);
   /// Whether the line after the scope has been handed on. Nothing comes after it.
   bool Passed() const { return passed_; }
 

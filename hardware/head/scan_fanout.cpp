@@ -24,6 +24,12 @@ void ScanFanout::OnFrame(const CameraFrame& frame) {
   for (const auto& sink : sinks_) sink->OnFrame(frame);
 }
 
+std::optional<std::string> ScanFanout::Failure() const {
+  for (const auto& sink : sinks_)
+    if (auto failure = sink->Failure()) return failure;
+  return std::nullopt;
+}
+
 void ScanFanout::OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) {
   for (const auto& sink : sinks_) sink->OnDeviceHealth(at_start, at_end);
 }

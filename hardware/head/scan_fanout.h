@@ -16,6 +16,8 @@ class ScanFanout final : public ScanSink {
   void OnLine(const LidarLine& line) override;
   void OnMotorSamples(std::span<const MotorSample> samples) override;
   void OnFrame(const CameraFrame& frame) override;
+  /// The first of the sinks that cannot keep the scan.
+  std::optional<std::string> Failure() const override;
   void OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) override;
   void OnScanEnded(ScanState state, const std::string& reason) override;
 

@@ -9,9 +9,11 @@
 namespace foresight {
 namespace {
 
-/// A disk this far behind (50 minutes of lines, or 140 pictures) will not catch up; the memory of
+/// A disk this far behind (50 minutes of lines, or 140 images) will not catch up; the memory of
 /// the machine is worth more then.
 constexpr std::size_t kMaxWaitingBytes = std::size_t{512} << 20;
+/// What ending a scan and closing its file may need: the file's log, which is written into it then.
+constexpr std::size_t kReserveBytes = std::size_t{16} << 20;
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -42,7 +44,17 @@ ScanRecorder::~ScanRecorder() {
   if (!ended) LogError("{}", ended.error().message);
 }
 
+std::optional<std::string> ScanRecorder::Failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
 void ScanRecorder::OnScanStarted(const Scan& header) {
+  {
+    const std::lock_guard lock(mutex_);
+    ++started_;
+    failure_.reset();
+  }
   Push(header, 0);
 }
 
@@ -124,12 +136,18 @@ void ScanRecorder::Work(const std::stop_token& stop) {
 
 /// Everything that waited goes to the disk in one commit.
 void ScanRecorder::WriteAll(std::deque<Piece>& pieces) {
+  std::optional<std::int64_t> last = running_;
   const Status status = mission_->Batch([&]() -> Status {
-    for (const Piece& piece : pieces)
+    for (const Piece& piece : pieces) {
       if (const Status written = Write(piece); !written) GiveUp(written.error());
+      if (running_) last = running_;
+    }
     return {};
   });
-  if (!status) GiveUp(status.error());
+  if (status) return;
+  // An end that was in the batch has not reached the disk either.
+  running_ = last;
+  GiveUp(status.error());
 }
 
 Status ScanRecorder::Write(const Piece& piece) {
@@ -159,6 +177,10 @@ Status ScanRecorder::Write(const Piece& piece) {
 
 Status ScanRecorder::WriteHeader(const Scan& header) {
   running_.reset();
+  ++begun_;
+  const Result<ScanPrediction> planned = PredictScan(header.plan, header.rig);
+  planned_lines_ = planned ? planned->lines : 0;
+  FORESIGHT_CHECK(reserve_.Take(mission_->path().parent_path(), kReserveBytes));
   FORESIGHT_TRY(running_, mission_->BeginScan(header));
   const std::lock_guard lock(mutex_);
   outcome_ = *running_;
@@ -166,14 +188,27 @@ Status ScanRecorder::WriteHeader(const Scan& header) {
 }
 
 void ScanRecorder::GiveUp(const Error& error) {
-  LogError("{}", error.message);
+  reserve_.Release();
+  Error told = error;
   if (running_) {
-    const Status ended = mission_->EndScan(*running_, ScanState::kInterrupted, error.message);
+    told.message += WhatWasKept(*running_);
+    const Status ended = mission_->EndScan(*running_, ScanState::kInterrupted, told.message);
     if (!ended) LogError("{}", ended.error().message);
     running_.reset();
   }
+  LogError("{}", told.message);
   const std::lock_guard lock(mutex_);
-  outcome_ = tl::unexpected(error);
+  if (begun_ == started_) failure_ = told.message;
+  outcome_ = tl::unexpected(told);
+}
+
+/// What the file itself says: a failed write takes others with it.
+std::string ScanRecorder::WhatWasKept(std::int64_t id) const {
+  const auto scans = mission_->ListScans();
+  if (!scans) return "";
+  for (const ScanSummary& scan : *scans)
+    if (scan.id == id) return fmt::format(": {} of {} lines were kept", scan.lines, planned_lines_);
+  return "";
 }
 
 }  // namespace foresight

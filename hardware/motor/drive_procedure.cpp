@@ -129,6 +129,19 @@ Stage FindZero(double timeout_s, std::int32_t edge_window) {
           }};
 }
 
+/// Where homing ended the zero is: a drive that counts far from it has lost counts on the way.
+Stage ShowZero(std::int32_t window) {
+  return {"end its homing", kAnswer_s, true,
+          [](DriveWrites& writes) { Control(writes, cia402::control::kEnableOperation); },
+          [window](const TxImage& drive, DriveWrites&) -> Result<bool> {
+            if (std::abs(std::int64_t{drive.position}) <= window) return true;
+            return Fail(ErrorCode::kDevice,
+                        "its encoder says {} counts where it has just found its zero, more than "
+                        "{}; check the encoder and home again",
+                        drive.position, window);
+          }};
+}
+
 Stage Arrive(const MoveProfile& profile) {
   return {"reach its target", profile.timeout_s, true, nullptr,
           // The bit may still be that of the last move: the position has the last word.
@@ -180,14 +193,13 @@ DriveProcedure HomingProcedure(const HomingProfile& profile, WordOrder order) {
     Part(writes, image, order, RxImage::kHoming, RxImage::kHomingCount);
     Control(writes, cia402::control::kEnableOperation);
   };
-  const auto end = [](DriveWrites& writes) { Control(writes, cia402::control::kEnableOperation); };
   // Bits that say "done" may be those of the last homing: they are seen low first.
   return DriveProcedure(
       {ClearFault(), ChangeMode(cia402::Mode::kHoming, "change to homing mode"), Enable(),
        Say(parameters),
        SayAndSee(cia402::control::kEnableOperation | cia402::control::kStartHoming, kHomingBits, 0,
                  "begin to home"),
-       FindZero(profile.timeout_s, profile.edge_window), Say(end)});
+       FindZero(profile.timeout_s, profile.edge_window), ShowZero(profile.edge_window)});
 }
 
 DriveProcedure MoveProcedure(const MoveProfile& profile, WordOrder order) {

@@ -18,7 +18,7 @@ constexpr std::size_t kBaselineLines = 40;
 constexpr double kPeriodWeight = 8.0;
 /// No quartz drifts faster. A longer delay of the network must not pass for one.
 constexpr double kFastestDrift = 500e-6;
-/// The share of a new estimate that is taken over a line: jumps become ramps of half a second.
+/// The fraction of a new estimate that is taken over a line: jumps become ramps of half a second.
 constexpr double kFollow = 0.05;
 /// Drift is a quotient; over less time the stamps' rounding is most of it.
 constexpr double kDriftAfter_s = 3.0;

@@ -72,6 +72,11 @@ std::optional<ScipStep> TakeStep(std::string_view& data, const ScipRequest& requ
   return step;
 }
 
+tl::unexpected<Error> WrongCount(const ScipReply& reply, int steps, const ScipRequest& request) {
+  return Fail(ErrorCode::kInvalidInput, "reply to {}: {} beams instead of {}", reply.echo, steps,
+              request.Values());
+}
+
 /// The text before the delimiter of a `KEY:VALUE;S` line. The sum itself may be ';', so it is read
 /// from the end; firmwares differ in what it covers.
 std::optional<std::string_view> InfoText(std::string_view line) {
@@ -109,11 +114,17 @@ Result<ScipScan> DecodeScipScan(const ScipReply& reply) {
   std::string_view rest = data;
   scan.steps.reserve(static_cast<std::size_t>(request->Values()));
   for (int i = 0; i < request->Values(); ++i) {
+    if (rest.empty()) return WrongCount(reply, i, *request);
     const auto step = TakeStep(rest, *request);
     if (!step) return Damaged(reply, "value {} of {} is damaged", i, request->Values());
     scan.steps.push_back(*step);
   }
-  if (!rest.empty()) return Damaged(reply, "{} characters too many", rest.size());
+  int steps = request->Values();
+  while (!rest.empty()) {
+    if (!TakeStep(rest, *request)) return Damaged(reply, "{} characters too many", rest.size());
+    ++steps;
+  }
+  if (steps > request->Values()) return WrongCount(reply, steps, *request);
   return scan;
 }
 

@@ -59,6 +59,7 @@ struct ScipParameters {
 using ScipInfo = std::map<std::string, std::string>;
 
 // Replies to messages. All fail with kBadData, saying which line is damaged.
+/// Fails with kInvalidInput where all sums are right and the number of steps is not the request's.
 Result<ScipScan> DecodeScipScan(const ScipReply& reply);
 Result<ScipInfo> DecodeScipInfo(const ScipReply& reply);
 Result<ScipParameters> DecodeScipParameters(const ScipInfo& info);

@@ -40,8 +40,8 @@ std::string ScipLidar::Describe() const {
 Status ScipLidar::Connect() {
   std::unique_lock lock(mutex_);
   if (connected_) return {};
-  wish_.connection = true;
-  wish_.give_up = SteadyClock::now() + DurationOf(options_.connect_timeout_s);
+  desired_.connection = true;
+  desired_.give_up = SteadyClock::now() + DurationOf(options_.connect_timeout_s);
   gave_up_.reset();
   changed_.notify_all();
   changed_.wait(lock, [this] { return connected_ || gave_up_; });
@@ -51,17 +51,17 @@ Status ScipLidar::Connect() {
 
 Status ScipLidar::Start() {
   std::unique_lock lock(mutex_);
-  if (!wish_.connection) return Fail(ErrorCode::kState, "{}: is not connected", name_);
-  wish_.stream = true;
-  const std::int64_t number = ++wish_.number;
+  if (!desired_.connection) return Fail(ErrorCode::kState, "{}: is not connected", name_);
+  desired_.stream = true;
+  const std::int64_t number = ++desired_.number;
   lines_.clear();
   wake_.Raise();
   const bool started = changed_.wait_for(lock, DurationOf(options_.connect_timeout_s),
                                          [&] { return running_ == number; });
   last_scan_ = SteadyClock::now();
   if (started) return {};
-  wish_.stream = false;
-  ++wish_.number;
+  desired_.stream = false;
+  ++desired_.number;
   wake_.Raise();
   return Fail(ErrorCode::kDevice, "{}: did not start to measure within {:.0f} ms{}{}", name_,
               1e3 * options_.connect_timeout_s,
@@ -70,16 +70,16 @@ Status ScipLidar::Start() {
 
 void ScipLidar::Stop() {
   const std::lock_guard lock(mutex_);
-  if (!wish_.stream) return;
-  wish_.stream = false;
-  ++wish_.number;
+  if (!desired_.stream) return;
+  desired_.stream = false;
+  ++desired_.number;
   lines_.clear();
   wake_.Raise();
 }
 
 Result<std::optional<LidarLine>> ScipLidar::WaitForLine(std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
-  if (!wish_.stream) return Fail(ErrorCode::kState, "{}: is not measuring", name_);
+  if (!desired_.stream) return Fail(ErrorCode::kState, "{}: is not measuring", name_);
   changed_.wait_for(lock, timeout, [this] { return !lines_.empty(); });
   if (!lines_.empty()) {
     LidarLine line = std::move(lines_.front());
@@ -88,6 +88,8 @@ Result<std::optional<LidarLine>> ScipLidar::WaitForLine(std::chrono::millisecond
   }
   const auto silence = SteadyClock::now() - last_scan_;
   if (silence < DurationOf(options_.lost_s)) return std::nullopt;
+  if (const std::string trouble = troubles_.Describe(clock_->Now()); !trouble.empty())
+    return Fail(ErrorCode::kDevice, "{}: {}", name_, trouble);
   const std::string why = connected_ || health_.last_error.empty() ? "" : "; " + health_.last_error;
   return Fail(ErrorCode::kDevice, "{}: no scan for {} ms{}", name_, Milliseconds(silence), why);
 }
@@ -99,7 +101,8 @@ LidarHealth ScipLidar::Health() const {
   health.line_rate_hz = static_cast<double>(
       std::count_if(recent_.begin(), recent_.end(), [&](auto time) { return time > second_ago; }));
   health.connected = connected_;
-  health.streaming = wish_.stream && running_ == wish_.number && health.line_rate_hz > 0.0;
+  health.trouble = troubles_.Describe(clock_->Now());
+  health.streaming = desired_.stream && running_ == desired_.number && health.line_rate_hz > 0.0;
   return health;
 }
 

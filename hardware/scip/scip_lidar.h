@@ -11,8 +11,10 @@
 #include "hardware/api/lidar.h"
 #include "hardware/api/sensor_clock.h"
 #include "hardware/net/wake_up.h"
+#include "hardware/scip/scip_handshake.h"
 #include "hardware/scip/scip_lidar_options.h"
-#include "hardware/scip/scip_ritual.h"
+#include "hardware/scip/scip_line_troubles.h"
+#include "hardware/scip/scip_stamp_watch.h"
 
 namespace foresight {
 
@@ -20,7 +22,9 @@ namespace foresight {
 ///
 /// A thread of its own holds the connection and repairs it: a silent stream is asked for again,
 /// then the connection is made anew, then the device is rebooted. What is missed meanwhile shows as
-/// a jump of LidarLine::seq. Errors begin with "lidar HOST:PORT: ".
+/// a jump of LidarLine::seq. A line that is damaged, has another number of beams or a time stamp
+/// that cannot be true is dropped, and LidarHealth::trouble says what was wrong with it. Errors
+/// begin with "lidar HOST:PORT: ".
 class ScipLidar final : public Lidar {
  public:
   /// `options` have passed their Check(). `clock` runs in real time.
@@ -41,16 +45,16 @@ class ScipLidar final : public Lidar {
   using SteadyClock = std::chrono::steady_clock;
 
   /// What the owner asks of the thread.
-  struct Wish {
+  struct DesiredState {
     bool connection = false;
     /// Until then attempts to connect go on; nullopt: for ever, a connection is to be restored.
     std::optional<SteadyClock::time_point> give_up;
     bool stream = false;
-    std::int64_t number = 0;  ///< counts the wishes about the stream
+    std::int64_t number = 0;  ///< counts the changes of the desired state
   };
   /// The stream that the thread receives.
   struct Stream {
-    std::int64_t number = -1;  ///< of the wish that it fulfils
+    std::int64_t number = -1;  ///< of the desired state that it reached
     bool running = false;
     ScipRequest request;
     SteadyClock::time_point last_scan;
@@ -63,14 +67,15 @@ class ScipLidar final : public Lidar {
   Status Talk(ScipSession& session, const std::stop_token& stop);
   Status RebootDevice(ScipSession& session);
   Status Synchronise(ScipSession& session);
-  Status FulfilWish(ScipSession& session, const Wish& wish, Stream& stream);
+  Status ReachDesiredState(ScipSession& session, const DesiredState& desired, Stream& stream);
   Status ReceiveScan(ScipSession& session, Stream& stream);
   Status RecoverFromSilence(ScipSession& session, Stream& stream);
-  void TakeReply(const ScipSession::Arrival& arrival, Stream& stream);
+  Status TakeReply(const ScipSession::Arrival& arrival, Stream& stream);
+  void NoteLine(ScipLineTrouble trouble, const std::string& detail);
   void HandOn(LidarLine line, std::int64_t lost, std::int64_t stream_number);
   void MarkConnected(const ScipIdentity& identity);
   void AfterFailure(const Error& error, const std::stop_token& stop);
-  Wish CurrentWish() const;
+  DesiredState CurrentDesiredState() const;
   std::string Explain(const Error& error) const;
 
   const ScipLidarOptions options_;
@@ -80,18 +85,21 @@ class ScipLidar final : public Lidar {
 
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
-  Wish wish_;
+  DesiredState desired_;
   bool connected_ = false;
   std::optional<Error> gave_up_;
-  std::optional<std::int64_t> running_;  ///< number of the wish that is fulfilled
+  std::optional<std::int64_t> running_;  ///< number of the desired state that was reached
   std::deque<LidarLine> lines_;
   SteadyClock::time_point last_scan_;
   std::deque<SteadyClock::time_point> recent_;  ///< arrivals of the last second
   ScipIdentity identity_;
   LidarHealth health_;
+  ScipLineTroubles troubles_;
 
   // Of the thread alone:
   std::optional<ScipClock> line_clock_;
+  ScipStampWatch stamps_;
+  int bad_stamps_ = 0;  ///< in a row
   SteadyClock::time_point synchronised_;
   std::int64_t seq_ = -1;
   std::optional<std::int64_t> counted_stream_;  ///< whose losses are counted

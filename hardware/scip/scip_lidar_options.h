@@ -30,7 +30,7 @@ struct ScipLidarOptions {
   double reply_timeout_s = 1.0;
   double drain_s = 0.2;     ///< after stopping what an earlier client may have started
   int clock_readings = 40;  ///< about 100 ms on the device
-  double resync_s = 2.0;    ///< Start reads the clock again when the last reading is older
+  double resync_s = 0.5;    ///< Start reads the clock again when the last reading is older
   double stall_s = 0.25;    ///< 10 lines of silence: the stream is asked for again
   int stalls_before_reconnect = 3;
   double first_backoff_s = 0.1;  ///< between attempts to connect; doubles

@@ -16,12 +16,15 @@ constexpr auto kIdlePeriod = std::chrono::seconds(1);
 constexpr std::size_t kMostLines = 400;
 /// Connections in a row that end in silence before the device is rebooted.
 constexpr int kFruitlessBeforeReboot = 2;
+/// Stamps in a row that cannot be true before the device's clock is read anew, which takes a new
+/// connection. A line that is believed afterwards has its true time again.
+constexpr int kBadStampsBeforeReconnect = 2;
 
 }  // namespace
 
-ScipLidar::Wish ScipLidar::CurrentWish() const {
+ScipLidar::DesiredState ScipLidar::CurrentDesiredState() const {
   const std::lock_guard lock(mutex_);
-  return wish_;
+  return desired_;
 }
 
 std::string ScipLidar::Explain(const Error& error) const {
@@ -35,7 +38,7 @@ void ScipLidar::Work(const std::stop_token& stop) {
   for (;;) {
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, stop, [this] { return wish_.connection; });
+      changed_.wait(lock, stop, [this] { return desired_.connection; });
     }
     if (stop.stop_requested()) return;
     Status served;
@@ -59,7 +62,7 @@ Status ScipLidar::Serve(const std::stop_token& stop) {
     LogWarning("{}: rebooting it", Explain(served.error()));
     served = RebootDevice(session);
   }
-  if (stop.stop_requested()) session.SayGoodbye();
+  if (stop.stop_requested()) session.Disconnect();
   return served;
 }
 
@@ -72,14 +75,14 @@ Status ScipLidar::RebootDevice(ScipSession& session) {
 }
 
 Status ScipLidar::Talk(ScipSession& session, const std::stop_token& stop) {
-  FORESIGHT_TRY(const ScipIdentity identity, Greet(session, options_));
+  FORESIGHT_TRY(const ScipIdentity identity, Identify(session, options_));
   if (!line_clock_) line_clock_.emplace(60.0 / identity.parameters.turns_per_min);
   FORESIGHT_CHECK(Synchronise(session));
   MarkConnected(identity);
   Stream stream;
   while (!stop.stop_requested()) {
-    if (const Wish wish = CurrentWish(); wish.number != stream.number) {
-      FORESIGHT_CHECK(FulfilWish(session, wish, stream));
+    if (const DesiredState desired = CurrentDesiredState(); desired.number != stream.number) {
+      FORESIGHT_CHECK(ReachDesiredState(session, desired, stream));
     } else if (stream.running) {
       FORESIGHT_CHECK(ReceiveScan(session, stream));
     } else {
@@ -93,6 +96,11 @@ Status ScipLidar::Synchronise(ScipSession& session) {
   FORESIGHT_TRY(const std::vector<ClockReading> readings,
                 ReadDeviceClock(session, *clock_, options_));
   line_clock_->Synchronise(readings);
+  StampUnwrapper unwrapper;
+  std::int64_t device_ms = 0;
+  for (const ClockReading& reading : readings) device_ms = unwrapper.Unwrap(reading.stamp_ms);
+  stamps_.Reset(device_ms);
+  bad_stamps_ = 0;
   synchronised_ = SteadyClock::now();
   const std::lock_guard lock(mutex_);
   health_.clock_offset_s = line_clock_->offset_s();
@@ -106,27 +114,28 @@ void ScipLidar::MarkConnected(const ScipIdentity& identity) {
   if (!identity_.parameters.model.empty()) ++health_.reconnects;
   identity_ = identity;
   connected_ = true;
-  wish_.give_up.reset();
+  desired_.give_up.reset();
   backoff_s_ = options_.first_backoff_s;
   changed_.notify_all();
 }
 
-Status ScipLidar::FulfilWish(ScipSession& session, const Wish& wish, Stream& stream) {
+Status ScipLidar::ReachDesiredState(ScipSession& session, const DesiredState& desired,
+                                    Stream& stream) {
   const auto timeout = DurationOf(options_.reply_timeout_s);
   FORESIGHT_CHECK(Quit(session, timeout));
-  if (wish.stream) {
+  if (desired.stream) {
     if (SteadyClock::now() - synchronised_ > DurationOf(options_.resync_s))
       FORESIGHT_CHECK(Synchronise(session));
     stream.request = StreamRequest(options_);
     stream.request.tag = session.NextTag();
     FORESIGHT_CHECK(BeginStream(session, stream.request, timeout));
   }
-  stream.running = wish.stream;
-  stream.number = wish.number;
+  stream.running = desired.stream;
+  stream.number = desired.number;
   stream.last_scan = SteadyClock::now();
   stream.stalls = 0;
   const std::lock_guard lock(mutex_);
-  running_ = wish.number;
+  running_ = desired.number;
   changed_.notify_all();
   return {};
 }
@@ -136,10 +145,14 @@ Status ScipLidar::ReceiveScan(ScipSession& session, Stream& stream) {
   const auto left = std::chrono::duration_cast<ScipSession::Duration>(stall - SteadyClock::now());
   FORESIGHT_TRY(const std::optional<ScipSession::Arrival> arrival, session.Receive(left));
   if (const std::int64_t damaged = session.damaged(); damaged != damaged_in_session_) {
-    const std::lock_guard lock(mutex_);
-    health_.damaged += damaged - std::exchange(damaged_in_session_, damaged);
+    const std::int64_t more = damaged - std::exchange(damaged_in_session_, damaged);
+    {
+      const std::lock_guard lock(mutex_);
+      health_.damaged += more;
+    }
+    for (std::int64_t i = 0; i < more; ++i) NoteLine(ScipLineTrouble::kBadSum, "in its status");
   }
-  if (arrival) TakeReply(*arrival, stream);
+  if (arrival) FORESIGHT_CHECK(TakeReply(*arrival, stream));
   if (SteadyClock::now() < stream.last_scan + DurationOf(options_.stall_s)) return {};
   return RecoverFromSilence(session, stream);
 }
@@ -166,20 +179,32 @@ Status ScipLidar::RecoverFromSilence(ScipSession& session, Stream& stream) {
   return {};
 }
 
-void ScipLidar::TakeReply(const ScipSession::Arrival& arrival, Stream& stream) {
-  if (arrival.reply.status != scip_status::kScan) return;
+/// Fails where the device's clock must be read anew.
+Status ScipLidar::TakeReply(const ScipSession::Arrival& arrival, Stream& stream) {
+  if (arrival.reply.status != scip_status::kScan) return {};
   if (arrival.reply.echo != EncodeScipRequest(stream.request)) {
     const std::lock_guard lock(mutex_);
     ++health_.stale;
-    return;
+    return {};
   }
   const Result<ScipScan> scan = DecodeScipScan(arrival.reply);
   if (!scan) {
     const std::lock_guard lock(mutex_);
     ++health_.damaged;
     health_.last_error = Explain(scan.error());
-    return;
+    const bool wrong_count = scan.error().code == ErrorCode::kInvalidInput;
+    troubles_.Note(
+        clock_->Now(), wrong_count ? ScipLineTrouble::kWrongBeams : ScipLineTrouble::kBadSum,
+        wrong_count ? scan.error().message.substr(scan.error().message.rfind(": ") + 2) : "");
+    return {};
   }
+  if (const auto wrong = stamps_.Check(scan->stamp_ms, arrival.time_s, line_clock_->offset_s())) {
+    NoteLine(ScipLineTrouble::kBadStamp, *wrong);
+    if (++bad_stamps_ < kBadStampsBeforeReconnect) return {};
+    return Fail(ErrorCode::kDevice, "time stamps {}", *wrong);
+  }
+  bad_stamps_ = 0;
+  NoteLine(ScipLineTrouble::kNone, "");
   stream.last_scan = SteadyClock::now();
   stream.stalls = 0;
   fruitless_ = 0;
@@ -191,13 +216,19 @@ void ScipLidar::TakeReply(const ScipSession::Arrival& arrival, Stream& stream) {
   // Turns between two streams were not wanted.
   const bool same_stream = std::exchange(counted_stream_, stream.number) == stream.number;
   HandOn(std::move(line), same_stream ? placed.turns - 1 : 0, stream.number);
+  return {};
+}
+
+void ScipLidar::NoteLine(ScipLineTrouble trouble, const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  troubles_.Note(clock_->Now(), trouble, detail);
 }
 
 void ScipLidar::HandOn(LidarLine line, std::int64_t lost, std::int64_t stream_number) {
   const std::lock_guard lock(mutex_);
   health_.clock_offset_s = line_clock_->offset_s();
   health_.clock_drift_ppm = line_clock_->drift_ppm();
-  if (wish_.number != stream_number) return;
+  if (desired_.number != stream_number) return;
   ++health_.lines;
   health_.lost_lines += lost;
   last_scan_ = SteadyClock::now();
@@ -220,9 +251,9 @@ void ScipLidar::AfterFailure(const Error& error, const std::stop_token& stop) {
   if (health_.last_error != message) LogWarning("{}", message);
   health_.last_error = message;
   const bool hopeless = error.code == ErrorCode::kInvalidInput;
-  if (wish_.give_up && (hopeless || SteadyClock::now() >= *wish_.give_up)) {
+  if (desired_.give_up && (hopeless || SteadyClock::now() >= *desired_.give_up)) {
     gave_up_ = Error{error.code, message};
-    wish_.connection = false;
+    desired_.connection = false;
     changed_.notify_all();
     return;
   }

@@ -9,7 +9,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr ScipSession::Duration kSendTimeout = std::chrono::seconds(1);
-constexpr ScipSession::Duration kGoodbyeTimeout = std::chrono::milliseconds(100);
+constexpr ScipSession::Duration kDisconnectTimeout = std::chrono::milliseconds(100);
 
 ScipSession::Duration Left(SteadyClock::time_point deadline) {
   return std::chrono::duration_cast<ScipSession::Duration>(deadline - SteadyClock::now());
@@ -90,12 +90,12 @@ Status ScipSession::Drain(Duration duration) {
   return {};
 }
 
-void ScipSession::SayGoodbye() {
+void ScipSession::Disconnect() {
   // Closing with bytes unread resets the connection, and the request could be lost with it.
   stop_ = {};
   wake_->Lower();
   // A device that does not answer cannot be helped from here.
-  static_cast<void>(Ask({.command = ScipCommand::kQuit}, kGoodbyeTimeout));
+  static_cast<void>(Ask({.command = ScipCommand::kQuit}, kDisconnectTimeout));
 }
 
 }  // namespace foresight

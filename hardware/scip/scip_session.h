@@ -38,7 +38,7 @@ class ScipSession {
   /// Discards what comes until `duration` is over.
   Status Drain(Duration duration);
   /// Stops the device before the end of the session, also when stop was requested.
-  void SayGoodbye();
+  void Disconnect();
 
   std::string NextTag();
   std::int64_t damaged() const { return parser_.damaged(); }

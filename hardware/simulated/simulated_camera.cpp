@@ -1,5 +1,7 @@
 #include "hardware/simulated/simulated_camera.h"
 
+#include <algorithm>
+
 #include "core/base/log.h"
 
 namespace foresight {
@@ -12,7 +14,7 @@ SimulatedCamera::SimulatedCamera(std::shared_ptr<const World> world,
     thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
 }
 
-/// Pictures of an earlier connection are of no use to the next one.
+/// Images of an earlier connection are of no use to the next one.
 Status SimulatedCamera::Connect() {
   const std::lock_guard lock(mutex_);
   exposed_.clear();
@@ -64,7 +66,7 @@ CameraHealth SimulatedCamera::Health() const {
 }
 
 CameraFrame SimulatedCamera::Render(const Exposure& exposure, const RunContext& context) const {
-  CameraFrame frame = world_->TakePicture(
+  CameraFrame frame = world_->CaptureImage(
       exposure.seq, exposure.middle_s, exposure.settings.exposure_s, exposure.settings.gain_db,
       [this](double time_s) { return shaft_->At(time_s).angle_rad; }, context);
   frame.motor_angle_rad = 0.0;  // a camera does not know it
@@ -74,7 +76,8 @@ CameraFrame SimulatedCamera::Render(const Exposure& exposure, const RunContext& 
 void SimulatedCamera::Work(const std::stop_token& stop) {
   RunContext context;
   context.stop = stop;
-  context.threads = 1;  // the other core belongs to the lidar
+  // One core belongs to the lidar.
+  context.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
   for (;;) {
     Exposure exposure;
     {

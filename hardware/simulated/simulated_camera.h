@@ -14,7 +14,7 @@
 namespace foresight {
 
 /// A global-shutter camera. In real time a thread of its own renders, so that the lidar's lines do
-/// not wait for it; as fast as possible, a picture is rendered when it is waited for.
+/// not wait for it; as fast as possible, an image is rendered when it is waited for.
 class SimulatedCamera final : public Camera {
  public:
   /// From the end of the exposure to the frame.

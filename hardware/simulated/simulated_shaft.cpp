@@ -5,7 +5,7 @@
 namespace foresight {
 namespace {
 
-/// Pictures that wait for their rendering look a few moves back, never this many.
+/// Images that wait for their rendering look a few moves back, never this many.
 constexpr std::size_t kRememberedMoves = 64;
 
 }  // namespace

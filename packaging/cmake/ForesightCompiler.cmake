@@ -3,7 +3,8 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# The same for programs and libraries, so that they can share precompiled headers.
+add_compile_options(-fPIC)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 if(NOT CMAKE_BUILD_TYPE)
@@ -12,8 +13,11 @@ endif()
 
 find_program(FORESIGHT_CCACHE ccache)
 if(FORESIGHT_CCACHE)
-  set(CMAKE_C_COMPILER_LAUNCHER ${FORESIGHT_CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${FORESIGHT_CCACHE})
+  # ccache keeps files that use a precompiled header only when it is told that their macros and times
+  # do not matter.
+  set(launcher ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${FORESIGHT_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()
 find_program(FORESIGHT_MOLD mold)
 if(FORESIGHT_MOLD)

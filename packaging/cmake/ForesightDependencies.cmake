@@ -11,13 +11,22 @@ find_package(nlohmann_json REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(CLI11 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(embree 3 REQUIRED)
+find_package(TBB REQUIRED)
 find_package(hwy 1.0.3 CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(modbus REQUIRED QUIET IMPORTED_TARGET libmodbus)
 pkg_check_modules(aravis REQUIRED QUIET IMPORTED_TARGET aravis-0.8)
+# -pthread only defines _REENTRANT with this glibc, and a file with it could not use the precompiled
+# headers of all others.
+get_target_property(aravis_options PkgConfig::aravis INTERFACE_COMPILE_OPTIONS)
+if(aravis_options)
+  list(REMOVE_ITEM aravis_options -pthread)
+  set_target_properties(PkgConfig::aravis PROPERTIES INTERFACE_COMPILE_OPTIONS "${aravis_options}")
+endif()
 
 foreach(package VTK OpenNI OpenNI2 libusb Pcap)
   set(CMAKE_DISABLE_FIND_PACKAGE_${package} ON)
@@ -35,7 +44,7 @@ if(FORESIGHT_BUILD_GUI)
     CommonTransforms FiltersCore FiltersGeneral FiltersSources RenderingCore RenderingOpenGL2
     RenderingFreeType RenderingAnnotation RenderingContextOpenGL2 InteractionStyle
     InteractionWidgets InteractionImage IOImage GUISupportQt)
-  find_package(Qt${VTK_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets Concurrent Svg)
+  find_package(Qt${VTK_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets Svg)
   find_package(qtadvanceddocking REQUIRED)
 endif()
 

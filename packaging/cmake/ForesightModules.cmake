@@ -5,4 +5,13 @@ function(foresight_module name)
   add_library(${name} OBJECT ${arg_SOURCES})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${arg_LINK} PRIVATE foresight_warnings)
+  foresight_precompiled(${name} common)
+endfunction()
+
+# A shared library that uses nothing but what it links. A sanitizer's or a fuzzer's own symbols come from
+# the program.
+function(foresight_closed name)
+  if(NOT FORESIGHT_SANITIZE AND NOT FORESIGHT_FUZZ)
+    target_link_options(${name} PRIVATE LINKER:--no-undefined)
+  endif()
 endfunction()

@@ -7,7 +7,8 @@
 
 namespace foresight {
 
-/// Counters with the errors of a map of MakeRoom's room: A80, A95 and the share of pixels it keeps.
+/// Counters with the errors of a map of MakeRoom's room: A80, A95 and the fraction of pixels it
+/// keeps.
 inline void ReportAccuracy(benchmark::State& state, const DepthImage& depth_m,
                            const MaskImage& mask) {
   const auto score = ScoreDepth(depth_m, mask, TrueRoom(depth_m.width(), depth_m.height()), 1);

@@ -27,10 +27,10 @@ struct Setting {
   double DensityPercent() const { return 100.0 / (step_u * step_v); }
 };
 
-/// Density 2.1 %, from a quarter of the paper's picture to four times the camera's.
+/// Density 2.1 %, from a quarter of the paper's image to four times the camera's.
 constexpr Setting kSizes[] = {{320, 240, 4, 12},  {640, 480, 4, 12},   {960, 720, 4, 12},
                               {1288, 964, 4, 12}, {1824, 1368, 4, 12}, {2576, 1928, 4, 12}};
-/// The camera's picture.
+/// The camera's image.
 constexpr Setting kDensities[] = {{1288, 964, 8, 12}, {1288, 964, 4, 12}, {1288, 964, 4, 8},
                                   {1288, 964, 4, 5},  {1288, 964, 4, 4},  {1288, 964, 3, 4},
                                   {1288, 964, 2, 5}};
@@ -57,7 +57,7 @@ double Milliseconds(const Setting& setting, DepthMethod method) {
   return best;
 }
 
-/// Share of the variance that a straight line explains.
+/// Fraction of the variance that a straight line explains.
 double Straightness(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const auto& p : points) mean += p / static_cast<double>(points.size());

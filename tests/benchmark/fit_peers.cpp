@@ -16,7 +16,7 @@
 #include "core/depth/depth_method.h"
 #include "core/evaluation/fit_populations.h"
 #include "core/evaluation/terrain_truth.h"
-#include "core/fitting/drill/surroundings.h"
+#include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/wall.h"
 #include "tests/benchmark/fit_peers.h"
@@ -106,7 +106,7 @@ Points ModelPoints(const FitTrial& trial, Random& random) {
         return object_from_robot * mesh.vertices[static_cast<std::size_t>(t[i])].cast<double>();
       };
       const Eigen::Vector3d a = at(0), ab = at(1) - a, ac = at(2) - a;
-      // A point a 10 mm^2; the share of one by chance.
+      // A point a 10 mm^2; the fraction of one by chance.
       for (double left = 0.5 * ab.cross(ac).norm() / 1e-5; left > random.Uniform(); left -= 1.0) {
         double u = random.Uniform(), v = random.Uniform();
         if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
@@ -327,7 +327,7 @@ void RunSource(const FitPopulation& population, const FitTrial& trial, const Pro
     bench.facing =
         split.wall ? split.wall->normal : (rays->viewpoint - Mean(bench.foreground)).normalized();
   } else if (population.Kind() == ObjectKind::kDrill) {
-    bench.foreground = FindSurroundings(*rays, {.up = bench.up}, random).foreground;
+    bench.foreground = FindSupportAndBackground(*rays, {.up = bench.up}, random).foreground;
   }
   if (population.Kind() != ObjectKind::kTerrain) bench.model = ModelPoints(trial, random);
 

@@ -1,5 +1,5 @@
 // What four new lines cost while the head sweeps at 10 deg/s, against doing all again: CPU time of
-// one thread, as the live map uses it. The sweep is half way, at the middle of the picture.
+// one thread, as the live map uses it. The sweep is half way, at the middle of the image.
 #include <benchmark/benchmark.h>
 
 #include "core/depth/depth_method.h"
@@ -20,11 +20,11 @@ struct Sweep {
   RegisteredScan now;
 };
 
-/// Made once a size: the picture alone takes a second.
-const Sweep& SweepWithPicture(bool full_size) {
+/// Made once a size: the image alone takes a second.
+const Sweep& SweepWithImage(bool full_size) {
   const auto make = [](int width, int height) {
     Scan scan =
-        testing::SweepOverRoom(testing::RigWithPicture(width, height), RadiansFromDegrees(10.0));
+        testing::SweepOverRoom(testing::RigWithImage(width, height), RadiansFromDegrees(10.0));
     return Sweep{scan.rig, scan.frames[0], scan.plan, testing::RegisteredAfter(scan, kLinesBefore),
                  testing::RegisteredAfter(scan, kLinesBefore + kNewLines)};
   };
@@ -41,7 +41,7 @@ RunContext OneThread() {
 }
 
 void Whole(benchmark::State& state, DepthMethod method, bool full_size) {
-  const Sweep& sweep = SweepWithPicture(full_size);
+  const Sweep& sweep = SweepWithImage(full_size);
   const DepthOptions options = *FixedForPlan(DefaultsOf(method), sweep.plan, sweep.rig);
   for (auto _ : state) {
     const auto depth = ComputeDepthInFrame(sweep.now, sweep.rig, sweep.frame, options, OneThread());
@@ -50,7 +50,7 @@ void Whole(benchmark::State& state, DepthMethod method, bool full_size) {
 }
 
 void FourMoreLines(benchmark::State& state, DepthMethod method, bool full_size) {
-  const Sweep& sweep = SweepWithPicture(full_size);
+  const Sweep& sweep = SweepWithImage(full_size);
   LiveDepth live(sweep.rig, sweep.frame, *FixedForPlan(DefaultsOf(method), sweep.plan, sweep.rig));
   for (auto _ : state) {
     state.PauseTiming();

@@ -1,4 +1,4 @@
-// What OpenCV's edge-preserving filters need for the same picture. They take a dense map, so the
+// What OpenCV's edge-preserving filters need for the same image. They take a dense map, so the
 // holes are filled first; that is measured too. Beside the times are the errors against the room's
 // truth.
 #include <benchmark/benchmark.h>

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-/// A room-like view to measure with: a slanted wall, a nearer box, noise in depth and picture.
+/// A room-like view to measure with: a slanted wall, a nearer box, noise in depth and image.
 struct Room {
   AlignedSamples samples;
   ColorImage guide;

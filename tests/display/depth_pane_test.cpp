@@ -15,7 +15,7 @@ struct DepthPaneOnScreen : Workstation {
   void SetUp() override {
     Workstation::SetUp();
     if (HasFatalFailure()) return;
-    running->bench().depth.setMethod(DepthMethod::kPaper);
+    running->bench().live.depth.setMethod(DepthMethod::kPaper);
     ASSERT_TRUE(WaitFor([] { return running->bench().Idle(); }));
     Layers().SetDepthColors(ColorMap::kViridis);
     running->Settle();
@@ -28,30 +28,31 @@ struct DepthPaneOnScreen : Workstation {
     Compare().setWipe(0.5);
   }
 
-  static LayersViewModel& Layers() { return running->bench().layers; }
-  static CompareViewModel& Compare() { return running->bench().compare; }
+  static LayersViewModel& Layers() { return running->bench().live.layers; }
+  static CompareViewModel& Compare() { return running->bench().live.compare; }
   static DepthPane* Pane() { return running->window().Depth(); }
-  static const CameraFrame& Picture() { return *running->bench().session.Picture(); }
-  static double ShareNear(const QImage& picture, Rgb8 color) {
-    return ShareOf(picture, [color](const QColor& seen) { return IsNear(seen, color); });
+  static const CameraFrame& CurrentImage() { return *running->bench().live.session.CurrentImage(); }
+  static double FractionNear(const QImage& capture, Rgb8 color) {
+    return FractionOf(capture, [color](const QColor& seen) { return IsNear(seen, color); });
   }
-  /// A place at this share of the picture's width, three quarters up: wall without lines over it.
-  static Eigen::Vector2d At(double share) {
-    return {share * Picture().image.width(), 0.3 * Picture().image.height()};
+  /// A place at this fraction of the image's width, three quarters up: wall without lines over it.
+  static Eigen::Vector2d At(double fraction) {
+    return {fraction * CurrentImage().image.width(), 0.3 * CurrentImage().image.height()};
   }
   static QColor SeenAt(const Eigen::Vector2d& pixel) {
     return DepthPixels().pixelColor(Pane()->Canvas()->WidgetFromPixel(pixel));
   }
   /// Smoothing on the screen mixes bricks and mortar: twice the usual tolerance would be too loose
   /// to tell them from viridis, so the mean of a patch is compared.
-  static bool ShowsTheCamera(double share) {
+  static bool ShowsTheCamera(double fraction) {
     constexpr int kHalf_px = 12;
     Eigen::Vector3d seen = Eigen::Vector3d::Zero(), taken = seen;
     for (int dy = -kHalf_px; dy <= kHalf_px; dy += 4)
       for (int dx = -kHalf_px; dx <= kHalf_px; dx += 4) {
-        const Eigen::Vector2d pixel = At(share) + Eigen::Vector2d(dx, dy);
+        const Eigen::Vector2d pixel = At(fraction) + Eigen::Vector2d(dx, dy);
         const QColor color = SeenAt(pixel);
-        const Rgb8 p = Picture().image(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+        const Rgb8 p =
+            CurrentImage().image(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
         seen += Eigen::Vector3d(color.red(), color.green(), color.blue()) / 49.0;
         taken += Eigen::Vector3d(p.r, p.g, p.b) / 49.0;
       }
@@ -63,14 +64,14 @@ struct DepthPaneOnScreen : Workstation {
   }
 };
 
-TEST_F(DepthPaneOnScreen, TheFlyingLayerDrawsInItsColourOverDepthAndPicture) {
+TEST_F(DepthPaneOnScreen, TheFlyingLayerDrawsInItsColourOverDepthAndImage) {
   const Rgb8 color = ColorOf(RejectReason::kFlying);
-  const double in_depth = ShareNear(DepthPixels(), color);
-  const double in_picture = ShareNear(PicturePixels(), color);
+  const double in_depth = FractionNear(DepthPixels(), color);
+  const double in_image = FractionNear(ImagePixels(), color);
   Layers().ShowSamples(RejectReason::kFlying, true);
   running->Settle();
-  EXPECT_GT(ShareNear(DepthPixels(), color), in_depth + 0.005);
-  EXPECT_GT(ShareNear(PicturePixels(), color), in_picture + 0.005);
+  EXPECT_GT(FractionNear(DepthPixels(), color), in_depth + 0.005);
+  EXPECT_GT(FractionNear(ImagePixels(), color), in_image + 0.005);
 }
 
 TEST_F(DepthPaneOnScreen, ALayerThatIsSwitchedOffLeavesNothingBehind) {
@@ -98,15 +99,15 @@ TEST_F(DepthPaneOnScreen, EachSideOfTheLineShowsTheSamplesOfItsOwnMethod) {
   running->Settle();
   const QImage after = DepthPixels();
   const Rgb8 color = ColorOf(RejectReason::kFlying);
-  EXPECT_GT(ShareNear(left(after), color), ShareNear(left(before), color) + 0.005);
+  EXPECT_GT(FractionNear(left(after), color), FractionNear(left(before), color) + 0.005);
   EXPECT_EQ(right(after), right(before));
   Compare().compareWithNothing();
   running->Settle();
-  EXPECT_GT(ShareNear(right(DepthPixels()), color), 0.005);
+  EXPECT_GT(FractionNear(right(DepthPixels()), color), 0.005);
 }
 
 TEST_F(DepthPaneOnScreen, BelowTheDensityFloorAWarningStandsUnderTheMapUntilABetterDepthComes) {
-  SessionModel& session = running->bench().session;
+  SessionModel& session = running->bench().live.session;
   const auto good = session.Depth();
   EXPECT_TRUE(Pane()->Warning().isEmpty());
   auto sparse = std::make_shared<DepthResult>(*good);
@@ -121,7 +122,7 @@ TEST_F(DepthPaneOnScreen, BelowTheDensityFloorAWarningStandsUnderTheMapUntilABet
 
 TEST_F(DepthPaneOnScreen, TheCameraStandsRightOfTheLineAndTheDepthLeftOfIt) {
   const QColor depth_left = SeenAt(At(0.4));
-  Compare().compareWithPicture();
+  Compare().compareWithImage();
   running->Settle();
   EXPECT_EQ(SeenAt(At(0.4)), depth_left);
   EXPECT_FALSE(ShowsTheCamera(0.4));
@@ -129,7 +130,7 @@ TEST_F(DepthPaneOnScreen, TheCameraStandsRightOfTheLineAndTheDepthLeftOfIt) {
 }
 
 TEST_F(DepthPaneOnScreen, TheLineIsDraggedWithTheMouseAndMovedWithTheKeys) {
-  Compare().compareWithPicture();
+  Compare().compareWithImage();
   running->Settle();
   DepthCanvas* canvas = Pane()->Canvas();
   Drag(canvas, canvas->WidgetFromPixel(At(0.5)), canvas->WidgetFromPixel(At(0.25)));
@@ -147,12 +148,12 @@ TEST_F(DepthPaneOnScreen, TheLineIsDraggedWithTheMouseAndMovedWithTheKeys) {
 TEST_F(DepthPaneOnScreen, AnotherMethodFillsWhatTheMaskHides) {
   // The wheel lies in the middle: all of the map is given to the other method.
   const auto is_grey = [](const QColor& color) { return color.saturation() < 60; };
-  const double masked = ShareOf(DepthPixels(), is_grey);
+  const double masked = FractionOf(DepthPixels(), is_grey);
   Compare().setWipe(0.0);
   Compare().compareWithMethod(DepthMethod::kJointBilateral);
   ASSERT_TRUE(WaitFor([] { return Compare().Second() != nullptr; }));
   running->Settle();
-  EXPECT_LT(ShareOf(DepthPixels(), is_grey), masked - 0.005);
+  EXPECT_LT(FractionOf(DepthPixels(), is_grey), masked - 0.005);
 }
 
 /// A pixel in the middle of a masked patch, so that rounding on the screen stays within it.
@@ -172,7 +173,7 @@ std::optional<Eigen::Vector2i> InsideMaskedPatch(const DepthResult& result, cons
 }
 
 TEST_F(DepthPaneOnScreen, PointingAtAMaskedPixelSaysWhy) {
-  const SessionModel& session = running->bench().session;
+  const SessionModel& session = running->bench().live.session;
   const auto pixel = InsideMaskedPatch(*session.Depth(), *session.Mask());
   ASSERT_TRUE(pixel);
   SendMouse(Pane()->Canvas(), QEvent::MouseMove,
@@ -184,11 +185,11 @@ TEST_F(DepthPaneOnScreen, PointingAtAMaskedPixelSaysWhy) {
 TEST_F(DepthPaneOnScreen, ASecondScanComesThroughWithEverythingOpen) {
   Layers().openIterations(true);
   Layers().toggleRejected();
-  Compare().compareWithPicture();
+  Compare().compareWithImage();
   running->Settle();
-  const auto first = running->bench().session.Depth();
+  const auto first = running->bench().live.session.Depth();
   EXPECT_TRUE(running->ScanWithTheMouse());
-  EXPECT_NE(running->bench().session.Depth(), first);
+  EXPECT_NE(running->bench().live.session.Depth(), first);
   EXPECT_TRUE(ShowsTheCamera(0.6));
   Layers().openIterations(false);
 }

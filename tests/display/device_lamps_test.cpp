@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <QCoreApplication>
+#include <QHelpEvent>
 #include <QLabel>
 
 #include "tests/ui/fake_head.h"
 #include "ui/panels/device_lamps.h"
+#include "ui/panels/head_device_rows.h"
 
 namespace foresight {
 namespace {
@@ -62,6 +65,18 @@ TEST_F(DeviceLampsOnScreen, SayInWordsWhichDeviceIsMissing) {
 
 TEST_F(DeviceLampsOnScreen, ALampIsBrightEnoughToBeSeen) {
   for (int sign = 0; sign < 3; ++sign) EXPECT_GT(BrightestOf(sign).value(), 150) << sign;
+}
+
+TEST_F(DeviceLampsOnScreen, TheTipOfTheDevicesRowsSaysWhichRigIsInForce) {
+  HeadDeviceRows rows(&model);
+  rows.show();
+  // As Qt asks for it: at the label under the mouse, which hands it on.
+  QLabel* camera = rows.findChildren<QLabel*>()[4];
+  const QPoint middle = camera->rect().center();
+  QHelpEvent ask(QEvent::ToolTip, middle, camera->mapToGlobal(middle));
+  QCoreApplication::sendEvent(camera, &ask);
+  EXPECT_EQ(rows.toolTip(), model.RigText());
+  EXPECT_TRUE(rows.toolTip().contains(QStringLiteral("fisheye with k")));
 }
 
 }  // namespace

@@ -17,18 +17,29 @@
 #include "tests/display/workstation_fixture.h"
 #include "ui/panels/detection_card.h"
 #include "ui/panels/head_panel.h"
+#include "ui/panels/log_strip.h"
+#include "ui/panels/source_gallery.h"
 #include "ui/views/color_bar.h"
 
 namespace foresight {
 namespace {
 
-TEST_F(Workstation, TheDepthPaneIsMostlyColouredAfterAScan) {
-  EXPECT_GT(ShareOf(DepthPixels(), IsColoured), 0.5);
+/// The map alone, without the pane round it, whose shape depends on the layout.
+QImage DepthMapPixels() {
+  const DepthCanvas* canvas = Workstation::running->window().Depth()->Canvas();
+  const ColorImage& image = Workstation::running->bench().live.session.CurrentImage()->image;
+  const QRect map(canvas->WidgetFromPixel({0, 0}),
+                  canvas->WidgetFromPixel({image.width() - 1.0, image.height() - 1.0}));
+  return Workstation::DepthPixels().copy(map.normalized());
+}
+
+TEST_F(Workstation, TheDepthMapIsMostlyColouredAfterAScan) {
+  EXPECT_GT(FractionOf(DepthMapPixels(), IsColoured), 0.5);
 }
 
 TEST_F(Workstation, TheCloudPaneShowsPointsAfterAScan) {
   EXPECT_GT(running->window().Cloud()->PointCount(), 10'000u);
-  EXPECT_GT(ShareOf(CloudPixels(), IsColoured), 0.1);
+  EXPECT_GT(FractionOf(CloudPixels(), IsColoured), 0.1);
 }
 
 TEST(ColorBar, NumbersAFloorThatIsHardlyBelowZeroAsZero) {
@@ -64,93 +75,96 @@ TEST_F(Workstation, TheFieldsOfThePlanAreNotSqueezed) {
         << field->accessibleName().toStdString();
 }
 
-TEST_F(Workstation, ThePictureIsShownAsAWhole) {
+TEST_F(Workstation, TheImageIsShownAsAWhole) {
   const ImageCanvas* canvas = running->window().Image()->Canvas();
-  const ColorImage& picture = running->bench().session.Picture()->image;
+  const ColorImage& capture = running->bench().live.session.CurrentImage()->image;
   const QRect visible = canvas->viewport()->rect();
   EXPECT_TRUE(visible.contains(canvas->WidgetFromPixel({0, 0})));
-  EXPECT_TRUE(visible.contains(canvas->WidgetFromPixel({picture.width(), picture.height()})));
+  EXPECT_TRUE(visible.contains(canvas->WidgetFromPixel({capture.width(), capture.height()})));
   EXPECT_LT(2 * canvas->WidgetFromPixel({0, 0}).y(), visible.height() / 2) << "lost in its pane";
 }
 
-TEST_F(Workstation, DraggingARegionOverTheValveInThePictureFindsItAndDrawsItInEveryPane) {
+TEST_F(Workstation, DraggingARegionOverTheValveInTheImageFindsItAndDrawsItInEveryPane) {
   const QImage before = DepthPixels();
-  running->bench().fit.SetTool(ObjectKind::kValve, true);
+  running->bench().live.fit.SetTool(ObjectKind::kValve, true);
   ImageCanvas* canvas = running->window().Image()->Canvas();
   const auto [a, b] = running->AroundValve();
   Drag(canvas->viewport(), canvas->WidgetFromPixel(a), canvas->WidgetFromPixel(b));
   ASSERT_TRUE(WaitForObject(1));
-  const FoundObject& valve = running->bench().session.Objects()[0];
+  const FoundObject& valve = running->bench().live.session.Objects()[0];
   const Eigen::Vector3d found =
       valve.rig.robot_from_base * CandidatePose(valve.detection, 0).translation();
   // Half the rim's radius: "that valve", not how well; the fit's own tests are strict.
   EXPECT_LT((found - running->ValveInRobot()).norm(), 0.075);
-  EXPECT_GT(OutlineShare(PicturePixels()), 0.001);
-  EXPECT_GT(ShareOfChanges(before, DepthPixels()), 0.001);
-  EXPECT_GT(OutlineShare(CloudPixels()), 0.0002);
+  EXPECT_GT(OutlineFraction(ImagePixels()), 0.001);
+  EXPECT_GT(FractionOfChanges(before, DepthPixels()), 0.001);
+  EXPECT_GT(OutlineFraction(CloudPixels()), 0.0002);
 }
 
-TEST_F(Workstation, TabInAPaneShowsTheNextAnswerOnTheCardAndInThePicture) {
-  SessionModel& session = running->bench().session;
-  running->bench().fit.leaveTools();
+TEST_F(Workstation, NShowsTheNextAnswerOnTheCardAndInTheImage) {
+  SessionModel& session = running->bench().live.session;
+  running->bench().live.fit.leaveTools();
   FoundObject object;
   ValveDetection valve;
   valve.best.model.spokes = 4;
   valve.best.base_from_object =
       session.Rig().robot_from_base.Inverse() *
       Rigid<frame::Robot, frame::Object>(Eigen::Quaterniond::Identity(), running->ValveInRobot());
-  valve.rivals = {valve.best};
-  valve.rivals[0].model.rim_radius_m *= 1.5;
-  valve.rivals[0].log_likelihood = -12.0;
+  valve.alternatives = {valve.best};
+  valve.alternatives[0].model.rim_radius_m *= 1.5;
+  valve.alternatives[0].log_likelihood = -12.0;
   valve.verdict = {VerdictLevel::kConfirmed, 0.97, "made for this test", {}};
   object.detection = valve;
   object.rig = session.Rig();
   object.scan_uuid = session.CurrentScan()->uuid;
   session.AddObject(object);
   running->Settle();
-  const QImage best = PicturePixels();
+  const QImage best = ImagePixels();
   auto* answer = running->window().findChild<DetectionCard*>()->findChild<QLabel*>("answer");
   ASSERT_NE(answer, nullptr);
   EXPECT_TRUE(answer->text().startsWith("4 spokes")) << answer->text().toStdString();
 
   QApplication::setActiveWindow(&running->window());  // there is no window manager to do it
   running->window().Image()->Canvas()->setFocus();
-  QTest::keyClick(running->window().Image()->Canvas(), Qt::Key_Tab);
+  QTest::keyClick(running->window().Image()->Canvas(), Qt::Key_N);
   running->Settle();
   EXPECT_EQ(session.Candidate(), 1);
-  EXPECT_TRUE(answer->text().startsWith("rival 1 of 1")) << answer->text().toStdString();
-  EXPECT_GT(ShareOfChanges(best, PicturePixels()), 0.001);
+  EXPECT_TRUE(answer->text().startsWith("alternative 1 of 1")) << answer->text().toStdString();
+  EXPECT_GT(FractionOfChanges(best, ImagePixels()), 0.001);
 }
 
 TEST_F(Workstation, ResidualsColourTheRegionsPointsWhiteWhereTheyAgree) {
-  running->bench().session.SelectObject(0);  // the valve that was dragged over
+  running->bench().live.session.SelectObject(0);  // the valve that was dragged over
   running->Settle();
   CloudPane* pane = running->window().Cloud();
   ASSERT_TRUE(pane->ResidualButton()->isEnabled());
   const QImage before = CloudPixels();
   pane->ResidualButton()->setChecked(true);
   running->Settle();
-  EXPECT_GT(ShareOfChanges(before, CloudPixels()), 0.0005);
+  EXPECT_GT(FractionOfChanges(before, CloudPixels()), 0.0005);
   pane->ResidualButton()->setChecked(false);
   running->Settle();
-  EXPECT_LT(ShareOfChanges(before, CloudPixels()), 0.0001);
+  EXPECT_LT(FractionOfChanges(before, CloudPixels()), 0.0001);
 }
 
 TEST_F(Workstation, ComparingSourcesSetsSixAnswersSideBySide) {
-  running->bench().session.SelectObject(0);
-  ASSERT_TRUE(running->bench().gallery.CanStart());
-  running->bench().gallery.start();
-  ASSERT_TRUE(WaitFor([] { return !running->bench().gallery.Runner()->Busy(); }, 60'000));
-  auto* gallery = running->window().findChild<QDialog*>("source_gallery");
-  ASSERT_NE(gallery, nullptr);
+  running->bench().live.session.SelectObject(0);
+  ASSERT_TRUE(running->bench().live.gallery.CanStart());
+  QApplication::setActiveWindow(&running->window());
+  running->bench().live.gallery.start();
+  ASSERT_TRUE(WaitFor([] { return !running->bench().live.gallery.Runner()->Busy(); }, 60'000));
+  running->Settle();
+  const SourceGallery* gallery = running->window().Gallery();
+  EXPECT_TRUE(gallery->isVisible());
   EXPECT_EQ(gallery->findChildren<QFrame*>("card").size(), 6);
-  EXPECT_FALSE(gallery->isModal());
-  delete gallery;
+  EXPECT_EQ(QApplication::activeWindow(), &running->window()) << "a result takes no focus";
+  running->window().ResetLayout();
+  running->Settle();
 }
 
 TEST_F(Workstation, DraggingOverTheValveInTheDepthMapFindsItToo) {
-  const std::size_t before = running->bench().session.Objects().size();
-  running->bench().fit.SetTool(ObjectKind::kValve, true);
+  const std::size_t before = running->bench().live.session.Objects().size();
+  running->bench().live.fit.SetTool(ObjectKind::kValve, true);
   DepthCanvas* canvas = running->window().Depth()->Canvas();
   const auto [a, b] = running->AroundValve();
   Drag(canvas, canvas->WidgetFromPixel(a), canvas->WidgetFromPixel(b));
@@ -158,9 +172,9 @@ TEST_F(Workstation, DraggingOverTheValveInTheDepthMapFindsItToo) {
 }
 
 TEST_F(Workstation, DraggingOverTheValveInTheCloudPutsABoxRoundItAndFindsIt) {
-  SessionModel& session = running->bench().session;
+  SessionModel& session = running->bench().live.session;
   const std::size_t before = session.Objects().size();
-  running->bench().fit.SetTool(ObjectKind::kValve, true);
+  running->bench().live.fit.SetTool(ObjectKind::kValve, true);
   CloudCanvas* canvas = running->window().Cloud()->Canvas();
   const Eigen::Vector3d valve = running->ValveInRobot();
   const QImage empty = CloudPixels();
@@ -178,33 +192,33 @@ TEST_F(Workstation, DraggingOverTheValveInTheCloudPutsABoxRoundItAndFindsIt) {
   EXPECT_LT(
       (found.rig.robot_from_base * CandidatePose(found.detection, 0).translation() - valve).norm(),
       0.075);
-  EXPECT_GT(ShareOfChanges(empty, CloudPixels()), 0.001);
-  running->bench().fit.leaveTools();
+  EXPECT_GT(FractionOfChanges(empty, CloudPixels()), 0.001);
+  running->bench().live.fit.leaveTools();
 }
 
 TEST_F(Workstation, WithoutAToolDraggingInTheCloudTurnsItAndDrawsNoBox) {
-  const auto before = running->bench().session.Region().has_value();
-  running->bench().fit.leaveTools();
+  const auto before = running->bench().live.session.Region().has_value();
+  running->bench().live.fit.leaveTools();
   const QImage pixels = CloudPixels();
   Drag(running->window().Cloud()->Canvas(), {60, 60}, {160, 90});
   running->Settle();
-  EXPECT_EQ(running->bench().session.Region().has_value(), before);
-  EXPECT_GT(ShareOfChanges(pixels, CloudPixels()), 0.05);
+  EXPECT_EQ(running->bench().live.session.Region().has_value(), before);
+  EXPECT_GT(FractionOfChanges(pixels, CloudPixels()), 0.05);
   running->window().Cloud()->Canvas()->ResetView();
   running->Settle();
 }
 
 TEST_F(Workstation, EscapeCancelsADrag) {
-  running->bench().fit.setRegionTool(true);
+  running->bench().live.fit.setRegionTool(true);
   DepthCanvas* canvas = running->window().Depth()->Canvas();
-  const auto roi_before = running->bench().session.Region();
+  const auto roi_before = running->bench().live.session.Region();
   SendMouse(canvas, QEvent::MouseButtonPress, {30, 30}, Qt::LeftButton);
   SendMouse(canvas, QEvent::MouseMove, {120, 120}, Qt::LeftButton);
   QKeyEvent escape(QEvent::KeyPress, Qt::Key_Escape, Qt::NoModifier);
   QApplication::sendEvent(canvas, &escape);
   SendMouse(canvas, QEvent::MouseButtonRelease, {120, 120}, Qt::NoButton);
-  EXPECT_EQ(running->bench().session.Region().has_value(), roi_before.has_value());
-  running->bench().fit.leaveTools();
+  EXPECT_EQ(running->bench().live.session.Region().has_value(), roi_before.has_value());
+  running->bench().live.fit.leaveTools();
 }
 
 TEST_F(Workstation, TheThresholdAtOneMasksNearlyEverything) {
@@ -213,10 +227,10 @@ TEST_F(Workstation, TheThresholdAtOneMasksNearlyEverything) {
   slider->setValue(100);
   running->Settle();
   // A valve found by another test is still drawn over it.
-  EXPECT_LT(ShareOf(DepthPixels(), IsColoured), 0.05);
+  EXPECT_LT(FractionOf(DepthMapPixels(), IsColoured), 0.05);
   slider->setValue(before);
   running->Settle();
-  EXPECT_GT(ShareOf(DepthPixels(), IsColoured), 0.5);
+  EXPECT_GT(FractionOf(DepthMapPixels(), IsColoured), 0.5);
 }
 
 TEST_F(Workstation, ALayoutComesBackAsItWasSavedAndCanBeReset) {
@@ -232,6 +246,121 @@ TEST_F(Workstation, ALayoutComesBackAsItWasSavedAndCanBeReset) {
   EXPECT_TRUE(objects->isClosed());
   window.ResetLayout();
   running->Settle();
+}
+
+/// A widget that has the focus while F12 is pressed.
+void ExpectF12StopsWhileFocusedOn(QWidget* widget, Workbench* bench) {
+  bench->head.releaseStop();
+  ASSERT_FALSE(bench->head.StopLatched());
+  widget->setFocus();
+  QTest::keyClick(widget, Qt::Key_F12);
+  EXPECT_TRUE(bench->head.StopLatched()) << widget->objectName().toStdString();
+  bench->head.releaseStop();
+}
+
+TEST_F(Workstation, F12StopsTheHeadInEveryWindow) {
+  Workbench& bench = running->bench();
+  ExpectF12StopsWhileFocusedOn(running->window().Image()->Canvas(), &bench);
+  for (const char* command : {"help.shortcuts", "file.open"}) {
+    ASSERT_TRUE(bench.commands.Run(command));
+    running->Settle();
+    auto* dialog = running->window().findChild<QDialog*>(
+        std::string(command) == "file.open" ? "file_dialog" : "shortcut_sheet");
+    ASSERT_NE(dialog, nullptr) << command;
+    QApplication::setActiveWindow(dialog);
+    ExpectF12StopsWhileFocusedOn(dialog, &bench);
+    for (QWidget* child : dialog->findChildren<QWidget*>())
+      if (child->focusPolicy() != Qt::NoFocus && child->isVisible()) {
+        ExpectF12StopsWhileFocusedOn(child, &bench);
+        break;
+      }
+    delete dialog;
+  }
+  auto* objects = running->window().findChild<ads::CDockWidget*>(QStringLiteral("objects"));
+  objects->setFloating();
+  running->Settle();
+  ExpectF12StopsWhileFocusedOn(objects->widget(), &bench);
+  running->window().ResetLayout();
+  running->Settle();
+}
+
+TEST_F(Workstation, AStopIsShownUntilItIsReleasedAndScanWaits) {
+  Workbench& bench = running->bench();
+  bench.commands.Run("head.stop");
+  running->Settle();
+  EXPECT_FALSE(bench.commands.Get("head.scan").Allowed());
+  EXPECT_TRUE(running->window().Log()->Text().contains("told to stop"));
+  EXPECT_TRUE(bench.commands.Run("head.release"));
+  running->Settle();
+  EXPECT_FALSE(running->window().Log()->Text().contains("told to stop"));
+  EXPECT_TRUE(bench.commands.Get("head.scan").Allowed());
+}
+
+TEST_F(Workstation, AMessageMovesNothing) {
+  const QPoint before = running->window().Image()->mapToGlobal({0, 0});
+  running->bench().log.add({Notice::Level::kError, "made for this test", "nothing to do", {}});
+  running->Settle();
+  EXPECT_EQ(running->window().Image()->mapToGlobal({0, 0}), before);
+  running->bench().log.acknowledgeAll();
+  running->Settle();
+  EXPECT_EQ(running->window().Image()->mapToGlobal({0, 0}), before);
+}
+
+TEST_F(Workstation, AnEarlierScanIsLookedAtInReviewAndTheLiveSessionStaysAsItIs) {
+  Workbench& bench = running->bench();
+  ASSERT_TRUE(WaitFor([&] { return !bench.recording.Scans().empty() && bench.tasks.Idle(); }));
+  const auto live_scan = bench.live.session.CurrentScan();
+  const std::size_t live_objects = bench.live.session.Objects().size();
+  bench.reviewer.Open(bench.recording.Path(), bench.recording.Scans()[0].uuid);
+  ASSERT_TRUE(WaitFor([&] { return bench.ShowsReview() && bench.review.session.Depth(); }, 60'000));
+  running->Settle();
+  EXPECT_FALSE(running->window().Image()->isVisible()) << "the live pane is put away";
+  for (ImagePane* pane : running->window().findChildren<ImagePane*>()) {
+    if (!pane->isVisible()) continue;
+    const QImage shown = pane->Canvas()->grab().toImage();
+    EXPECT_GT(FractionOf(shown, [](const QColor& color) { return color.lightness() > 60; }), 0.3)
+        << "the image of the scan under review";
+    EXPECT_FALSE(pane->HintShown());
+  }
+  EXPECT_FALSE(bench.commands.Get("head.scan").Allowed()) << "Space starts nothing in a review";
+  EXPECT_TRUE(bench.recording.Recording());
+  EXPECT_EQ(bench.live.session.CurrentScan(), live_scan);
+  bench.commands.Run("view.live");
+  running->Settle();
+  EXPECT_TRUE(running->window().Image()->isVisible());
+  EXPECT_EQ(bench.live.session.Objects().size(), live_objects);
+}
+
+TEST_F(Workstation, ShowingAThresholdDoesNotRoundIt) {
+  DepthViewModel& depth = running->bench().live.depth;
+  const double before = depth.Threshold();
+  depth.setThreshold(0.6137);
+  running->Settle();
+  EXPECT_EQ(depth.Threshold(), 0.6137);
+  depth.setThreshold(before);
+}
+
+TEST_F(Workstation, TheWindowFitsAScreenOf960By540) {
+  EXPECT_LE(running->window().minimumSizeHint().width(), 960);
+  EXPECT_LE(running->window().minimumSizeHint().height(), 540);
+}
+
+TEST_F(Workstation, WithNothingMovingNothingIsDrawn) {
+  Workbench& bench = running->bench();
+  ASSERT_TRUE(WaitFor([&] { return bench.Idle(); }));
+  running->Settle();
+  struct PaintCounter : QObject {
+    int paints = 0;
+    bool eventFilter(QObject*, QEvent* event) override {
+      if (event->type() == QEvent::Paint) ++paints;
+      return false;
+    }
+  } counter;
+  qApp->installEventFilter(&counter);
+  for (int poll = 0; poll < 20; ++poll) bench.head.Poll();
+  running->Settle();
+  qApp->removeEventFilter(&counter);
+  EXPECT_LE(counter.paints, 4) << "an age may have changed, and nothing else";
 }
 
 TEST_F(Workstation, TheGuiThreadNeverStallsForLongDuringAScan) {

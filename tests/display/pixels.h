@@ -8,17 +8,17 @@
 
 namespace foresight {
 
-/// The share of pixels for which `matches` holds.
+/// The fraction of pixels for which `matches` holds.
 template <class Matches>
-double ShareOf(const QImage& picture, const Matches& matches) {
+double FractionOf(const QImage& image, const Matches& matches) {
   qint64 count = 0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) count += matches(picture.pixelColor(x, y)) ? 1 : 0;
-  return static_cast<double>(count) / std::max(1, picture.width() * picture.height());
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) count += matches(image.pixelColor(x, y)) ? 1 : 0;
+  return static_cast<double>(count) / std::max(1, image.width() * image.height());
 }
 
-/// The share of pixels that differ clearly between two pictures of one size.
-inline double ShareOfChanges(const QImage& a, const QImage& b) {
+/// The fraction of pixels that differ clearly between two images of one size.
+inline double FractionOfChanges(const QImage& a, const QImage& b) {
   constexpr int kClearly = 60;
   qint64 count = 0;
   for (int y = 0; y < std::min(a.height(), b.height()); ++y)

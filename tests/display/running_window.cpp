@@ -1,5 +1,7 @@
 #include "tests/display/running_window.h"
 
+#include <gtest/gtest.h>
+
 #include <QPushButton>
 
 #include "hardware/simulated/simulated_head.h"
@@ -20,6 +22,7 @@ RunningWindow::RunningWindow() {
   options.speed = SimulationSpeed::kAsFastAsPossible;
   std::shared_ptr<SensorHead> head = MakeSimulatedHead(file, options).value();
   bench_ = std::make_unique<Workbench>(std::move(head), SessionMode::kSimulation);
+  EXPECT_TRUE(bench_->recording.BeginInFolder(missions_.path()));
   window_ = std::make_unique<MainWindow>(bench_.get());
   window_->show();
   bench_->head.home();
@@ -34,7 +37,7 @@ bool RunningWindow::ScanWithTheMouse() {
   if (!WaitFor([&] { return button->isEnabled(); }, kScanLimit_ms)) return false;
   Click(button);
   const bool computed =
-      WaitFor([&] { return bench_->session.Depth() && bench_->Idle(); }, kScanLimit_ms);
+      WaitFor([&] { return bench_->live.session.Depth() && bench_->Idle(); }, kScanLimit_ms);
   Settle();
   scan_stall_ = stalls_.TakeWorst();
   return computed;
@@ -45,9 +48,9 @@ Eigen::Vector3d RunningWindow::ValveInRobot() const {
 }
 
 std::pair<Eigen::Vector2d, Eigen::Vector2d> RunningWindow::AroundValve() {
-  const Scan& scan = *bench_->session.CurrentScan();
+  const Scan& scan = *bench_->live.session.CurrentScan();
   const auto camera_from_robot =
-      scan.rig.CameraFromBase(bench_->session.Picture()->motor_angle_rad) *
+      scan.rig.CameraFromBase(bench_->live.session.CurrentImage()->motor_angle_rad) *
       scan.rig.robot_from_base.Inverse();
   const Eigen::Vector3d center = camera_from_robot * ValveInRobot();
   const double radius_m = 1.35 * scene_.valves.at(0).model.rim_radius_m;

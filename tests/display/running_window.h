@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QRect>
+#include <QTemporaryDir>
 #include <memory>
 
 #include "app/workstation/main_window.h"
@@ -22,13 +23,14 @@ class RunningWindow {
 
   /// Presses the Scan button with the mouse and waits for the depth.
   bool ScanWithTheMouse();
-  /// Two corners around the scene's valve, in pixels of the current picture.
+  /// Two corners around the scene's valve, in pixels of the current image.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> AroundValve();
   Eigen::Vector3d ValveInRobot() const;
   /// Draws what is pending.
   void Settle();
 
  private:
+  QTemporaryDir missions_;
   Scene scene_;
   std::unique_ptr<Workbench> bench_;
   std::unique_ptr<MainWindow> window_;

@@ -25,17 +25,18 @@ struct Workstation : testing::Test {
 
   static QImage DepthPixels() { return running->window().Depth()->Canvas()->grabFramebuffer(); }
   static QImage CloudPixels() { return running->window().Cloud()->Canvas()->grabFramebuffer(); }
-  static QImage PicturePixels() { return running->window().Image()->Canvas()->grab().toImage(); }
+  static QImage ImagePixels() { return running->window().Image()->Canvas()->grab().toImage(); }
   /// Of the outlines of objects that are more than UNSURE.
-  static double OutlineShare(const QImage& picture) {
-    return ShareOf(picture, [](const QColor& color) {
+  static double OutlineFraction(const QImage& image) {
+    return FractionOf(image, [](const QColor& color) {
       return IsNear(color, ColorOf(VerdictLevel::kConfirmed)) ||
              IsNear(color, ColorOf(VerdictLevel::kLikely));
     });
   }
   /// Waits for a fit after a region was drawn; false when it found no valve.
   static bool WaitForObject(std::size_t count) {
-    const bool found = WaitFor([&] { return running->bench().session.Objects().size() >= count; });
+    const bool found =
+        WaitFor([&] { return running->bench().live.session.Objects().size() >= count; });
     running->Settle();
     return found;
   }

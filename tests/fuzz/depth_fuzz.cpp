@@ -1,4 +1,4 @@
-// Any samples, any picture, any options of any method: a defined depth map or an error.
+// Any samples, any image, any options of any method: a defined depth map or an error.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <bit>

@@ -39,7 +39,7 @@ void AskDevice(Bytes bytes) {
     Require(exposure.exposure_s > 0.0 && exposure.stream.packet_bytes > gvsp::kOverheadBytes &&
                 gvsp::BytesPerPixel(exposure.format) > 0,
             "settings stay within their limits");
-    static_cast<void>(device.TakeOrders());
+    static_cast<void>(device.TakeCommands());
     bytes = bytes.subspan(1 + size);
   }
 }

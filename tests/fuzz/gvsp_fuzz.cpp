@@ -1,5 +1,5 @@
-// Whatever comes over a camera's stream becomes a picture or is dropped; what decodes encodes to
-// what decodes to the same; any packet of a picture can be sent again.
+// Whatever comes over a camera's stream becomes an image or is dropped; what decodes encodes to
+// what decodes to the same; any packet of an image can be sent again.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,8 +32,8 @@ void ReadPixels(Bytes bytes) {
   if (image) Require(image->width() == bytes[1] && image->height() == bytes[2], "the size is kept");
 }
 
-/// The payloads of a picture's packets are its pixels.
-void CutPicture(Bytes bytes) {
+/// The payloads of an image's packets are its pixels.
+void CutImage(Bytes bytes) {
   if (bytes.size() < 4) return;
   GvspFrame frame;
   frame.block = bytes[0];
@@ -46,7 +46,7 @@ void CutPicture(Bytes bytes) {
     const auto bytes_again = frame.Packet(number);
     const auto packet = gvsp::DecodePacket(bytes_again);
     Require(packet && packet->block == frame.block && packet->number == number,
-            "a packet knows its picture and its place");
+            "a packet knows its image and its place");
     if (packet->kind == gvsp::PacketKind::kPayload)
       pixels.insert(pixels.end(), packet->payload.begin(), packet->payload.end());
   }
@@ -59,6 +59,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Bytes bytes(data, size);
   DecodePackets(bytes);
   ReadPixels(bytes);
-  CutPicture(bytes);
+  CutImage(bytes);
   return 0;
 }

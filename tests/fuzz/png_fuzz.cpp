@@ -1,4 +1,4 @@
-// PNG pictures of every kind.
+// PNG images of every kind.
 #include <cstdint>
 
 #include "core/io/png.h"

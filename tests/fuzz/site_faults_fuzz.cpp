@@ -2,13 +2,13 @@
 #include <cstdint>
 #include <string>
 
-#include "hardware/emulator/site_faults.h"
+#include "hardware/emulator/device_faults.h"
 #include "tests/fuzz/require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace foresight;
   const auto faults =
-      SiteFaultsFromYaml({reinterpret_cast<const char*>(bytes), size}, "fuzz.yaml", 1);
+      DeviceFaultsFromYaml({reinterpret_cast<const char*>(bytes), size}, "fuzz.yaml", 1);
   if (!faults) return 0;
   Require(faults->lidar.Check().has_value() && faults->camera.Check().has_value(),
           "a plan that was accepted is usable");

@@ -23,10 +23,10 @@ class AngleErrors {
     for (const double error : magnitudes_) sum += error * error;
     return std::sqrt(sum / static_cast<double>(size()));
   }
-  double Quantile(double share) const {
+  double Quantile(double fraction) const {
     std::vector<double> sorted = magnitudes_;
     const auto at = sorted.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+                    static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
     std::nth_element(sorted.begin(), at, sorted.end());
     return *at;
   }
@@ -59,8 +59,8 @@ struct BeamAngles {
 };
 
 /// Beams that were measured while the shaft was within the plan's scope.
-BeamAngles CompareBeams(const Scan& scan, const ScanPlan& plan, const EmulatedSite& site) {
-  const World& world = *site.world();
+BeamAngles CompareBeams(const Scan& scan, const ScanPlan& plan, const EmulatedDevices& devices) {
+  const World& world = *devices.world();
   const LidarModel& believed = scan.rig.lidar;
   const LidarModel& truth = world.true_rig().lidar;
   const AngleCorrection dense = DenseCorrection(world);
@@ -69,7 +69,7 @@ BeamAngles CompareBeams(const Scan& scan, const ScanPlan& plan, const EmulatedSi
     const double turn_s = std::round(line.time_s / truth.period_s) * truth.period_s;
     for (int beam = 0; beam < truth.beams; ++beam) {
       const double true_s = turn_s + truth.BeamTime(beam);
-      const double shaft_rad = site.ShaftAngle(true_s);
+      const double shaft_rad = devices.ShaftAngle(true_s);
       if (shaft_rad < plan.from_rad || shaft_rad > plan.to_rad) continue;
       const double plate_rad = world.PlateAngle(shaft_rad, true);
       const double used_rad = scan.track.AngleAt(line.time_s + believed.BeamTime(beam));
@@ -86,8 +86,8 @@ BeamAngles CompareBeams(const Scan& scan, const ScanPlan& plan, const EmulatedSi
 
 /// The whole fan, and a camera that costs nothing. The lidar's mirror turns as slowly as measured
 /// on devices, and its clock is a usual quartz's.
-EmulatedSiteOptions LidarSite() {
-  EmulatedSiteOptions options = RealTimeSite();
+EmulatedDevicesOptions LidarDevices() {
+  EmulatedDevicesOptions options = RealTimeDevices();
   options.true_rig.camera = TinyRig().camera;
   options.true_rig.lidar.period_s = 0.02505;
   options.faults.lidar.clock_ppm = 50.0;
@@ -103,18 +103,18 @@ TEST_P(BeamAngle, IsWithinThreeHundredthsOfADegreeOfThePlate) {
   plan.from_rad = RadiansFromDegrees(-30.0);
   plan.to_rad = RadiansFromDegrees(30.0);
   plan.speed_rad_s = RadiansFromDegrees(speed_deg_s);
-  EmulatedHead bench(std::make_shared<const Scene>(TinyWorld()->scene()), LidarSite());
-  const auto scan = bench.Fly(plan);
+  EmulatedHead bench(std::make_shared<const Scene>(TinyWorld()->scene()), LidarDevices());
+  const auto scan = bench.Execute(plan);
   ASSERT_TRUE(scan) << bench.head->Status().message;
   ASSERT_EQ(scan->state, ScanState::kComplete) << scan->reason;
 
-  const BeamAngles errors = CompareBeams(*scan, plan, *bench.site);
+  const BeamAngles errors = CompareBeams(*scan, plan, *bench.devices);
   errors.track.Print(speed_deg_s, "motor's track");
   errors.stamps.Print(speed_deg_s, "time stamps");
   errors.correction.Print(speed_deg_s, "correction between its knots");
   errors.all.Print(speed_deg_s, "beam");
   errors.all_dense.Print(speed_deg_s, "beam, a knot a degree");
-  if (kSanitized) GTEST_SKIP() << "flown for its threads; a sanitizer's time is no measure";
+  if (kSanitized) GTEST_SKIP() << "executed for its threads; a sanitizer's time is no measure";
   // 60 deg are 2400 lines at 1 deg/s; all beams of all lines but two at the ends.
   EXPECT_GT(errors.all.size(), (2400.0 / speed_deg_s - 3.0) * 1081.0);
   EXPECT_LT(errors.track.Rms(), 0.01);

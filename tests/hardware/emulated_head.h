@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "hardware/assembly/real_head.h"
-#include "hardware/emulator/emulated_site.h"
+#include "hardware/emulator/emulated_devices.h"
 #include "tests/hardware/tiny_head.h"
 #include "tests/support/sanitized.h"
 
@@ -13,39 +13,39 @@ namespace foresight {
 
 /// The default head, as far as this build can emulate it in real time: under a sanitizer with a
 /// quarter of the beams, one ray each, and a sixteenth of the pixels.
-inline EmulatedSiteOptions RealTimeSite() {
-  EmulatedSiteOptions options;
+inline EmulatedDevicesOptions RealTimeDevices() {
+  EmulatedDevicesOptions options;
   if (!kSanitized) return options;
   options.world.lidar.footprint_side = 1;
   options.true_rig.lidar.beams = 271;
   options.true_rig.lidar.angle_step_rad *= 4.0;
-  FisheyeCamera& camera = options.true_rig.camera;
+  CameraModel& camera = options.true_rig.camera;
   camera.width /= 4;
   camera.height /= 4;
   for (double* length_px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *length_px /= 4.0;
   return options;
 }
 
-/// A head on the real drivers before an emulated site, over the sockets of this machine. Head and
-/// site share a clock, so stamps can be compared with the truth.
+/// A head on the real drivers on emulated devices, over the sockets of this machine. Head and
+/// devices share a clock, so stamps can be compared with the truth.
 struct EmulatedHead {
   explicit EmulatedHead(const std::string& scene_file)
-      : EmulatedHead(std::make_shared<const Scene>(LoadScene(scene_file).value()), RealTimeSite()) {
-  }
-  EmulatedHead(std::shared_ptr<const Scene> scene, const EmulatedSiteOptions& options,
+      : EmulatedHead(std::make_shared<const Scene>(LoadScene(scene_file).value()),
+                     RealTimeDevices()) {}
+  EmulatedHead(std::shared_ptr<const Scene> scene, const EmulatedDevicesOptions& options,
                const std::function<void(HeadConfig&)>& change = {}) {
-    auto started = EmulatedSite::Start(std::move(scene), options);
+    auto started = EmulatedDevices::Start(std::move(scene), options);
     if (!started) throw std::runtime_error(started.error().message);
-    site = std::move(*started);
-    config.rig = site->CalibratedRig();
-    config.lidar.address = site->lidar().address();
+    devices = std::move(*started);
+    config.rig = devices->CalibratedRig();
+    config.lidar.address = devices->lidar().address();
     config.lidar.last_step = config.rig.lidar.beams - 1;
-    config.motor.host = site->motor().address().host;
-    config.motor.port = site->motor().address().port;
-    config.camera.address = site->camera().address();
-    config.camera.frame_timeout_s = 10.0;  // the picture is rendered, on a busy machine
+    config.motor.host = devices->motor().address().host;
+    config.motor.port = devices->motor().address().port;
+    config.camera.address = devices->camera().address();
+    config.camera.frame_timeout_s = 10.0;  // the image is rendered, on a busy machine
     if (change) change(config);
-    head = std::make_unique<CaptureHead>(MakeDrivers(config, site->clock()), config.rig,
+    head = std::make_unique<CaptureHead>(MakeDrivers(config, devices->clock()), config.rig,
                                          config.capture);
   }
 
@@ -60,9 +60,10 @@ struct EmulatedHead {
   }
   bool Home() const { return head->Home() && WaitFor(HeadState::kReady); }
 
-  /// Homes and flies; at its tenth line `action` is called. nullptr when the scan did not even
-  /// begin.
-  std::shared_ptr<const Scan> Fly(const ScanPlan& plan, const std::function<void()>& action = {}) {
+  /// Homes and executes the plan; at its tenth line `action` is called. nullptr when the scan did
+  /// not even begin.
+  std::shared_ptr<const Scan> Execute(const ScanPlan& plan,
+                                      const std::function<void()>& action = {}) {
     const auto assembler = std::make_shared<ScanAssembler>();
     const auto watch = std::make_shared<ScanWatch>();
     watch->action = action;
@@ -80,7 +81,7 @@ struct EmulatedHead {
     return std::llround(line.time_s / LidarModel().period_s);
   }
 
-  std::unique_ptr<EmulatedSite> site;
+  std::unique_ptr<EmulatedDevices> devices;
   HeadConfig config;
   std::unique_ptr<CaptureHead> head;  ///< last: goes first
 };

@@ -22,14 +22,16 @@ ScanPlan SmallPlan() {
 }
 
 /// What the simulation in this process would have brought home from the same turns of the mirror.
-Scan SimulatedTwin(const Scan& scan, const EmulatedSite& site) {
+Scan SimulatedTwin(const Scan& scan, const EmulatedDevices& devices) {
   Scan twin = scan;
   twin.track = MotorTrack();
   const double first_s = scan.track.samples().front().time_s;
   const double last_s = scan.track.samples().back().time_s;
   for (double time_s = first_s; time_s < last_s; time_s += 1.0 / SimulatedMotor::kSampleRate_hz)
-    twin.track.Add({time_s, site.world()->EncoderAngle(site.ShaftAngle(time_s))});
-  for (LidarLine& line : twin.lines) line = site.MeasureTurn(EmulatedHead::TurnOf(line));
+    twin.track.Add({time_s, devices.world()->EncoderAngle(devices.ShaftAngle(time_s))});
+  twin.lines.clear();
+  for (const LidarLine& line : scan.lines)
+    twin.lines.push_back(devices.MeasureTurn(EmulatedHead::TurnOf(line)));
   return twin;
 }
 
@@ -38,7 +40,7 @@ class EmulatedSweep : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     bench_ = std::make_unique<EmulatedHead>(FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml");
-    scan_ = bench_->Fly(SmallPlan());
+    scan_ = bench_->Execute(SmallPlan());
   }
   static void TearDownTestSuite() {
     scan_.reset();
@@ -63,7 +65,7 @@ TEST_F(EmulatedSweep, BringsFortyLinesASecondAndLosesNone) {
 
 TEST_F(EmulatedSweep, LinesAreThoseOfTheSimulationInThisProcess) {
   for (const LidarLine& line : scan_->lines) {
-    const LidarLine truth = bench_->site->MeasureTurn(EmulatedHead::TurnOf(line));
+    const LidarLine truth = bench_->devices->MeasureTurn(EmulatedHead::TurnOf(line));
     EXPECT_EQ(line.range_mm, truth.range_mm);
     EXPECT_EQ(line.intensity, truth.intensity);
     EXPECT_NEAR(line.time_s, truth.time_s, 1e-3);  // the device's clock counts milliseconds
@@ -73,7 +75,7 @@ TEST_F(EmulatedSweep, LinesAreThoseOfTheSimulationInThisProcess) {
 TEST_F(EmulatedSweep, PointsAreThoseOfTheSimulationInThisProcess) {
   const RegisteredScan wired = RegisterScan(*scan_, RunContext()).value();
   const RegisteredScan twin =
-      RegisterScan(SimulatedTwin(*scan_, *bench_->site), RunContext()).value();
+      RegisterScan(SimulatedTwin(*scan_, *bench_->devices), RunContext()).value();
   // The zero comes from a switch (0.003 deg, five sigma), the stamps from a clock of 1 ms at
   // 10 deg/s, the angles from counts of 0.02 deg.
   const double angle_rad = RadiansFromDegrees(0.015 + 0.010 + 0.005);
@@ -87,37 +89,38 @@ TEST_F(EmulatedSweep, PointsAreThoseOfTheSimulationInThisProcess) {
   EXPECT_GT(compared, wired.lines * wired.beams / 2);
 }
 
-TEST_F(EmulatedSweep, ThePictureIsTheOneThatWasTakenAtTheAngle) {
+TEST_F(EmulatedSweep, TheImageIsTheOneThatWasTakenAtTheAngle) {
   ASSERT_EQ(scan_->frames.size(), 1u);
   const CameraFrame& frame = scan_->frames.front();
   EXPECT_NEAR(DegreesFromRadians(frame.motor_angle_rad), -15.0, 0.1);
-  const auto taken = bench_->site->camera().taken();
+  const auto taken = bench_->devices->camera().taken();
   ASSERT_EQ(taken.size(), 1u);
   EXPECT_NEAR(frame.time_s, taken[0].middle_s, 2e-3);
-  EXPECT_NEAR(frame.motor_angle_rad, bench_->site->ShaftAngle(taken[0].middle_s),
+  EXPECT_NEAR(frame.motor_angle_rad, bench_->devices->ShaftAngle(taken[0].middle_s),
               RadiansFromDegrees(0.05));
   EXPECT_EQ(frame.image.width(), bench_->config.rig.camera.width);
 }
 
 TEST_F(EmulatedSweep, TheMotorStandsStillWhenTheSweepIsOver) {
-  EXPECT_FALSE(bench_->site->MotorTurns());
+  EXPECT_FALSE(bench_->devices->MotorTurns());
   EXPECT_EQ(bench_->head->Status().state, HeadState::kReady);
 }
 
-TEST(EmulatedCamera, ThatGoesForGoodInASweepCostsItsPicturesButNoLine) {
+TEST(EmulatedCamera, ThatGoesForGoodInASweepCostsItsImagesButNoLine) {
   EmulatedHead bench(FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml");
-  const auto scan = bench.Fly(SmallPlan(), [&bench] { bench.site->camera().InjectVanish(1e6); });
+  const auto scan =
+      bench.Execute(SmallPlan(), [&bench] { bench.devices->camera().InjectVanish(1e6); });
   ASSERT_TRUE(scan) << bench.head->Status().message;
   EXPECT_EQ(scan->state, ScanState::kComplete) << scan->reason;
   EXPECT_NEAR(static_cast<double>(scan->lines.size()), 81.0, 2.0);
   EXPECT_TRUE(scan->frames.empty());
-  EXPECT_THAT(scan->reason, testing::HasSubstr("the picture at -15.00 deg did not come"));
-  EXPECT_FALSE(bench.site->MotorTurns());
+  EXPECT_THAT(scan->reason, testing::HasSubstr("the image at -15.00 deg did not come"));
+  EXPECT_FALSE(bench.devices->MotorTurns());
   ASSERT_TRUE(bench.WaitFor(HeadState::kFault));
   EXPECT_THAT(bench.head->Status().message, testing::HasSubstr("camera"));
 
-  bench.site->camera().ClearFaults();
-  const auto after = bench.Fly(SmallPlan());
+  bench.devices->camera().ClearFaults();
+  const auto after = bench.Execute(SmallPlan());
   ASSERT_TRUE(after) << bench.head->Status().message;
   EXPECT_EQ(after->reason, "");
   EXPECT_EQ(after->frames.size(), 1u);
@@ -136,18 +139,18 @@ TEST(RealTimeClock, RunsAtTheWallsPaceFromZero) {
   EXPECT_LE(end_s, wall_s);
 }
 
-TEST(EmulatedSite, TwoSitesFindAddressesForThemselves) {
+TEST(EmulatedDevices, TwoEmulatorsFindAddressesForThemselves) {
   const auto scene = std::make_shared<const Scene>(TinyWorld()->scene());
-  const auto first = EmulatedSite::Start(scene, {});
-  const auto second = EmulatedSite::Start(scene, {});
+  const auto first = EmulatedDevices::Start(scene, {});
+  const auto second = EmulatedDevices::Start(scene, {});
   ASSERT_TRUE(first) << first.error().message;
   ASSERT_TRUE(second) << second.error().message;
   EXPECT_NE((*first)->lidar().address(), (*second)->lidar().address());
   EXPECT_NE((*first)->motor().address(), (*second)->motor().address());
   EXPECT_NE((*first)->camera().address(), (*second)->camera().address());
-  EmulatedSiteOptions taken;
+  EmulatedDevicesOptions taken;
   taken.camera = (*first)->camera().address();
-  const auto third = EmulatedSite::Start(scene, taken);
+  const auto third = EmulatedDevices::Start(scene, taken);
   ASSERT_FALSE(third);
   EXPECT_EQ(third.error().code, ErrorCode::kDevice);
 }

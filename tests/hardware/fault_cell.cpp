@@ -16,14 +16,14 @@ constexpr double kPatience_s = 40.0;
 constexpr double kRest_s = 3.0;
 
 /// A camera and a fan small enough that several heads fit one machine.
-EmulatedSiteOptions SmallSite(const SiteFaults& faults) {
-  EmulatedSiteOptions options;
+EmulatedDevicesOptions SmallDevices(const DeviceFaults& faults) {
+  EmulatedDevicesOptions options;
   options.true_rig = TinyRig();
   options.faults = faults;
   return options;
 }
 
-/// 3 s at 10 deg/s, a picture in the last third.
+/// 3 s at 10 deg/s, an image in the last third.
 ScanPlan Plan() {
   ScanPlan plan;
   plan.from_rad = RadiansFromDegrees(-10.0);
@@ -35,10 +35,10 @@ ScanPlan Plan() {
 /// One head's way through one fault.
 class Cell {
  public:
-  Cell(const HeadFault& fault, HeadPhase phase, const SiteFaults& from_power_on = {})
+  Cell(const HeadFault& fault, HeadPhase phase, const DeviceFaults& from_power_on = {})
       : fault_(fault),
         phase_(phase),
-        bench_(std::make_shared<const Scene>(TinyWorld()->scene()), SmallSite(from_power_on),
+        bench_(std::make_shared<const Scene>(TinyWorld()->scene()), SmallDevices(from_power_on),
                HastyConfig) {}
 
   FaultOutcome Run() {
@@ -83,7 +83,7 @@ class Cell {
   }
 
   void BeginFault() {
-    beside_ = fault_.begin(*bench_.site);
+    beside_ = fault_.begin(*bench_.devices);
     over_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                   std::chrono::duration<double>(fault_.lasts_s));
   }
@@ -92,7 +92,7 @@ class Cell {
     if (phase_ == HeadPhase::kConnecting || phase_ == HeadPhase::kHoming) {
       if (!bench_.head->Home()) return Violation("the head refused to home");
       if (phase_ == HeadPhase::kHoming)
-        WaitFor([this] { return bench_.site->MotorTurns() || Idle(); });
+        WaitFor([this] { return bench_.devices->MotorTurns() || Idle(); });
       BeginFault();
       if (!WaitFor([this] { return Idle(); })) return Violation("homing never ended");
       if (State() == HeadState::kReady) Scan();
@@ -108,7 +108,7 @@ class Cell {
     Scan();
   }
 
-  /// Flies the plan; begins the fault on the way where that is the phase.
+  /// Executes the plan; begins the fault on the way where that is the phase.
   void Scan() {
     const auto watch = std::make_shared<ScanWatch>();
     if (phase_ == HeadPhase::kSweeping) watch->action = [this] { BeginFault(); };
@@ -129,7 +129,7 @@ class Cell {
 
   void JudgeOutcome() {
     const HeadStatus status = bench_.head->Status();
-    if (!WaitFor([this] { return !bench_.site->MotorTurns(); }, kRest_s))
+    if (!WaitFor([this] { return !bench_.devices->MotorTurns(); }, kRest_s))
       Violation("the motor still turns");
     if (assembler_) JudgeScan(*assembler_->Snapshot());
     if (status.state == HeadState::kFault) {
@@ -148,10 +148,10 @@ class Cell {
     const int lost = bench_.head->Status().lost_lines;
     outcome_.summary =
         fmt::format("scan {}{}{}", ToString(scan.state), lost > 0 ? ", lines lost" : "",
-                    scan.frames.empty() ? ", no picture" : "");
+                    scan.frames.empty() ? ", no image" : "");
     if (scan.state == ScanState::kRunning) Violation("the scan is not marked");
     // The switch is repeatable to 0.003 deg; hasty homing adds a cycle at 4 deg/s.
-    const double zero_deg = DegreesFromRadians(bench_.site->motor().zero_rad());
+    const double zero_deg = DegreesFromRadians(bench_.devices->motor().zero_rad());
     if (scan.state == ScanState::kComplete && std::abs(zero_deg) > 0.1)
       Violation(fmt::format("a complete scan with a zero that is off by {:.2f} deg", zero_deg));
     if (scan.state == ScanState::kInterrupted && scan.reason.empty())
@@ -167,11 +167,11 @@ class Cell {
   /// The same head, the same emulators, as soon as the fault is over.
   void Recover() {
     std::this_thread::sleep_until(over_at_);
-    if (fault_.heal) fault_.heal(*bench_.site);
-    const auto scan = bench_.Fly(Plan());
+    if (fault_.heal) fault_.heal(*bench_.devices);
+    const auto scan = bench_.Execute(Plan());
     if (!scan) return Violation("did not recover: " + bench_.head->Status().message);
     if (scan->state != ScanState::kComplete) Violation("did not recover: " + scan->reason);
-    if (scan->frames.size() != 1) Violation("no picture after the recovery");
+    if (scan->frames.size() != 1) Violation("no image after the recovery");
     if (bench_.head->Status().lost_lines != 0) Violation("lines are lost after the recovery");
   }
 
@@ -226,7 +226,7 @@ FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase) {
 
 FaultOutcome RunPlannedFault(const PlannedFault& fault) {
   const HeadFault nothing_more{
-      fault.device, fault.name, [](EmulatedSite&) { return std::jthread(); }, 0.0, {}};
+      fault.device, fault.name, [](EmulatedDevices&) { return std::jthread(); }, 0.0, {}};
   return Cell(nothing_more, HeadPhase::kConnecting, fault.plan).RunWithoutRecovery(fault.harmless);
 }
 

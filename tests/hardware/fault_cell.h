@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "hardware/emulator/emulated_site.h"
+#include "hardware/emulator/emulated_devices.h"
 
 namespace foresight {
 
@@ -15,9 +15,9 @@ struct HeadFault {
   std::string device;  ///< "lidar", "motor" or "camera"
   std::string name;
   /// What goes on beside the head until the fault is over, or an empty thread.
-  std::function<std::jthread(EmulatedSite&)> begin;
-  double lasts_s = 0.0;                     ///< then it is over by itself
-  std::function<void(EmulatedSite&)> heal;  ///< what an operator would do; may be empty
+  std::function<std::jthread(EmulatedDevices&)> begin;
+  double lasts_s = 0.0;                        ///< then it is over by itself
+  std::function<void(EmulatedDevices&)> heal;  ///< what an operator would do; may be empty
 };
 
 /// What the head is doing when the fault begins.
@@ -32,9 +32,9 @@ const std::vector<HeadFault>& HeadFaults();
 struct PlannedFault {
   std::string device;
   std::string name;
-  SiteFaults plan;
+  DeviceFaults plan;
   std::vector<std::string> members;  ///< of the device's fault plan that it sets
-  bool harmless = false;             ///< the scan is to be complete in every line and picture
+  bool harmless = false;             ///< the scan is to be complete in every line and image
 };
 
 /// Every member of every emulator's fault plan (planned_faults.cpp).
@@ -49,12 +49,12 @@ struct FaultOutcome {
   std::vector<std::string> violations;  ///< of what must hold whatever happens; empty = well
 };
 
-/// Flies a small scan with the real drivers on emulated devices, lets the fault begin in `phase`,
-/// and looks whether the motor ends at rest, the scan is kept and marked, a fault is told in one
-/// sentence that names its device, and the same head flies a complete scan once the fault is over.
-/// Takes some ten seconds, most of them waiting.
+/// Executes a small scan with the real drivers on emulated devices, lets the fault begin in
+/// `phase`, and looks whether the motor ends at rest, the scan is kept and marked, a fault is told
+/// in one sentence that names its device, and the same head executes a complete scan once the fault
+/// is over. Takes some ten seconds, most of them waiting.
 FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase);
-/// The same with a fault from power-on and without what comes after: homes, flies, and looks.
+/// The same with a fault from power-on and without what comes after: homes, executes, and looks.
 FaultOutcome RunPlannedFault(const PlannedFault& fault);
 /// All of PlannedFaults(), several at once.
 std::vector<std::pair<const PlannedFault*, FaultOutcome>> RunPlannedFaults();

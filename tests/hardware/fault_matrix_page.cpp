@@ -28,7 +28,8 @@ std::string Page() {
       "emulated "
       "devices. A column is what the head does\nwhen the fault begins; a cell is what the operator "
       "gets of the scan that was running or came next. In every cell the motor\nends at rest, the "
-      "scan is kept and marked, and after the fault the same head homes and flies a complete scan\n"
+      "scan is kept and marked, and after the fault the same head homes and executes a complete "
+      "scan\n"
       "(tests/hardware/fault_matrix_test.cpp).\n\n| device | fault |";
   std::string rule = "| --- | --- |";
   for (int i = 0; i < kHeadPhases; ++i) {
@@ -42,7 +43,7 @@ std::string Page() {
   }
   page +=
       "\n## From power-on\n\nThe same for what is wrong with a device from its beginning, a "
-      "member of its emulator's fault plan each: the head homes and flies\none scan.\n\n"
+      "member of its emulator's fault plan each: the head homes and executes\none scan.\n\n"
       "| device | fault | |\n| --- | --- | --- |\n";
   for (const auto& [fault, outcome] : RunPlannedFaults())
     page += fmt::format("| {} | {} | {}{} |\n", fault->device, fault->name,

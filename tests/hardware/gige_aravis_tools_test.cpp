@@ -1,5 +1,5 @@
 // Foreign judges: the tools of Aravis read the emulated camera's description and receive its
-// pictures.
+// images.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,14 +53,14 @@ TEST_F(AravisTools, WriteAnExposure) {
   EXPECT_THAT(result.output, ContainsRegex("ExposureTime = 2500"));
 }
 
-TEST_F(AravisTools, ReceiveTriggeredPictures) {
+TEST_F(AravisTools, ReceiveTriggeredImages) {
   const ProgramResult result = Stream({"--software-trigger=5"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_THAT(result.output, ContainsRegex("n_completed_buffers *= *[1-9]"));
   EXPECT_THAT(result.output, ContainsRegex("n_size_mismatch_errors *= *0"));
 }
 
-TEST_F(AravisTools, ReceivePicturesOfAFreelyRunningCameraInSpiteOfLostPackets) {
+TEST_F(AravisTools, ReceiveImagesOfAFreelyRunningCameraInSpiteOfLostPackets) {
   bench.emulator->InjectPacketLoss(0.02);
   const ProgramResult result = Stream({});
   EXPECT_EQ(result.exit_code, 0) << result.errors;

@@ -13,7 +13,7 @@
 
 namespace foresight {
 
-/// A quarter of the real camera before a wall with a pattern; a picture takes some ten milliseconds
+/// A quarter of the real camera before a wall with a pattern; an image takes some ten milliseconds
 /// to render.
 inline std::shared_ptr<const World> GigeWorld() {
   SensorRig rig = DefaultSensorRig();
@@ -72,7 +72,7 @@ struct GigeBench {
     return true;
   }
 
-  /// One picture, from its trigger; or why not.
+  /// One image, from its trigger; or why not.
   Result<CameraFrame> Take() const {
     FORESIGHT_CHECK(camera->Trigger());
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kDeadline_s);
@@ -80,13 +80,13 @@ struct GigeBench {
       FORESIGHT_TRY(auto frame, camera->WaitForFrame(std::chrono::milliseconds(100)));
       if (frame) return std::move(*frame);
     }
-    return Fail(ErrorCode::kDevice, "no picture and no error");
+    return Fail(ErrorCode::kDevice, "no image and no error");
   }
 
   /// What a camera in this process would have taken then.
   ColorImage Truth(const CameraEmulator::Taken& taken) const {
     return world
-        ->TakePicture(
+        ->CaptureImage(
             taken.seq, taken.middle_s, taken.exposure_s, taken.gain_db,
             [this](double time_s) { return shaft->At(time_s).angle_rad; }, RunContext())
         .image;

@@ -29,7 +29,7 @@ TEST(GigeCamera, ConnectsByAddress) {
   EXPECT_EQ(bench.camera->Describe(), "camera " + bench.emulator->address());
 }
 
-TEST(GigeCamera, TenTriggeredPicturesAreThoseThatWereTaken) {
+TEST(GigeCamera, TenTriggeredImagesAreThoseThatWereTaken) {
   GigeBench bench;
   ASSERT_TRUE(bench.camera->Connect());
   for (int i = 0; i < 10; ++i) {
@@ -43,7 +43,7 @@ TEST(GigeCamera, TenTriggeredPicturesAreThoseThatWereTaken) {
   EXPECT_EQ(bench.camera->Health().frames, 10);
 }
 
-TEST(GigeCamera, PicturesOfATurningHeadAreTakenAtTheMiddleOfTheExposure) {
+TEST(GigeCamera, ImagesOfATurningHeadAreTakenAtTheMiddleOfTheExposure) {
   GigeBench bench;
   ASSERT_TRUE(bench.camera->Connect());
   bench.shaft->Move(bench.clock->Now(), 1.0, RadiansFromDegrees(10.0), 7.0);
@@ -112,7 +112,7 @@ TEST(GigeCamera, StampsAreTheMiddleOfTheExposureOnTheHeadsClock) {
   RecordProperty("worst_us", static_cast<int>(1e6 * worst_s));
   RecordProperty("uncertainty_us", static_cast<int>(1e6 * known_s));
   // The best round trip of eight, and the drift until the next reading, which waits for the last
-  // picture: 50 ppm of a few seconds. A degree is 10.2 px, so at 10 deg/s a millisecond is 0.1 px.
+  // image: 50 ppm of a few seconds. A degree is 10.2 px, so at 10 deg/s a millisecond is 0.1 px.
   EXPECT_LT(worst_s, known_s + 1e-3);
 }
 

@@ -89,7 +89,7 @@ TEST(CameraDevice, AnyRequestOfTheControllerIsAHeartbeat) {
   EXPECT_TRUE(bench.device.acquiring());
 }
 
-TEST(CameraDevice, ARepeatedTriggerIsAnsweredTwiceAndTakesOnePicture) {
+TEST(CameraDevice, ARepeatedTriggerIsAnsweredTwiceAndTakesOneImage) {
   DeviceBench bench;
   bench.TakeControlAndStart();
   gvcp::Request trigger;
@@ -98,15 +98,15 @@ TEST(CameraDevice, ARepeatedTriggerIsAnsweredTwiceAndTakesOnePicture) {
   const auto packet = gvcp::EncodeRequest(trigger);
   const auto answer = bench.device.Answer(packet, bench.host, bench.now_s);
   EXPECT_EQ(bench.device.Answer(packet, bench.host, bench.now_s), answer);
-  EXPECT_EQ(bench.device.TakeOrders().triggers, 1);
+  EXPECT_EQ(bench.device.TakeCommands().triggers, 1);
 }
 
-TEST(CameraDevice, TakesNoPictureBeforeItAcquires) {
+TEST(CameraDevice, TakesNoImageBeforeItAcquires) {
   DeviceBench bench;
   EXPECT_EQ(bench.Write(at::kControlPrivilege, 2, bench.host), AckStatus::kSuccess);
   EXPECT_EQ(bench.Write(at::kTriggerMode, 1, bench.host), AckStatus::kSuccess);
   EXPECT_EQ(bench.Write(at::kTriggerSoftware, 1, bench.host), AckStatus::kSuccess);
-  EXPECT_EQ(bench.device.TakeOrders().triggers, 0);
+  EXPECT_EQ(bench.device.TakeCommands().triggers, 0);
 }
 
 TEST(CameraDevice, RegistersMayBeWrittenAsMemoryToo) {
@@ -114,7 +114,7 @@ TEST(CameraDevice, RegistersMayBeWrittenAsMemoryToo) {
   bench.TakeControlAndStart();
   const auto written = bench.Ask(gvcp::WriteMemory{at::kTriggerSoftware, {0, 0, 0, 1}}, bench.host);
   EXPECT_EQ(written.status, AckStatus::kSuccess);
-  EXPECT_EQ(bench.device.TakeOrders().triggers, 1);
+  EXPECT_EQ(bench.device.TakeCommands().triggers, 1);
 }
 
 TEST(CameraDevice, ExposureAndGainAreDoublesWithinTheirLimits) {
@@ -134,7 +134,7 @@ TEST(CameraDevice, ExposureAndGainAreDoublesWithinTheirLimits) {
   EXPECT_DOUBLE_EQ(exposure.gain_db, 12.0);
 }
 
-TEST(CameraDevice, ThePixelFormatDecidesTheSizeOfAPicture) {
+TEST(CameraDevice, ThePixelFormatDecidesTheSizeOfAnImage) {
   DeviceBench bench;
   EXPECT_EQ(bench.Read(at::kPayloadSize), 1288u * 964u * 3u);
   bench.TakeControlAndStart();

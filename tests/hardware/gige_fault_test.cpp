@@ -16,22 +16,22 @@ double SecondsSince(SteadyClock::time_point start) {
   return std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
-/// As in the field: a picture is there at once or not at all.
+/// As in the field: an image is there at once or not at all.
 void Default(GigeCameraOptions& options) {
   options.frame_timeout_s = GigeCameraOptions().frame_timeout_s;
 }
-/// Twice as patient, where a picture has to come on a busy machine too.
+/// Twice as patient, where an image has to come on a busy machine too.
 void Patient(GigeCameraOptions& options) {
   options.frame_timeout_s = 1.0;
 }
 
 /// Everything arrives, bit for bit, although packets get lost.
-void ExpectAllPicturesInSpiteOf(double loss_share, int pictures) {
+void ExpectAllImagesInSpiteOf(double loss_ratio, int images) {
   CameraFaults faults;
-  faults.packet_loss_share = loss_share;
+  faults.packet_loss_ratio = loss_ratio;
   GigeBench bench(faults);
   ASSERT_TRUE(bench.camera->Connect());
-  for (int i = 0; i < pictures; ++i) {
+  for (int i = 0; i < images; ++i) {
     const auto frame = bench.Take();
     ASSERT_TRUE(frame) << i << ": " << frame.error().message;
     EXPECT_EQ(frame->image, bench.Truth(bench.emulator->taken().back()));
@@ -42,17 +42,17 @@ void ExpectAllPicturesInSpiteOf(double loss_share, int pictures) {
   testing::Test::RecordProperty("resent", static_cast<int>(counts.resent_packets));
   EXPECT_GT(counts.lost_packets, 0);
   EXPECT_GT(health.resent_packets, 0);
-  EXPECT_EQ(health.frames, pictures);
+  EXPECT_EQ(health.frames, images);
   EXPECT_EQ(health.incomplete, 0);
   EXPECT_EQ(health.missing_packets, 0);
 }
 
-TEST(GigeFaults, OnePercentOfLostPacketsCostsNoPicture) {
-  ExpectAllPicturesInSpiteOf(0.01, 20);
+TEST(GigeFaults, OnePercentOfLostPacketsCostsNoImage) {
+  ExpectAllImagesInSpiteOf(0.01, 20);
 }
 
-TEST(GigeFaults, FivePercentOfLostPacketsCostNoPicture) {
-  ExpectAllPicturesInSpiteOf(0.05, 20);
+TEST(GigeFaults, FivePercentOfLostPacketsCostNoImage) {
+  ExpectAllImagesInSpiteOf(0.05, 20);
 }
 
 TEST(GigeFaults, AVanishedCameraIsSuspectSoonAndWellAgainWhenItReturns) {
@@ -66,7 +66,7 @@ TEST(GigeFaults, AVanishedCameraIsSuspectSoonAndWellAgainWhenItReturns) {
   EXPECT_LT(SecondsSince(start), 0.6);
   const auto missing = bench.camera->WaitForFrame(std::chrono::milliseconds(0));
   ASSERT_FALSE(missing);
-  EXPECT_THAT(missing.error().message, HasSubstr("picture 1 did not come within 500 ms"));
+  EXPECT_THAT(missing.error().message, HasSubstr("image 1 did not come within 500 ms"));
   // The same connection serves again, and nobody has restarted anything.
   ASSERT_TRUE(GigeBench::WaitFor([&] { return !bench.camera->Health().suspect; }));
   EXPECT_TRUE(GigeBench::WaitFor([&] { return bench.Take().has_value(); }));
@@ -124,13 +124,13 @@ TEST(GigeFaults, DestroyingTheDriverOfACameraThatIsGoneTakesSecondsNotMinutes) {
   EXPECT_LT(SecondsSince(start), 15.0);
 }
 
-TEST(GigeFaults, AnIgnoredTriggerIsSaidOnceAndTheNextPictureComes) {
+TEST(GigeFaults, AnIgnoredTriggerIsSaidOnceAndTheNextImageComes) {
   GigeBench bench({}, Patient);
   ASSERT_TRUE(bench.camera->Connect());
   bench.emulator->InjectIgnoredTriggers(1);
   const auto ignored = bench.Take();
   ASSERT_FALSE(ignored);
-  EXPECT_THAT(ignored.error().message, HasSubstr("picture 0 did not come"));
+  EXPECT_THAT(ignored.error().message, HasSubstr("image 0 did not come"));
   ASSERT_TRUE(GigeBench::WaitFor([&] { return !bench.camera->Health().suspect; }));
   const auto next = bench.Take();
   ASSERT_TRUE(next) << next.error().message;
@@ -138,7 +138,7 @@ TEST(GigeFaults, AnIgnoredTriggerIsSaidOnceAndTheNextPictureComes) {
   EXPECT_EQ(bench.emulator->counts().ignored_triggers, 1);
 }
 
-TEST(GigeFaults, ASlowPictureComesInTimeAndOneThatIsTooLateIsNotTakenForAnother) {
+TEST(GigeFaults, ASlowImageComesInTimeAndOneThatIsTooLateIsNotTakenForAnother) {
   GigeBench bench({}, Patient);
   ASSERT_TRUE(bench.camera->Connect());
   bench.emulator->InjectSlowFrames(1, 0.3);
@@ -157,7 +157,7 @@ TEST(GigeFaults, ThePlannedFaultsOfASeedAreTheSameEachTime) {
   for (int run = 0; run < 2; ++run) {
     CameraFaults faults;
     faults.seed = 7;
-    faults.ignored_trigger_share = 0.5;
+    faults.ignored_trigger_fraction = 0.5;
     GigeBench bench(faults, Default);
     ASSERT_TRUE(bench.camera->Connect());
     for (int i = 0; i < 6; ++i) {
@@ -165,7 +165,7 @@ TEST(GigeFaults, ThePlannedFaultsOfASeedAreTheSameEachTime) {
       static_cast<void>(bench.Take());
     }
     std::vector<std::int64_t> seqs;
-    for (const auto& picture : bench.emulator->taken()) seqs.push_back(picture.seq);
+    for (const auto& capture : bench.emulator->taken()) seqs.push_back(capture.seq);
     EXPECT_EQ(seqs.size() + static_cast<std::size_t>(bench.emulator->counts().ignored_triggers),
               6u);
     taken.push_back(seqs);

@@ -1,4 +1,4 @@
-// The stream protocol of GigE Vision, byte by byte, and pictures cut into packets.
+// The stream protocol of GigE Vision, byte by byte, and images cut into packets.
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"

@@ -6,11 +6,11 @@ namespace foresight {
 namespace {
 
 HeadFault Of(const std::string& device, const std::string& name,
-             const std::function<void(EmulatedSite&)>& begin, double lasts_s,
-             const std::function<void(EmulatedSite&)>& heal = {}) {
+             const std::function<void(EmulatedDevices&)>& begin, double lasts_s,
+             const std::function<void(EmulatedDevices&)>& heal = {}) {
   return {device, name,
-          [begin](EmulatedSite& site) {
-            begin(site);
+          [begin](EmulatedDevices& devices) {
+            begin(devices);
             return std::jthread();
           },
           lasts_s, heal};
@@ -19,14 +19,15 @@ HeadFault Of(const std::string& device, const std::string& name,
 HeadFault OfLidar(const std::string& name, const std::function<void(ScipEmulator&)>& begin,
                   double lasts_s) {
   return Of(
-      "lidar", name, [begin](EmulatedSite& site) { begin(site.lidar()); }, lasts_s);
+      "lidar", name, [begin](EmulatedDevices& devices) { begin(devices.lidar()); }, lasts_s,
+      [](EmulatedDevices& devices) { devices.lidar().ClearFaults(); });
 }
 
 HeadFault OfCamera(const std::string& name, const std::function<void(CameraEmulator&)>& begin,
                    double lasts_s) {
   return Of(
-      "camera", name, [begin](EmulatedSite& site) { begin(site.camera()); }, lasts_s,
-      [](EmulatedSite& site) { site.camera().ClearFaults(); });
+      "camera", name, [begin](EmulatedDevices& devices) { begin(devices.camera()); }, lasts_s,
+      [](EmulatedDevices& devices) { devices.camera().ClearFaults(); });
 }
 
 /// Long enough to be met in every state; the switch is only looked at while homing.
@@ -38,6 +39,7 @@ double DurationOf(MotorFault::Kind kind) {
       return 6.0;
     case MotorFault::Kind::kDeadLink:
     case MotorFault::Kind::kStaleStatus:
+    case MotorFault::Kind::kEncoderOffset:
       return 2.0;
     case MotorFault::Kind::kTcpReset:
       break;
@@ -49,18 +51,18 @@ HeadFault OfMotor(MotorFault::Kind kind) {
   const double lasts_s = DurationOf(kind);
   return Of(
       "motor", ToString(kind),
-      [kind, lasts_s](EmulatedSite& site) {
-        site.motor().Inject({kind, 0.0, lasts_s});
+      [kind, lasts_s](EmulatedDevices& devices) {
+        devices.motor().Inject({kind, 0.0, lasts_s});
       },
-      lasts_s, [](EmulatedSite& site) { site.motor().ClearFaults(); });
+      lasts_s, [](EmulatedDevices& devices) { devices.motor().ClearFaults(); });
 }
 
 constexpr double kStays_s = 3.0;
 
 /// Somebody else connects to the lidar, which serves one client, and stays for a while if it can.
 HeadFault SecondClientOfTheLidar() {
-  const auto begin = [](EmulatedSite& site) {
-    return std::jthread([address = site.lidar().address()](const std::stop_token& stop) {
+  const auto begin = [](EmulatedDevices& devices) {
+    return std::jthread([address = devices.lidar().address()](const std::stop_token& stop) {
       const auto client = TcpSocket::Connect(address, std::chrono::milliseconds(200));
       const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kStays_s);
       while (client && !stop.stop_requested() && std::chrono::steady_clock::now() < end)
@@ -87,6 +89,16 @@ const std::vector<HeadFault>& HeadFaults() {
             "reset", [](auto& lidar) { lidar.InjectReset(); }, 0.0),
         OfLidar(
             "abnormal state", [](auto& lidar) { lidar.InjectAbnormalState(); }, 0.0),
+        OfLidar(
+            "clock jumps ahead", [](auto& lidar) { lidar.InjectClockJump(3600.0); }, 0.0),
+        OfLidar(
+            "clock jumps back", [](auto& lidar) { lidar.InjectClockJump(-2.0); }, 0.0),
+        OfLidar(
+            "clock stands still", [](auto& lidar) { lidar.InjectStoppedClock(6.0); }, 6.0),
+        OfLidar(
+            "bad sums", [](auto& lidar) { lidar.InjectCorruptScans(200); }, 6.0),
+        OfLidar(
+            "missing beams", [](auto& lidar) { lidar.InjectMissingBeams(10, 200); }, 6.0),
         SecondClientOfTheLidar(),
     };
     for (int i = 0; i < MotorFault::kKinds; ++i)
@@ -98,7 +110,7 @@ const std::vector<HeadFault>& HeadFaults() {
     faults.push_back(OfCamera(
         "ignored trigger", [](auto& camera) { camera.InjectIgnoredTriggers(1); }, 0.0));
     faults.push_back(OfCamera(
-        "slow picture", [](auto& camera) { camera.InjectSlowFrames(1, 3.0); }, 3.0));
+        "slow image", [](auto& camera) { camera.InjectSlowFrames(1, 3.0); }, 3.0));
     return faults;
   }();
   return kFaults;

@@ -39,7 +39,7 @@ TEST(HeadHealth, WhatWasLostSinceTheLastLookIsADegradation) {
   health.motor.last_error = 0x8611;
   const HeadDiagnosis diagnosis = Diagnose(health, WellHead());
   EXPECT_EQ(diagnosis.lidar.problem, "lines lost: 7");
-  EXPECT_EQ(diagnosis.camera.problem, "pictures that did not come: 1");
+  EXPECT_EQ(diagnosis.camera.problem, "images that did not come: 1");
   EXPECT_EQ(diagnosis.motor.problem, "the drive reported error 8611h");
   EXPECT_EQ(diagnosis.Worst(), DeviceCondition::kDegraded);
   EXPECT_EQ(Diagnose(health, health).Worst(), DeviceCondition::kWell) << "it is over";
@@ -72,9 +72,9 @@ TEST(HeadHealth, TheNumbersReadAsWords) {
   health.camera.frames = 12;
   health.motor.round_trip_median_s = 31e-6;
   EXPECT_EQ(Describe(health.lidar), "40 lines/s, 0 lost, clock offset 12.346 s");
-  EXPECT_EQ(Describe(health.camera), "12 pictures, 0 lost");
+  EXPECT_EQ(Describe(health.camera), "12 images, 0 lost");
   health.camera.temperature_c = 41.5;
-  EXPECT_EQ(Describe(health.camera), "12 pictures, 0 lost, 41.5 °C");
+  EXPECT_EQ(Describe(health.camera), "12 images, 0 lost, 41.5 °C");
   EXPECT_EQ(Describe(health.motor), "240 polls/s, round trip 0.03 ms");
 }
 
@@ -119,7 +119,7 @@ TEST(ScanRecorder, TheMissionTellsHowTheDevicesDidInAScan) {
   EXPECT_EQ(events[0].source, "head");
   EXPECT_EQ(events[0].severity, "info");
   EXPECT_THAT(events[0].text, HasSubstr("scan 1: lidar: 40 lines/s"));
-  EXPECT_THAT(events[0].text, HasSubstr("camera: 1 pictures, 0 lost"));
+  EXPECT_THAT(events[0].text, HasSubstr("camera: 1 images, 0 lost"));
   EXPECT_EQ(nlohmann::json::parse(events[0].json)["camera"]["frames"], 1);
 }
 

@@ -148,13 +148,14 @@ TEST(ModbusMotor, SaysWhereNobodyAnswers) {
 }
 
 TEST(ModbusMotor, RefusesWhatIsNoDrive) {
-  class Ones final : public RegisterBank {
-    std::optional<std::vector<std::uint16_t>> Read(std::uint16_t, std::uint16_t count) override {
+  class Ones final : public RegisterDevice {
+    std::optional<std::vector<std::uint16_t>> Read(ClientId, std::uint16_t,
+                                                   std::uint16_t count) override {
       return std::vector<std::uint16_t>(count, 0xFFFF);
     }
-    bool Write(std::uint16_t, std::span<const std::uint16_t>) override { return true; }
-  } bank;
-  const auto server = ModbusServer::Start({"127.0.0.1", 0}, bank);
+    bool Write(ClientId, std::uint16_t, std::span<const std::uint16_t>) override { return true; }
+  } device;
+  const auto server = ModbusServer::Start({"127.0.0.1", 0}, device);
   ASSERT_TRUE(server);
   ModbusMotorOptions options;
   options.port = (*server)->address().port;

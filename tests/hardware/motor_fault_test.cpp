@@ -82,8 +82,7 @@ TEST(MotorFault, ADeadLinkWhileMovingIsAnErrorAndTheDriveStopsByItself) {
   ASSERT_TRUE(bench.WaitForError());
   std::printf("dead link noticed after %.0f ms\n", 1e3 * (bench.clock->Now() - began_s));
   EXPECT_EQ(ErrorOf(*bench.motor, bench.motor->Moving()),
-            bench.motor->Describe() +
-                ": no answer within 200 ms");
+            bench.motor->Describe() + ": no answer within 200 ms");
   EXPECT_FALSE(bench.motor->Homed());
   EXPECT_FALSE(bench.motor->Health().connected);
   ASSERT_TRUE(bench.WaitFor([&] { return !bench.ShaftTurns(); }, 3.0));
@@ -134,6 +133,47 @@ TEST(MotorFault, AResetConnectionStopsTheMotorAsSoonAsItIsBack) {
 }
 
 // Bits 10 and 12 that tell of the last move must not end the next one.
+/// Somebody else who only looks, as a monitor does: reads all the time.
+class Reader {
+ public:
+  explicit Reader(const TcpAddress& address)
+      : thread_([this, address](const std::stop_token& stop) {
+          ModbusLink link(address.host, address.port, std::chrono::milliseconds(200));
+          if (!link.Connect()) return;
+          cia402::TxImage::Registers registers{};
+          while (!stop.stop_requested() && link.Read(cia402::TxImage::kFirst, registers)) ++reads_;
+        }) {}
+  int reads() const { return reads_; }
+
+ private:
+  std::atomic<int> reads_{0};
+  std::jthread thread_;  ///< last: it uses the above
+};
+
+TEST(MotorFault, AReaderDoesNotFeedTheWatchdogOfAHostThatIsGone) {
+  MotorBench bench;
+  ASSERT_TRUE(bench.Sweep());
+  const Reader reader(bench.emulator->address());
+  ASSERT_TRUE(MotorBench::WaitFor([&] { return reader.reads() > 10; }));
+  ASSERT_TRUE(bench.ShaftTurns()) << "a reader does not take over, either";
+  // The host vanishes as a killed program does: its connection ends and no quick stop is written.
+  // A link of its own writes first, which makes it the one that commands, and goes.
+  {
+    ModbusLink host(bench.emulator->address().host, bench.emulator->address().port,
+                    std::chrono::milliseconds(200));
+    ASSERT_TRUE(host.Connect());
+    constexpr std::uint16_t kKeepOn = cia402::control::kEnableOperation;
+    ASSERT_TRUE(host.Write(cia402::RxImage::kControl, {&kKeepOn, 1}));
+    ASSERT_TRUE(bench.ShaftTurns());
+  }
+  const int reads_before = reader.reads();
+  const double gone_s = bench.clock->Now();
+  ASSERT_TRUE(MotorBench::WaitFor([&] { return !bench.ShaftTurns(); }));
+  // Half a second of the watchdog and a ramp from 20 deg/s; the rest is for a busy machine.
+  EXPECT_LT(bench.clock->Now() - gone_s, 1.5);
+  EXPECT_GT(reader.reads(), reads_before) << "the reader reads on";
+}
+
 TEST(MotorFault, StaleStatusBitsDelayAMoveAndNeverEndIt) {
   const MotorBench bench;
   ASSERT_TRUE(bench.Home());

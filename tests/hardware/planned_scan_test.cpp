@@ -22,13 +22,13 @@ ScanPlan WidePlan() {
   return plan;
 }
 
-std::shared_ptr<const Scan> Fly(const ScanPlan& plan) {
+std::shared_ptr<const Scan> Execute(const ScanPlan& plan) {
   TinyHead tiny;
   return tiny.Home() ? tiny.Run(plan) : nullptr;
 }
 
-/// From the first line to the last line or picture.
-double FlownSeconds(const Scan& scan) {
+/// From the first line to the last line or image.
+double ExecutedSeconds(const Scan& scan) {
   double end_s = scan.lines.back().time_s;
   for (const CameraFrame& frame : scan.frames) end_s = std::max(end_s, frame.time_s);
   return end_s - scan.lines.front().time_s;
@@ -37,7 +37,7 @@ double FlownSeconds(const Scan& scan) {
 struct Variant {
   const char* name;
   int passes;
-  ScanPlan::PictureMode mode;
+  ScanPlan::ImageMode mode;
 };
 
 class PlannedScan : public testing::TestWithParam<Variant> {};
@@ -45,31 +45,31 @@ class PlannedScan : public testing::TestWithParam<Variant> {};
 TEST_P(PlannedScan, TakesAsLongAndBringsAsManyLinesAsPredicted) {
   ScanPlan plan = WidePlan();
   plan.passes = GetParam().passes;
-  plan.picture_mode = GetParam().mode;
+  plan.image_mode = GetParam().mode;
   for (const bool downwards : {false, true}) {
     if (downwards) std::swap(plan.from_rad, plan.to_rad);
-    const auto scan = Fly(plan);
+    const auto scan = Execute(plan);
     ASSERT_TRUE(scan);
     EXPECT_EQ(scan->state, ScanState::kComplete) << scan->reason;
     EXPECT_EQ(scan->frames.size(), 3u);
     const ScanPrediction predicted = PredictScan(plan, TinyRig()).value();
-    EXPECT_NEAR(FlownSeconds(*scan), predicted.duration_s, 0.05 * predicted.duration_s);
+    EXPECT_NEAR(ExecutedSeconds(*scan), predicted.duration_s, 0.05 * predicted.duration_s);
     EXPECT_NEAR(static_cast<int>(scan->lines.size()), predicted.lines, kLineTolerance);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     AllPlans, PlannedScan,
-    testing::Values(Variant{"OneWay", 1, ScanPlan::PictureMode::kOnTheFly},
-                    Variant{"ThereAndBack", 2, ScanPlan::PictureMode::kOnTheFly},
-                    Variant{"OneWayStopAndShoot", 1, ScanPlan::PictureMode::kStopAndShoot},
-                    Variant{"ThereAndBackStopAndShoot", 2, ScanPlan::PictureMode::kStopAndShoot}),
+    testing::Values(Variant{"OneWay", 1, ScanPlan::ImageMode::kOnTheFly},
+                    Variant{"ThereAndBack", 2, ScanPlan::ImageMode::kOnTheFly},
+                    Variant{"OneWayStopAndShoot", 1, ScanPlan::ImageMode::kStopAndShoot},
+                    Variant{"ThereAndBackStopAndShoot", 2, ScanPlan::ImageMode::kStopAndShoot}),
     [](const auto& variant) { return variant.param.name; });
 
 TEST(CaptureHead, TwoPassesGoThereAndBackInOneScan) {
   ScanPlan plan = TinyPlan();
   plan.passes = 2;
-  const auto scan = Fly(plan);
+  const auto scan = Execute(plan);
   ASSERT_TRUE(scan);
   const auto angle = [&](const LidarLine& line) {
     return DegreesFromRadians(scan->track.AngleAt(line.time_s));
@@ -85,14 +85,14 @@ TEST(CaptureHead, TwoPassesGoThereAndBackInOneScan) {
     }
   }
   EXPECT_NEAR(angle(scan->lines.front()), angle(scan->lines.back()), 0.5);
-  EXPECT_EQ(scan->frames.size(), 1u) << "pictures are taken once";
+  EXPECT_EQ(scan->frames.size(), 1u) << "images are taken once";
 }
 
-TEST(CaptureHead, StopAndShootTakesItsPicturesStandingAtTheirAngles) {
+TEST(CaptureHead, StopAndShootTakesItsImagesStandingAtTheirAngles) {
   ScanPlan plan = WidePlan();
-  plan.picture_mode = ScanPlan::PictureMode::kStopAndShoot;
+  plan.image_mode = ScanPlan::ImageMode::kStopAndShoot;
   plan.exposure_s = 0.05;  // five pixels of blur, in passing
-  const auto scan = Fly(plan);
+  const auto scan = Execute(plan);
   ASSERT_TRUE(scan);
   ASSERT_EQ(scan->frames.size(), 3u);
   for (const CameraFrame& frame : scan->frames) {
@@ -109,7 +109,7 @@ TEST(CaptureHead, OnTheFlyTheExposureIsCappedByTheBlur) {
   ScanPlan plan = TinyPlan();
   plan.exposure_s = 0.5;
   plan.max_blur_px = 0.3;
-  const auto scan = Fly(plan);
+  const auto scan = Execute(plan);
   ASSERT_TRUE(scan);
   ASSERT_EQ(scan->frames.size(), 1u);
   // 20 px a radian at 10 deg/s.
@@ -136,7 +136,7 @@ Result<std::unique_ptr<SensorHead>> HeadBeforeAWall(SensorRig* rig) {
   return MakeSimulatedHead(scene, options);
 }
 
-/// Samples a pixel in the middle of the picture.
+/// Samples a pixel in the middle of the image.
 double MeasuredDensity(const Scan& scan) {
   const RunContext context;
   const RegisteredScan points = RegisterScan(scan, context).value();
@@ -151,7 +151,7 @@ double MeasuredDensity(const Scan& scan) {
          (4.0 * kHalf_px * kHalf_px);
 }
 
-TEST(PredictScan, TheDensityIsThatOfAFlownScan) {
+TEST(PredictScan, TheDensityIsThatOfAnExecutedScan) {
   for (const int passes : {1, 2}) {
     SensorRig rig;
     const auto head = HeadBeforeAWall(&rig).value();

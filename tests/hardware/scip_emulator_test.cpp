@@ -27,7 +27,7 @@ class ScipEmulatorTest : public testing::Test {
   void Say(const std::string& line) { ASSERT_TRUE(client_.Send(line + "\n", kDeadline)); }
 
   /// Everything up to the next empty line.
-  std::string Hear() {
+  std::string ReceiveText() {
     std::array<char, 1> byte;
     std::string heard;
     while (!heard.ends_with("\n\n")) {
@@ -40,7 +40,7 @@ class ScipEmulatorTest : public testing::Test {
 
   std::string Ask(const std::string& line) {
     Say(line);
-    return Hear();
+    return ReceiveText();
   }
 
   ScipScan Scan(const std::string& bytes) {
@@ -89,15 +89,15 @@ TEST_F(ScipEmulatorTest, CountsDownTheScansThatWereAskedFor) {
   EXPECT_EQ(Ask("MD0000006001003;a"), "MD0000006001003;a\n00P\n\n");
   for (const char* echo :
        {"MD0000006001002;a\n99b\n", "MD0000006001001;a\n99b\n", "MD0000006001000;a\n99b\n"})
-    EXPECT_THAT(Hear(), StartsWith(echo));
+    EXPECT_THAT(ReceiveText(), StartsWith(echo));
   EXPECT_EQ(Ask("TM0"), "TM0\n00P\n\n") << "nothing else was sent, and it is idle";
 }
 
 TEST_F(ScipEmulatorTest, SkippedScansAreTurnsOfTheMirror) {
   Power();
   Ask("MD0000006001203");
-  const std::uint32_t first = Scan(Hear()).stamp_ms;
-  const std::uint32_t second = Scan(Hear()).stamp_ms;
+  const std::uint32_t first = Scan(ReceiveText()).stamp_ms;
+  const std::uint32_t second = Scan(ReceiveText()).stamp_ms;
   EXPECT_NEAR(static_cast<double>(second - first), 3 * 25.0, 1.0);
 }
 
@@ -139,7 +139,7 @@ TEST_F(ScipEmulatorTest, ListensOnTheAddressItIsGiven) {
 
 TEST_F(ScipEmulatorTest, BadFaultsAreRefused) {
   ScipEmulatorOptions options;
-  options.faults.corrupt_share = 1.5;
+  options.faults.corrupt_fraction = 1.5;
   EXPECT_EQ(ScipEmulator::Start(world_, clock_, shaft_, options).error().message,
             "corrupt_share must be from 0 to 1, is 1.5");
 }
@@ -148,7 +148,7 @@ TEST_F(ScipEmulatorTest, TheSameSeedDamagesTheSameTurns) {
   const auto intact_turns = [] {
     LidarFaults faults;
     faults.seed = 5;
-    faults.corrupt_share = 0.5;
+    faults.corrupt_fraction = 0.5;
     ScipBench bench(faults);
     EXPECT_TRUE(bench.Begin());
     std::vector<std::int64_t> turns;

@@ -35,7 +35,7 @@ TEST(ScipLidarFaults, CorruptScansAreLostAndCountedNothingElseIs) {
 TEST(ScipLidarFaults, FragmentsOfSevenBytesAndFivePercentDamageCostOnlyTheDamaged) {
   LidarFaults faults;
   faults.fragment_bytes = 7;
-  faults.corrupt_share = 0.05;
+  faults.corrupt_fraction = 0.05;
   ScipBench bench(faults);
   ASSERT_TRUE(bench.Begin());
   std::int64_t last_seq = bench.NextLine().seq;

@@ -16,7 +16,7 @@ double Rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-TEST(ScipLidar, IntroducesItsDeviceAfterTheRitual) {
+TEST(ScipLidar, IntroducesItsDeviceAfterTheHandshake) {
   ScipBench bench;
   ASSERT_TRUE(bench.lidar->Connect());
   EXPECT_EQ(bench.lidar->Describe(),

@@ -113,7 +113,7 @@ TEST(CaptureHead, TheFastestWidestSweepIsPossible) {
   EXPECT_EQ(scan->state, ScanState::kComplete) << scan->reason;
 }
 
-TEST(CaptureHead, PicturesAreTakenAtTheirAngles) {
+TEST(CaptureHead, ImagesAreTakenAtTheirAngles) {
   TinyHead tiny;
   ASSERT_TRUE(tiny.Home());
   ScanPlan plan = TinyPlan();
@@ -202,7 +202,8 @@ void ExpectFault(TinyHead& tiny, const std::shared_ptr<const Scan>& scan, const 
   EXPECT_THAT(scan->reason, HasSubstr(what));
   ASSERT_TRUE(tiny.WaitFor(HeadState::kFault));
   EXPECT_THAT(tiny.head->Status().message, HasSubstr(what));
-  EXPECT_THAT(tiny.head->Status().message, HasSubstr("the motor was told to stop. See that it stands"));
+  EXPECT_THAT(tiny.head->Status().message,
+              HasSubstr("the motor was told to stop. See that it stands"));
   EXPECT_GT(tiny.motor->quick_stops, 0);
   tiny.clock->Sleep(std::chrono::seconds(1));  // longer than any braking
   EXPECT_TRUE(tiny.AtRest());
@@ -247,14 +248,14 @@ TEST(CaptureHead, AMotorThatStopsByItselfIsNoticed) {
   ExpectFault(tiny, scan, "before the end of the scope");
 }
 
-TEST(CaptureHead, ACameraThatNeverDeliversCostsThePicturesNotTheLines) {
+TEST(CaptureHead, ACameraThatNeverDeliversCostsTheImagesNotTheLines) {
   TinyHead tiny(
       [](HeadDevices& devices) { devices.camera = std::make_unique<SilentCamera>(devices.clock); });
   ASSERT_TRUE(tiny.Home());
   const auto scan = tiny.Run(TinyPlan());
   ASSERT_TRUE(scan);
   EXPECT_EQ(scan->state, ScanState::kComplete);
-  EXPECT_EQ(scan->reason, "the picture at 0.00 deg did not come: test camera: is silent");
+  EXPECT_EQ(scan->reason, "the image at 0.00 deg did not come: test camera: is silent");
   EXPECT_GE(scan->lines.size(), 40u);
   ASSERT_TRUE(tiny.WaitFor(HeadState::kReady));
   EXPECT_EQ(tiny.head->Status().message, scan->reason);

@@ -1,5 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <optional>
 
 #include "hardware/head/scan_recorder.h"
 #include "tests/core/io/temporary_folder.h"
@@ -60,7 +65,7 @@ TEST(ScanRecorder, ALineThatCannotBeWrittenEndsTheScanAsInterrupted) {
   const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
   ScanRecorder recorder(mission);
   Scan scan = SampleScan(1);
-  scan.lines[5].seq = 0;  // backwards
+  scan.lines.Edit(5).seq = 0;  // backwards
   Send(recorder, scan);
   EXPECT_THAT(recorder.WaitUntilWritten().error().message, HasSubstr("line 0 comes after line 4"));
   const ScanSummary summary = mission->ListScans().value().at(0);
@@ -73,7 +78,7 @@ TEST(ScanRecorder, AFullyWrittenScanFollowsAFailedOne) {
   const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
   ScanRecorder recorder(mission);
   Scan bad = SampleScan(1);
-  bad.lines[5].seq = 0;
+  bad.lines.Edit(5).seq = 0;
   Send(recorder, bad);
   Send(recorder, SampleScan(2));
   const std::int64_t id = recorder.WaitUntilWritten().value();
@@ -92,6 +97,63 @@ TEST(ScanRecorder, ClosedDuringAScanItLeavesAnInterruptedOne) {
   const ScanSummary summary = mission->ListScans().value().at(0);
   EXPECT_EQ(summary.state, ScanState::kInterrupted);
   EXPECT_EQ(summary.lines, 1);
+}
+
+/// Files of this process cannot grow beyond a size while it lives.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(ScanRecorder, ADiskThatFillsUpEndsTheSweepAndSaysHowManyLinesWereKept) {
+  const TemporaryFolder folder;
+  TinyHead tiny;
+  ASSERT_TRUE(tiny.Home());
+  std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  auto recorder = std::make_shared<ScanRecorder>(mission);
+  tiny.sinks = std::make_shared<ScanFanout>(
+      std::vector<std::shared_ptr<ScanSink>>{tiny.assembler, recorder, tiny.watch});
+  // The sweep does not run ahead of the disk, as a real one does not.
+  std::optional<FileSizeLimit> limit;
+  tiny.watch->action_line = 10;
+  tiny.watch->action = [&] {
+    EXPECT_TRUE(recorder->WaitUntilWritten());
+    limit.emplace(std::filesystem::file_size(folder / "m.mission-wal"));
+  };
+  const auto wait = tiny.lidar;
+  wait->tamper = [&](TamperedLidar::Answer answer) {
+    static_cast<void>(recorder->WaitUntilWritten());
+    return answer;
+  };
+  const auto scan = tiny.Run(TinyPlan());
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->state, ScanState::kInterrupted);
+  EXPECT_THAT(scan->reason, testing::ContainsRegex(": [0-9]+ of 42 lines were kept"));
+  EXPECT_LT(scan->lines.size(), 30u) << "nobody recorded the rest of the sweep";
+  EXPECT_TRUE(tiny.AtRest());
+  EXPECT_EQ(recorder->WaitUntilWritten().error().message, scan->reason);
+  limit.reset();
+  wait->tamper = nullptr;
+  tiny.sinks.reset();
+  recorder.reset();
+  ASSERT_TRUE(mission->Close());
+  const auto kept = MissionFile::Open(folder / "m.mission").value();
+  const Scan read = kept->LoadScan(kept->ListScans().value().at(0).id).value();
+  EXPECT_EQ(read.state, ScanState::kInterrupted);
+  EXPECT_GE(read.lines.size(), 8u);
+  EXPECT_THAT(scan->reason, HasSubstr(fmt::format(": {} of 42 lines", read.lines.size())));
 }
 
 TEST(ScanRecorder, AClosedMissionIsAnErrorNotACrash) {

@@ -37,7 +37,7 @@ inline std::shared_ptr<const World> TinyWorld() {
   return std::make_shared<const World>(scene, TinyRig(), WorldOptions());
 }
 
-/// 1 s, 40 lines, one picture.
+/// 1 s, 40 lines, one image.
 inline ScanPlan TinyPlan() {
   ScanPlan plan;
   plan.from_rad = RadiansFromDegrees(-5.0);

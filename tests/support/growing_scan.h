@@ -11,8 +11,8 @@
 
 namespace foresight::testing {
 
-/// The default head with a picture of another size, and the same view.
-inline SensorRig RigWithPicture(int width, int height) {
+/// The default head with an image of another size, and the same view.
+inline SensorRig RigWithImage(int width, int height) {
   SensorRig rig = DefaultSensorRig();
   const double scale = static_cast<double>(width) / rig.camera.width;
   rig.camera.width = width;
@@ -24,7 +24,7 @@ inline SensorRig RigWithPicture(int width, int height) {
   return rig;
 }
 
-/// A sweep of 60 deg over the room with a picture at 0 deg.
+/// A sweep of 60 deg over the room with an image at 0 deg.
 inline Scan SweepOverRoom(const SensorRig& rig, double speed_rad_s) {
   auto scene = LoadScene(FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml");
   if (!scene) throw std::runtime_error(scene.error().message);
@@ -37,7 +37,7 @@ inline Scan SweepOverRoom(const SensorRig& rig, double speed_rad_s) {
 inline RegisteredScan RegisteredAfter(const Scan& scan, int lines) {
   Scan part = scan;
   part.frames.clear();
-  part.lines.resize(static_cast<std::size_t>(lines));
+  part.lines.Truncate(static_cast<std::size_t>(lines));
   std::vector<MotorSample> samples;
   for (const MotorSample& sample : scan.track.samples())
     if (sample.time_s <= part.lines.back().time_s + scan.rig.lidar.period_s)

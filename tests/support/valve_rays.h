@@ -27,7 +27,7 @@ struct ValveView {
   double beam_spacing_rad = 0.0044;  ///< 0.25 deg
   double footprint_rad = 0.0044;
   double sigma_m = 0.010;
-  double spurious_share = 0.005;
+  double spurious_fraction = 0.005;
   std::uint64_t seed = 1;
 };
 
@@ -80,8 +80,8 @@ inline double Trace(const ValveView& view, const Eigen::Vector3d& origin,
 
 }  // namespace valve_rays_internal
 
-/// The view's rays in base and the truth in them. A beam is five rays; where they meet surfaces at
-/// different ranges the return comes from one of them or, once in three, from between.
+/// The view's rays in base and the truth in them. A beam is five rays; where they intersect
+/// surfaces at different ranges the return comes from one of them or, once in three, from between.
 inline ValveScene MakeValveScene(const ValveView& view) {
   Random random(view.seed, 77);
   const Eigen::Vector3d center(0.1, -0.05, view.distance_m);
@@ -129,7 +129,7 @@ inline ValveScene MakeValveScene(const ValveView& view) {
       double range = ranges[static_cast<std::size_t>(random.Index(5))];
       if (*high - *low > 0.03 && random.Uniform() < 0.35) range = random.Uniform(*low, *high);
       range += view.sigma_m * random.Normal();
-      if (random.Uniform() < view.spurious_share) range = random.Uniform(0.3, view.distance_m);
+      if (random.Uniform() < view.spurious_fraction) range = random.Uniform(0.3, view.distance_m);
       scene.rays.rays.push_back(
           {Eigen::Vector3d::Zero(), direction_of(az, el), range, {beam + beams, line + lines}});
     }

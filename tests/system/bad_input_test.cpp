@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
 #include "core/io/png.h"
 #include "core/sensor/sensor_rig.h"
+#include "tests/nasty/png_bomb.h"
 #include "tests/support/run_program.h"
 
 namespace foresight {
@@ -18,7 +20,9 @@ const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
 void ExpectBadData(const ProgramResult& result, const std::string& where) {
   EXPECT_EQ(result.exit_code, 3) << result.errors;
   EXPECT_NE(result.errors.find(where), std::string::npos) << result.errors;
-  EXPECT_TRUE(result.output.empty()) << result.output;
+  // With --json standard output holds the error, and nothing else.
+  EXPECT_TRUE(result.output.empty() || nlohmann::json::parse(result.output).contains("error"))
+      << result.output;
 }
 
 class BadInput : public testing::Test {
@@ -70,15 +74,29 @@ TEST_F(BadInput, AnAbsurdGridIsRefusedBeforeItEatsTheMemory) {
   ExpectBadData(Upsample(csv_ + "2000000000,2000000000,9,9,1400\n"), "samples.csv");
 }
 
-TEST_F(BadInput, APictureOfAnotherSizeThanTheCalibrationIsRefused) {
+TEST_F(BadInput, AnImageOfAnotherSizeThanTheCalibrationIsRefused) {
   ASSERT_TRUE(SaveSensorRig(DefaultSensorRig(), folder_ / "rig.yaml"));
   ExpectBadData(Upsample(csv_, {"--rig", folder_ / "rig.yaml"}), "1288 x 964");
 }
 
-TEST_F(BadInput, ATruncatedPictureIsRefused) {
+TEST_F(BadInput, ATruncatedImageIsRefused) {
   const std::string png = ReadFile(folder_ / "image.png").value();
   ASSERT_TRUE(WriteFileAtomically(folder_ / "image.png", png.substr(0, png.size() / 2)));
   ExpectBadData(Upsample(csv_), "image.png");
+}
+
+TEST_F(BadInput, AnImageOfFarTooManyPixelsIsRefusedUnderFourGigabytes) {
+  // 20000 x 20000 of 16 bits, whole: 800 MB of zeros in less than a megabyte.
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "image.png",
+                                  nasty::PngBomb(20000, 20000, 16, nasty::PngColor::kGray)));
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "samples.csv", csv_));
+  RunLimits limits;
+  limits.memory_bytes = std::size_t{4} << 30;
+  ExpectBadData(
+      RunProgram(FORESIGHTCTL,
+                 {"upsample", folder_ / "image.png", folder_ / "samples.csv", "--out", out_},
+                 limits),
+      "image.png: 20000 x 20000 pixels are more than 200 million");
 }
 
 TEST_F(BadInput, ASceneWithATypoNamesTheLine) {

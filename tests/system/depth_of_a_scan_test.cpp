@@ -43,7 +43,7 @@ TEST_F(DepthOfAScan, IsWithinCentimetresOfTheTruthWhereTheMaskKeepsIt) {
   // The lidar's noise is 5 mm at this range; 95 % may include the blurred edges of thin things.
   EXPECT_LT(accuracy->a80_mm, 10.0);
   EXPECT_LT(accuracy->a95_mm, 30.0);
-  // The sweep covers 40 of the picture's 90 degrees.
+  // The sweep covers 40 of the image's 90 degrees.
   EXPECT_GT(accuracy->coverage, 0.35);
 }
 

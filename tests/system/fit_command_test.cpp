@@ -86,15 +86,15 @@ TEST_F(FitOfAScan, TheSourceIsNotedAndDepthIsAnOldNameOfTheDefaultMethod) {
   EXPECT_EQ(Fit({"--roi", kRegion, "--source", "guess"}).exit_code, 2);
 }
 
-TEST_F(FitOfAScan, ThePictureShowsTheAnswer) {
+TEST_F(FitOfAScan, TheImageShowsTheAnswer) {
   const std::string file = *folder_ / "answer.png";
   ASSERT_EQ(Fit({"--roi", kRegion, "--picture", file}).exit_code, 0);
-  const auto picture = ReadPng(file);
-  ASSERT_TRUE(picture) << picture.error().message;
-  EXPECT_EQ(picture->width(), 1288);
+  const auto image = ReadPng(file);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->width(), 1288);
   // Green or orange lines: saturated, which nothing in this grey scene of bricks is at this level.
   int strong = 0;
-  for (const Rgb8& p : picture->values())
+  for (const Rgb8& p : image->values())
     strong += std::max({p.r, p.g, p.b}) - std::min({p.r, p.g, p.b}) > 150 ? 1 : 0;
   EXPECT_GT(strong, 200);
 }
@@ -150,7 +150,7 @@ TEST_F(FitOfAScan, APointCloudWithoutAValveIsANegativeAnswer) {
 }
 
 TEST_F(FitOfAScan, APoleInACloudOfFourFloatsAPointIsACylinder) {
-  // The half of a pole of 80 mm that faces the viewpoint, before a wall, as beams meet them.
+  // The half of a pole of 80 mm that faces the viewpoint, before a wall, as beams intersect them.
   constexpr double kRadius_m = 0.080, kDistance_m = 2.0, kWall_m = 3.0;
   std::string bytes;
   for (double up = -0.2; up < 0.2; up += 0.01)
@@ -167,9 +167,9 @@ TEST_F(FitOfAScan, APoleInACloudOfFourFloatsAPointIsACylinder) {
     }
   const std::string file = *folder_ / "pole.bin";
   ASSERT_TRUE(WriteFileAtomically(file, bytes));
-  const std::string picture = *folder_ / "pole.png";
+  const std::string image = *folder_ / "pole.png";
   const ProgramResult result = Run({"fit", "cylinder", "--cloud", file, "--viewpoint", "0,0,0",
-                                    "--box", "2,0,0,0.6,0.6,0.6", "--json", "--picture", picture});
+                                    "--box", "2,0,0,0.6,0.6,0.6", "--json", "--picture", image});
   ASSERT_EQ(result.exit_code, 0) << result.errors << result.output;
   const auto answer = nlohmann::json::parse(result.output);
   EXPECT_EQ(answer["kind"], "cylinder");
@@ -178,7 +178,7 @@ TEST_F(FitOfAScan, APoleInACloudOfFourFloatsAPointIsACylinder) {
   EXPECT_NEAR(answer["radius_m"].get<double>(), kRadius_m, 0.008);
   EXPECT_GT(answer["robot_from_object"]["z_axis"][2].get<double>(), 0.99);
   EXPECT_GT(answer["evidence"]["inlier_share"].get<double>(), 0.9);
-  EXPECT_TRUE(ReadPng(picture));
+  EXPECT_TRUE(ReadPng(image));
   const ProgramResult beside = Run({"fit", "cylinder", "--cloud", file, "--viewpoint", "0,0,0",
                                     "--box", "2,3,0,0.3,0.3,0.3", "--json"});
   EXPECT_EQ(beside.exit_code, 1) << beside.output;
@@ -216,7 +216,7 @@ TEST_F(FitOfAScan, ARegionThatIsNoneIsWrongUsage) {
   ExpectRefused(Fit({}), 2, "region");
   ExpectRefused(Fit({"--roi", kRegion, "--two-clicks", "1,1,9,9"}), 2, "one region");
   ExpectRefused(Fit({"--roi", "500,500,501,501"}), 2, "too small");
-  ExpectRefused(Fit({"--roi", "5000,5000,6000,6000"}), 2, "outside the picture");
+  ExpectRefused(Fit({"--roi", "5000,5000,6000,6000"}), 2, "outside the image");
   ExpectRefused(Fit({"--box", "1,0,1,-1,1,1"}), 2, "box");
   ExpectRefused(Fit({"--polygon", "1,1,9,9,1,9,4"}), 2, "x,y pairs");
   ExpectRefused(Run({"fit", "valve", "--roi", kRegion}), 2, "mission");

@@ -26,7 +26,7 @@ TEST(HealthCommand, SaysOnceASecondHowTheDevicesDo) {
   const auto lines = Lines(result.output);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_THAT(lines.back(), testing::HasSubstr("lidar well: "));
-  EXPECT_THAT(lines.back(), testing::HasSubstr("camera well: 0 pictures, 0 lost"));
+  EXPECT_THAT(lines.back(), testing::HasSubstr("camera well: 0 images, 0 lost"));
   EXPECT_THAT(lines.back(), testing::HasSubstr("motor well: "));
 }
 
@@ -55,13 +55,13 @@ TEST(HealthCommand, ADamagedLineIsADegradedLidar) {
 }
 
 /// A configuration that points at devices, some of which are gone.
-class HealthOfAnotherSite : public testing::Test {
+class HealthOfOtherDevices : public testing::Test {
  protected:
-  HealthOfAnotherSite() {
+  HealthOfOtherDevices() {
     EmulationArguments arguments;
     arguments.scene = kRoom;
-    site_ = StartEmulation(arguments).value();
-    config_ = ConfigFor(*site_);
+    devices_ = StartEmulation(arguments).value();
+    config_ = ConfigFor(*devices_);
     config_.lidar.connect_timeout_s = 0.5;
     config_.camera.connect_timeout_s = 0.5;
   }
@@ -72,11 +72,11 @@ class HealthOfAnotherSite : public testing::Test {
 
   TemporaryFolder folder_;
   std::string file_ = folder_ / "head.yaml";
-  std::unique_ptr<EmulatedSite> site_;
+  std::unique_ptr<EmulatedDevices> devices_;
   HeadConfig config_;
 };
 
-TEST_F(HealthOfAnotherSite, AMissingDeviceIsNamedAndTheOthersAreStillShown) {
+TEST_F(HealthOfOtherDevices, AMissingDeviceIsNamedAndTheOthersAreStillShown) {
   config_.lidar.address.port = 1;
   const ProgramResult result = Run();
   EXPECT_EQ(result.exit_code, 1) << result.output << result.errors;
@@ -85,8 +85,8 @@ TEST_F(HealthOfAnotherSite, AMissingDeviceIsNamedAndTheOthersAreStillShown) {
   EXPECT_THAT(result.errors, testing::HasSubstr("lidar 127.0.0.1:1"));
 }
 
-TEST_F(HealthOfAnotherSite, WithNoDeviceAtAllThereIsNothingToSay) {
-  site_.reset();
+TEST_F(HealthOfOtherDevices, WithNoDeviceAtAllThereIsNothingToSay) {
+  devices_.reset();
   const ProgramResult result = Run();
   EXPECT_EQ(result.exit_code, 3) << result.output << result.errors;
   EXPECT_EQ(result.output, "");

@@ -128,7 +128,7 @@ TEST_F(DepthChoice, ANewScanDropsTheFrozenDepthAndComputesTheOtherMethodAgain) {
   ASSERT_TRUE(WaitFor([&] { return compare.Second() != nullptr; }));
 }
 
-TEST_F(DepthChoice, TheLineStaysWithinThePicture) {
+TEST_F(DepthChoice, TheLineStaysWithinTheImage) {
   compare.setWipe(1.7);
   EXPECT_EQ(compare.Wipe(), 1.0);
   compare.setWipe(-0.2);

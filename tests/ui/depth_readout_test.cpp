@@ -37,6 +37,16 @@ struct ReadoutTest : testing::Test {
   }
 };
 
+TEST_F(ReadoutTest, AMethodWithoutAConfidenceSaysSoInPlaceOfANumber) {
+  result.dense.has_confidence = false;
+  result.dense.max_confidence = 1.0f;
+  result.dense.confidence = FloatImage(40, 40, 1.0f);
+  result.dense.confidence(3, 3) = 0.0f;
+  EXPECT_EQ(TextOf(Read(20, 21)).toStdString(),
+            "(20, 21)  2000 mm, this method knows no confidence");
+  EXPECT_TRUE(TextOf(Read(3, 3)).contains("no lidar line passed here"));
+}
+
 TEST_F(ReadoutTest, ATrustedPixelHasDepthInMillimetresAndNoReason) {
   const DepthReadout readout = Read(20, 21);
   EXPECT_DOUBLE_EQ(readout.depth_mm, 2000.0);
@@ -90,7 +100,7 @@ TEST_F(ReadoutTest, AMethodWithoutARadiusOnlySaysWhereTheNearestSampleIs) {
   EXPECT_EQ(Read(20, 0).reason.toStdString(), "the nearest lidar sample is 20 px away");
 }
 
-TEST_F(ReadoutTest, AnAbsoluteConfidenceIsNotCalledAShareOfTheLargest) {
+TEST_F(ReadoutTest, AnAbsoluteConfidenceIsNotCalledAFractionOfTheLargest) {
   result.dense.confidence = FloatImage(40, 40, 0.9f);
   result.dense.max_confidence = 1.0f;
   EXPECT_EQ(TextOf(Read(20, 21)).toStdString(), "(20, 21)  2000 mm, confidence 0.90");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 
 #include "hardware/api/sensor_head.h"
 
@@ -14,6 +15,13 @@ class FakeHead : public SensorHead {
   std::string Describe() const override { return "fake"; }
   HeadStatus Status() const override { return status_; }
   SensorRig Rig() const override { return rig_; }
+  foresight::Status SetRig(const SensorRig& rig) override {
+    FORESIGHT_CHECK(rig.Check());
+    if (status_.state != HeadState::kReady && status_.state != HeadState::kDisconnected)
+      return Fail(ErrorCode::kState, "fake head: it is {}", ToString(status_.state));
+    rig_ = rig;
+    return {};
+  }
 
   foresight::Status Home() override {
     status_.state = HeadState::kReady;
@@ -55,6 +63,14 @@ class FakeHead : public SensorHead {
     sink_->OnScanEnded(state, "");
     sink_.reset();
     status_.state = HeadState::kReady;
+  }
+
+  void DeliverFrame(const CameraFrame& frame) { sink_->OnFrame(frame); }
+  /// Ends the scan; the function that is returned still sends one line of it.
+  std::function<void(std::size_t)> FinishButStillSend(const Scan& scan, ScanState state) {
+    const auto sink = sink_;
+    Finish(scan, state);
+    return [sink, scan](std::size_t line) { sink->OnLine(scan.lines[line]); };
   }
 
   void SetState(HeadState state) { status_.state = state; }

@@ -6,6 +6,7 @@
 
 #include "core/depth/depth_method.h"
 #include "core/depth/local_plane.h"
+#include "core/sensor/rig_id.h"
 #include "tests/ui/fake_head.h"
 #include "tests/ui/synthetic_scan.h"
 
@@ -22,6 +23,11 @@ struct HeadTest : testing::Test {
     model.SetPlan(plan);
   }
 };
+
+TEST_F(HeadTest, SaysWhichRigIsInForceAndItsCameraModel) {
+  EXPECT_EQ(model.RigText().toStdString(), "Rig default, " + ShortRigId(DefaultSensorRig()) +
+                                               "\nCamera model: fisheye with k");
+}
 
 TEST_F(HeadTest, PredictionFollowsTheSpeed) {
   SetSpeed(10.0);
@@ -52,11 +58,11 @@ TEST_F(HeadTest, TheFastestSpeedIsTakenOverAndKeepsTheFloor) {
   EXPECT_LT(fastest, 100.0);
 }
 
-TEST_F(HeadTest, APlanForPicturesStandingStillThereAndBack) {
+TEST_F(HeadTest, APlanForImagesStandingStillThereAndBack) {
   PlanFields plan = model.Plan();
   plan.standing_still = plan.there_and_back = true;
   model.SetPlan(plan);
-  EXPECT_EQ(plan.ToPlan().picture_mode, ScanPlan::PictureMode::kStopAndShoot);
+  EXPECT_EQ(plan.ToPlan().image_mode, ScanPlan::ImageMode::kStopAndShoot);
   EXPECT_EQ(plan.ToPlan().passes, 2);
   EXPECT_EQ(model.Prediction().lines.toStdString(), "482");
 }
@@ -75,7 +81,7 @@ TEST_F(HeadTest, AnImpossiblePlanNamesItsFaultAndCannotBeScanned) {
   PlanFields plan = model.Plan();
   plan.image_angles_deg = {80.0};
   model.SetPlan(plan);
-  EXPECT_TRUE(model.Prediction().warning.contains("picture at 80.0 deg"));
+  EXPECT_TRUE(model.Prediction().warning.contains("image at 80.0 deg"));
   EXPECT_FALSE(model.CanScan());
 }
 
@@ -175,6 +181,39 @@ TEST_F(HeadTest, HandsOverTheScanWhenItEnds) {
   ASSERT_NE(brought, nullptr);
   EXPECT_EQ(brought->lines, source.lines);
   EXPECT_EQ(brought->frames.size(), source.frames.size());
+}
+
+TEST_F(HeadTest, AfterAStopNothingMovesUntilItIsReleased) {
+  model.stop();
+  EXPECT_TRUE(model.StopLatched());
+  EXPECT_FALSE(model.CanScan());
+  EXPECT_FALSE(model.CanHome());
+  model.scan();
+  EXPECT_FALSE(model.Scanning());
+  model.releaseStop();
+  EXPECT_TRUE(model.CanScan());
+  EXPECT_TRUE(model.CanHome());
+}
+
+TEST_F(HeadTest, APollThatBringsNothingNewSaysNothing) {
+  model.Poll();
+  int signals_heard = 0;
+  QObject::connect(&model, &HeadViewModel::statusChanged, [&] { ++signals_heard; });
+  for (int poll = 0; poll < 10; ++poll) model.Poll();
+  EXPECT_EQ(signals_heard, 0);
+  head->SetState(HeadState::kFault);
+  model.Poll();
+  EXPECT_EQ(signals_heard, 1);
+}
+
+TEST_F(HeadTest, AnAngleBeyondTheRangeStaysAsItWasTypedAndIsNamed) {
+  PlanFields plan = model.Plan();
+  plan.to_deg = 100.0;
+  model.SetPlan(plan);
+  EXPECT_EQ(model.Plan().to_deg, 100.0);
+  EXPECT_FALSE(model.Prediction().usable);
+  EXPECT_TRUE(model.Prediction().warning.contains("100"))
+      << model.Prediction().warning.toStdString();
 }
 
 TEST_F(HeadTest, StopReachesTheMotorInEveryState) {

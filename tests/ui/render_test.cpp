@@ -49,8 +49,8 @@ DenseDepth FlatDepth() {
 
 TEST(PaintDepth, AMaskedPixelIsGreyAndNeverBlack) {
   const MaskImage mask(20, 10, 0);
-  const ColorImage picture = PaintDepth(FlatDepth(), &mask, DepthLayer::kDepth, {1.0, 3.0});
-  for (const Rgb8& pixel : picture.values()) {
+  const ColorImage capture = PaintDepth(FlatDepth(), &mask, DepthLayer::kDepth, {1.0, 3.0});
+  for (const Rgb8& pixel : capture.values()) {
     EXPECT_GT(pixel.g, 40);
     EXPECT_LT(std::abs(pixel.r - pixel.b), 20);
   }
@@ -58,8 +58,8 @@ TEST(PaintDepth, AMaskedPixelIsGreyAndNeverBlack) {
 
 TEST(PaintDepth, AKeptPixelHasTheColourOfItsDepth) {
   const MaskImage mask(20, 10, 255);
-  const ColorImage picture = PaintDepth(FlatDepth(), &mask, DepthLayer::kDepth, {1.0, 3.0});
-  EXPECT_EQ(picture(5, 5), ColorOf(ColorMap::kTurbo, 128.0 / 255.0));
+  const ColorImage capture = PaintDepth(FlatDepth(), &mask, DepthLayer::kDepth, {1.0, 3.0});
+  EXPECT_EQ(capture(5, 5), ColorOf(ColorMap::kTurbo, 128.0 / 255.0));
 }
 
 TEST(ProjectWireframe, TheRimLandsAroundTheProjectedCentre) {
@@ -87,7 +87,7 @@ TEST(PointsOf, ADepthPointLiesWhereTheLidarMeasuredIt) {
   const auto pixel = *rig.camera.Project(in_camera);
   depth(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y()))) =
       static_cast<float>(in_camera.z());
-  const PointSet set = PointsOf(depth, nullptr, frame, rig, PointColor::kPicture, 1);
+  const PointSet set = PointsOf(depth, nullptr, frame, rig, PointColor::kImage, 1);
   ASSERT_EQ(set.points.size(), 1u);
   EXPECT_EQ(set.colors[0], (Rgb8{10, 20, 30}));
   // Half a pixel at 601 px a radian and 2 m.

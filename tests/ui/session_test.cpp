@@ -38,10 +38,10 @@ struct SessionTest : testing::Test {
     const auto values = session.Mask()->values();
     return std::count(values.begin(), values.end(), 255);
   }
-  /// Two corners around the valve in the picture.
+  /// Two corners around the valve in the image.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> AroundValve() const {
     const auto camera_from_base =
-        session.CurrentScan()->rig.CameraFromBase(session.Picture()->motor_angle_rad);
+        session.CurrentScan()->rig.CameraFromBase(session.CurrentImage()->motor_angle_rad);
     const auto center = session.CurrentScan()->rig.camera.Project(
         camera_from_base * SyntheticValvePose().translation());
     const Eigen::Vector2d half(50, 50);
@@ -85,14 +85,14 @@ TEST_F(SessionTest, ANewScanNeverShowsTheDepthOfTheOneBefore) {
   EXPECT_EQ(session.Cloud(), nullptr);
 }
 
-TEST_F(SessionTest, NoSignalOfANewScanLetsTheOldPictureOrDepthBeSeen) {
+TEST_F(SessionTest, NoSignalOfANewScanLetsTheOldImageOrDepthBeSeen) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
   int heard = 0;
   for (auto signal : {&SessionModel::scanChanged, &SessionModel::cloudChanged,
                       &SessionModel::roiChanged, &SessionModel::objectsChanged})
     QObject::connect(&session, signal, [&] {
       ++heard;
-      EXPECT_EQ(session.Picture(), nullptr);
+      EXPECT_EQ(session.CurrentImage(), nullptr);
       EXPECT_EQ(session.Depth(), nullptr);
     });
   session.SetScan(nullptr);
@@ -134,11 +134,13 @@ TEST_F(SessionTest, UndoBringsTheRegionBeforeBack) {
   fit.DrawRegion({{10, 10}, {50, 50}});
   const auto first = std::get<ImageRoi>(*session.Region()).polygon;
   fit.DrawRegion({{60, 60}, {90, 90}});
-  session.undoRoi();
+  session.Undo()->undo();
   EXPECT_EQ(std::get<ImageRoi>(*session.Region()).polygon, first);
-  session.undoRoi();
+  session.Undo()->undo();
   EXPECT_FALSE(session.Region());
-  EXPECT_FALSE(session.CanUndoRoi());
+  EXPECT_FALSE(session.Undo()->CanUndo());
+  session.Undo()->redo();
+  EXPECT_EQ(std::get<ImageRoi>(*session.Region()).polygon, first);
 }
 
 TEST_F(SessionTest, AValveOfAnEarlierScanIsNotCurrent) {
@@ -156,7 +158,7 @@ TEST_F(SessionTest, AValveOfAnEarlierScanIsNotCurrent) {
 struct ScanFlowTest : SessionTest {
   std::shared_ptr<FakeHead> fake = std::make_shared<FakeHead>(SharedScan()->rig);
   HeadViewModel head{fake};
-  ScanFlow flow{&head, &session, SessionMode::kSimulation};
+  ScanFlow flow{&head, &session};
 };
 
 TEST_F(ScanFlowTest, TheCloudGrowsWhileTheHeadSweeps) {
@@ -186,11 +188,55 @@ TEST_F(ScanFlowTest, NothingOfTheOldScanStaysWhenANewOneBegins) {
   EXPECT_EQ(session.Depth(), nullptr);
 }
 
+TEST_F(ScanFlowTest, AnImageIsShownWhenItIsTakenAndNotAtTheEnd) {
+  head.scan();
+  fake->Deliver(*SharedScan(), 40);
+  fake->DeliverFrame(SharedScan()->frames[0]);
+  ASSERT_TRUE(WaitFor([&] { return session.CurrentImage() != nullptr; }));
+  EXPECT_EQ(session.CurrentScan(), nullptr) << "the scan is still on its way";
+  EXPECT_EQ(session.CurrentImage()->image, SharedScan()->frames[0].image);
+}
+
+TEST_F(ScanFlowTest, LinesThatComeAfterTheEndAreShownToo) {
+  head.scan();
+  fake->Deliver(*SharedScan(), 40);
+  const auto late = fake->FinishButStillSend(*SharedScan(), ScanState::kComplete);
+  head.Poll();
+  ASSERT_NE(session.CurrentScan(), nullptr);
+  ASSERT_EQ(session.CurrentScan()->lines.size(), 40u);
+  late(40);
+  head.Poll();
+  EXPECT_EQ(session.CurrentScan()->lines.size(), 41u);
+}
+
+TEST_F(ScanFlowTest, AScanThatTheHeadNeverBeginsLeavesTheWindowUsable) {
+  head.scan();  // accepted, and then nothing comes
+  fake->SetState(HeadState::kReady);
+  for (int poll = 0; poll < 40; ++poll) head.Poll();
+  EXPECT_FALSE(head.Scanning());
+  EXPECT_TRUE(head.CanScan());
+  EXPECT_FALSE(session.ExpectsScan());
+  ASSERT_FALSE(notices.empty());
+  EXPECT_EQ(notices.back().level, Notice::Level::kError);
+}
+
+TEST_F(ScanFlowTest, ScanTimeIsWhenTheScanBeganAndNotWhenTheHeadWasSwitchedOn) {
+  Scan late = *SharedScan();
+  std::vector<LidarLine> lines(late.lines.begin(), late.lines.end());
+  for (LidarLine& line : lines) line.time_s += 300.0;
+  late.lines = lines;
+  late.start_utc_ns = 1'000'000'000'000'000'000;
+  session.SetScan(std::make_shared<const Scan>(late));
+  const qint64 begin_ms =
+      late.start_utc_ns / 1'000'000 + static_cast<qint64>(1e3 * late.lines.front().time_s);
+  EXPECT_NEAR(static_cast<double>(session.ScanTime().toMSecsSinceEpoch() - begin_ms), 0.0, 1.0);
+}
+
 struct LiveDepthTest : ScanFlowTest {
   LiveDepthViewModel live{&head, &session};
 };
 
-TEST_F(LiveDepthTest, ASecondScanIsPreviewedUnderThePictureOfTheFirst) {
+TEST_F(LiveDepthTest, ASecondScanIsPreviewedUnderTheImageOfTheFirst) {
   PlanFields plan = head.Plan();
   plan.image_angles_deg = {0.0};
   head.SetPlan(plan);
@@ -226,7 +272,7 @@ TEST_F(LiveDepthTest, GrowsWithTheLinesAndEqualsTheWholeComputation) {
   EXPECT_EQ(live.Depth()->dense.confidence, whole->dense.confidence);
 }
 
-TEST_F(LiveDepthTest, APictureOfAnotherAngleIsNotUsed) {
+TEST_F(LiveDepthTest, AnImageOfAnotherAngleIsNotUsed) {
   PlanFields plan = head.Plan();
   plan.image_angles_deg = {5.0};
   head.SetPlan(plan);
@@ -237,11 +283,11 @@ TEST_F(LiveDepthTest, APictureOfAnotherAngleIsNotUsed) {
   EXPECT_FALSE(live.Runner()->Busy());
 }
 
-/// A wheel with two rivals, found in the shared scan.
-FoundObject ValveWithTwoRivals() {
+/// A wheel with two alternatives, found in the shared scan.
+FoundObject ValveWithTwoAlternatives() {
   ValveDetection valve;
   valve.verdict = {VerdictLevel::kConfirmed, 0.97, "a valve", {}};
-  valve.rivals.resize(2);
+  valve.alternatives.resize(2);
   FoundObject object;
   object.detection = valve;
   object.scan_uuid = SharedScan()->uuid;
@@ -249,7 +295,7 @@ FoundObject ValveWithTwoRivals() {
 }
 
 TEST_F(SessionTest, TabGoesThroughTheAnswersRoundAndRound) {
-  session.AddObject(ValveWithTwoRivals());
+  session.AddObject(ValveWithTwoAlternatives());
   int changes = 0;
   QObject::connect(&session, &SessionModel::objectsChanged, [&] { ++changes; });
   for (const int expected : {1, 2, 0}) {
@@ -262,11 +308,77 @@ TEST_F(SessionTest, TabGoesThroughTheAnswersRoundAndRound) {
 }
 
 TEST_F(SessionTest, AnotherObjectIsShownWithItsBestAnswer) {
-  session.AddObject(ValveWithTwoRivals());
+  session.AddObject(ValveWithTwoAlternatives());
   session.nextCandidate();
-  session.AddObject(ValveWithTwoRivals());
+  session.AddObject(ValveWithTwoAlternatives());
   EXPECT_EQ(session.Candidate(), 0);
   EXPECT_EQ(session.CandidateOf(0), 0);
+}
+
+TEST_F(SessionTest, ADecisionIsKeptAndCanBeTakenBack) {
+  session.AddObject(ValveWithTwoAlternatives());
+  std::vector<ObjectEvent> events;
+  QObject::connect(&session, &SessionModel::objectTouched,
+                   [&](const ObjectEvent& event) { events.push_back(event); });
+  session.Decide(Decision::kAccepted);
+  EXPECT_EQ(session.Objects()[0].decision, Decision::kAccepted);
+  session.Undo()->undo();
+  EXPECT_EQ(session.Objects()[0].decision, Decision::kOpen);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].action, DetectionEvent::Action::kAccepted);
+  EXPECT_EQ(events[1].action, DetectionEvent::Action::kReopened);
+}
+
+TEST_F(SessionTest, ADecisionSaysWhichAnswerItIsAboutWhereItIsNotTheBestOne) {
+  session.AddObject(ValveWithTwoAlternatives());
+  QString text;
+  QObject::connect(&session, &SessionModel::objectTouched,
+                   [&](const ObjectEvent& event) { text = event.text; });
+  session.nextCandidate();
+  session.Decide(Decision::kAccepted);
+  EXPECT_EQ(text.toStdString(), "answer 2");
+}
+
+TEST_F(SessionTest, ADeletedObjectComesBackWhereItWas) {
+  session.AddObject(ValveWithTwoAlternatives());
+  session.AddObject(ValveWithTwoAlternatives());
+  const std::string first = session.Objects()[0].uuid;
+  session.SelectObject(0);
+  session.RemoveSelected();
+  ASSERT_EQ(session.Objects().size(), 1u);
+  session.Undo()->undo();
+  ASSERT_EQ(session.Objects().size(), 2u);
+  EXPECT_EQ(session.Objects()[0].uuid, first);
+}
+
+TEST_F(SessionTest, ACopyIsAnObjectOfItsOwnThatIsNotDecidedOn) {
+  session.AddObject(ValveWithTwoAlternatives());
+  session.Decide(Decision::kAccepted);
+  session.CopySelected();
+  ASSERT_EQ(session.Objects().size(), 2u);
+  EXPECT_NE(session.Objects()[1].uuid, session.Objects()[0].uuid);
+  EXPECT_EQ(session.Objects()[1].decision, Decision::kOpen);
+}
+
+TEST_F(SessionTest, TerrainIsComparedWithTheLastAcceptedOneOnly) {
+  const auto terrain_of_another_scan = [] {
+    FoundObject object;
+    TerrainDetection terrain;
+    terrain.verdict.level = VerdictLevel::kConfirmed;
+    object.detection = terrain;
+    object.scan_uuid = "another";
+    return object;
+  };
+  session.SetScan(SharedScan());
+  session.AddObject(terrain_of_another_scan());
+  const auto last = [&] {
+    return std::get<FitTerrainOptions>(fit.OptionsFor(ObjectKind::kTerrain)).last;
+  };
+  EXPECT_EQ(last(), nullptr);
+  session.Decide(Decision::kAccepted);
+  EXPECT_NE(last(), nullptr);
+  session.Decide(Decision::kRejected);
+  EXPECT_EQ(last(), nullptr);
 }
 
 TEST_F(SessionTest, WithoutAnObjectThereIsNoAnswerToStepTo) {

@@ -12,8 +12,13 @@ constexpr double kFarthest_m = 6.0;
 SensorRig SmallRig() {
   SensorRig rig = DefaultSensorRig();
   rig.name = "synthetic";
-  rig.camera = {
-      .width = 644, .height = 482, .fx = 300.5, .fy = 300.5, .cx = 321.5, .cy = 240.5, .k = 0.9413};
+  rig.camera = {.width = 644,
+                .height = 482,
+                .fx = 300.5,
+                .fy = 300.5,
+                .cx = 321.5,
+                .cy = 240.5,
+                .lens = FisheyeLens{0.9413}};
   return rig;
 }
 
@@ -59,7 +64,7 @@ LidarLine MeasureLine(const Scan& scan, int index) {
   return line;
 }
 
-CameraFrame TakePicture(const Scan& scan, double motor_rad) {
+CameraFrame CaptureImage(const Scan& scan, double motor_rad) {
   CameraFrame frame;
   frame.motor_angle_rad = frame.target_angle_rad = motor_rad;
   frame.image = ColorImage(scan.rig.camera.width, scan.rig.camera.height);
@@ -105,7 +110,7 @@ Scan WallAndValveScan(const ScanPlan& plan) {
     scan.track.Add({time, plan.from_rad + way * plan.speed_rad_s * (time - 0.1)});
   const int lines = static_cast<int>(duration_s / scan.rig.lidar.period_s);
   for (int i = 0; i < lines; ++i) scan.lines.push_back(MeasureLine(scan, i));
-  for (const double angle : plan.image_angles_rad) scan.frames.push_back(TakePicture(scan, angle));
+  for (const double angle : plan.image_angles_rad) scan.frames.push_back(CaptureImage(scan, angle));
   scan.state = ScanState::kComplete;
   return scan;
 }

@@ -9,10 +9,15 @@
 #include "core/detection/candidates.h"
 #include "core/detection/facts.h"
 #include "ui/panels/theme.h"
+#include "ui/viewmodels/advice.h"
 #include "ui/viewmodels/age_text.h"
 
 namespace foresight {
 namespace {
+
+/// Before a row was laid out its width is not known; a text that wraps needs no more lines than
+/// here.
+constexpr int kNarrowValue_px = 150;
 
 struct Look {
   const char* icon;
@@ -85,11 +90,11 @@ QWidget* DetectionCard::BuildSteps() {
   steps->setSpacing(2);
   auto* previous = new QToolButton;
   previous->setArrowType(Qt::LeftArrow);
-  previous->setToolTip(tr("The answer before (Shift+Tab in a pane)"));
+  previous->setToolTip(tr("The answer before (Shift+N)"));
   previous->setAccessibleName(tr("Previous answer"));
   auto* next = new QToolButton;
   next->setArrowType(Qt::RightArrow);
-  next->setToolTip(tr("The next answer (Tab in a pane)"));
+  next->setToolTip(tr("The next answer (N)"));
   next->setAccessibleName(tr("Next answer"));
   steps->addWidget(previous);
   steps->addWidget(next);
@@ -100,56 +105,74 @@ QWidget* DetectionCard::BuildSteps() {
   return row;
 }
 
-void DetectionCard::AddRow(const QString& name, const QString& value) {
-  auto* title = new QLabel(name);
-  title->setObjectName(QStringLiteral("faint"));
-  auto* text = Wrapped();
-  text->setText(value);
-  facts_->addRow(title, text);
+void DetectionCard::ShowRows(const QVector<std::pair<QString, QString>>& rows) {
+  while (rows_.size() < rows.size()) {
+    auto* title = new QLabel;
+    title->setObjectName(QStringLiteral("faint"));
+    auto* value = Wrapped();
+    facts_->addRow(title, value);
+    rows_ << std::pair(title, value);
+  }
+  for (int i = 0; i < rows_.size(); ++i) {
+    const auto& [title, value] = rows_[i];
+    const bool shown = i < rows.size();
+    title->setVisible(shown);
+    value->setVisible(shown);
+    if (!shown) continue;
+    title->setText(rows[i].first);
+    if (value->text() == rows[i].second) continue;
+    value->setText(rows[i].second);
+    value->setMinimumHeight(value->heightForWidth(std::max(value->width(), kNarrowValue_px)));
+  }
+  age_ = rows_[rows.size() - 1].second;
 }
 
-void DetectionCard::ShowVerdict(const Verdict& verdict, VerdictLevel candidate_level) {
-  const Look look = LookOf(candidate_level);
-  badge_->setStyleSheet(QStringLiteral("QFrame { background: %1; border-radius: 4px; } "
-                                       "QLabel { color: #16181c; font-weight: bold; }")
-                            .arg(look.color.name()));
-  badge_icon_->setPixmap(Icon(look.icon).pixmap(20, 20));
-  badge_text_->setText(
-      tr("%1, %2").arg(QString::fromUtf8(ToString(candidate_level)),
-                       QString::fromStdString(ProbabilityText(verdict.probability))));
-  reason_->setText(QString::fromStdString(verdict.reason));
-}
-
-void DetectionCard::Show(const FoundObject& object, int candidate, bool is_current) {
+void DetectionCard::Show(const FoundObject& object, int candidate, bool is_current,
+                         SessionMode mode) {
   const Detection& found = object.detection;
-  const auto* terrain = std::get_if<TerrainDetection>(&found);
-  const bool has_surface = terrain != nullptr && !terrain->surfaces.empty();
-  const auto surface = static_cast<std::size_t>(candidate);
-  ShowVerdict(has_surface ? terrain->surfaces[surface].verdict : VerdictOf(found),
-              CandidateLevel(found, candidate));
+  const Advice advice = AdviceFor(object, candidate, is_current, mode);
+  const Look look = LookOf(advice.level);
+  const QString style = QStringLiteral(
+                            "QFrame { background: %1; border-radius: 4px; } "
+                            "QLabel { color: #16181c; font-weight: bold; }")
+                            .arg(look.color.name());
+  if (badge_->styleSheet() != style) badge_->setStyleSheet(style);
+  badge_icon_->setPixmap(Icon(look.icon).pixmap(20, 20));
+  badge_text_->setText(advice.badge);
+  advice_->setText(advice.text);
+  reason_->setText(ReasonFor(found, candidate));
+  reason_->setVisible(!reason_->text().isEmpty());
   stale_->setVisible(!is_current);
-  advice_->setText(QString::fromStdString(AdviceOn(found)));
   steps_->setVisible(CandidateCount(found) > 1);
 
-  while (facts_->rowCount() > 0) facts_->removeRow(0);
-  bool first = true;
-  for (const Fact& fact : FactsOf(found, candidate, object.rig.robot_from_base)) {
-    if (std::exchange(first, false))
-      answer_->setText(QString::fromStdString(fact.value));
-    else
-      AddRow(QString::fromStdString(fact.name), QString::fromStdString(fact.value));
-  }
-  AddRow(tr("Fitted to"), QString::fromStdString(SourceTitle(OriginOf(found).source)));
-  AddRow(tr("Scan"), object.scan_time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")));
-  AddRow(tr("Found"), {});
-  age_ = qobject_cast<QLabel*>(
-      facts_->itemAt(facts_->rowCount() - 1, QFormLayout::FieldRole)->widget());
+  QVector<std::pair<QString, QString>> rows;
+  for (const Fact& fact : FactsOf(found, candidate, object.rig.robot_from_base))
+    rows << std::pair(QString::fromStdString(fact.name), QString::fromStdString(fact.value));
+  answer_->setText(rows.takeFirst().second);
+  const auto behind = MarginBehindBest(found, candidate);
+  answer_->setToolTip(behind ? tr("%1 nats behind the best answer").arg(*behind, 0, 'f', 0)
+                             : QString());
+  rows << std::pair(tr("Fitted to"), QString::fromStdString(SourceTitle(OriginOf(found).source)))
+       << std::pair(tr("Scan"), object.scan_time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")))
+       << std::pair(tr("Kept"), object.kept ? tr("in the mission") : tr("not written yet"))
+       << std::pair(tr("Found"), QString());
+  ShowRows(rows);
   ShowAge(object);
+}
+
+QString DetectionCard::Badge() const {
+  return badge_text_->text();
+}
+
+QString DetectionCard::AdviceText() const {
+  return advice_->text();
 }
 
 void DetectionCard::ShowAge(const FoundObject& object) {
   const auto age = std::chrono::steady_clock::now() - object.found;
-  age_->setText(tr("%1 ago").arg(AgeText(std::chrono::duration_cast<std::chrono::seconds>(age))));
+  const QString text =
+      tr("%1 ago").arg(AgeText(std::chrono::duration_cast<std::chrono::seconds>(age)));
+  if (age_->text() != text) age_->setText(text);
 }
 
 }  // namespace foresight

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QFrame>
+#include <QVector>
+#include <utility>
 
 #include "ui/viewmodels/session_model.h"
 
@@ -11,14 +13,18 @@ class QToolButton;
 namespace foresight {
 
 /// Everything an operator needs to judge one found object: verdict, reason, what to do, and the
-/// candidate's pose in the robot's frame. Millimetres and degrees.
+/// candidate's pose in the robot's frame. Millimetres and degrees. All of it is about the answer
+/// that is drawn.
 class DetectionCard : public QFrame {
   Q_OBJECT
 
  public:
   explicit DetectionCard(QWidget* parent = nullptr);
-  void Show(const FoundObject& object, int candidate, bool is_current);
+  void Show(const FoundObject& object, int candidate, bool is_current, SessionMode mode);
   void ShowAge(const FoundObject& object);
+  /// What stands in the badge and in the advice.
+  QString Badge() const;
+  QString AdviceText() const;
 
  Q_SIGNALS:
   void nextAsked();
@@ -27,8 +33,7 @@ class DetectionCard : public QFrame {
  private:
   QWidget* BuildBadge();
   QWidget* BuildSteps();
-  void AddRow(const QString& name, const QString& value);
-  void ShowVerdict(const Verdict& verdict, VerdictLevel candidate_level);
+  void ShowRows(const QVector<std::pair<QString, QString>>& rows);
 
   QFrame* badge_;
   QLabel* badge_icon_;
@@ -39,6 +44,8 @@ class DetectionCard : public QFrame {
   QWidget* steps_;
   QLabel* answer_;
   QFormLayout* facts_;
+  /// Title and value; kept from one answer to the next, so that nothing flickers.
+  QVector<std::pair<QLabel*, QLabel*>> rows_;
   QLabel* age_ = nullptr;
 };
 

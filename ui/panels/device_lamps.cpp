@@ -51,6 +51,8 @@ DeviceLamps::DeviceLamps(HeadViewModel* head, QWidget* parent) : QWidget(parent)
 
 void DeviceLamps::Show() {
   const QVector<DeviceRow> devices = head_->Devices();
+  if (devices == shown_) return;
+  shown_ = devices;
   for (int i = 0; i < devices.size(); ++i) {
     const DeviceRow& device = devices[i];
     const Lamp& lamp = lamps_[static_cast<std::size_t>(i)];

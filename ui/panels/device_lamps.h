@@ -29,6 +29,7 @@ class DeviceLamps : public QWidget {
 
   HeadViewModel* head_;
   std::array<Lamp, 3> lamps_;
+  QVector<DeviceRow> shown_;
 };
 
 }  // namespace foresight

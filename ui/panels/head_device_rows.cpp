@@ -1,5 +1,6 @@
 #include "ui/panels/head_device_rows.h"
 
+#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 
@@ -24,8 +25,16 @@ HeadDeviceRows::HeadDeviceRows(HeadViewModel* head, QWidget* parent)
   Show();
 }
 
+bool HeadDeviceRows::event(QEvent* event) {
+  // Asked for only now: to hash the rig at every status would be work for nobody.
+  if (event->type() == QEvent::ToolTip) setToolTip(head_->RigText());
+  return QWidget::event(event);
+}
+
 void HeadDeviceRows::Show() {
   const QVector<DeviceRow> devices = head_->Devices();
+  if (devices == shown_) return;
+  shown_ = devices;
   for (int i = 0; i < devices.size(); ++i) {
     const Row& row = rows_[static_cast<std::size_t>(i)];
     row.lamp->setPixmap(LampPixmap(devices[i].lamp));

@@ -9,12 +9,16 @@ class QLabel;
 
 namespace foresight {
 
-/// How lidar, camera and motor do: a row a device, an icon and words.
+/// How lidar, camera and motor do: a row a device, an icon and words; the tip says which rig is in
+/// force.
 class HeadDeviceRows : public QWidget {
   Q_OBJECT
 
  public:
   explicit HeadDeviceRows(HeadViewModel* head, QWidget* parent = nullptr);
+
+ protected:
+  bool event(QEvent* event) override;
 
  private:
   struct Row {
@@ -26,6 +30,7 @@ class HeadDeviceRows : public QWidget {
 
   HeadViewModel* head_;
   std::array<Row, 3> rows_;
+  QVector<DeviceRow> shown_;
 };
 
 }  // namespace foresight

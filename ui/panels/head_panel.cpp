@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/panels/command_button.h"
 #include "ui/panels/head_device_rows.h"
 #include "ui/panels/theme.h"
 
@@ -34,10 +35,11 @@ QString AnglesAsText(const QVector<double>& angles_deg) {
 
 }  // namespace
 
-HeadPanel::HeadPanel(HeadViewModel* head, QWidget* parent) : QWidget(parent), head_(head) {
+HeadPanel::HeadPanel(HeadViewModel* head, CommandTable* commands, QWidget* parent)
+    : QWidget(parent), head_(head) {
   auto* content = new QWidget;
   auto* layout = new QVBoxLayout(content);
-  layout->setContentsMargins(12, 12, 12, 12);
+  layout->setContentsMargins(8, 8, 8, 8);
   layout->setSpacing(8);
   layout->addWidget(SectionTitle(tr("Plan")));
   plan_ = BuildPlan();
@@ -57,11 +59,11 @@ HeadPanel::HeadPanel(HeadViewModel* head, QWidget* parent) : QWidget(parent), he
   whole->setContentsMargins(0, 0, 0, 0);
   whole->setSpacing(0);
   whole->addWidget(scroll, 1);
-  QWidget* buttons = BuildButtons();
-  buttons->setContentsMargins(12, 8, 12, 8);
+  QWidget* buttons = BuildButtons(commands);
+  buttons->setContentsMargins(8, 6, 8, 6);
   whole->addWidget(buttons);
   const int bar = scroll->verticalScrollBar()->sizeHint().width();
-  setMinimumWidth(std::max(270, content->minimumSizeHint().width()) + bar);
+  setMinimumWidth(content->minimumSizeHint().width() + bar);
   connect(head_, &HeadViewModel::planChanged, this, &HeadPanel::ShowPlan);
   connect(head_, &HeadViewModel::statusChanged, this, &HeadPanel::ShowStatus);
   ShowPlan();
@@ -72,24 +74,26 @@ QWidget* HeadPanel::BuildPlan() {
   auto* form = new QFormLayout(plan);
   form->setContentsMargins(0, 0, 0, 0);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  AddField(form, tr("From"), -90, 90, 5, tr("°"), &PlanFields::from_deg);
-  AddField(form, tr("To"), -90, 90, 5, tr("°"), &PlanFields::to_deg);
-  speed_ = AddField(form, tr("Speed"), 0.5, 120, 1, tr(" °/s"), &PlanFields::speed_deg_s);
+  // Wider than what a head can do: a number that is typed stays as it was typed, and the prediction
+  // says what is wrong with it.
+  AddField(form, tr("From"), -9999, 9999, 5, tr("°"), &PlanFields::from_deg);
+  AddField(form, tr("To"), -9999, 9999, 5, tr("°"), &PlanFields::to_deg);
+  speed_ = AddField(form, tr("Speed"), 0, 9999, 1, tr(" °/s"), &PlanFields::speed_deg_s);
   fastest_button_ = new QPushButton;
   fastest_button_->setObjectName(QStringLiteral("fastestButton"));
   fastest_button_->setToolTip(
-      tr("The fastest speed at which 2 % of the picture's pixels get a "
+      tr("The fastest speed at which 2 % of the image's pixels get a "
          "lidar point"));
   connect(fastest_button_, &QPushButton::clicked, head_, &HeadViewModel::useFastestSpeed);
   form->addRow(QString(), fastest_button_);
   AddChoice(form, tr("Sweep"), {tr("One way"), tr("There and back")}, &PlanFields::there_and_back);
   angles_ = new QLineEdit(AnglesAsText(head_->Plan().image_angles_deg));
   angles_->setToolTip(tr("Motor angles in degrees, separated by commas, within the scope"));
-  form->addRow(tr("Pictures, °"), angles_);
+  form->addRow(tr("Images, °"), angles_);
   connect(angles_, &QLineEdit::editingFinished, this, &HeadPanel::TakeAngles);
   AddChoice(form, tr("Taken"), {tr("In passing"), tr("Standing still")},
             &PlanFields::standing_still);
-  AddField(form, tr("Exposure"), 0.1, 100, 1, tr(" ms"), &PlanFields::exposure_ms);
+  AddField(form, tr("Exposure"), 0, 9999, 1, tr(" ms"), &PlanFields::exposure_ms);
   return plan;
 }
 
@@ -100,6 +104,7 @@ QDoubleSpinBox* HeadPanel::AddField(QFormLayout* form, const QString& label, dou
   box->setRange(low, high);
   box->setSingleStep(step);
   box->setDecimals(1);
+  box->setMinimumWidth(64);
   box->setSuffix(unit);
   box->setValue(head_->Plan().*field);
   box->setAccessibleName(label);
@@ -118,6 +123,7 @@ QComboBox* HeadPanel::AddChoice(QFormLayout* form, const QString& label, const Q
   auto* box = new QComboBox;
   box->addItems(choices);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(6);
   box->setCurrentIndex(head_->Plan().*field ? 1 : 0);
   box->setAccessibleName(label);
   form->addRow(label, box);
@@ -158,10 +164,10 @@ QWidget* HeadPanel::BuildPrediction() {
   };
   time_ = add(tr("Sweep time"), tr("Without the way to the start"));
   lines_ = add(tr("Lidar lines"), {});
-  coverage_ = add(tr("Coverage"), tr("Lidar points per picture pixel; at least 2 % is wanted"));
-  sigma_ = add(tr("Filter radius σs"), tr("How far the depth filter must reach for points"));
+  coverage_ = add(tr("Coverage"), tr("Lidar points per image pixel; at least 2 % is wanted"));
+  sigma_ = add(tr("Filter reach"), tr("How far the depth filter must reach for points"));
   exposure_ = add(tr("Exposure"), tr("In passing the head shortens it, so that the turn blurs the "
-                                     "picture by half a pixel at most"));
+                                     "image by half a pixel at most"));
   sigma_title_ = qobject_cast<QLabel*>(form->labelForField(sigma_));
   layout->addLayout(form);
 
@@ -184,25 +190,23 @@ QWidget* HeadPanel::BuildPrediction() {
   return card;
 }
 
-QWidget* HeadPanel::BuildButtons() {
+QWidget* HeadPanel::BuildButtons(CommandTable* commands) {
   auto* buttons = new QWidget;
   auto* layout = new QVBoxLayout(buttons);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
-  scan_button_ = new QPushButton(tr("Scan  (Space)"));
-  scan_button_->setObjectName(QStringLiteral("scanButton"));
-  abort_button_ = new QPushButton(Icon("abort"), tr("Abort"));
-  abort_button_->setToolTip(tr("End the scan and keep what it has (Shift+Esc)"));
-  home_button_ = new QPushButton(Icon("home"), tr("Home"));
-  home_button_->setToolTip(tr("Connect and search the zero reference"));
-  layout->addWidget(scan_button_);
+  auto* scan = new QPushButton(tr("Scan  (Space)"));
+  scan->setObjectName(QStringLiteral("scanButton"));
+  auto* abort = new QPushButton(Icon("abort"), tr("Abort"));
+  auto* home = new QPushButton(Icon("home"), tr("Home"));
+  BindButton(scan, commands, "head.scan");
+  BindButton(abort, commands, "head.abort");
+  BindButton(home, commands, "head.home");
+  layout->addWidget(scan);
   auto* row = new QHBoxLayout;
-  row->addWidget(abort_button_);
-  row->addWidget(home_button_);
+  row->addWidget(abort);
+  row->addWidget(home);
   layout->addLayout(row);
-  connect(scan_button_, &QPushButton::clicked, head_, &HeadViewModel::scan);
-  connect(abort_button_, &QPushButton::clicked, head_, &HeadViewModel::abort);
-  connect(home_button_, &QPushButton::clicked, head_, &HeadViewModel::home);
   return buttons;
 }
 
@@ -220,17 +224,14 @@ void HeadPanel::ShowPlan() {
                               std::abs(fastest - head_->Plan().speed_deg_s) > 0.05);
   const QSignalBlocker quiet(speed_);
   speed_->setValue(head_->Plan().speed_deg_s);
-  if (!prediction.method.isEmpty()) sigma_title_->setText(tr("σs of %1").arg(prediction.method));
+  if (!prediction.method.isEmpty()) sigma_title_->setText(tr("Reach of %1").arg(prediction.method));
   warning_->setText(prediction.warning);
   warning_row_->setVisible(!prediction.warning.isEmpty());
   ShowStatus();
 }
 
 void HeadPanel::ShowStatus() {
-  plan_->setEnabled(head_->CanEditPlan());
-  scan_button_->setEnabled(head_->CanScan());
-  abort_button_->setEnabled(head_->CanAbort());
-  home_button_->setEnabled(head_->CanHome());
+  if (plan_->isEnabled() != head_->CanEditPlan()) plan_->setEnabled(head_->CanEditPlan());
 }
 
 }  // namespace foresight

@@ -2,6 +2,7 @@
 
 #include <QWidget>
 
+#include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
 
 class QComboBox;
@@ -13,17 +14,17 @@ class QPushButton;
 
 namespace foresight {
 
-/// The next scan: scope, speed, pictures, what they will give, and the buttons that start it.
+/// The next scan: scope, speed, images, what they will give, and the buttons that start it.
 class HeadPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit HeadPanel(HeadViewModel* head, QWidget* parent = nullptr);
+  HeadPanel(HeadViewModel* head, CommandTable* commands, QWidget* parent = nullptr);
 
  private:
   QWidget* BuildPlan();
   QWidget* BuildPrediction();
-  QWidget* BuildButtons();
+  QWidget* BuildButtons(CommandTable* commands);
   QDoubleSpinBox* AddField(QFormLayout* form, const QString& label, double low, double high,
                            double step, const QString& unit, double PlanFields::*field);
   QComboBox* AddChoice(QFormLayout* form, const QString& label, const QStringList& choices,
@@ -45,9 +46,6 @@ class HeadPanel : public QWidget {
   QPushButton* fastest_button_;
   QWidget* warning_row_;
   QLabel* warning_;
-  QPushButton* scan_button_;
-  QPushButton* abort_button_;
-  QPushButton* home_button_;
 };
 
 }  // namespace foresight

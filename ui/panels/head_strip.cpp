@@ -6,15 +6,18 @@
 #include <QPushButton>
 
 #include "core/geometry/angles.h"
+#include "ui/panels/command_button.h"
 #include "ui/panels/device_lamps.h"
+#include "ui/panels/priority_row.h"
 #include "ui/panels/theme.h"
 
 namespace foresight {
 namespace {
 
 void SetBadge(QLabel* badge, const QString& text, const QColor& color) {
-  badge->setText(text);
-  badge->setStyleSheet(QStringLiteral("background: %1;").arg(color.name()));
+  const QString style = QStringLiteral("background: %1;").arg(color.name());
+  if (badge->text() != text) badge->setText(text);
+  if (badge->styleSheet() != style) badge->setStyleSheet(style);
 }
 
 QColor ColorOf(HeadState state) {
@@ -36,47 +39,56 @@ QColor ColorOf(HeadState state) {
 
 }  // namespace
 
-HeadStrip::HeadStrip(HeadViewModel* head, SessionModel* session, QWidget* parent)
-    : QFrame(parent), head_(head), session_(session) {
+HeadStrip::HeadStrip(HeadViewModel* head, CommandTable* commands, QWidget* parent)
+    : QFrame(parent), head_(head), row_(new PriorityRow) {
   setObjectName(QStringLiteral("strip"));
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(12, 6, 12, 6);
-  layout->setSpacing(16);
-  const auto add = [layout](int width, const char* name) {
+  const auto add = [this](int priority, int width, const char* name) {
     auto* label = new QLabel;
     label->setMinimumWidth(width);
     label->setObjectName(QString::fromLatin1(name));
-    layout->addWidget(label);
+    row_->Add(label, priority);
     return label;
   };
-  mode_ = add(0, "badge");
-  state_ = add(0, "badge");
-  angle_ = add(120, "");
-  speed_ = add(210, "");
-  lines_ = add(140, "");
+  mode_ = add(0, 0, "badge");
+  back_ = new QPushButton(tr("Back to live"));
+  BindButton(back_, commands, "view.live");
+  row_->Add(back_, 1);
+  state_ = add(2, 0, "badge");
+  angle_ = add(5, 110, "");
+  speed_ = add(7, 200, "");
+  lines_ = add(4, 120, "");
   sweep_ = new QProgressBar;
   sweep_->setRange(0, 1000);
   sweep_->setTextVisible(false);
-  sweep_->setFixedSize(120, 10);
-  layout->addWidget(sweep_);
-  layout->addWidget(new DeviceLamps(head_));
+  sweep_->setFixedSize(100, 10);
+  row_->Add(sweep_, 6);
+  row_->Add(new DeviceLamps(head_), 3);
   message_ = new QLabel;
+  message_->setMinimumWidth(120);
+  message_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   message_->setWordWrap(true);
-  layout->addWidget(message_, 1);
+  row_->Add(message_, 8, 1);
+  release_ = new QPushButton(tr("Release"));
+  BindButton(release_, commands, "head.release");
   auto* stop = new QPushButton(Icon("stop"), tr(" STOP HEAD  (F12)"));
   stop->setObjectName(QStringLiteral("stopButton"));
-  stop->setToolTip(
-      tr("Stops the scanner's motor at once. The robot's emergency stop is separate."));
+  stop->setFocusPolicy(Qt::NoFocus);
+  BindButton(stop, commands, "head.stop");
+
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(12, 4, 12, 4);
+  layout->setSpacing(12);
+  layout->addWidget(row_, 1);
+  layout->addWidget(release_);
   layout->addWidget(stop);
-  connect(stop, &QPushButton::clicked, head_, &HeadViewModel::stop);
   connect(head_, &HeadViewModel::statusChanged, this, &HeadStrip::ShowStatus);
-  connect(session_, &SessionModel::modeChanged, this, &HeadStrip::ShowMode);
-  ShowMode();
+  ShowDocument(SessionMode::kLive, {});
   ShowStatus();
 }
 
-void HeadStrip::ShowMode() {
-  switch (session_->Mode()) {
+void HeadStrip::ShowDocument(SessionMode mode, const QString& details) {
+  row_->SetWanted(back_, mode == SessionMode::kReplay);
+  switch (mode) {
     case SessionMode::kLive:
       SetBadge(mode_, tr("LIVE"), state_color::kGood);
       break;
@@ -84,25 +96,33 @@ void HeadStrip::ShowMode() {
       SetBadge(mode_, tr("SIMULATION"), state_color::kActive);
       break;
     case SessionMode::kReplay:
-      SetBadge(mode_, tr("REPLAY"), state_color::kCaution);
+      SetBadge(mode_, tr("REVIEW: %1").arg(details), state_color::kCaution);
       break;
   }
+  row_->Arrange();
 }
 
 void HeadStrip::ShowStatus() {
   const HeadStatus& status = head_->LastStatus();
-  SetBadge(state_, tr("Head: %1").arg(QString::fromUtf8(ToString(status.state))),
-           ColorOf(status.state));
+  if (head_->StopLatched())
+    SetBadge(state_, tr("Head: STOPPED"), state_color::kBad);
+  else
+    SetBadge(state_, tr("Head: %1").arg(QString::fromUtf8(ToString(status.state))),
+             ColorOf(status.state));
+  release_->setVisible(head_->StopLatched());
   angle_->setText(tr("Angle %1°").arg(DegreesFromRadians(status.angle_rad), 0, 'f', 2));
   speed_->setText(tr("Speed %1 °/s, asked %2 °/s")
                       .arg(DegreesFromRadians(status.speed_rad_s), 0, 'f', 1)
                       .arg(DegreesFromRadians(status.commanded_speed_rad_s), 0, 'f', 1));
   const bool sweeping = status.state == HeadState::kSweeping;
-  lines_->setVisible(sweeping);
-  sweep_->setVisible(sweeping);
+  row_->SetWanted(lines_, sweeping);
+  row_->SetWanted(sweep_, sweeping);
   lines_->setText(tr("Line %1 of %2").arg(status.lines).arg(status.expected_lines));
   sweep_->setValue(static_cast<int>(1000.0 * head_->ScanProgress()));
   message_->setText(QString::fromStdString(status.message));
+  message_->setToolTip(message_->text());
+  row_->SetWanted(message_, !status.message.empty());
+  row_->Arrange();
 }
 
 }  // namespace foresight

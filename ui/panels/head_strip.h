@@ -2,35 +2,44 @@
 
 #include <QFrame>
 
+#include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/session_model.h"
 
 class QLabel;
 class QProgressBar;
+class QPushButton;
 
 namespace foresight {
 
-/// The strip along the top: where the data come from, what the head does, and the button that stops
-/// it. Never covered.
+class PriorityRow;
+
+/// The strip along the top: which document is shown, what the head does, and the button that stops
+/// it. Never covered, never wider than the window: what there is no room for goes, the button
+/// stays.
 class HeadStrip : public QFrame {
   Q_OBJECT
 
  public:
-  HeadStrip(HeadViewModel* head, SessionModel* session, QWidget* parent = nullptr);
+  HeadStrip(HeadViewModel* head, CommandTable* commands, QWidget* parent = nullptr);
+
+  /// What the panes show: the live session, or `details` of a mission under review.
+  void ShowDocument(SessionMode mode, const QString& details);
 
  private:
-  void ShowMode();
   void ShowStatus();
 
   HeadViewModel* head_;
-  SessionModel* session_;
+  PriorityRow* row_;
   QLabel* mode_;
+  QPushButton* back_;
   QLabel* state_;
   QLabel* angle_;
   QLabel* speed_;
   QLabel* lines_;
   QLabel* message_;
   QProgressBar* sweep_;
+  QPushButton* release_;
 };
 
 }  // namespace foresight

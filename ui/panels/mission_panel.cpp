@@ -1,58 +1,91 @@
 #include "ui/panels/mission_panel.h"
 
-#include <QDateTime>
 #include <QFileInfo>
 #include <QLabel>
-#include <QListWidget>
-#include <QSignalBlocker>
+#include <QPushButton>
+#include <QStackedWidget>
 #include <QVBoxLayout>
+
+#include "ui/panels/command_button.h"
 
 namespace foresight {
 namespace {
 
-QString TextOf(const ScanSummary& scan) {
-  const QDateTime start = QDateTime::fromMSecsSinceEpoch(scan.start_utc_ns / 1'000'000);
-  return MissionPanel::tr("%1\n%2 lines, %3")
-      .arg(start.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")))
-      .arg(scan.lines)
-      .arg(QString::fromUtf8(ToString(scan.state)));
+QLabel* Line(const char* name) {
+  auto* label = new QLabel;
+  label->setWordWrap(true);
+  label->setObjectName(QString::fromLatin1(name));
+  label->setMinimumWidth(0);
+  return label;
+}
+
+QWidget* Page(const std::initializer_list<QWidget*>& rows) {
+  auto* page = new QWidget;
+  auto* layout = new QVBoxLayout(page);
+  layout->setContentsMargins(12, 8, 12, 8);
+  layout->setSpacing(6);
+  for (QWidget* row : rows) layout->addWidget(row);
+  return page;
 }
 
 }  // namespace
 
-MissionPanel::MissionPanel(MissionViewModel* mission, QWidget* parent)
-    : QWidget(parent), mission_(mission), path_(new QLabel), scans_(new QListWidget) {
-  path_->setWordWrap(true);
-  path_->setObjectName(QStringLiteral("faint"));
-  scans_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scans_->setAccessibleName(tr("Scans of the mission"));
+MissionPanel::MissionPanel(RecordingViewModel* recording, ReviewViewModel* review,
+                           CommandTable* commands, QWidget* parent)
+    : QWidget(parent), recording_(recording), review_(review), pages_(new QStackedWidget) {
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 12, 12, 12);
-  layout->setSpacing(8);
-  layout->addWidget(path_);
-  layout->addWidget(scans_, 1);
-  layout->addStretch();
-  connect(mission_, &MissionViewModel::changed, this, &MissionPanel::ShowMission);
-  connect(scans_, &QListWidget::currentRowChanged, mission_, &MissionViewModel::showScan);
-  ShowMission();
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(pages_);
+  pages_->addWidget(BuildLivePage(commands));
+  pages_->addWidget(BuildReviewPage(commands));
+  connect(recording_, &RecordingViewModel::changed, this, &MissionPanel::ShowRecording);
+  connect(review_, &ReviewViewModel::changed, this, &MissionPanel::ShowReview);
+  ShowRecording();
+  ShowReview();
 }
 
-void MissionPanel::ShowMission() {
-  const int unsaved = mission_->UnsavedScans();
-  QString text = mission_->Path().isEmpty()
-                     ? tr("No mission file. Scans are kept in memory until you save them (Ctrl+S).")
-                     : QFileInfo(mission_->Path()).fileName();
-  if (unsaved > 0) text += tr("\nNot saved yet: %1").arg(unsaved);
-  path_->setText(text);
-  path_->setToolTip(mission_->Path());
+QWidget* MissionPanel::BuildLivePage(CommandTable*) {
+  recorded_path_ = Line("faint");
+  waiting_ = Line("");
+  recorded_ = new ScanList;
+  connect(recorded_, &ScanList::chosen, this, [this](int index) {
+    const auto& scans = recording_->Scans();
+    if (index >= 0 && index < static_cast<int>(scans.size()))
+      review_->Open(recording_->Path(), scans[static_cast<std::size_t>(index)].uuid);
+  });
+  return Page({recorded_path_, waiting_, recorded_});
+}
 
-  const QSignalBlocker blocker(scans_);
-  if (scans_->count() != static_cast<int>(mission_->Scans().size())) {
-    scans_->clear();
-    for (const ScanSummary& scan : mission_->Scans()) scans_->addItem(TextOf(scan));
-  }
-  scans_->setCurrentRow(mission_->ScanIndex());
-  scans_->setVisible(scans_->count() > 0);
+QWidget* MissionPanel::BuildReviewPage(CommandTable* commands) {
+  reviewed_path_ = Line("faint");
+  auto* back = new QPushButton(tr("Back to live"));
+  BindButton(back, commands, "view.live");
+  reviewed_ = new ScanList;
+  connect(reviewed_, &ScanList::chosen, review_, &ReviewViewModel::showScan);
+  return Page({reviewed_path_, back, reviewed_});
+}
+
+void MissionPanel::ShowDocument(bool review) {
+  pages_->setCurrentIndex(review ? 1 : 0);
+}
+
+void MissionPanel::ShowRecording() {
+  recorded_path_->setText(
+      recording_->Recording()
+          ? tr("Recording into %1").arg(QFileInfo(recording_->Path()).fileName())
+          : tr("Not recorded: choose a mission file (Ctrl+Shift+S)."));
+  recorded_path_->setToolTip(recording_->Path());
+  waiting_->setText(tr("In memory only: %1").arg(recording_->Waiting()));
+  waiting_->setVisible(recording_->Waiting() > 0 && !recording_->Busy());
+  recorded_->Show(recording_->Scans(), -1);
+}
+
+void MissionPanel::ShowReview() {
+  reviewed_path_->setText(review_->Path().isEmpty()
+                              ? tr("No mission is open for review.")
+                              : tr("Review of %1").arg(QFileInfo(review_->Path()).fileName()));
+  reviewed_path_->setToolTip(review_->Path());
+  reviewed_->Show(review_->Scans(), review_->ScanIndex());
 }
 
 }  // namespace foresight

@@ -2,26 +2,43 @@
 
 #include <QWidget>
 
-#include "ui/viewmodels/mission_view_model.h"
+#include "ui/panels/scan_list.h"
+#include "ui/viewmodels/command_table.h"
+#include "ui/viewmodels/recording_view_model.h"
+#include "ui/viewmodels/review_view_model.h"
 
 class QLabel;
-class QListWidget;
+class QStackedWidget;
 
 namespace foresight {
 
-/// Which mission file is shown or written, and its scans to choose from.
+/// The mission file of the document that is shown: the one that is being recorded, or the one under
+/// review; and its scans. A scan of the running mission is looked at in the review.
 class MissionPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit MissionPanel(MissionViewModel* mission, QWidget* parent = nullptr);
+  MissionPanel(RecordingViewModel* recording, ReviewViewModel* review, CommandTable* commands,
+               QWidget* parent = nullptr);
+
+  void ShowDocument(bool review);
+  ScanList* Recorded() { return recorded_; }
+  ScanList* Reviewed() { return reviewed_; }
 
  private:
-  void ShowMission();
+  QWidget* BuildLivePage(CommandTable* commands);
+  QWidget* BuildReviewPage(CommandTable* commands);
+  void ShowRecording();
+  void ShowReview();
 
-  MissionViewModel* mission_;
-  QLabel* path_;
-  QListWidget* scans_;
+  RecordingViewModel* recording_;
+  ReviewViewModel* review_;
+  QStackedWidget* pages_;
+  QLabel* recorded_path_;
+  QLabel* waiting_;
+  ScanList* recorded_;
+  QLabel* reviewed_path_;
+  ScanList* reviewed_;
 };
 
 }  // namespace foresight

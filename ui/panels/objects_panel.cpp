@@ -4,12 +4,15 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
+#include <QMenu>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSignalBlocker>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "ui/panels/command_button.h"
 #include "ui/panels/detection_card.h"
 #include "ui/panels/theme.h"
 
@@ -29,43 +32,66 @@ QString TitleOf(ObjectKind kind) {
   return ObjectsPanel::tr("Terrain");
 }
 
+/// "Valve 2", or the name that the operator gave.
+QString NameOf(const FoundObject& object, std::size_t index) {
+  if (!object.name.isEmpty()) return object.name;
+  return ObjectsPanel::tr("%1 %2").arg(TitleOf(ObjectKindOf(object.detection))).arg(index + 1);
+}
+
+QString DecisionText(Decision decision) {
+  switch (decision) {
+    case Decision::kAccepted:
+      return ObjectsPanel::tr("accepted");
+    case Decision::kRejected:
+      return ObjectsPanel::tr("rejected");
+    case Decision::kOpen:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
 
-ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, QWidget* parent)
+ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTable* commands,
+                           QWidget* parent)
     : QWidget(parent),
       session_(session),
       fit_(fit),
       list_(new QListWidget),
       empty_(
           new QLabel(tr("No objects yet. Choose a tool, valve (V), drill (D) or terrain (T), and "
-                        "draw a region over it in the picture, the depth map or the cloud."))),
+                        "draw a region over it in the image, the depth map or the cloud."))),
       card_(new DetectionCard) {
   empty_->setWordWrap(true);
   empty_->setAlignment(Qt::AlignCenter);
   empty_->setObjectName(QStringLiteral("faint"));
   list_->setAccessibleName(tr("Found objects"));
+  list_->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
+  list_->setToolTip(tr("Double-click or press F2 to rename"));
+  decisions_ = BuildDecisions(commands);
+  auto* inner = new QWidget;
+  auto* layout = new QVBoxLayout(inner);
+  layout->setContentsMargins(8, 8, 8, 8);
+  layout->setSpacing(8);
+  layout->addWidget(BuildFitRow(commands));
+  layout->addWidget(empty_, 1);
+  layout->addWidget(list_);
+  layout->addWidget(decisions_);
+  layout->addWidget(card_);
+  layout->addStretch(1);
   auto* scroll = new QScrollArea;
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  auto* inner = new QWidget;
-  auto* inner_layout = new QVBoxLayout(inner);
-  inner_layout->setContentsMargins(0, 0, 0, 0);
-  inner_layout->addWidget(card_);
-  inner_layout->addStretch(1);
   scroll->setWidget(inner);
-
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 12, 12, 12);
-  layout->setSpacing(8);
-  layout->addWidget(BuildFitRow());
-  layout->addWidget(empty_, 1);
-  layout->addWidget(list_);
-  layout->addWidget(scroll, 3);
-  setMinimumWidth(300);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->addWidget(scroll);
+  setMinimumWidth(200);
 
   connect(session_, &SessionModel::objectsChanged, this, &ObjectsPanel::ShowObjects);
   connect(list_, &QListWidget::currentRowChanged, session_, &SessionModel::SelectObject);
+  connect(list_, &QListWidget::itemChanged, this, &ObjectsPanel::TakeName);
   connect(card_, &DetectionCard::nextAsked, session_, &SessionModel::nextCandidate);
   connect(card_, &DetectionCard::previousAsked, session_, &SessionModel::previousCandidate);
   connect(fit_, &FitViewModel::changed, this, &ObjectsPanel::ShowFit);
@@ -75,7 +101,34 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, QWidget* pa
   ShowFit();
 }
 
-QWidget* ObjectsPanel::BuildFitRow() {
+QWidget* ObjectsPanel::BuildDecisions(CommandTable* commands) {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  auto* accept = new QPushButton(Icon("confirmed"), tr("Accept"));
+  auto* reject = new QPushButton(Icon("unsure"), tr("Reject"));
+  accept->setObjectName(QStringLiteral("acceptButton"));
+  reject->setObjectName(QStringLiteral("rejectButton"));
+  BindButton(accept, commands, "object.accept");
+  BindButton(reject, commands, "object.reject");
+  auto* more = new QToolButton;
+  more->setText(tr("More"));
+  more->setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(more);
+  for (const char* id : {"object.copy", "object.delete"})
+    menu->addAction(commands->Get(id).text, commands, [commands, id] { commands->Run(id); });
+  menu->addAction(tr("Rename"), this, [this] {
+    if (list_->currentItem() != nullptr) list_->editItem(list_->currentItem());
+  });
+  more->setMenu(menu);
+  layout->addWidget(accept, 1);
+  layout->addWidget(reject, 1);
+  layout->addWidget(more);
+  return row;
+}
+
+QWidget* ObjectsPanel::BuildFitRow(CommandTable* commands) {
   auto* row = new QWidget;
   auto* layout = new QGridLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -105,7 +158,11 @@ QWidget* ObjectsPanel::BuildFitRow() {
   layout->addWidget(fit_button_, 1, 0, 1, 2);
   connect(shape_, QOverload<int>::of(&QComboBox::activated), this,
           [this](int index) { fit_->SetShape(static_cast<RegionShape>(index)); });
-  connect(fit_button_, &QPushButton::clicked, fit_, &FitViewModel::fit);
+  BindButton(fit_button_, commands, "object.fit");
+  for (QComboBox* box : {shape_, source_}) {
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(4);
+  }
   connect(source_, QOverload<int>::of(&QComboBox::activated), this,
           [this](int index) { fit_->SetSource(index == 0 ? FitSource::kRaw : FitSource::kDepth); });
   return row;
@@ -117,12 +174,15 @@ void ObjectsPanel::ShowObjects() {
   list_->clear();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Detection& found = objects[i].detection;
-    QString text = tr("%1 %2, %3")
-                       .arg(TitleOf(ObjectKindOf(found)))
-                       .arg(i + 1)
-                       .arg(QString::fromUtf8(ToString(VerdictOf(found).level)));
-    if (!session_->IsCurrent(objects[i])) text += tr(" (earlier scan)");
-    list_->addItem(new QListWidgetItem(Icon(KindOf(found)), text));
+    QStringList state = {QString::fromUtf8(ToString(VerdictOf(found).level))};
+    const QString decision = DecisionText(objects[i].decision);
+    if (!decision.isEmpty()) state.prepend(decision);
+    if (!session_->IsCurrent(objects[i])) state << tr("earlier scan");
+    auto* item = new QListWidgetItem(
+        Icon(KindOf(found)),
+        tr("%1: %2").arg(NameOf(objects[i], i), state.join(QStringLiteral(", "))));
+    item->setFlags(item->flags() | Qt::ItemIsEditable);
+    list_->addItem(item);
   }
   list_->setCurrentRow(session_->SelectedObject());
   const int rows = std::min(6, list_->count());
@@ -131,14 +191,20 @@ void ObjectsPanel::ShowObjects() {
   empty_->setVisible(objects.empty());
   list_->setVisible(!objects.empty());
   card_->setVisible(chosen != nullptr);
-  if (chosen != nullptr) card_->Show(*chosen, session_->Candidate(), session_->IsCurrent(*chosen));
+  decisions_->setVisible(chosen != nullptr);
+  if (chosen != nullptr)
+    card_->Show(*chosen, session_->Candidate(), session_->IsCurrent(*chosen), session_->Mode());
+}
+
+void ObjectsPanel::TakeName(const QListWidgetItem* item) {
+  const QString name = item->text().section(QLatin1Char(':'), 0, 0).trimmed();
+  // After this signal: the list is made anew then.
+  QMetaObject::invokeMethod(
+      this, [this, name] { session_->RenameSelected(name); }, Qt::QueuedConnection);
 }
 
 void ObjectsPanel::ShowFit() {
-  fit_button_->setEnabled(fit_->CanFit());
   fit_button_->setText(tr("Fit %1").arg(TitleOf(fit_->Kind()).toLower()));
-  fit_button_->setToolTip(fit_->CanFit() ? tr("Fit the object into the drawn region")
-                                         : tr("Draw a region over the object first"));
 }
 
 void ObjectsPanel::ShowAge() {

@@ -1,10 +1,11 @@
 #include "ui/panels/source_gallery.h"
 
-#include <QDialog>
 #include <QFrame>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPixmap>
+#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "ui/panels/theme.h"
@@ -13,7 +14,6 @@ namespace foresight {
 namespace {
 
 constexpr QSize kThumbnail(300, 220);
-constexpr int kColumns = 3;
 
 const char* IconOf(const SourceAnswer& answer) {
   if (!answer.found) return "info";
@@ -26,6 +26,19 @@ const char* IconOf(const SourceAnswer& answer) {
       break;
   }
   return "unsure";
+}
+
+QColor ColorOf(const SourceAnswer& answer) {
+  if (!answer.found) return state_color::kNeutral;
+  switch (answer.level) {
+    case VerdictLevel::kConfirmed:
+      return state_color::kGood;
+    case VerdictLevel::kLikely:
+      return state_color::kCaution;
+    case VerdictLevel::kUnsure:
+      break;
+  }
+  return state_color::kBad;
 }
 
 QString VerdictText(const SourceAnswer& answer) {
@@ -52,19 +65,23 @@ QWidget* CardOf(const SourceAnswer& answer) {
   picture->setPixmap(ThumbnailOf(answer.picture));
   picture->setFixedSize(kThumbnail);
   picture->setAlignment(Qt::AlignCenter);
+  // Dark on the state's colour, as on the card of an object: the icons are drawn dark.
+  auto* badge = new QFrame;
+  badge->setStyleSheet(QStringLiteral("QFrame { background: %1; border-radius: 4px; } "
+                                      "QLabel { color: #16181c; font-weight: bold; }")
+                           .arg(ColorOf(answer).name()));
+  auto* badge_row = new QHBoxLayout(badge);
+  badge_row->setContentsMargins(8, 3, 10, 3);
   auto* icon = new QLabel;
-  icon->setPixmap(Icon(IconOf(answer)).pixmap(20, 20));
-  auto* verdict = new QLabel(VerdictText(answer));
-  QFont bold = verdict->font();
-  bold.setBold(true);
-  verdict->setFont(bold);
+  icon->setPixmap(Icon(IconOf(answer)).pixmap(18, 18));
+  badge_row->addWidget(icon);
+  badge_row->addWidget(new QLabel(VerdictText(answer)));
   auto* text = new QLabel(answer.text);
   text->setWordWrap(true);
   text->setMaximumWidth(kThumbnail.width());
   layout->addWidget(source, 0, 0, 1, 2);
   layout->addWidget(picture, 1, 0, 1, 2);
-  layout->addWidget(icon, 2, 0);
-  layout->addWidget(verdict, 2, 1);
+  layout->addWidget(badge, 2, 0, 1, 2, Qt::AlignLeft);
   layout->addWidget(text, 3, 0, 1, 2);
   layout->setColumnStretch(1, 1);
   layout->setRowStretch(4, 1);
@@ -73,20 +90,32 @@ QWidget* CardOf(const SourceAnswer& answer) {
 
 }  // namespace
 
-QWidget* ShowSourceGallery(const std::vector<SourceAnswer>& answers, QWidget* parent) {
-  auto* window = new QDialog(parent);
-  window->setAttribute(Qt::WA_DeleteOnClose);
-  window->setObjectName(QStringLiteral("source_gallery"));
-  window->setWindowTitle(QObject::tr("One region, every source"));
-  window->setModal(false);  // a scan may be running: the stop button must stay within reach
-  auto* grid = new QGridLayout(window);
-  grid->setContentsMargins(20, 20, 20, 20);
-  grid->setSpacing(14);
+SourceGallery::SourceGallery(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("source_gallery"));
+  auto* inner = new QWidget;
+  grid_ = new QGridLayout(inner);
+  grid_->setContentsMargins(12, 12, 12, 12);
+  grid_->setSpacing(12);
+  grid_->addWidget(
+      new QLabel(tr("Draw a region and choose Compare sources (Shift+F): each source's answer "
+                    "appears here.")));
+  auto* scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidget(inner);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(scroll);
+  setMinimumHeight(60);
+}
+
+void SourceGallery::Show(const std::vector<SourceAnswer>& answers) {
+  while (QLayoutItem* item = grid_->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
   for (std::size_t i = 0; i < answers.size(); ++i)
-    grid->addWidget(CardOf(answers[i]), static_cast<int>(i) / kColumns,
-                    static_cast<int>(i) % kColumns);
-  window->show();
-  return window;
+    grid_->addWidget(CardOf(answers[i]), 0, static_cast<int>(i));
 }
 
 }  // namespace foresight

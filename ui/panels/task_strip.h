@@ -3,30 +3,38 @@
 #include <QVector>
 #include <QWidget>
 
-#include "ui/viewmodels/task_runner.h"
+#include "ui/viewmodels/task_queue.h"
 
+class QHBoxLayout;
 class QLabel;
 class QProgressBar;
-class QPushButton;
+class QToolButton;
 
 namespace foresight {
 
-/// In the status bar: the running task, how far it has got, and a button to cancel it. With several
-/// at once the one added first is shown.
+/// In the status bar: every task that runs or waits, each with how far it has got and a button that
+/// cancels it. Always as high.
 class TaskStrip : public QWidget {
   Q_OBJECT
 
  public:
-  explicit TaskStrip(const QVector<TaskRunner*>& runners, QWidget* parent = nullptr);
+  explicit TaskStrip(TaskQueue* tasks, QWidget* parent = nullptr);
 
  private:
-  TaskRunner* Busy() const;
-  void ShowProgress();
+  struct Row {
+    quint64 id = 0;
+    QWidget* whole = nullptr;
+    QLabel* text = nullptr;
+    QProgressBar* bar = nullptr;
+    QToolButton* cancel = nullptr;
+  };
+  void ShowTasks();
+  Row MakeRow();
 
-  QVector<TaskRunner*> runners_;
-  QLabel* text_;
-  QProgressBar* bar_;
-  QPushButton* cancel_;
+  TaskQueue* tasks_;
+  QHBoxLayout* layout_;
+  QLabel* idle_;
+  QVector<Row> rows_;
 };
 
 }  // namespace foresight

@@ -38,8 +38,8 @@ QPalette DarkPalette() {
 
 constexpr const char* kStyle = R"(
 QToolTip { border: 1px solid #596270; padding: 4px; }
-QToolBar { border: none; spacing: 4px; padding: 4px 8px; }
-QToolBar QToolButton { padding: 4px 8px; }
+QToolBar { border: none; spacing: 2px; padding: 2px 6px; }
+QToolBar QToolButton { padding: 3px 6px; }
 QLabel#emptyState { color: #a4acb6; background: #16191d; font-size: 12pt; padding: 24px; }
 QLabel#caption, QLabel#faint { color: #a4acb6; }
 QLabel#cornerTag { color: #e8ebef; background: rgba(20, 22, 26, 215); border-radius: 4px;
@@ -47,13 +47,13 @@ QLabel#cornerTag { color: #e8ebef; background: rgba(20, 22, 26, 215); border-rad
 QLabel#sectionTitle { color: #a4acb6; font-weight: bold; }
 QLabel#badge { color: #16181c; font-weight: bold; border-radius: 4px; padding: 2px 10px; }
 QFrame#strip { background: #1c1f24; border-bottom: 1px solid #14161a; }
-QFrame#notice { background: #33291f; border-bottom: 1px solid #14161a; }
+QFrame#notice { background: #23272d; border-bottom: 1px solid #14161a; }
 QFrame#card { background: #2c3138; border-radius: 6px; }
 QToolButton:checked { background: #2f74b0; border: 1px solid #2f74b0; border-radius: 3px; color: white; }
 QToolBar QToolButton:checked { border-radius: 4px; }
 QPushButton { padding: 6px 12px; }
 QPushButton#scanButton { background: #2f74b0; color: white; border: none; border-radius: 6px;
-  font-size: 14pt; font-weight: bold; padding: 12px; }
+  font-size: 13pt; font-weight: bold; padding: 10px 4px; }
 QPushButton#scanButton:hover { background: #3a82c0; }
 QPushButton#scanButton:pressed { background: #27639a; }
 QPushButton#scanButton:disabled { background: #3a4048; color: #8c939c; }

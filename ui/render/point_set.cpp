@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-/// The same shuffle every time: a picture of the same data is the same picture.
+/// The same shuffle every time: an image of the same data is the same image.
 template <class T>
 void Reorder(std::vector<T>* values, const std::vector<int>& order) {
   if (values->empty()) return;
@@ -64,11 +64,11 @@ PointSet PointsOf(const std::vector<Residual>& residuals, const SensorRig& rig) 
   return set;
 }
 
-PointSet PointsOf(const DepthImage& depth_m, const MaskImage* mask, const CameraFrame& picture,
+PointSet PointsOf(const DepthImage& depth_m, const MaskImage* mask, const CameraFrame& capture,
                   const SensorRig& rig, PointColor color, int stride) {
   PointSet set;
   const auto robot_from_camera =
-      rig.robot_from_base * rig.CameraFromBase(picture.motor_angle_rad).Inverse();
+      rig.robot_from_base * rig.CameraFromBase(capture.motor_angle_rad).Inverse();
   for (int v = 0; v < depth_m.height(); v += stride) {
     for (int u = 0; u < depth_m.width(); u += stride) {
       const double depth = depth_m(u, v);
@@ -83,7 +83,7 @@ PointSet PointsOf(const DepthImage& depth_m, const MaskImage* mask, const Camera
       else if (color == PointColor::kRange)
         set.values.push_back(static_cast<float>(in_camera.norm()));
       else
-        set.colors.push_back(picture.image(u, v));
+        set.colors.push_back(capture.image(u, v));
     }
   }
   set.viewpoint = robot_from_camera.translation().cast<float>();

@@ -14,7 +14,7 @@
 namespace foresight {
 
 /// What the colours of a point set mean.
-enum class PointColor { kHeight, kRange, kIntensity, kPicture };
+enum class PointColor { kHeight, kRange, kIntensity, kImage };
 
 /// Points to draw, in the robot's frame (z up), metres, in random order: any first n of them are a
 /// fair sample.
@@ -25,7 +25,7 @@ struct PointSet {
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< where they were seen from
 };
 
-/// The lidar's returns. kPicture is taken as kHeight.
+/// The lidar's returns. kImage is taken as kHeight.
 PointSet PointsOf(const RegisteredScan& scan, const SensorRig& rig, PointColor color);
 
 /// Points of a region coloured by how far they are from what was fitted: blue = the template lies
@@ -34,7 +34,7 @@ PointSet PointsOf(const std::vector<Residual>& residuals, const SensorRig& rig);
 inline constexpr double kFullResidual_m = 0.030;
 
 /// The depths that the mask keeps, every `stride`-th pixel, unprojected.
-PointSet PointsOf(const DepthImage& depth_m, const MaskImage* mask, const CameraFrame& picture,
+PointSet PointsOf(const DepthImage& depth_m, const MaskImage* mask, const CameraFrame& capture,
                   const SensorRig& rig, PointColor color, int stride);
 
 }  // namespace foresight

@@ -13,7 +13,7 @@ namespace foresight {
 /// (u, image_height - 1 - v).
 vtkSmartPointer<vtkPolyData> VtkDotsOf(const std::vector<SampleMark>& marks, int image_height);
 
-/// The rejected ones as coloured lines: each symbol reaches `half_size` pixels of the picture.
+/// The rejected ones as coloured lines: each symbol reaches `half_size` pixels of the image.
 vtkSmartPointer<vtkPolyData> VtkSymbolsOf(const std::vector<SampleMark>& marks, int image_height,
                                           double half_size);
 

@@ -5,7 +5,8 @@
 
 namespace foresight {
 
-/// "42 s", "3 min 5 s", "2 h 10 min", "4 days".
+/// "under 10 s", "40 s", "3 min", "2 h 10 min", "4 days": as exact as an age is read, so that what
+/// shows it need not be drawn again every second.
 QString AgeText(std::chrono::seconds age);
 
 }  // namespace foresight

@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t kMinPoints = 20;
 constexpr double kBin_m = 0.1;
 constexpr std::size_t kEmptyBins = 4;  // that much of nothing ends what is meant
-constexpr double kStrayShare = 0.002;  // of the points under the rectangle; fewer in a bin are none
+constexpr double kStrayFraction =
+    0.002;  // of the points under the rectangle; fewer in a bin are none
 constexpr double kMargin_m = 0.01;
 constexpr double kSlack = 0.002;  // of the points on each side of the box may be strays
 
@@ -20,7 +21,7 @@ struct SeenPoint {
 };
 
 std::vector<SeenPoint> PointsUnder(const CloudRectangle& rectangle,
-                                   const std::vector<Eigen::Vector3f>& points,
+                                   std::span<const Eigen::Vector3f> points,
                                    const Rigid<frame::Robot, frame::Base>& robot_from_base,
                                    const BoxRoi* within) {
   std::vector<SeenPoint> seen;
@@ -50,7 +51,7 @@ double FarEnd(const std::vector<SeenPoint>& seen) {
                                   1);
   for (const SeenPoint& point : seen)
     ++counts[static_cast<std::size_t>((point.distance_m - begin_m) / kBin_m)];
-  const double least = std::max(3.0, kStrayShare * static_cast<double>(seen.size()));
+  const double least = std::max(3.0, kStrayFraction * static_cast<double>(seen.size()));
   std::size_t empty = 0;
   bool begun = false;
   for (std::size_t bin = 0; bin < counts.size(); ++bin) {
@@ -66,7 +67,7 @@ double FarEnd(const std::vector<SeenPoint>& seen) {
 }  // namespace
 
 std::optional<BoxRoi> BoxUnder(const CloudRectangle& rectangle,
-                               const std::vector<Eigen::Vector3f>& points,
+                               std::span<const Eigen::Vector3f> points,
                                const Rigid<frame::Robot, frame::Base>& robot_from_base,
                                const BoxRoi* within) {
   std::vector<SeenPoint> seen = PointsUnder(rectangle, points, robot_from_base, within);

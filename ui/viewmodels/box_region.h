@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/fitting/roi.h"
@@ -21,7 +22,7 @@ struct CloudRectangle {
 /// box is cut: only its points count. Points are in base; NaNs are left out. nullopt when fewer
 /// than 20 points lie there.
 std::optional<BoxRoi> BoxUnder(const CloudRectangle& rectangle,
-                               const std::vector<Eigen::Vector3f>& points,
+                               std::span<const Eigen::Vector3f> points,
                                const Rigid<frame::Robot, frame::Base>& robot_from_base,
                                const BoxRoi* within);
 

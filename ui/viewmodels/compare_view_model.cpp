@@ -15,8 +15,8 @@ QString CompareViewModel::SecondTitle() const {
   switch (kind_) {
     case Kind::kNothing:
       return {};
-    case Kind::kPicture:
-      return tr("Camera picture");
+    case Kind::kImage:
+      return tr("Camera image");
     case Kind::kMethod:
       return QString::fromUtf8(InfoOf(method_).title);
     case Kind::kFrozen:
@@ -39,8 +39,8 @@ void CompareViewModel::compareWithNothing() {
   Q_EMIT changed();
 }
 
-void CompareViewModel::compareWithPicture() {
-  Choose(Kind::kPicture);
+void CompareViewModel::compareWithImage() {
+  Choose(Kind::kImage);
   Q_EMIT changed();
 }
 
@@ -62,11 +62,11 @@ void CompareViewModel::compareWithMethod(DepthMethod method) {
   Q_EMIT changed();
 }
 
-void CompareViewModel::setWipe(double share) {
-  share = std::clamp(share, 0.0, 1.0);
-  if (share == wipe_) return;
-  wipe_ = share;
-  Q_EMIT wipeChanged(share);
+void CompareViewModel::setWipe(double fraction) {
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  if (fraction == wipe_) return;
+  wipe_ = fraction;
+  Q_EMIT wipeChanged(fraction);
 }
 
 void CompareViewModel::FollowDepth() {
@@ -74,7 +74,7 @@ void CompareViewModel::FollowDepth() {
     if (kind_ == Kind::kMethod && !second_ && !runner_.Busy()) Compute();
     return;
   }
-  // Another scan or picture: what was beside the old one no longer belongs here.
+  // Another scan or image: what was beside the old one no longer belongs here.
   Choose(kind_ == Kind::kFrozen ? Kind::kNothing : kind_);
   Q_EMIT changed();
 }
@@ -82,13 +82,13 @@ void CompareViewModel::FollowDepth() {
 void CompareViewModel::Compute() {
   if (!session_->Depth()) return;  // the first depth comes first
   const auto scan = session_->CurrentScan();
-  const int picture = session_->PictureIndex();
+  const int image = session_->ImageIndex();
   runner_.Run<DepthResult>(
       tr("Computing the depth to compare with"),
-      MakeDepthTask(scan, session_->Cloud(), picture, second_options_),
-      [this, scan, picture](Result<DepthResult> depth) {
+      MakeDepthTask(scan, session_->Cloud(), image, second_options_),
+      [this, scan, image](Result<DepthResult> depth) {
         const bool wanted = kind_ == Kind::kMethod && scan == session_->CurrentScan() &&
-                            picture == session_->PictureIndex();
+                            image == session_->ImageIndex();
         if (!wanted) return;
         if (!depth) {
           session_->Report(NoticeOf(tr("Computing the depth to compare with"), depth.error()));

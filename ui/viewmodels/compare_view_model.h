@@ -6,14 +6,14 @@
 
 namespace foresight {
 
-/// A second picture beside the depth, parted from it by a line that the operator moves: another
-/// method, the camera's picture, or the depth as it was a moment ago. Belongs to one picture of one
-/// scan; another method follows to the next picture, a frozen depth is dropped there.
+/// A second image beside the depth, parted from it by a line that the operator moves: another
+/// method, the camera's image, or the depth as it was a moment ago. Belongs to one image of one
+/// scan; another method follows to the next image, a frozen depth is dropped there.
 class CompareViewModel : public QObject {
   Q_OBJECT
 
  public:
-  enum class Kind { kNothing, kMethod, kFrozen, kPicture };
+  enum class Kind { kNothing, kMethod, kFrozen, kImage };
 
   CompareViewModel(SessionModel* session, DepthViewModel* depth, QObject* parent = nullptr);
 
@@ -26,21 +26,21 @@ class CompareViewModel : public QObject {
   const DepthOptions& SecondOptions() const { return second_options_; }
   /// What stands right of the line, in words.
   QString SecondTitle() const;
-  /// Where the line is, in [0, 1] of the picture's width.
+  /// Where the line is, in [0, 1] of the image's width.
   double Wipe() const { return wipe_; }
   TaskRunner* Runner() { return &runner_; }
 
  public Q_SLOTS:
   void compareWithNothing();
   void compareWithMethod(foresight::DepthMethod method);
-  void compareWithPicture();
+  void compareWithImage();
   /// Keeps the depth on the screen with its mask, to be compared with what comes.
   void compareWithFrozen();
-  void setWipe(double share);
+  void setWipe(double fraction);
 
  Q_SIGNALS:
   void changed();
-  void wipeChanged(double share);
+  void wipeChanged(double fraction);
 
  private:
   void Choose(Kind kind);
@@ -49,7 +49,7 @@ class CompareViewModel : public QObject {
 
   SessionModel* session_;
   DepthViewModel* depth_;
-  TaskRunner runner_;
+  TaskRunner runner_{session_->Tasks()};
   Kind kind_ = Kind::kNothing;
   DepthMethod method_ = DepthMethod::kPaper;
   DepthOptions second_options_;

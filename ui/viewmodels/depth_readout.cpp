@@ -51,7 +51,9 @@ QString WhyEmpty(const ReadoutSource& source, int x, int y) {
 }
 
 QString WhyMasked(const ReadoutSource& source, const DepthReadout& readout) {
-  QString why = Tr("below the threshold %1").arg(source.threshold, 0, 'f', 2);
+  QString why = !source.result.dense.has_confidence
+                    ? Tr("no lidar line passed here; the method made the depth up")
+                    : Tr("below the threshold %1").arg(source.threshold, 0, 'f', 2);
   const Nearest any = NearestSample(source.result.samples, readout.x, readout.y, false);
   const Nearest kept = NearestSample(source.result.samples, readout.x, readout.y, true);
   if (any.reason != RejectReason::kKept && any.distance_px < kept.distance_px)
@@ -93,6 +95,7 @@ DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
   if (dense.max_confidence > 0.0f)
     readout.confidence = static_cast<double>(confidence / dense.max_confidence);
   readout.relative = dense.max_confidence != 1.0f;
+  readout.has_confidence = dense.has_confidence;
   readout.masked = !(confidence >= limit);
   readout.sparse = source.result.BelowDensityFloor();
   if (readout.masked) readout.reason = WhyMasked(source, readout);
@@ -110,11 +113,15 @@ QString DensityWarning(const DepthResult& result) {
 QString TextOf(const DepthReadout& readout) {
   const QString at = QStringLiteral("(%1, %2)").arg(readout.x).arg(readout.y);
   if (std::isnan(readout.depth_mm)) return Tr("%1  empty: %2").arg(at, readout.reason);
-  const QString value = (readout.relative ? Tr("%1  %2 mm, confidence %3 of the largest")
-                                          : Tr("%1  %2 mm, confidence %3"))
-                            .arg(at)
-                            .arg(readout.depth_mm, 0, 'f', 0)
-                            .arg(readout.confidence, 0, 'f', 2);
+  const QString value = !readout.has_confidence
+                            ? Tr("%1  %2 mm, this method knows no confidence")
+                                  .arg(at)
+                                  .arg(readout.depth_mm, 0, 'f', 0)
+                            : (readout.relative ? Tr("%1  %2 mm, confidence %3 of the largest")
+                                                : Tr("%1  %2 mm, confidence %3"))
+                                  .arg(at)
+                                  .arg(readout.depth_mm, 0, 'f', 0)
+                                  .arg(readout.confidence, 0, 'f', 2);
   if (readout.masked) return Tr("%1  masked: %2").arg(value, readout.reason);
   return readout.sparse ? Tr("%1  not to be trusted: too few samples in this map").arg(value)
                         : value;

@@ -10,7 +10,7 @@ namespace foresight {
 struct ReadoutSource {
   const DepthResult& result;
   const DepthImage& depth_m;  ///< the map that is shown: the final one or one of the passes
-  double threshold;           ///< below this share of the largest confidence a pixel is masked
+  double threshold;           ///< below this fraction of the largest confidence a pixel is masked
   double radius_px;           ///< how far a pixel looks for samples; 0 = not known
 };
 
@@ -21,6 +21,7 @@ struct DepthReadout {
   double depth_mm = 0.0;    ///< NaN = none
   double confidence = 0.0;  ///< of the largest in the map
   bool relative = true;     ///< false for a method whose confidence is absolute: its largest is 1
+  bool has_confidence = true;  ///< else `confidence` means nothing
   bool masked = false;      ///< has a depth that is not to be trusted
   bool sparse = false;      ///< of a map below the density floor, where no depth is to be trusted
   QString reason;           ///< why it is masked or empty, in words; else empty

@@ -28,7 +28,7 @@ bool HasPasses(const DepthOptions& options) {
 
 DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {
-  connect(session_, &SessionModel::pictureChanged, this, &DepthViewModel::compute);
+  connect(session_, &SessionModel::imageChanged, this, &DepthViewModel::compute);
 }
 
 void DepthViewModel::setThreshold(double threshold) {
@@ -73,7 +73,7 @@ void DepthViewModel::compute() {
   const auto scan = session_->CurrentScan();
   if (!scan) return;
   if (session_->Cloud()) {
-    ComputeOn(scan, session_->PictureIndex());
+    ComputeOn(scan, session_->ImageIndex());
     return;
   }
   runner_.Run<RegisteredScan>(
@@ -86,23 +86,23 @@ void DepthViewModel::compute() {
           return;
         }
         session_->SetCloud(std::make_shared<const RegisteredScan>(std::move(*cloud)), scan->rig);
-        ComputeOn(scan, session_->PictureIndex());
+        ComputeOn(scan, session_->ImageIndex());
       });
 }
 
-void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan, int picture) {
-  if (picture < 0) {
-    session_->Report({Notice::Level::kWarning,
-                      tr("The scan holds no picture, so there is no depth."),
-                      tr("Scan again with a picture angle within the scope.")});
+void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan, int image) {
+  if (image < 0) {
+    session_->Report({Notice::Level::kWarning, tr("The scan holds no image, so there is no depth."),
+                      tr("Scan again with an image angle within the scope.")});
     return;
   }
-  runner_.Run<DepthResult>(
-      tr("Computing depth"), MakeDepthTask(scan, session_->Cloud(), picture, options_),
-      [this, scan, picture, used = options_](Result<DepthResult> depth) {
-        if (scan != session_->CurrentScan() || picture != session_->PictureIndex()) return;
-        Accept(used, std::move(depth));
-      });
+  runner_.Run<DepthResult>(tr("Computing depth"),
+                           MakeDepthTask(scan, session_->Cloud(), image, options_),
+                           [this, scan, image, used = options_](Result<DepthResult> depth) {
+                             if (scan != session_->CurrentScan() || image != session_->ImageIndex())
+                               return;
+                             Accept(used, std::move(depth));
+                           });
 }
 
 void DepthViewModel::Accept(const DepthOptions& used, Result<DepthResult> depth) {

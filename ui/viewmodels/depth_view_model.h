@@ -9,8 +9,8 @@
 
 namespace foresight {
 
-/// The straight line after a scan: points, alignment to the chosen picture, depth, mask. It starts
-/// by itself when a scan or a picture is chosen, and again when the method changes: the old depth
+/// The straight line after a scan: points, alignment to the chosen image, depth, mask. It starts
+/// by itself when a scan or an image is chosen, and again when the method changes: the old depth
 /// stays until the new one is there, or for good when that is cancelled or fails. Moving the
 /// threshold only redoes the mask.
 class DepthViewModel : public QObject {
@@ -38,7 +38,7 @@ class DepthViewModel : public QObject {
   /// Keeps every pass of the filter from now on: one map each. Computes again when the depth on the
   /// screen has none.
   void setKeepIterations(bool keep);
-  /// Computes the depth of the current picture again.
+  /// Computes the depth of the current image again.
   void compute();
 
  Q_SIGNALS:
@@ -46,7 +46,7 @@ class DepthViewModel : public QObject {
   void methodChanged();
 
  private:
-  void ComputeOn(const std::shared_ptr<const Scan>& scan, int picture);
+  void ComputeOn(const std::shared_ptr<const Scan>& scan, int image);
   void Accept(const DepthOptions& used, Result<DepthResult> depth);
   void ReturnToShown();
   void UpdateMask();
@@ -55,7 +55,7 @@ class DepthViewModel : public QObject {
   DepthOptions options_ = DefaultsOf(DepthMethods().front().method);
   DepthOptions shown_ = options_;
   std::map<DepthMethod, double> thresholds_;  ///< last used with each method
-  TaskRunner runner_;
+  TaskRunner runner_{session_->Tasks()};
   int computed_ = 0;
 };
 

@@ -22,7 +22,7 @@ class ExportViewModel : public QObject {
 
  private:
   SessionModel* session_;
-  TaskRunner runner_;
+  TaskRunner runner_{session_->Tasks()};
 };
 
 }  // namespace foresight

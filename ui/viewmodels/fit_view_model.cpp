@@ -63,9 +63,9 @@ bool FitViewModel::CanFit() const {
 }
 
 void FitViewModel::DrawRegion(const std::vector<Eigen::Vector2d>& points) {
-  const CameraFrame* picture = session_->Picture();
-  if (picture == nullptr) return;
-  const auto roi = RegionThrough(shape_, picture->motor_angle_rad, points);
+  const CameraFrame* capture = session_->CurrentImage();
+  if (capture == nullptr) return;
+  const auto roi = RegionThrough(shape_, capture->motor_angle_rad, points);
   if (!roi) return;
   session_->SetRoi(*roi);
   if (object_tool_) fit();
@@ -75,8 +75,8 @@ void FitViewModel::DrawBox(const CloudRectangle& rectangle, bool cut) {
   if (!session_->Cloud()) return;
   const BoxRoi* within =
       cut && session_->Region() ? std::get_if<BoxRoi>(&*session_->Region()) : nullptr;
-  const auto box =
-      BoxUnder(rectangle, session_->Cloud()->points, session_->Rig().robot_from_base, within);
+  const auto box = BoxUnder(rectangle, session_->Cloud()->points.span(),
+                            session_->Rig().robot_from_base, within);
   if (!box || !box->Check()) {
     session_->Report({Notice::Level::kInfo, tr("There are hardly any points in the rectangle."),
                       tr("Draw it over the object in the cloud.")});
@@ -98,14 +98,14 @@ QString FitViewModel::Doing() const {
   return tr("Fitting the terrain");
 }
 
-FitOptions FitViewModel::Options() const {
-  FitOptions options = FitOptionsFor(kind_, session_->CurrentScan()->rig.robot_from_base);
+FitOptions FitViewModel::OptionsFor(ObjectKind kind) const {
+  FitOptions options = FitOptionsFor(kind, session_->CurrentScan()->rig.robot_from_base);
   auto* terrain = std::get_if<FitTerrainOptions>(&options);
   if (terrain == nullptr) return options;
   for (const FoundObject& object : session_->Objects()) {
     const auto* found = std::get_if<TerrainDetection>(&object.detection);
     if (found == nullptr || session_->IsCurrent(object)) continue;
-    if (found->verdict.level == VerdictLevel::kUnsure) continue;
+    if (object.decision != Decision::kAccepted) continue;
     terrain->last = std::make_shared<const TerrainDetection>(*found);
   }
   return options;
@@ -118,7 +118,7 @@ void FitViewModel::fit() {
                       tr("Wait until the depth is computed, then press Fit.")});
     return;
   }
-  const FitOptions options = Options();
+  const FitOptions options = OptionsFor(kind_);
   const auto work = [scan = session_->CurrentScan(), cloud = session_->Cloud(),
                      depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Region(),
                      source = source_, options](const RunContext& context) -> Result<Detection> {
@@ -144,7 +144,6 @@ void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan,
   object.scan_uuid = scan->uuid;
   object.scan_time = session_->ScanTime();
   session_->AddObject(object);
-  Q_EMIT objectFound(object);
 }
 
 }  // namespace foresight

@@ -19,7 +19,7 @@ enum class RegionShape {
   kTwoClicks,  ///< two points on opposite sides of the object
 };
 
-/// The region that points in pixels of a picture mean; fails as ImageRoi::Check does.
+/// The region that points in pixels of an image mean; fails as ImageRoi::Check does.
 Result<ImageRoi> RegionThrough(RegionShape shape, double motor_rad,
                                const std::vector<Eigen::Vector2d>& points);
 
@@ -42,10 +42,14 @@ class FitViewModel : public QObject {
   void SetSource(FitSource source);
   bool CanFit() const;
   TaskRunner* Runner() { return &runner_; }
+  /// The programs' defaults; a terrain is also compared with the last one of an earlier scan that
+  /// the operator accepted.
+  /// There is a current scan.
+  FitOptions OptionsFor(ObjectKind kind) const;
 
   /// Drawing a region also fits an object of this kind into it.
   void SetTool(ObjectKind kind, bool on);
-  /// Points in pixels of the current picture, as many as the shape asks for. Fits at once while an
+  /// Points in pixels of the current image, as many as the shape asks for. Fits at once while an
   /// object's tool is on. A region too small to be meant is ignored.
   void DrawRegion(const std::vector<Eigen::Vector2d>& points);
   /// A rectangle over the cloud: a box round what it shows or, with `cut`, what is left of the
@@ -60,16 +64,13 @@ class FitViewModel : public QObject {
 
  Q_SIGNALS:
   void changed();
-  void objectFound(const foresight::FoundObject& object);
 
  private:
   QString Doing() const;
-  /// The programs' defaults; a terrain is also compared with the last one of an earlier scan.
-  FitOptions Options() const;
   void Accept(const std::shared_ptr<const Scan>& scan, const Result<Detection>& detection);
 
   SessionModel* session_;
-  TaskRunner runner_;
+  TaskRunner runner_{session_->Tasks()};
   FitSource source_ = FitSource::kRaw;
   RegionShape shape_ = RegionShape::kRectangle;
   ObjectKind kind_ = ObjectKind::kValve;

@@ -6,13 +6,18 @@
 #include "core/depth/depth_method.h"
 #include "core/depth/local_plane.h"
 #include "core/geometry/angles.h"
+#include "core/sensor/rig_id.h"
 #include "hardware/head/scan_fanout.h"
 
 namespace foresight {
 namespace {
 
 constexpr int kPollInterval_ms = 100;
-constexpr int kPollsPerLook = 3;  ///< a running scan is looked at about four times a second
+constexpr int kPollsPerLook = 3;  ///< a running scan is looked at about three times a second
+/// A head that neither sweeps nor has begun the scan after so many polls has lost it.
+constexpr int kPollsUntilLost = 30;
+/// For so many polls after its end a scan is looked at for late lines.
+constexpr int kPollsForLateLines = 20;
 
 /// The reach of the filter that a new scan is computed with, and the method's name.
 void DescribeFilter(double density, PredictionText* text) {
@@ -32,6 +37,19 @@ QString DescribeExposure(double wanted_ms, const ScanPrediction& prediction) {
 
 double FastestSpeed(const ScanPrediction& prediction) {
   return std::floor(10.0 * DegreesFromRadians(prediction.fastest_speed_rad_s) + 1e-6) / 10.0;
+}
+
+/// Whether an operator could tell the two apart.
+bool LooksSame(const HeadStatus& a, const HeadStatus& b) {
+  const auto same = [](double x_rad, double y_rad, double step_deg) {
+    return std::lround(DegreesFromRadians(x_rad) / step_deg) ==
+           std::lround(DegreesFromRadians(y_rad) / step_deg);
+  };
+  return a.state == b.state && same(a.angle_rad, b.angle_rad, 0.01) &&
+         same(a.speed_rad_s, b.speed_rad_s, 0.1) &&
+         same(a.commanded_speed_rad_s, b.commanded_speed_rad_s, 0.1) && a.lines == b.lines &&
+         a.expected_lines == b.expected_lines && a.frames == b.frames &&
+         a.lost_lines == b.lost_lines && a.message == b.message;
 }
 
 DeviceRow RowOf(const QString& name, const DeviceDiagnosis& diagnosis, const std::string& numbers) {
@@ -61,8 +79,8 @@ ScanPlan PlanFields::ToPlan() const {
   plan.image_angles_rad.clear();
   for (const double angle : image_angles_deg)
     plan.image_angles_rad.push_back(RadiansFromDegrees(angle));
-  plan.picture_mode =
-      standing_still ? ScanPlan::PictureMode::kStopAndShoot : ScanPlan::PictureMode::kOnTheFly;
+  plan.image_mode =
+      standing_still ? ScanPlan::ImageMode::kStopAndShoot : ScanPlan::ImageMode::kOnTheFly;
   plan.passes = there_and_back ? 2 : 1;
   return plan;
 }
@@ -134,13 +152,31 @@ QVector<DeviceRow> HeadViewModel::Devices() const {
   return rows;
 }
 
+QString HeadViewModel::RigText() const {
+  const SensorRig rig = head_->Rig();
+  const std::string_view model = rig.camera.Name();
+  return tr("Rig %1, %2\nCamera model: %3")
+      .arg(QString::fromStdString(rig.name), QString::fromStdString(ShortRigId(rig)),
+           QString::fromUtf8(model.data(), static_cast<int>(model.size())));
+}
+
 bool HeadViewModel::CanEditPlan() const {
   return !live_ && status_.state != HeadState::kHoming && status_.state != HeadState::kSweeping &&
          status_.state != HeadState::kStopping;
 }
 
 bool HeadViewModel::CanScan() const {
-  return status_.state == HeadState::kReady && !live_ && Prediction().usable;
+  return WhyNoScan().isEmpty();
+}
+
+QString HeadViewModel::WhyNoScan() const {
+  if (stop_latched_) return tr("The head was stopped. Release the stop first.");
+  if (live_) return tr("A scan is running.");
+  if (status_.state != HeadState::kReady)
+    return tr("The head is %1. Press Home and wait until it is ready.")
+        .arg(QString::fromUtf8(ToString(status_.state)));
+  const PredictionText prediction = Prediction();
+  return prediction.usable ? QString() : prediction.warning;
 }
 
 bool HeadViewModel::CanAbort() const {
@@ -148,16 +184,40 @@ bool HeadViewModel::CanAbort() const {
 }
 
 bool HeadViewModel::CanHome() const {
-  return status_.state == HeadState::kDisconnected || status_.state == HeadState::kReady ||
-         status_.state == HeadState::kFault;
+  return WhyNoHome().isEmpty();
+}
+
+QString HeadViewModel::WhyNoHome() const {
+  if (stop_latched_) return tr("The head was stopped. Release the stop first.");
+  switch (status_.state) {
+    case HeadState::kDisconnected:
+    case HeadState::kReady:
+    case HeadState::kFault:
+      return {};
+    case HeadState::kHoming:
+    case HeadState::kSweeping:
+    case HeadState::kStopping:
+      break;
+  }
+  return tr("The head is moving.");
+}
+
+bool HeadViewModel::Sweeps() const {
+  return status_.state == HeadState::kSweeping || status_.state == HeadState::kStopping;
 }
 
 void HeadViewModel::Poll() {
   head_->OperatorSeen();  // a window that hangs does not say so, and the head stops its motor
+  const HeadStatus before = status_;
+  const QVector<DeviceRow> devices_before = Devices();
+  const bool scanned = Scanning();
   status_ = head_->Status();
   PollHealth();
   if (live_) PollScan();
-  Q_EMIT statusChanged();
+  if (ended_) PollLateLines();
+  // A signal for nothing would draw the window again, ten times a second.
+  if (!LooksSame(before, status_) || scanned != Scanning() || devices_before != Devices())
+    Q_EMIT statusChanged();
 }
 
 void HeadViewModel::PollHealth() {
@@ -166,14 +226,23 @@ void HeadViewModel::PollHealth() {
 }
 
 void HeadViewModel::PollScan() {
-  const bool under_way =
-      status_.state == HeadState::kSweeping || status_.state == HeadState::kStopping;
   const bool look = ++polls_ % kPollsPerLook == 0 && status_.lines != lines_shown_;
-  if (under_way && !look) return;  // a snapshot is a copy of the scan
+  if (Sweeps() && !look) return;
   const auto scan = live_->Snapshot();
-  if (!scan) return;
-  if (scan->state != ScanState::kRunning) {
+  if (!scan) {
+    // Accepted, and then neither begun nor refused: the head was lost, or began anew.
+    polls_without_scan_ = Sweeps() ? 0 : polls_without_scan_ + 1;
+    if (polls_without_scan_ < kPollsUntilLost) return;
     live_.reset();
+    Q_EMIT noticed({Notice::Level::kError, tr("The head did not begin the scan."),
+                    tr("Check its state, press Home, then scan again."), kScanTopic});
+    Q_EMIT scanLost();
+    return;
+  }
+  if (scan->state != ScanState::kRunning) {
+    ended_ = std::exchange(live_, nullptr);
+    lines_of_ended_ = scan->lines.size();
+    polls_since_end_ = 0;
     Q_EMIT scanEnded(scan);
   } else if (look) {
     lines_shown_ = status_.lines;
@@ -181,8 +250,19 @@ void HeadViewModel::PollScan() {
   }
 }
 
+void HeadViewModel::PollLateLines() {
+  if (++polls_since_end_ > kPollsForLateLines) {
+    ended_.reset();
+    return;
+  }
+  const auto scan = ended_->Snapshot();
+  if (scan->lines.size() == lines_of_ended_) return;
+  lines_of_ended_ = scan->lines.size();
+  Q_EMIT scanEnded(scan);
+}
+
 void HeadViewModel::scan() {
-  if (live_) return;
+  if (live_ || stop_latched_) return;
   auto live = std::make_shared<ScanAssembler>();
   std::vector<std::shared_ptr<ScanSink>> sinks = {live};
   if (auto recorder = recorder_source_ ? recorder_source_() : nullptr) sinks.push_back(recorder);
@@ -192,9 +272,11 @@ void HeadViewModel::scan() {
     return;
   }
   live_ = std::move(live);
-  polls_ = lines_shown_ = 0;
+  ended_.reset();
+  polls_ = polls_without_scan_ = lines_shown_ = 0;
   Q_EMIT scanStarted();
   Poll();
+  Q_EMIT statusChanged();
 }
 
 void HeadViewModel::StopForGood() {
@@ -208,6 +290,7 @@ void HeadViewModel::abort() {
 }
 
 void HeadViewModel::home() {
+  if (stop_latched_) return;
   if (const auto homing = head_->Home(); !homing)
     Q_EMIT noticed(NoticeOf(tr("Homing the head"), homing.error()));
   Poll();
@@ -215,9 +298,21 @@ void HeadViewModel::home() {
 
 void HeadViewModel::stop() {
   head_->StopMotor();
-  Q_EMIT noticed({Notice::Level::kWarning, tr("The head's motor was told to stop."),
-                  tr("This stops the scanner only, not the robot. Press Home to go on.")});
+  stop_latched_ = true;
+  Q_EMIT noticed(
+      {Notice::Level::kWarning, tr("The head's motor was told to stop."),
+       tr("This stops the scanner only, not the robot. Release the stop, then press Home "
+          "to go on."),
+       kStopTopic});
   Poll();
+  Q_EMIT statusChanged();
+}
+
+void HeadViewModel::releaseStop() {
+  if (!stop_latched_) return;
+  stop_latched_ = false;
+  Q_EMIT stopReleased();
+  Q_EMIT statusChanged();
 }
 
 }  // namespace foresight

@@ -23,7 +23,7 @@ struct PlanFields {
   double speed_deg_s = 10.0;
   QVector<double> image_angles_deg = {0.0};
   double exposure_ms = 4.0;
-  bool standing_still = false;  ///< pictures after the sweep, not in passing
+  bool standing_still = false;  ///< images after the sweep, not in passing
   bool there_and_back = false;  ///< two passes in one scan
 
   ScanPlan ToPlan() const;
@@ -51,9 +51,12 @@ struct DeviceRow {
   Lamp lamp = Lamp::kIdle;
   QString state;   ///< "well", "not connected"
   QString detail;  ///< numbers, then what is wrong; empty before the head is connected
+
+  bool operator==(const DeviceRow&) const = default;
 };
 
-/// The head and the next scan: status at 10 Hz, plan, prediction, commands.
+/// The head and the next scan: status at 10 Hz, plan, prediction, commands. After a stop nothing
+/// turns again until the operator has released it.
 class HeadViewModel : public QObject {
   Q_OBJECT
 
@@ -71,11 +74,19 @@ class HeadViewModel : public QObject {
   /// Lidar, camera and motor; trouble of the last ten seconds still shows.
   QVector<DeviceRow> Devices() const;
 
+  /// The rig in force: its name, short id and camera model.
+  QString RigText() const;
+
   /// Not while the head moves: what is typed then would look as if it steered the scan.
   bool CanEditPlan() const;
   bool CanScan() const;
   bool CanAbort() const;
   bool CanHome() const;
+  /// Whether the motor was stopped by the operator and that has not been released.
+  bool StopLatched() const { return stop_latched_; }
+  /// Why Scan cannot be pressed now, as a sentence; empty when it can.
+  QString WhyNoScan() const;
+  QString WhyNoHome() const;
   /// Whether a scan was started and has not been handed over yet.
   bool Scanning() const { return live_ != nullptr; }
 
@@ -97,20 +108,28 @@ class HeadViewModel : public QObject {
   void scan();
   void abort();
   void home();
+  /// Stops the motor at once, whatever it does, and keeps it stopped.
   void stop();
+  /// The head may move again when it is told to. Moves nothing by itself.
+  void releaseStop();
 
  Q_SIGNALS:
-  void statusChanged();
+  void statusChanged();  ///< something that can be seen changed
   void planChanged();
   void scanStarted();
   /// What has arrived so far, about four times a second.
   void scanGrew(const std::shared_ptr<const foresight::Scan>& scan);
   void scanEnded(const std::shared_ptr<const foresight::Scan>& scan);
+  /// A scan that was started will not come: the head never began it.
+  void scanLost();
+  void stopReleased();
   void noticed(const foresight::Notice& notice);
 
  private:
   void PollScan();
+  void PollLateLines();
   void PollHealth();
+  bool Sweeps() const;
 
   std::shared_ptr<SensorHead> head_;
   HeadStatus status_;
@@ -121,7 +140,13 @@ class HeadViewModel : public QObject {
   std::function<std::shared_ptr<ScanSink>()> recorder_source_;
   std::shared_ptr<ScanAssembler> live_;
   int polls_ = 0;
+  int polls_without_scan_ = 0;
   int lines_shown_ = 0;
+  bool stop_latched_ = false;
+  /// The scan that ended last: a line that was still on its way is shown too.
+  std::shared_ptr<ScanAssembler> ended_;
+  std::size_t lines_of_ended_ = 0;
+  int polls_since_end_ = 0;
   QTimer timer_;
 };
 

@@ -15,10 +15,20 @@ void LiveDepthViewModel::RememberScan() {
   if (scan && !scan->frames.empty()) last_scan_ = scan;
 }
 
+std::shared_ptr<const CameraFrame> LiveDepthViewModel::ImageToUse() {
+  if (!own_image_ && session_->CurrentImage() != nullptr)
+    own_image_ = std::make_shared<const CameraFrame>(*session_->CurrentImage());
+  if (own_image_) return own_image_;
+  if (!last_scan_) return nullptr;
+  if (last_scan_->plan.image_angles_rad != head_->Plan().ToPlan().image_angles_rad) return nullptr;
+  return image_ ? image_ : std::make_shared<const CameraFrame>(last_scan_->frames.front());
+}
+
 void LiveDepthViewModel::Grow() {
-  if (!head_->Scanning() || !session_->Cloud() || !last_scan_ || runner_.Busy()) return;
-  if (last_scan_->plan.image_angles_rad != head_->Plan().ToPlan().image_angles_rad) return;
-  if (!live_) Begin();
+  if (!head_->Scanning() || !session_->Cloud() || runner_.Busy()) return;
+  const auto image = ImageToUse();
+  if (!image) return;
+  if (!live_ || image != image_) Begin(image);
   if (!live_) return;
   const auto work = [cloud = session_->Cloud(), live = live_](const RunContext& context) {
     RunContext modest = context;
@@ -36,15 +46,18 @@ void LiveDepthViewModel::Grow() {
       });
 }
 
-void LiveDepthViewModel::Begin() {
+void LiveDepthViewModel::Begin(std::shared_ptr<const CameraFrame> image) {
   const auto options = FixedForPlan(DefaultsOf(Method()), head_->Plan().ToPlan(), session_->Rig());
-  if (options)  // a plan that cannot be flown has no preview
-    live_ = std::make_shared<LiveDepth>(session_->Rig(), last_scan_->frames.front(), *options);
+  if (!options) return;  // a plan that cannot be executed has no preview
+  image_ = std::move(image);
+  live_ = std::make_shared<LiveDepth>(session_->Rig(), *image_, *options);
 }
 
 void LiveDepthViewModel::Clear() {
   runner_.cancel();
   live_.reset();  // a task that still runs holds on to its own
+  own_image_.reset();
+  image_.reset();
   if (!depth_) return;
   depth_.reset();
   Q_EMIT changed();

@@ -14,7 +14,16 @@ struct Notice {
   Level level = Level::kInfo;
   QString what;
   QString next;
+  /// What it is about, where a later event can end that ("scan", "recording"); may be empty.
+  QString topic = {};
+
+  bool operator==(const Notice&) const = default;
 };
+
+/// Topics: the last scan, the operator's stop, the mission file that is written.
+inline const QString kScanTopic = QStringLiteral("scan");
+inline const QString kStopTopic = QStringLiteral("stop");
+inline const QString kRecordingTopic = QStringLiteral("recording");
 
 /// The notice for a failed step; `doing` starts the sentence, e.g. "Fitting the valve".
 Notice NoticeOf(const QString& doing, const Error& error);

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-/// A region on its way, drawn with mouse and keys, in pixels of the picture. A rectangle is
+/// A region on its way, drawn with mouse and keys, in pixels of the image. A rectangle is
 /// dragged; a polygon's corners are clicked, Backspace takes the last one back, Enter or a double
 /// click closes it; two clicks are two clicks. Escape ends any of them without a region.
 class RegionGesture {

@@ -2,25 +2,27 @@
 
 namespace foresight {
 
-ScanFlow::ScanFlow(HeadViewModel* head, SessionModel* session, SessionMode mode, QObject* parent)
-    : QObject(parent), head_(head), session_(session), mode_(mode) {
+ScanFlow::ScanFlow(HeadViewModel* head, SessionModel* session, QObject* parent)
+    : QObject(parent), head_(head), session_(session) {
   connect(head, &HeadViewModel::scanStarted, this, &ScanFlow::Begin);
   connect(head, &HeadViewModel::scanGrew, this, &ScanFlow::Grow);
   connect(head, &HeadViewModel::scanEnded, this, &ScanFlow::End);
+  connect(head, &HeadViewModel::scanLost, session, &SessionModel::GiveUpScan);
   connect(head, &HeadViewModel::noticed, session, &SessionModel::Report);
 }
 
 void ScanFlow::Begin() {
   // Nothing of an older scan stays on the screen while a new one runs.
   session_->ExpectScan();
-  session_->SetMode(mode_);
+  points_ = std::make_shared<GrowingRegistration>();
 }
 
 void ScanFlow::Grow(const std::shared_ptr<const Scan>& scan) {
+  session_->SetArriving(scan);
   if (runner_.Busy()) return;  // the next look shows more
   runner_.Run<RegisteredScan>(
       tr("Placing points"),
-      [scan](const RunContext& context) { return RegisterScan(*scan, context); },
+      [scan, points = points_](const RunContext& context) { return points->Update(*scan, context); },
       [this, scan](Result<RegisteredScan> cloud) {
         // Too few points yet, or the whole scan has come meanwhile.
         if (!cloud || !head_->Scanning()) return;
@@ -30,14 +32,16 @@ void ScanFlow::Grow(const std::shared_ptr<const Scan>& scan) {
 
 void ScanFlow::End(const std::shared_ptr<const Scan>& scan) {
   runner_.cancel();
-  if (scan->state != ScanState::kComplete) {
+  const bool late_lines = session_->CurrentScan() && session_->CurrentScan()->uuid == scan->uuid;
+  if (scan->state != ScanState::kComplete && !late_lines) {
     const QString reason = QString::fromStdString(scan->reason);
     session_->Report({Notice::Level::kWarning,
                       tr("The scan was %1%2.")
                           .arg(QString::fromUtf8(ToString(scan->state)),
                                reason.isEmpty() ? QString() : QStringLiteral(": ") + reason),
                       scan->lines.empty() ? tr("Nothing was measured; scan again.")
-                                          : tr("What was measured until then is shown.")});
+                                          : tr("What was measured until then is shown."),
+                      kScanTopic});
   }
   if (scan->lines.empty())
     session_->GiveUpScan();

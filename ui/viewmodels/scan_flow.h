@@ -2,6 +2,7 @@
 
 #include <QObject>
 
+#include "core/registration/growing_registration.h"
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
@@ -14,7 +15,7 @@ class ScanFlow : public QObject {
   Q_OBJECT
 
  public:
-  ScanFlow(HeadViewModel* head, SessionModel* session, SessionMode mode, QObject* parent = nullptr);
+  ScanFlow(HeadViewModel* head, SessionModel* session, QObject* parent = nullptr);
 
  private:
   void Begin();
@@ -23,8 +24,8 @@ class ScanFlow : public QObject {
 
   HeadViewModel* head_;
   SessionModel* session_;
-  SessionMode mode_;
-  TaskRunner runner_;
+  std::shared_ptr<GrowingRegistration> points_;  ///< of the running scan; one task at a time uses it
+  TaskRunner runner_{session_->Tasks()};
 };
 
 }  // namespace foresight

@@ -1,34 +1,37 @@
 #include "ui/viewmodels/session_model.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "core/detection/candidates.h"
 
 namespace foresight {
+namespace {
 
-SessionModel::SessionModel(SessionMode mode, QObject* parent) : QObject(parent), mode_(mode) {
+const QString kRegionTopic = QStringLiteral("region");
+const QString kObjectTopic = QStringLiteral("object");
+
+}  // namespace
+
+SessionModel::SessionModel(SessionMode mode, TaskQueue* tasks, QObject* parent)
+    : QObject(parent), mode_(mode), tasks_(tasks) {
   qRegisterMetaType<Notice>("foresight::Notice");
-}
-
-void SessionModel::SetMode(SessionMode mode) {
-  mode_ = mode;
-  Q_EMIT modeChanged();
 }
 
 void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
   scan_ = std::move(scan);
   expects_scan_ = false;
-  picture_ = -1;  // all of it before the first signal: who hears one may ask for anything
+  image_index_ = -1;  // all of it before the first signal: who hears one may ask for anything
   depth_.reset();
   mask_.reset();
   cloud_.reset();
   roi_.reset();
-  roi_history_.clear();
+  arriving_.reset();
+  undo_.Forget(kRegionTopic);
   Q_EMIT scanChanged();
   Q_EMIT cloudChanged();
   Q_EMIT roiChanged();
   Q_EMIT objectsChanged();  // those of the scan before are no longer current
-  SelectPicture(scan_ && !scan_->frames.empty() ? 0 : -1);
+  SelectImage(scan_ && !scan_->frames.empty() ? 0 : -1);
 }
 
 void SessionModel::ExpectScan() {
@@ -37,25 +40,35 @@ void SessionModel::ExpectScan() {
   Q_EMIT scanChanged();
 }
 
+void SessionModel::SetArriving(std::shared_ptr<const Scan> scan) {
+  const std::size_t images_before = arriving_ ? arriving_->frames.size() : 0;
+  arriving_ = std::move(scan);
+  const std::size_t images = arriving_ ? arriving_->frames.size() : 0;
+  if (images == images_before) return;
+  Q_EMIT scanChanged();
+  SelectImage(images == 0 ? -1 : std::max(0, image_index_));
+}
+
 void SessionModel::GiveUpScan() {
   expects_scan_ = false;
+  SetArriving(nullptr);
   Q_EMIT scanChanged();
 }
 
 QDateTime SessionModel::ScanTime() const {
-  if (!scan_ || scan_->start_utc_ns == 0) return {};
-  return QDateTime::fromMSecsSinceEpoch(scan_->start_utc_ns / 1'000'000);
+  if (!ShownScan() || ShownScan()->start_utc_ns == 0) return {};
+  return QDateTime::fromMSecsSinceEpoch(BeginUtc_ns(*ShownScan()) / 1'000'000);
 }
 
-void SessionModel::SelectPicture(int index) {
-  const int count = scan_ ? static_cast<int>(scan_->frames.size()) : 0;
-  picture_ = index >= 0 && index < count ? index : -1;
-  Q_EMIT pictureChanged();
+void SessionModel::SelectImage(int index) {
+  const int count = ShownScan() ? static_cast<int>(ShownScan()->frames.size()) : 0;
+  image_index_ = index >= 0 && index < count ? index : -1;
+  Q_EMIT imageChanged();
   SetDepth(nullptr);
 }
 
-const CameraFrame* SessionModel::Picture() const {
-  return picture_ < 0 ? nullptr : &scan_->frames[static_cast<std::size_t>(picture_)];
+const CameraFrame* SessionModel::CurrentImage() const {
+  return image_index_ < 0 ? nullptr : &ShownScan()->frames[static_cast<std::size_t>(image_index_)];
 }
 
 void SessionModel::SetCloud(std::shared_ptr<const RegisteredScan> cloud, const SensorRig& rig) {
@@ -76,26 +89,139 @@ void SessionModel::SetMask(std::shared_ptr<const MaskImage> mask) {
 }
 
 void SessionModel::SetRoi(std::optional<Roi> roi) {
-  roi_history_.push_back(roi_);
-  roi_ = std::move(roi);
-  Q_EMIT roiChanged();
+  undo_.Push(
+      tr("Draw region"), kRegionTopic, [this, before = roi_] { ShowRoi(before); },
+      [this, roi] { ShowRoi(roi); });
+  ShowRoi(std::move(roi));
 }
 
-void SessionModel::undoRoi() {
-  if (roi_history_.empty()) return;
-  roi_ = std::move(roi_history_.back());
-  roi_history_.pop_back();
+void SessionModel::ShowRoi(std::optional<Roi> roi) {
+  roi_ = std::move(roi);
   Q_EMIT roiChanged();
 }
 
 void SessionModel::AddObject(FoundObject object) {
   objects_.push_back(std::move(object));
   SelectObject(static_cast<int>(objects_.size()) - 1);
+  Q_EMIT objectAdded(objects_.back());
 }
 
-void SessionModel::ClearObjects() {
-  objects_.clear();
-  SelectObject(-1);
+void SessionModel::ShowObjects(std::vector<FoundObject> objects) {
+  undo_.Forget(kObjectTopic);
+  objects_ = std::move(objects);
+  SelectObject(static_cast<int>(objects_.size()) - 1);
+}
+
+FoundObject* SessionModel::Find(const std::string& uuid) {
+  for (FoundObject& object : objects_)
+    if (object.uuid == uuid) return &object;
+  return nullptr;
+}
+
+void SessionModel::MarkKept(const std::string& uuid) {
+  FoundObject* object = Find(uuid);
+  if (object == nullptr || object->kept) return;
+  object->kept = true;
+  Q_EMIT objectsChanged();
+}
+
+void SessionModel::Touch(const ObjectEvent& event) {
+  if (FoundObject* object = Find(event.uuid)) {
+    switch (event.action) {
+      case DetectionEvent::Action::kAccepted:
+        object->decision = Decision::kAccepted;
+        break;
+      case DetectionEvent::Action::kRejected:
+        object->decision = Decision::kRejected;
+        break;
+      case DetectionEvent::Action::kReopened:
+        object->decision = Decision::kOpen;
+        break;
+      case DetectionEvent::Action::kRenamed:
+        object->name = event.text;
+        break;
+      case DetectionEvent::Action::kDeleted:
+      case DetectionEvent::Action::kRestored:
+        break;
+    }
+  }
+  Q_EMIT objectTouched(event);
+  Q_EMIT objectsChanged();
+}
+
+void SessionModel::Decide(Decision decision) {
+  const FoundObject* object = Selected();
+  if (object == nullptr || object->decision == decision) return;
+  // What was on the screen is what was decided on: a surface of a terrain, or an alternative.
+  const QString which = candidate_ > 0 ? tr("answer %1").arg(candidate_ + 1) : QString();
+  const auto event = [uuid = object->uuid, which](Decision value) {
+    const DetectionEvent::Action action =
+        value == Decision::kAccepted   ? DetectionEvent::Action::kAccepted
+        : value == Decision::kRejected ? DetectionEvent::Action::kRejected
+                                       : DetectionEvent::Action::kReopened;
+    return ObjectEvent{uuid, action, which};
+  };
+  const QString text = decision == Decision::kAccepted   ? tr("Accept object")
+                       : decision == Decision::kRejected ? tr("Reject object")
+                                                         : tr("Take a decision back");
+  undo_.Push(
+      text, kObjectTopic, [this, event, before = object->decision] { Touch(event(before)); },
+      [this, event, decision] { Touch(event(decision)); });
+  Touch(event(decision));
+}
+
+void SessionModel::RenameSelected(const QString& name) {
+  const FoundObject* object = Selected();
+  if (object == nullptr || object->name == name) return;
+  const ObjectEvent back{object->uuid, DetectionEvent::Action::kRenamed, object->name};
+  const ObjectEvent forth{object->uuid, DetectionEvent::Action::kRenamed, name};
+  undo_.Push(
+      tr("Rename object"), kObjectTopic, [this, back] { Touch(back); },
+      [this, forth] { Touch(forth); });
+  Touch(forth);
+}
+
+void SessionModel::Remove(const std::string& uuid) {
+  const auto at = std::find_if(objects_.begin(), objects_.end(),
+                               [&](const FoundObject& object) { return object.uuid == uuid; });
+  if (at == objects_.end()) return;
+  const int index = static_cast<int>(at - objects_.begin());
+  objects_.erase(at);
+  SelectObject(std::min(index, static_cast<int>(objects_.size()) - 1));
+}
+
+void SessionModel::Insert(const FoundObject& object, std::size_t at) {
+  at = std::min(at, objects_.size());
+  objects_.insert(objects_.begin() + static_cast<std::ptrdiff_t>(at), object);
+  SelectObject(static_cast<int>(at));
+}
+
+void SessionModel::RemoveSelected() {
+  if (Selected() == nullptr) return;
+  const auto at = static_cast<std::size_t>(selected_object_);
+  const FoundObject object = *Selected();
+  const auto remove = [this, uuid = object.uuid] {
+    Remove(uuid);
+    Touch({uuid, DetectionEvent::Action::kDeleted, {}});
+  };
+  undo_.Push(
+      tr("Delete object"), kObjectTopic,
+      [this, object, at] {
+        Insert(object, at);
+        Touch({object.uuid, DetectionEvent::Action::kRestored, {}});
+      },
+      remove);
+  remove();
+}
+
+void SessionModel::CopySelected() {
+  if (Selected() == nullptr) return;
+  FoundObject copy = *Selected();
+  copy.uuid = NewUuid();
+  copy.decision = Decision::kOpen;
+  copy.kept = false;
+  if (!copy.name.isEmpty()) copy.name = tr("Copy of %1").arg(copy.name);
+  AddObject(std::move(copy));
 }
 
 void SessionModel::SelectObject(int index) {

@@ -12,34 +12,53 @@
 
 #include "core/depth/pipeline.h"
 #include "core/detection/detection.h"
+#include "core/mission/mission_records.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/scan.h"
 #include "ui/viewmodels/notice.h"
+#include "ui/viewmodels/task_queue.h"
+#include "ui/viewmodels/undo_stack.h"
 
 namespace foresight {
 
-/// Where the data on the screen come from.
+/// Where the data of a document come from.
 enum class SessionMode { kLive, kSimulation, kReplay };
 
-/// An object that was found, with where it comes from.
+/// An object that was found, with where it comes from and what the operator made of it.
 struct FoundObject {
   Detection detection;
   SensorRig rig;  ///< of the scan it was found in
   std::string scan_uuid;
   QDateTime scan_time;
   std::chrono::steady_clock::time_point found = std::chrono::steady_clock::now();
+  std::string uuid = NewUuid();  ///< of this object, in every file that keeps it
+  QString name;                  ///< the operator's; empty = none was given
+  Decision decision = Decision::kOpen;
+  std::string provenance_json;  ///< all that is needed to make it again (core/mission)
+  bool kept = false;            ///< it is on the disk
 };
 
-/// The document: the current scan and all that was made from it. Every part is immutable and
-/// replaced as a whole; a part that no longer fits the scan is dropped, never shown as current.
+/// What the operator does to an object that is there.
+struct ObjectEvent {
+  std::string uuid;
+  DetectionEvent::Action action = DetectionEvent::Action::kReopened;
+  QString text;  ///< the new name, or which answer a decision is about where it is not the best one
+};
+
+/// A document: the current scan and all that was made from it. Every part is immutable and replaced
+/// as a whole; a part that no longer fits the scan is dropped, never shown as current. The program
+/// has two, the live one and the one for review, and never moves anything from one to the other.
 class SessionModel : public QObject {
   Q_OBJECT
 
  public:
-  explicit SessionModel(SessionMode mode, QObject* parent = nullptr);
+  /// Without a queue the tasks of each view-model have one of their own.
+  explicit SessionModel(SessionMode mode, TaskQueue* tasks = nullptr, QObject* parent = nullptr);
 
   SessionMode Mode() const { return mode_; }
-  void SetMode(SessionMode mode);
+  /// Where the work of all that belongs to this document is done.
+  TaskQueue* Tasks() const { return tasks_; }
+  UndoStack* Undo() { return &undo_; }
 
   /// A new scan: drops the points, depth and regions of the one before; found objects stay listed.
   void SetScan(std::shared_ptr<const Scan> scan);
@@ -47,13 +66,17 @@ class SessionModel : public QObject {
   /// Drops the scan as SetScan(nullptr) does, because a new one is on its way.
   void ExpectScan();
   bool ExpectsScan() const { return expects_scan_; }
+  /// What has come of the scan that is expected: its images are shown as they are taken.
+  void SetArriving(std::shared_ptr<const Scan> scan);
+  /// The current scan or, while one is on its way, what has come of it; nullptr = neither.
+  const std::shared_ptr<const Scan>& ShownScan() const { return scan_ ? scan_ : arriving_; }
   /// The scan that was expected will not come.
   void GiveUpScan();
   QDateTime ScanTime() const;
 
-  void SelectPicture(int index);
-  int PictureIndex() const { return picture_; }
-  const CameraFrame* Picture() const;
+  void SelectImage(int index);
+  int ImageIndex() const { return image_index_; }
+  const CameraFrame* CurrentImage() const;
 
   /// The points of the current scan, or of the part of it that has arrived.
   void SetCloud(std::shared_ptr<const RegisteredScan> cloud, const SensorRig& rig);
@@ -66,12 +89,16 @@ class SessionModel : public QObject {
   void SetMask(std::shared_ptr<const MaskImage> mask);
   const std::shared_ptr<const MaskImage>& Mask() const { return mask_; }
 
+  /// The region the operator drew; can be undone.
   void SetRoi(std::optional<Roi> roi);
   const std::optional<Roi>& Region() const { return roi_; }
-  bool CanUndoRoi() const { return !roi_history_.empty(); }
 
+  /// A new object, selected at once; `objectAdded` asks for it to be kept.
   void AddObject(FoundObject object);
-  void ClearObjects();
+  /// Objects out of a file, in place of those that are listed.
+  void ShowObjects(std::vector<FoundObject> objects);
+  /// Its record is on the disk.
+  void MarkKept(const std::string& uuid);
   const std::vector<FoundObject>& Objects() const { return objects_; }
   int SelectedObject() const { return selected_object_; }
   void SelectObject(int index);
@@ -86,41 +113,58 @@ class SessionModel : public QObject {
   /// Whether a found object belongs to the scan on the screen.
   bool IsCurrent(const FoundObject& object) const;
 
+  /// What the operator decided on the selected object; can be undone.
+  void Decide(Decision decision);
+  void RenameSelected(const QString& name);
+  void RemoveSelected();
+  /// A second object like the selected one, not decided on.
+  void CopySelected();
+
   void Report(const Notice& notice) { Q_EMIT noticed(notice); }
 
  public Q_SLOTS:
-  void undoRoi();
   /// The next or the last candidate of the selected object, round and round.
   void nextCandidate() { StepCandidate(1); }
   void previousCandidate() { StepCandidate(-1); }
 
  Q_SIGNALS:
-  void modeChanged();
   void scanChanged();
-  void pictureChanged();
+  void imageChanged();
   void cloudChanged();
   void depthChanged();
   void maskChanged();
   void roiChanged();
   void objectsChanged();
+  void objectAdded(const foresight::FoundObject& object);
+  void objectTouched(const foresight::ObjectEvent& event);
   void noticed(const foresight::Notice& notice);
 
  private:
   void StepCandidate(int by);
+  void ShowRoi(std::optional<Roi> roi);
+  FoundObject* Find(const std::string& uuid);
+  void Touch(const ObjectEvent& event);
+  void Insert(const FoundObject& object, std::size_t at);
+  void Remove(const std::string& uuid);
 
   SessionMode mode_;
+  TaskQueue* tasks_;
+  UndoStack undo_;
   std::shared_ptr<const Scan> scan_;
   bool expects_scan_ = false;
-  int picture_ = -1;
+  std::shared_ptr<const Scan> arriving_;
+  int image_index_ = -1;
   std::shared_ptr<const RegisteredScan> cloud_;
   SensorRig rig_;
   std::shared_ptr<const DepthResult> depth_;
   std::shared_ptr<const MaskImage> mask_;
   std::optional<Roi> roi_;
-  std::vector<std::optional<Roi>> roi_history_;
   std::vector<FoundObject> objects_;
   int selected_object_ = -1;
   int candidate_ = 0;
 };
 
 }  // namespace foresight
+
+Q_DECLARE_METATYPE(foresight::FoundObject)
+Q_DECLARE_METATYPE(foresight::ObjectEvent)

@@ -56,10 +56,10 @@ Result<std::vector<SourceAnswer>> FitToAll(const Subject& subject, const RunCont
   for (const DepthMethodInfo& method : DepthMethods()) methods.push_back(&method);
   std::vector<SourceAnswer> answers;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    const auto share = [&](std::size_t done) {
+    const auto fraction = [&](std::size_t done) {
       return static_cast<double>(done) / static_cast<double>(methods.size());
     };
-    const auto found = FitTo(methods[i], subject, context.Part(share(i), share(i + 1)));
+    const auto found = FitTo(methods[i], subject, context.Part(fraction(i), fraction(i + 1)));
     if (!found && found.error().code == ErrorCode::kCancelled) return tl::unexpected(found.error());
     answers.push_back(AnswerOf(
         NameOf(methods[i] == nullptr ? NamedSource()
@@ -77,14 +77,14 @@ SourceGalleryModel::SourceGalleryModel(SessionModel* session, FitViewModel* fit,
 }
 
 bool SourceGalleryModel::CanStart() const {
-  return session_->CurrentScan() && session_->Cloud() && session_->Picture() != nullptr &&
+  return session_->CurrentScan() && session_->Cloud() && session_->CurrentImage() != nullptr &&
          session_->Region() && !runner_.Busy();
 }
 
 void SourceGalleryModel::start() {
   if (!CanStart()) return;
-  const auto options = FitOptionsFor(fit_->Kind(), session_->CurrentScan()->rig.robot_from_base);
-  const Subject subject{session_->CurrentScan(), session_->Cloud(), session_->PictureIndex(),
+  const FitOptions options = fit_->OptionsFor(fit_->Kind());
+  const Subject subject{session_->CurrentScan(), session_->Cloud(), session_->ImageIndex(),
                         *session_->Region(), options};
   using Answers = std::vector<SourceAnswer>;
   runner_.Run<Answers>(

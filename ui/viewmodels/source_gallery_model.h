@@ -41,7 +41,7 @@ class SourceGalleryModel : public QObject {
  private:
   SessionModel* session_;
   FitViewModel* fit_;
-  TaskRunner runner_;
+  TaskRunner runner_{session_->Tasks()};
   std::vector<SourceAnswer> answers_;
 };
 

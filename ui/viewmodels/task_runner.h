@@ -1,27 +1,36 @@
 #pragma once
 
-#include <QFutureWatcher>
 #include <QObject>
 #include <QString>
-#include <QThreadPool>
-#include <QTimer>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "ui/viewmodels/task_queue.h"
 
 namespace foresight {
 
-/// One slot for long calls: runs them off the GUI thread, one at a time, and hands the answer over
-/// on the GUI thread. A new call replaces the running one, whose answer is then dropped.
+/// What a new task means for those of the same line that have not ended.
+enum class TaskPolicy {
+  kReplace,      ///< they are cancelled and their answers dropped: only the newest counts
+  kQueue,        ///< they come first
+  kNeverCancel,  ///< they come first, and nothing stops them: they write what must not be lost
+};
+
+/// A line of long calls: runs them off the GUI thread, one at a time, and hands each answer over in
+/// this object's thread.
 class TaskRunner : public QObject {
   Q_OBJECT
 
  public:
-  explicit TaskRunner(QObject* parent = nullptr);
-  ~TaskRunner() override;  ///< cancels and waits
+  /// Without a queue it has one of its own.
+  explicit TaskRunner(TaskQueue* queue = nullptr, TaskPolicy policy = TaskPolicy::kReplace,
+                      QObject* parent = nullptr);
+  /// Cancels and waits; tasks that are never cancelled are done to the end. Answers are dropped.
+  ~TaskRunner() override;
 
   /// `work` runs in a worker thread and must own what it uses; `done` runs in this object's thread.
   template <class T>
@@ -33,21 +42,25 @@ class TaskRunner : public QObject {
     });
   }
 
-  bool Busy() const { return watcher_ != nullptr; }
-  const QString& Title() const { return title_; }
+  bool Busy() const { return !tasks_.empty(); }
+  /// Of the running task.
+  QString Title() const;
   int Permille() const;
   QString Stage() const;
 
  public Q_SLOTS:
-  /// Asks the running call to stop; its answer, mostly kCancelled, is still handed over.
+  /// Asks what runs and waits to stop; the answers, mostly kCancelled, are still handed over. Does
+  /// nothing to tasks that are never cancelled.
   void cancel();
 
  Q_SIGNALS:
-  void changed();  ///< began, ended, or got further (at most 10 times a second)
+  void changed();  ///< a task began or ended
 
  private:
+  friend class TaskQueue;
   using Delivery = std::function<void()>;
   using Job = std::function<Delivery(const RunContext&)>;
+  struct Task;
 
   template <class T>
   static Result<T> Guarded(const std::function<Result<T>(const RunContext&)>& work,
@@ -60,14 +73,20 @@ class TaskRunner : public QObject {
   }
 
   void Launch(const QString& title, Job job);
-  void Finish(QFutureWatcher<Delivery>* watcher);
+  void StartFirst();
+  void Finish(const std::shared_ptr<Task>& task, const Delivery& delivery);
+  void Changed();
+  // For the queue.
+  void List(QVector<TaskInfo>* tasks) const;
+  void CancelTask(quint64 id);
 
-  QThreadPool pool_;
-  QTimer poll_;
-  QString title_;
-  std::stop_source stop_;
-  std::shared_ptr<Progress> progress_;
-  QFutureWatcher<Delivery>* watcher_ = nullptr;
+  std::unique_ptr<TaskQueue> own_queue_;
+  TaskQueue* queue_;
+  TaskPolicy policy_;
+  std::deque<std::shared_ptr<Task>> tasks_;  ///< the first one runs
+  /// How many jobs a thread still holds; the destructor waits for none.
+  struct Running;
+  std::shared_ptr<Running> running_;
 };
 
 }  // namespace foresight

@@ -110,7 +110,7 @@ CloudCanvas::CloudCanvas(QWidget* parent)
   compass_->SetViewport(0.0, 0.0, 0.16, 0.32);
   compass_->EnabledOn();
   compass_->InteractiveOff();
-  setMinimumSize(160, 120);
+  setMinimumSize(120, 70);
   setFocusPolicy(Qt::ClickFocus);
   setAccessibleName(tr("3D cloud"));
 }

@@ -45,6 +45,10 @@ CloudPane::CloudPane(SessionModel* session, FitViewModel* fit, QWidget* parent)
   connect(canvas_, &CloudCanvas::rectangleDrawn, fit, &FitViewModel::DrawBox);
   connect(session_, &SessionModel::scanChanged, this,
           [this] { canvas_->SetOutlines(OutlinesInRobot(*session_)); });
+  // A pane that is made late shows what is there.
+  Prepare();
+  canvas_->SetOutlines(OutlinesInRobot(*session_));
+  canvas_->SetRegion(RegionInRobot(*session_));
 }
 
 void CloudPane::BuildControls() {
@@ -77,7 +81,7 @@ void CloudPane::BuildControls() {
 void CloudPane::FillColors() {
   const QSignalBlocker blocker(color_);
   color_->clear();
-  if (!ShowsLidar()) color_->addItem(tr("Picture"), static_cast<int>(PointColor::kPicture));
+  if (!ShowsLidar()) color_->addItem(tr("Image"), static_cast<int>(PointColor::kImage));
   color_->addItem(tr("Height"), static_cast<int>(PointColor::kHeight));
   color_->addItem(tr("Range"), static_cast<int>(PointColor::kRange));
   if (ShowsLidar()) color_->addItem(tr("Intensity"), static_cast<int>(PointColor::kIntensity));
@@ -93,7 +97,7 @@ bool CloudPane::ShowsLidar() const {
 
 bool CloudPane::HasData() const {
   if (ShowsLidar()) return session_->Cloud() != nullptr;
-  return session_->Depth() && session_->Picture() != nullptr;
+  return session_->Depth() && session_->CurrentImage() != nullptr;
 }
 
 void CloudPane::PrepareResiduals() {
@@ -133,13 +137,12 @@ void CloudPane::Prepare() {
     return;
   }
   const auto work = [lidar = ShowsLidar(), cloud = session_->Cloud(), rig = session_->Rig(),
-                     scan = session_->CurrentScan(), picture = session_->PictureIndex(),
+                     scan = session_->CurrentScan(), image = session_->ImageIndex(),
                      depth = session_->Depth(), mask = session_->Mask(),
                      color = Color()](const RunContext&) -> Result<PointSet> {
     if (lidar) return PointsOf(*cloud, rig, color);
-    return PointsOf(depth->dense.depth_m, mask.get(),
-                    scan->frames[static_cast<std::size_t>(picture)], scan->rig, color,
-                    kDepthStride_px);
+    return PointsOf(depth->dense.depth_m, mask.get(), scan->frames[static_cast<std::size_t>(image)],
+                    scan->rig, color, kDepthStride_px);
   };
   runner_.Run<PointSet>(tr("Preparing the cloud"), work, [this](const Result<PointSet>& set) {
     if (set && HasData()) Show(*set);
@@ -161,7 +164,7 @@ void CloudPane::Show(const PointSet& set) {
       title = tr("intensity");
       map = ColorMap::kGray;
       break;
-    case PointColor::kPicture:
+    case PointColor::kImage:
       break;
   }
   ShowCanvas(true);

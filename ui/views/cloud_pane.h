@@ -38,8 +38,8 @@ class CloudPane : public Pane {
 
   SessionModel* session_;
   CloudCanvas* canvas_;
-  TaskRunner runner_;
-  TaskRunner residual_runner_;
+  TaskRunner runner_{session_->Tasks()};
+  TaskRunner residual_runner_{session_->Tasks()};
   QComboBox* source_;
   QComboBox* color_;
   QToolButton* residuals_;

@@ -52,9 +52,12 @@ void ColorBar::paintEvent(QPaintEvent*) {
     painter.fillRect(kMargin_px, top + y, kBarWidth_px, 1, QColor(color.r, color.g, color.b));
   }
   const QStringList labels = Labels();
-  for (int i = 0; i <= kIntervals; ++i) {
-    const double share = static_cast<double>(i) / kIntervals;
-    const int y = top + static_cast<int>((1.0 - share) * (bar_height - 1));
+  // On a low bar only the ends, or these and the middle, can be read.
+  const int room = bar_height / std::max(1, line);
+  const int every = room > kIntervals ? 1 : room >= 2 ? kIntervals / 2 : kIntervals;
+  for (int i = 0; i <= kIntervals; i += every) {
+    const double fraction = static_cast<double>(i) / kIntervals;
+    const int y = top + static_cast<int>((1.0 - fraction) * (bar_height - 1));
     const int x = kMargin_px + kBarWidth_px;
     painter.drawLine(x, y, x + 4, y);
     painter.drawText(QRect(x + 8, y - line / 2, width() - x - 8, line),

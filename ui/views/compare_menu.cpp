@@ -21,8 +21,8 @@ void CompareMenu::Fill() {
   const Kind kind = compare_->With();
   connect(Add(tr("Nothing"), kind == Kind::kNothing), &QAction::triggered, compare_,
           &CompareViewModel::compareWithNothing);
-  connect(Add(tr("Camera picture"), kind == Kind::kPicture), &QAction::triggered, compare_,
-          &CompareViewModel::compareWithPicture);
+  connect(Add(tr("Camera image"), kind == Kind::kImage), &QAction::triggered, compare_,
+          &CompareViewModel::compareWithImage);
   QAction* freeze = Add(tr("This depth, frozen as it is now"), kind == Kind::kFrozen);
   freeze->setEnabled(session_->Depth() != nullptr);
   connect(freeze, &QAction::triggered, compare_, &CompareViewModel::compareWithFrozen);

@@ -6,7 +6,7 @@
 
 namespace foresight {
 
-/// What stands right of the wipe line: nothing, the camera's picture, the depth as it is now, or
+/// What stands right of the wipe line: nothing, the camera's image, the depth as it is now, or
 /// another method.
 class CompareMenu : public QMenu {
   Q_OBJECT

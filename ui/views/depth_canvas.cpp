@@ -24,7 +24,7 @@ vtkSmartPointer<vtkActor> LineActor(Rgb8 color, float width) {
   actor->GetProperty()->SetColor(color.r / 255.0, color.g / 255.0, color.b / 255.0);
   actor->GetProperty()->SetLineWidth(width);
   actor->GetProperty()->LightingOff();
-  actor->SetPosition(0.0, 0.0, 1.0);  // in front of the picture
+  actor->SetPosition(0.0, 0.0, 1.0);  // in front of the image
   return actor;
 }
 
@@ -41,7 +41,7 @@ void SetLines(vtkActor* actor, const Polylines& lines) {
 DepthCanvas::DepthCanvas(QWidget* parent)
     : VtkCanvas(parent),
       renderer_(vtkSmartPointer<vtkRenderer>::New()),
-      picture_(vtkSmartPointer<vtkImageActor>::New()),
+      image_(vtkSmartPointer<vtkImageActor>::New()),
       wipe_(renderer_),
       marks_(renderer_),
       second_marks_(renderer_),
@@ -51,34 +51,34 @@ DepthCanvas::DepthCanvas(QWidget* parent)
   renderWindow()->AddRenderer(renderer_);
   renderer_->SetBackground(0.09, 0.10, 0.12);
   renderer_->GetActiveCamera()->ParallelProjectionOn();
-  picture_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
-  renderer_->AddActor(picture_);
+  image_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
+  renderer_->AddActor(image_);
   for (const auto& actor : {region_, gesture_actor_}) renderer_->AddActor(actor);
   PartMarks();
-  setMinimumSize(160, 120);
+  setMinimumSize(120, 70);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);  // the wipe line moves by keys alone
   setAccessibleName(tr("Depth map"));
 }
 
-void DepthCanvas::SetPicture(const ColorImage& picture) {
-  const bool same_size = picture.width() == image_width_ && picture.height() == image_height_;
-  image_width_ = std::max(1, picture.width());
-  image_height_ = std::max(1, picture.height());
-  picture_->GetMapper()->SetInputData(VtkImageOf(picture));
+void DepthCanvas::SetImage(const ColorImage& image) {
+  const bool same_size = image.width() == image_width_ && image.height() == image_height_;
+  image_width_ = std::max(1, image.width());
+  image_height_ = std::max(1, image.height());
+  image_->GetMapper()->SetInputData(VtkImageOf(image));
   if (!same_size) shows_all_ = true;
   if (shows_all_) ShowAll();
   Redraw();
 }
 
-void DepthCanvas::SetSecond(const ColorImage* picture) {
-  wipe_.SetPicture(picture);
+void DepthCanvas::SetSecond(const ColorImage* image) {
+  wipe_.SetImage(image);
   PartMarks();
   Redraw();
 }
 
-void DepthCanvas::SetWipe(double share) {
-  wipe_.SetShare(share);
+void DepthCanvas::SetWipe(double fraction) {
+  wipe_.SetFraction(fraction);
   PartMarks();
   Redraw();
 }
@@ -204,7 +204,7 @@ bool DepthCanvas::OnKey(const QKeyEvent& event) {
   const bool left = event.key() == Qt::Key_Left, right = event.key() == Qt::Key_Right;
   if (!wipe_.Shown() || !(left || right)) return false;
   const double step = event.modifiers() & Qt::ShiftModifier ? kWipeBigStep : kWipeStep;
-  Q_EMIT wiped(wipe_.Share() + (right ? step : -step));
+  Q_EMIT wiped(wipe_.Fraction() + (right ? step : -step));
   return true;
 }
 

@@ -18,17 +18,17 @@ namespace foresight {
 
 /// A painted depth map in VTK with regions and templates over it. The world is the image:
 /// x = u, y = height - 1 - v. Wheel zooms, dragging pans or, in drawing mode, draws a region. With
-/// a second picture a line parts the two: it is dragged, or moved by the arrow keys.
+/// a second image a line parts the two: it is dragged, or moved by the arrow keys.
 class DepthCanvas : public VtkCanvas {
   Q_OBJECT
 
  public:
   explicit DepthCanvas(QWidget* parent = nullptr);
 
-  void SetPicture(const ColorImage& picture);
-  /// Right of the line; of the size of the picture, or nullptr.
-  void SetSecond(const ColorImage* picture);
-  void SetWipe(double share);
+  void SetImage(const ColorImage& image);
+  /// Right of the line; of the size of the image, or nullptr.
+  void SetSecond(const ColorImage* image);
+  void SetWipe(double fraction);
   void SetMarks(std::vector<SampleMark> marks);
   /// The marks right of the line; nullopt = the first ones go on there.
   void SetSecondMarks(std::optional<std::vector<SampleMark>> marks);
@@ -36,14 +36,14 @@ class DepthCanvas : public VtkCanvas {
   void SetOutlines(const std::vector<PixelOutline>& outlines);
   void SetDrawing(bool drawing, RegionShape shape);
   void ShowAll();
-  /// Where a pixel of the picture is on this widget.
+  /// Where a pixel of the image is on this widget.
   QPoint WidgetFromPixel(const Eigen::Vector2d& pixel) const;
 
  Q_SIGNALS:
   void regionDrawn(const std::vector<Eigen::Vector2d>& points);
   void pixelPointedAt(const Eigen::Vector2d& pixel);
   /// The operator moves the line there.
-  void wiped(double share);
+  void wiped(double fraction);
 
  protected:
   bool event(QEvent* event) override;
@@ -59,9 +59,9 @@ class DepthCanvas : public VtkCanvas {
   bool OnRelease(const QMouseEvent& event);
   void OnWheel(const QWheelEvent& event);
   Eigen::Vector2d PixelAt(const QPointF& position) const;
-  /// World units (pixels of the picture) in a pixel of the widget.
+  /// World units (pixels of the image) in a pixel of the widget.
   double Scale() const;
-  /// Lines of the picture in the canvas' world.
+  /// Lines of the image in the canvas' world.
   Polylines InWorld(const PixelLines& lines) const;
   void PlaceCamera();
   void Finish(const std::optional<RegionGesture::Points>& points);
@@ -69,7 +69,7 @@ class DepthCanvas : public VtkCanvas {
   void PartMarks();
 
   vtkSmartPointer<vtkRenderer> renderer_;
-  vtkSmartPointer<vtkImageActor> picture_;
+  vtkSmartPointer<vtkImageActor> image_;
   WipeActors wipe_;
   MarkActors marks_;
   MarkActors second_marks_;

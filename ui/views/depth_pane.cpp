@@ -6,6 +6,7 @@
 #include <QHBoxLayout>
 #include <QIcon>
 #include <QLabel>
+#include <QSignalBlocker>
 #include <QSlider>
 #include <QToolButton>
 #include <cmath>
@@ -50,14 +51,14 @@ DepthPane::DepthPane(const DepthModels& models, QWidget* parent)
   connect(canvas_, &DepthCanvas::regionDrawn, fit, &FitViewModel::DrawRegion);
   ShowMethod();
   ShowThreshold();
-  ShowState();
+  ShowNewDepth();  // a pane that is made late shows what is there
 }
 
 void DepthPane::BuildControls() {
   method_ = new QComboBox;
   method_->setAccessibleName(tr("Depth method"));
   method_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  method_->setMinimumContentsLength(14);  // the pane is narrow; its list shows whole titles
+  method_->setMinimumContentsLength(5);  // the pane is narrow; its list shows whole titles
   method_->view()->setMinimumWidth(method_->view()->fontMetrics().averageCharWidth() * 40);
   for (const DepthMethodInfo& info : DepthMethods()) {
     method_->addItem(QString::fromUtf8(info.title));
@@ -68,7 +69,7 @@ void DepthPane::BuildControls() {
     depth_->setMethod(DepthMethods()[static_cast<std::size_t>(index)].method);
   });
   compare_button_ = MenuButton(tr("Compare"), new CompareMenu(session_, compare_));
-  compare_button_->setToolTip(tr("Put another picture right of a line you can move"));
+  compare_button_->setToolTip(tr("Put another image right of a line you can move"));
   Controls()->addWidget(method_);
   Controls()->addWidget(MenuButton(tr("Layers"), new LayersMenu(layers_)));
   Controls()->addWidget(compare_button_);
@@ -117,14 +118,14 @@ QWidget* DepthPane::BuildWarning() {
 }
 
 void DepthPane::Bind() {
-  const auto show_outlines = [this] { canvas_->SetOutlines(OutlinesInPicture(*session_)); };
+  const auto show_outlines = [this] { canvas_->SetOutlines(OutlinesInImage(*session_)); };
   connect(session_, &SessionModel::depthChanged, this, &DepthPane::ShowNewDepth);
   connect(session_, &SessionModel::depthChanged, this, show_outlines);
   connect(session_, &SessionModel::objectsChanged, this, show_outlines);
   connect(session_, &SessionModel::maskChanged, this, &DepthPane::Paint);
-  const auto show_region = [this] { canvas_->SetRegion(RegionInPicture(*session_)); };
+  const auto show_region = [this] { canvas_->SetRegion(RegionInImage(*session_)); };
   connect(session_, &SessionModel::roiChanged, this, show_region);
-  connect(session_, &SessionModel::pictureChanged, this, show_region);
+  connect(session_, &SessionModel::imageChanged, this, show_region);
   connect(layers_, &LayersViewModel::changed, this, [this] {
     if (layers_->IterationsOpen()) depth_->setKeepIterations(true);
     Paint();
@@ -134,7 +135,8 @@ void DepthPane::Bind() {
   connect(depth_, &DepthViewModel::thresholdChanged, this, &DepthPane::ShowThreshold);
   connect(depth_, &DepthViewModel::methodChanged, this, &DepthPane::ShowMethod);
   connect(depth_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
-  connect(live_, &LiveDepthViewModel::changed, this, &DepthPane::ShowNewDepth);
+  if (live_ != nullptr)
+    connect(live_, &LiveDepthViewModel::changed, this, &DepthPane::ShowNewDepth);
   connect(compare_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
   connect(compare_, &CompareViewModel::changed, this, [this] {
     PaintSecond();
@@ -146,7 +148,8 @@ void DepthPane::Bind() {
 }
 
 std::shared_ptr<const DepthResult> DepthPane::Shown() const {
-  return session_->Depth() ? session_->Depth() : live_->Depth();
+  if (session_->Depth() || live_ == nullptr) return session_->Depth();
+  return live_->Depth();
 }
 
 void DepthPane::ShowNewDepth() {
@@ -185,7 +188,7 @@ void DepthPane::Paint() {
   ShowState();
   if (!result) return;
   const MaskImage* mask = session_->Depth() ? session_->Mask().get() : &result->mask;
-  canvas_->SetPicture(Painted(*result, mask));
+  canvas_->SetImage(Painted(*result, mask));
   ShowColors();
 }
 
@@ -193,8 +196,8 @@ void DepthPane::PaintSecond() {
   compare_button_->setText(compare_->With() == CompareViewModel::Kind::kNothing ? tr("Compare")
                                                                                 : tr("Comparing"));
   ShowState();
-  const CameraFrame* frame = session_->Picture();
-  if (session_->Depth() && frame && compare_->With() == CompareViewModel::Kind::kPicture) {
+  const CameraFrame* frame = session_->CurrentImage();
+  if (session_->Depth() && frame && compare_->With() == CompareViewModel::Kind::kImage) {
     canvas_->SetSecond(&frame->image);
   } else if (session_->Depth() && compare_->Second()) {
     const ColorImage second = Painted(*compare_->Second(), compare_->SecondMask().get());
@@ -233,8 +236,10 @@ void DepthPane::ShowState() {
   QStringList left;
   if (compares) left << title(depth_->ShownOptions().method);
   if (depth_->Recomputing()) left << tr("recomputing …");
-  if (!session_->Depth() && live_->Depth())
-    left << tr("Live") << tr("%1 lines over the last picture").arg(live_->Lines());
+  if (!session_->Depth() && Shown())
+    left << tr("Live")
+         << (live_->HasOwnImage() ? tr("%1 lines") : tr("%1 lines over the last image"))
+                .arg(live_->Lines());
   tags_->SetTopLeft(left.join(QStringLiteral(": ")));
   tags_->SetTopRight(!compares ? QString()
                      : compare_->Runner()->Busy()
@@ -249,6 +254,8 @@ void DepthPane::ShowMethod() {
 }
 
 void DepthPane::ShowThreshold() {
+  // The slider has whole percents: showing a threshold must not round it.
+  const QSignalBlocker quiet(slider_);
   slider_->setValue(static_cast<int>(std::lround(100.0 * depth_->Threshold())));
   threshold_value_->setText(QString::number(depth_->Threshold(), 'f', 2));
 }

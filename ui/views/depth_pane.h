@@ -24,7 +24,7 @@ struct DepthModels {
   FitViewModel* fit;
   LayersViewModel* layers;
   CompareViewModel* compare;
-  LiveDepthViewModel* live;
+  LiveDepthViewModel* live;  ///< nullptr where no scan arrives
 };
 
 /// The tool to judge a depth map: the choice of the method, what lies over the map, a second one

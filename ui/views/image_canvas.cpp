@@ -44,21 +44,21 @@ ImageCanvas::ImageCanvas(QWidget* parent) : QGraphicsView(parent) {
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setDragMode(ScrollHandDrag);
-  setMinimumSize(160, 120);
-  setAccessibleName(tr("Camera picture"));
+  setMinimumSize(120, 70);
+  setAccessibleName(tr("Camera image"));
 
-  picture_ = scene()->addPixmap({});
-  picture_->setTransformationMode(Qt::SmoothTransformation);
-  picture_->setOffset(-0.5, -0.5);
+  image_ = scene()->addPixmap({});
+  image_->setTransformationMode(Qt::SmoothTransformation);
+  image_->setOffset(-0.5, -0.5);
   region_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5));
   gesture_item_ = scene()->addPath({}, CosmeticPen(ColorFrom(kRoiColor), 1.5, Qt::DashLine),
                                    QColor(255, 255, 255, 40));
 }
 
-void ImageCanvas::SetPicture(const ColorImage& picture) {
-  const bool same_size = picture_->pixmap().size() == QSize(picture.width(), picture.height());
-  picture_->setPixmap(QPixmap::fromImage(QImageOf(picture)));
-  scene()->setSceneRect(-0.5, -0.5, picture.width(), picture.height());
+void ImageCanvas::SetImage(const ColorImage& image) {
+  const bool same_size = image_->pixmap().size() == QSize(image.width(), image.height());
+  image_->setPixmap(QPixmap::fromImage(QImageOf(image)));
+  scene()->setSceneRect(-0.5, -0.5, image.width(), image.height());
   if (!same_size) ShowAll();
 }
 

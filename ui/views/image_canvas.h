@@ -12,7 +12,7 @@ class QGraphicsPixmapItem;
 
 namespace foresight {
 
-/// A camera picture with regions and templates drawn over it. Scene coordinates are pixels: (0, 0)
+/// A camera image with regions and templates drawn over it. Scene coordinates are pixels: (0, 0)
 /// is the centre of the first one. Wheel zooms, dragging pans or, in drawing mode, draws a region.
 class ImageCanvas : public QGraphicsView {
   Q_OBJECT
@@ -20,13 +20,13 @@ class ImageCanvas : public QGraphicsView {
  public:
   explicit ImageCanvas(QWidget* parent = nullptr);
 
-  void SetPicture(const ColorImage& picture);
+  void SetImage(const ColorImage& image);
   void SetRegion(const PixelLines& lines);
   void SetOutlines(const std::vector<PixelOutline>& outlines);
   void SetMarks(std::vector<SampleMark> marks);
   void SetDrawing(bool drawing, RegionShape shape);
   void ShowAll();
-  /// Where a pixel of the picture is on this widget.
+  /// Where a pixel of the image is on this widget.
   QPoint WidgetFromPixel(const Eigen::Vector2d& pixel) const;
 
  Q_SIGNALS:
@@ -48,7 +48,7 @@ class ImageCanvas : public QGraphicsView {
   void Finish(const std::optional<RegionGesture::Points>& points);
   void DrawGesture();
 
-  QGraphicsPixmapItem* picture_;
+  QGraphicsPixmapItem* image_;
   std::vector<SampleMark> marks_;
   std::vector<QGraphicsPathItem*> outlines_;
   QGraphicsPathItem* region_;

@@ -27,60 +27,67 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* 
       canvas_(static_cast<ImageCanvas*>(Pane::Canvas())),
       tags_(new CornerTags(canvas_)),
       choice_(new QComboBox) {
-  choice_->setAccessibleName(tr("Picture"));
+  choice_->setAccessibleName(tr("Image"));
   Controls()->addWidget(choice_);
-  connect(session_, &SessionModel::scanChanged, this, [this] {
-    SetHint(session_->ExpectsScan() ? tr("Scanning: the picture appears at the end")
-                                    : tr("No scan yet: press Scan (Space)"));
-  });
+  const auto show_hint = [this] {
+    SetHint(session_->Mode() == SessionMode::kReplay
+                ? tr("Open a mission for review (Ctrl+O), or choose one of its scans")
+            : session_->ExpectsScan() ? tr("Scanning: the image appears when it is taken")
+                                      : tr("No scan yet: press Scan (Space)"));
+  };
+  show_hint();
+  connect(session_, &SessionModel::scanChanged, this, show_hint);
   connect(session_, &SessionModel::scanChanged, this, &ImagePane::FillChoice);
-  connect(session_, &SessionModel::pictureChanged, this, &ImagePane::ShowPicture);
+  connect(session_, &SessionModel::imageChanged, this, &ImagePane::ShowImage);
   connect(session_, &SessionModel::objectsChanged, this, &ImagePane::ShowOutlines);
   connect(session_, &SessionModel::depthChanged, this, &ImagePane::ShowSamples);
   connect(layers_, &LayersViewModel::changed, this, &ImagePane::ShowSamples);
   connect(session_, &SessionModel::roiChanged, this, &ImagePane::ShowRegion);
-  connect(choice_, QOverload<int>::of(&QComboBox::activated), session_,
-          &SessionModel::SelectPicture);
+  connect(choice_, QOverload<int>::of(&QComboBox::activated), session_, &SessionModel::SelectImage);
   connect(fit, &FitViewModel::changed, this,
           [this, fit] { canvas_->SetDrawing(fit->Drawing(), fit->Shape()); });
   connect(canvas_, &ImageCanvas::regionDrawn, fit, &FitViewModel::DrawRegion);
   connect(&age_timer_, &QTimer::timeout, this, &ImagePane::ShowAge);
   age_timer_.start(1000);
+  // A pane that is made late shows what is there.
   FillChoice();
+  ShowImage();
+  ShowSamples();
 }
 
 void ImagePane::FillChoice() {
   const QSignalBlocker blocker(choice_);
   choice_->clear();
-  if (session_->CurrentScan())
-    for (const CameraFrame& frame : session_->CurrentScan()->frames)
+  if (session_->ShownScan())
+    for (const CameraFrame& frame : session_->ShownScan()->frames)
       choice_->addItem(tr("At %1°").arg(ShownAngle(frame), 0, 'f', 1));
   choice_->setVisible(choice_->count() > 1);
 }
 
-void ImagePane::ShowPicture() {
-  const CameraFrame* picture = session_->Picture();
-  ShowCanvas(picture != nullptr);
-  if (picture == nullptr) {
+void ImagePane::ShowImage() {
+  const CameraFrame* capture = session_->CurrentImage();
+  ShowCanvas(capture != nullptr);
+  if (capture == nullptr) {
     SetCaption({});
     return;
   }
   const QSignalBlocker blocker(choice_);
-  choice_->setCurrentIndex(session_->PictureIndex());
-  canvas_->SetPicture(picture->image);
+  choice_->setCurrentIndex(session_->ImageIndex());
+  canvas_->SetImage(capture->image);
   ShowAge();
   ShowOutlines();
   ShowRegion();
 }
 
 void ImagePane::ShowAge() {
-  const CameraFrame* picture = session_->Picture();
-  if (picture == nullptr) return;
+  const CameraFrame* capture = session_->CurrentImage();
+  if (capture == nullptr) return;
   const qint64 age_s =
       std::max<qint64>(0, session_->ScanTime().secsTo(QDateTime::currentDateTime()));
-  SetCaption(tr("Picture at %1°, scanned %2 ago")
-                 .arg(ShownAngle(*picture), 0, 'f', 1)
-                 .arg(AgeText(std::chrono::seconds(age_s))));
+  const QString caption = tr("Image at %1°, scanned %2 ago")
+                              .arg(ShownAngle(*capture), 0, 'f', 1)
+                              .arg(AgeText(std::chrono::seconds(age_s)));
+  if (caption != Caption()) SetCaption(caption);
 }
 
 void ImagePane::ShowSamples() {
@@ -95,11 +102,11 @@ void ImagePane::ShowSamples() {
 }
 
 void ImagePane::ShowRegion() {
-  canvas_->SetRegion(RegionInPicture(*session_));
+  canvas_->SetRegion(RegionInImage(*session_));
 }
 
 void ImagePane::ShowOutlines() {
-  canvas_->SetOutlines(OutlinesInPicture(*session_));
+  canvas_->SetOutlines(OutlinesInImage(*session_));
 }
 
 }  // namespace foresight

@@ -12,7 +12,7 @@ class QComboBox;
 
 namespace foresight {
 
-/// The camera's picture, with the choice between those of the scan and the samples over it.
+/// The camera's image, with the choice between those of the scan and the samples over it.
 class ImagePane : public Pane {
   Q_OBJECT
 
@@ -23,7 +23,7 @@ class ImagePane : public Pane {
   ImageCanvas* Canvas() { return canvas_; }
 
  private:
-  void ShowPicture();
+  void ShowImage();
   void FillChoice();
   void ShowAge();
   void ShowOutlines();

@@ -38,8 +38,8 @@ class ChangeBars : public QWidget {
         change_m_.empty() ? 0.0 : *std::max_element(change_m_.begin(), change_m_.end());
     for (int i = 0; i < static_cast<int>(change_m_.size()); ++i) {
       const double change = change_m_[static_cast<std::size_t>(i)];
-      const double share = largest > 0.0 ? change / largest : 0.0;
-      const int bar = std::max(1, static_cast<int>(share * (height() - line - 2)));
+      const double fraction = largest > 0.0 ? change / largest : 0.0;
+      const int bar = std::max(1, static_cast<int>(fraction * (height() - line - 2)));
       const QRect column(i * kBarWidth_px, 0, kBarWidth_px, height());
       painter.fillRect(
           column.left() + 6, height() - bar, kBarWidth_px - 12, bar,

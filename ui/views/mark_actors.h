@@ -12,15 +12,15 @@
 
 namespace foresight {
 
-/// Sample marks over a picture: dots and symbols, each on a dark rim. They can be cut at a column,
-/// where a wipe parts two pictures with marks of their own. Pixel (u, v) lies at
+/// Sample marks over an image: dots and symbols, each on a dark rim. They can be cut at a column,
+/// where a wipe parts two images with marks of their own. Pixel (u, v) lies at
 /// (u, image_height - 1 - v).
 class MarkActors {
  public:
   explicit MarkActors(vtkRenderer* renderer);
 
   void Set(std::vector<SampleMark> marks, int image_height);
-  /// Symbols keep their size on the screen: `scale` pixels of the picture lie in one of the widget.
+  /// Symbols keep their size on the screen: `scale` pixels of the image lie in one of the widget.
   void SetScale(double scale);
   void ShowEverywhere();
   void ShowLeftOf(double column);

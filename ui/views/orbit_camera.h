@@ -14,7 +14,7 @@ struct OrbitCamera {
   Eigen::Vector3d Position() const;
   void Orbit(double by_azimuth_rad, double by_elevation_rad);
   void Zoom(double factor);
-  /// Moves the focal point in the picture's plane, in metres to the right and up.
+  /// Moves the focal point in the image's plane, in metres to the right and up.
   void Pan(double right_m, double up_m);
 };
 

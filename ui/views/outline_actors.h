@@ -23,7 +23,7 @@ class OutlineActors {
   void AddActor(const Polylines& lines, Rgb8 color, float width_px, double z);
 
   vtkRenderer* renderer_;
-  double z_;  ///< in front of a picture; 0 where lines have a depth of their own
+  double z_;  ///< in front of an image; 0 where lines have a depth of their own
   std::vector<vtkSmartPointer<vtkActor>> actors_;
 };
 

@@ -27,13 +27,13 @@ void ForEachOutline(const SessionModel& session, const Draw& draw) {
 
 }  // namespace
 
-std::vector<PixelOutline> OutlinesInPicture(const SessionModel& session) {
+std::vector<PixelOutline> OutlinesInImage(const SessionModel& session) {
   std::vector<PixelOutline> all;
-  const CameraFrame* picture = session.Picture();
-  if (picture == nullptr) return all;
+  const CameraFrame* capture = session.CurrentImage();
+  if (capture == nullptr) return all;
   ForEachOutline(session,
                  [&](const SensorRig& rig, const Wireframe& lines, const OutlineStyle& style) {
-                   all.push_back({ProjectWireframe(lines, rig, picture->motor_angle_rad), style});
+                   all.push_back({ProjectWireframe(lines, rig, capture->motor_angle_rad), style});
                  });
   return all;
 }
@@ -47,10 +47,10 @@ std::vector<RobotOutline> OutlinesInRobot(const SessionModel& session) {
   return all;
 }
 
-PixelLines RegionInPicture(const SessionModel& session) {
-  const CameraFrame* picture = session.Picture();
-  if (picture == nullptr || !session.Region()) return {};
-  return RegionLines(*session.Region(), session.CurrentScan()->rig, picture->motor_angle_rad);
+PixelLines RegionInImage(const SessionModel& session) {
+  const CameraFrame* capture = session.CurrentImage();
+  if (capture == nullptr || !session.Region()) return {};
+  return RegionLines(*session.Region(), session.ShownScan()->rig, capture->motor_angle_rad);
 }
 
 Wireframe RegionInRobot(const SessionModel& session) {

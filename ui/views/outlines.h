@@ -15,7 +15,7 @@ struct OutlineStyle {
 
 /// Lines of one style. LIKELY is dashed already.
 struct PixelOutline {
-  PixelLines lines;  ///< in the current picture
+  PixelLines lines;  ///< in the current image
   OutlineStyle style;
 };
 struct RobotOutline {
@@ -25,11 +25,11 @@ struct RobotOutline {
 
 /// All objects of the current scan, each with the candidate that is looked at; of terrain every
 /// surface. The selected object is drawn thicker.
-std::vector<PixelOutline> OutlinesInPicture(const SessionModel& session);
+std::vector<PixelOutline> OutlinesInImage(const SessionModel& session);
 std::vector<RobotOutline> OutlinesInRobot(const SessionModel& session);
 
-/// The session's region: in the current picture, and in robot, where only a box is seen.
-PixelLines RegionInPicture(const SessionModel& session);
+/// The session's region: in the current image, and in robot, where only a box is seen.
+PixelLines RegionInImage(const SessionModel& session);
 Wireframe RegionInRobot(const SessionModel& session);
 
 }  // namespace foresight

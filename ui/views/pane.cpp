@@ -59,8 +59,16 @@ void Pane::ShowCanvas(bool show) {
   hint_->setVisible(!show);
 }
 
+bool Pane::HintShown() const {
+  return hint_->isVisible();
+}
+
 void Pane::SetHint(const QString& hint) {
   hint_->setText(hint);
+}
+
+QString Pane::Caption() const {
+  return caption_->text();
 }
 
 void Pane::SetCaption(const QString& caption, const QString& details) {

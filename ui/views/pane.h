@@ -22,8 +22,10 @@ class Pane : public QWidget {
   QWidget* Canvas() const { return canvas_; }
   void ShowCanvas(bool show);
   void SetHint(const QString& hint);
+  bool HintShown() const;
   /// `details` appear when the mouse rests on it; without them the caption itself does.
   void SetCaption(const QString& caption, const QString& details = {});
+  QString Caption() const;
   ColorBar* Colors() { return colors_; }
 
  protected:

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-/// Names the marks that are drawn over a picture: symbol, colour, word and how many there are.
+/// Names the marks that are drawn over an image: symbol, colour, word and how many there are.
 /// Hidden while nothing is drawn.
 class SampleLegend : public QWidget {
   Q_OBJECT

@@ -15,7 +15,7 @@ namespace {
 vtkSmartPointer<vtkActor> UprightLine(double gray, float width, double z) {
   auto actor = vtkSmartPointer<vtkActor>::New();
   vtkNew<vtkPolyDataMapper> mapper;
-  // From far below to far above every picture, so that only its place changes.
+  // From far below to far above every image, so that only its place changes.
   mapper->SetInputData(VtkLinesOf({{{0.0, -1e5, 0.0}, {0.0, 1e5, 0.0}}}));
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(gray, gray, gray);
@@ -29,26 +29,26 @@ vtkSmartPointer<vtkActor> UprightLine(double gray, float width, double z) {
 }  // namespace
 
 WipeActors::WipeActors(vtkRenderer* renderer)
-    : picture_(vtkSmartPointer<vtkImageActor>::New()),
+    : image_(vtkSmartPointer<vtkImageActor>::New()),
       rim_(UprightLine(0.0, 6.0f, 1.5)),
       line_(UprightLine(1.0, 2.0f, 1.6)) {
-  picture_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
-  picture_->SetPosition(0.0, 0.0, 0.5);  // between the first picture and what is drawn over both
-  picture_->VisibilityOff();
-  renderer->AddActor(picture_);
+  image_->GetMapper()->SetInputData(VtkImageOf(ColorImage(1, 1)));
+  image_->SetPosition(0.0, 0.0, 0.5);  // between the first image and what is drawn over both
+  image_->VisibilityOff();
+  renderer->AddActor(image_);
   renderer->AddActor(rim_);
   renderer->AddActor(line_);
 }
 
-void WipeActors::SetPicture(const ColorImage* picture) {
-  width_ = picture != nullptr ? picture->width() : 0;
-  height_ = picture != nullptr ? picture->height() : 0;
-  if (picture != nullptr) picture_->GetMapper()->SetInputData(VtkImageOf(*picture));
+void WipeActors::SetImage(const ColorImage* image) {
+  width_ = image != nullptr ? image->width() : 0;
+  height_ = image != nullptr ? image->height() : 0;
+  if (image != nullptr) image_->GetMapper()->SetInputData(VtkImageOf(*image));
   Place();
 }
 
-void WipeActors::SetShare(double share) {
-  share_ = share;
+void WipeActors::SetFraction(double fraction) {
+  fraction_ = fraction;
   Place();
 }
 
@@ -58,9 +58,9 @@ void WipeActors::Place() {
     line->SetVisibility(Shown());
     line->SetPosition(Column(), 0.0, line->GetPosition()[2]);
   }
-  picture_->SetVisibility(Shown() && first < width_);
+  image_->SetVisibility(Shown() && first < width_);
   if (Shown())
-    picture_->SetDisplayExtent(std::clamp(first, 0, width_ - 1), width_ - 1, 0, height_ - 1, 0, 0);
+    image_->SetDisplayExtent(std::clamp(first, 0, width_ - 1), width_ - 1, 0, height_ - 1, 0, 0);
 }
 
 }  // namespace foresight

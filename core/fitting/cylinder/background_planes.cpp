@@ -9,7 +9,7 @@ namespace foresight {
 namespace {
 
 constexpr int kMostPlanes = 3;
-constexpr double kLeastShare = 0.10;  // of all rays
+constexpr double kLeastFraction = 0.10;  // of all rays
 constexpr int kLeastPoints = 20;
 constexpr double kOnSurface_sigmas = 2.5;
 
@@ -31,7 +31,7 @@ std::vector<Plane> FindFlatSurfaces(const RaySet& rays, Random& random) {
   PlaneSearchOptions options;
   options.inlier_distance_m = kOnSurface_sigmas * rays.sigma_m;
   options.min_inliers =
-      std::max(kLeastPoints, static_cast<int>(kLeastShare * static_cast<double>(points.size())));
+      std::max(kLeastPoints, static_cast<int>(kLeastFraction * static_cast<double>(points.size())));
   std::vector<Plane> planes;
   while (static_cast<int>(planes.size()) < kMostPlanes) {
     const auto plane = FindDominantPlane(points, options, random);

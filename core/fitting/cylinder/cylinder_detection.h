@@ -19,8 +19,8 @@ struct CylinderModel {
 /// How well the measurements support a cylinder.
 struct CylinderEvidence {
   int rays = 0;               ///< looked at
-  int hits = 0;               ///< rays that meet the cylinder
-  double inlier_share = 0.0;  ///< of the hits, those with a range that agrees
+  int hits = 0;               ///< rays that intersect the cylinder
+  double inlier_ratio = 0.0;  ///< of the hits, those with a range that agrees
   double see_through = 0.0;   ///< of the hits, those whose beam went on behind it
   /// Median of |measured - predicted range| over the hits within 0.15 m.
   double residual_mad_m = 0.0;

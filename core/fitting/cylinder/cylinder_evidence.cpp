@@ -48,9 +48,9 @@ std::vector<double> Differences(const RaySet& rays, const CylinderState& cylinde
   const SolidTracer tracer = TracerOf(cylinder);
   std::vector<double> differences;
   for (const RangeRay& ray : rays.rays) {
-    const SolidMeeting meeting = tracer.Meet(ray, 0.0);
-    if (!meeting.Hits()) continue;
-    const double difference = std::abs(ray.range_m - meeting.range_m);
+    const SolidIntersection intersection = tracer.Intersect(ray, 0.0);
+    if (!intersection.Hits()) continue;
+    const double difference = std::abs(ray.range_m - intersection.range_m);
     if (difference < kGross_m) differences.push_back(difference);
   }
   return differences;
@@ -83,18 +83,18 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
   int inliers = 0, through = 0;
   std::vector<double> angles;
   for (const RangeRay& ray : rays.rays) {
-    const SolidMeeting meeting = tracer.Meet(ray, 0.0);
-    if (!meeting.Hits()) continue;
+    const SolidIntersection intersection = tracer.Intersect(ray, 0.0);
+    if (!intersection.Hits()) continue;
     ++evidence.hits;
-    const double behind = ray.range_m - meeting.range_m;
+    const double behind = ray.range_m - intersection.range_m;
     if (behind > agree_m) ++through;
     if (std::abs(behind) > agree_m) continue;
     ++inliers;
-    const Eigen::Vector3d at = cylinder.FromAxis(ray.origin + meeting.range_m * ray.direction);
+    const Eigen::Vector3d at = cylinder.FromAxis(ray.origin + intersection.range_m * ray.direction);
     angles.push_back(std::atan2(y.dot(at), x.dot(at)));
   }
   if (evidence.hits == 0) return evidence;
-  evidence.inlier_share = static_cast<double>(inliers) / evidence.hits;
+  evidence.inlier_ratio = static_cast<double>(inliers) / evidence.hits;
   evidence.see_through = static_cast<double>(through) / evidence.hits;
   evidence.seen_arc_rad = ArcOf(std::move(angles));
   if (auto differences = Differences(rays, cylinder); !differences.empty())
@@ -110,25 +110,26 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
   const double steps[kInner] = {kStep_m, kStep_m, kStep_m / lever_m, kStep_m / lever_m, kStep_m};
   std::vector<SolidTracer> moved;
   for (int i = 0; i < kInner; ++i)
-    moved.push_back(TracerOf(Moved(cylinder, steps[i] * CylinderStep::Unit(i))));
+    moved.push_back(TracerOf(Retract(cylinder, steps[i] * CylinderStep::Unit(i))));
   const SolidTracer tracer = TracerOf(cylinder);
   const double sigma_m = Sigma(rays);
   Eigen::Matrix<double, kInner, kInner> information =
       Eigen::Matrix<double, kInner, kInner>::Identity() * 1e-6;
   for (const RangeRay& ray : rays.rays) {
     const double width_m = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
-    const SolidMeeting meeting = tracer.MeetWithDepth(ray, kReach_m);
-    if (meeting.part < 0) continue;
-    const bool agrees = std::abs(ray.range_m - meeting.range_m) < kAgreeSigmas * sigma_m;
+    const SolidIntersection intersection = tracer.IntersectWithDepth(ray, kReach_m);
+    if (intersection.part < 0) continue;
+    const bool agrees = std::abs(ray.range_m - intersection.range_m) < kAgreeSigmas * sigma_m;
     // A ray that grazes the outline knows where that is, one further in how far the surface is.
-    const bool outline = std::abs(meeting.clearance_m) < width_m;
-    if (!outline && !(meeting.Hits() && agrees)) continue;
+    const bool outline = std::abs(intersection.clearance_m) < width_m;
+    if (!outline && !(intersection.Hits() && agrees)) continue;
     Eigen::Matrix<double, kInner, 1> slope = Eigen::Matrix<double, kInner, 1>::Zero();
     for (int i = 0; i < kInner; ++i) {
-      const SolidMeeting there = moved[static_cast<std::size_t>(i)].MeetWithDepth(ray, kReach_m);
+      const SolidIntersection there =
+          moved[static_cast<std::size_t>(i)].IntersectWithDepth(ray, kReach_m);
       if (there.part < 0 || (!outline && !there.Hits())) continue;
-      slope[i] = (outline ? (there.clearance_m - meeting.clearance_m) / width_m
-                          : (there.range_m - meeting.range_m) / sigma_m) /
+      slope[i] = (outline ? (there.clearance_m - intersection.clearance_m) / width_m
+                          : (there.range_m - intersection.range_m) / sigma_m) /
                  steps[i];
     }
     information += slope * slope.transpose();
@@ -139,7 +140,7 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
   const auto deviation = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
   detection.sigma_across_m = std::max(deviation(0), deviation(1));
   detection.sigma_axis_rad = std::max(deviation(2), deviation(3));
-  // How far beside its middle a beam still returns is not known: anywhere on its spot.
+  // How far beside its middle a beam still returns is not known: anywhere on its footprint.
   const double range_m = (cylinder.middle - rays.viewpoint).norm();
   detection.sigma_radius_m =
       std::hypot(deviation(4), 0.5 * rays.footprint_rad * range_m / std::numbers::sqrt3);
@@ -148,17 +149,17 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
 namespace {
 
 /// Why it is not LIKELY; empty when nothing speaks against it.
-std::string Objection(const RaySet& rays, const CylinderBounds& bounds,
-                      const CylinderDetection& found) {
+std::string FailedGate(const RaySet& rays, const CylinderBounds& bounds,
+                       const CylinderDetection& found) {
   const CylinderEvidence& evidence = found.evidence;
   const double hits = evidence.hits * std::min(1.0, rays.samples_per_ray);
   if (hits < kLikelyHits)
     return fmt::format("only {:.0f} measurements lie on it: scan slower or move closer", hits);
   if (evidence.see_through > kLikelySeeThrough)
     return fmt::format("{:.0f} % of the beams went through it", 100.0 * evidence.see_through);
-  if (evidence.inlier_share < kLikelyInliers)
+  if (evidence.inlier_ratio < kLikelyInliers)
     return fmt::format("only {:.0f} % of the beams on it agree with it",
-                       100.0 * evidence.inlier_share);
+                       100.0 * evidence.inlier_ratio);
   if (evidence.box_margin_nats < kLikelyMargin_nats)
     return "a box explains it as well: it may be square, or a wall's edge";
   if (evidence.seen_arc_rad < kLikelyArc_rad)
@@ -178,13 +179,13 @@ std::string Objection(const RaySet& rays, const CylinderBounds& bounds,
 }  // namespace
 
 void Assess(const RaySet& rays, const CylinderBounds& bounds, CylinderDetection& detection) {
-  detection.reason = Objection(rays, bounds, detection);
+  detection.reason = FailedGate(rays, bounds, detection);
   if (!detection.reason.empty()) return;
   detection.level = VerdictLevel::kLikely;
   detection.reason = fmt::format(
       "{} beams on it, {:.0f} % of them agree; never confirmed, as no probability was "
       "calibrated for cylinders",
-      detection.evidence.hits, 100.0 * detection.evidence.inlier_share);
+      detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio);
 }
 
 }  // namespace foresight

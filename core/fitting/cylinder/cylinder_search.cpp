@@ -97,9 +97,9 @@ class CirclesAlong {
       if (std::abs((flat_[i] - circle.middle).norm() - circle.radius_m) < tolerance_m_)
         along.push_back(axis_.dot(points_[i]));
     if (along.size() < kLeastOn) return std::nullopt;
-    const auto quantile = [&](double share) {
-      const auto place = along.begin() +
-                         static_cast<std::ptrdiff_t>(share * static_cast<double>(along.size() - 1));
+    const auto quantile = [&](double fraction) {
+      const auto place = along.begin() + static_cast<std::ptrdiff_t>(
+                                             fraction * static_cast<double>(along.size() - 1));
       std::nth_element(along.begin(), place, along.end());
       return *place;
     };

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/fitting/drill/pattern_search.h"
+#include "core/geometry/rotation_between.h"
 
 namespace foresight {
 
@@ -14,20 +15,19 @@ SolidPart CylinderState::Part() const {
   part.name = "cylinder";
   part.shape = SolidPart::Shape::kCylinder;
   part.size_m = {2.0 * radius_m, 2.0 * radius_m, length_m};
-  part.object_from_part = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis),
-                           middle};
+  part.object_from_part = {RotationBetween(Eigen::Vector3d::UnitZ(), axis), middle};
   return part;
 }
 
-CylinderState Moved(const CylinderState& cylinder, const CylinderStep& step) {
+CylinderState Retract(const CylinderState& cylinder, const CylinderStep& step) {
   const Eigen::Vector3d x = cylinder.axis.unitOrthogonal();
   const Eigen::Vector3d y = cylinder.axis.cross(x);
-  CylinderState moved = cylinder;
-  moved.axis = (cylinder.axis + step[2] * x + step[3] * y).normalized();
-  moved.middle += step[0] * x + step[1] * y + 0.5 * (step[5] + step[6]) * moved.axis;
-  moved.radius_m += step[4];
-  moved.length_m += step[6] - step[5];
-  return moved;
+  CylinderState retracted = cylinder;
+  retracted.axis = (cylinder.axis + step[2] * x + step[3] * y).normalized();
+  retracted.middle += step[0] * x + step[1] * y + 0.5 * (step[5] + step[6]) * retracted.axis;
+  retracted.radius_m += step[4];
+  retracted.length_m += step[6] - step[5];
+  return retracted;
 }
 
 double ScoreOf(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
@@ -38,8 +38,8 @@ double ScoreOf(const CylinderState& cylinder, const OutlineLikelihood& likelihoo
   return likelihood(cylinder.Part());
 }
 
-CylinderState Polished(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
-                       const CylinderBounds& bounds, double first_step_m, int rounds) {
+CylinderState AfterLocalSearch(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+                               const CylinderBounds& bounds, double first_step_m, int rounds) {
   const double lever_m = std::max(0.5 * cylinder.length_m, cylinder.radius_m);
   CylinderStep lengths;
   lengths << first_step_m, first_step_m, first_step_m / lever_m, first_step_m / lever_m,
@@ -60,12 +60,12 @@ CylinderState Polished(const CylinderState& cylinder, const OutlineLikelihood& l
   const PatternSearchResult found = ClimbByPatternSearch(
       Eigen::VectorXd::Zero(kCylinderParameters),
       [&](const Eigen::VectorXd& step) {
-        return ScoreOf(Moved(cylinder, step), likelihood, bounds);
+        return ScoreOf(Retract(cylinder, step), likelihood, bounds);
       },
       options);
-  CylinderState polished = Moved(cylinder, found.values);
-  polished.score = found.score;
-  return polished;
+  CylinderState searched = Retract(cylinder, found.values);
+  searched.score = found.score;
+  return searched;
 }
 
 }  // namespace foresight

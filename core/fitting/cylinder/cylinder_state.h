@@ -27,7 +27,7 @@ struct CylinderState {
 /// and where it begins and ends.
 inline constexpr int kCylinderParameters = 7;
 using CylinderStep = Eigen::Matrix<double, kCylinderParameters, 1>;
-CylinderState Moved(const CylinderState& cylinder, const CylinderStep& step);
+CylinderState Retract(const CylinderState& cylinder, const CylinderStep& step);
 
 struct CylinderBounds {
   double min_radius_m = 0.010;
@@ -40,7 +40,7 @@ double ScoreOf(const CylinderState& cylinder, const OutlineLikelihood& likelihoo
                const CylinderBounds& bounds);
 
 /// Climbs the likelihood by steps that shrink from `first_step_m`, over as many rounds.
-CylinderState Polished(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
-                       const CylinderBounds& bounds, double first_step_m, int rounds);
+CylinderState AfterLocalSearch(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+                               const CylinderBounds& bounds, double first_step_m, int rounds);
 
 }  // namespace foresight

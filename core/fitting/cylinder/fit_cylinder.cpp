@@ -7,11 +7,12 @@
 #include <utility>
 
 #include "core/fitting/cylinder/background_planes.h"
-#include "core/fitting/cylinder/box_rival.h"
+#include "core/fitting/cylinder/box_alternative.h"
 #include "core/fitting/cylinder/cylinder_evidence.h"
 #include "core/fitting/cylinder/cylinder_search.h"
 #include "core/fitting/cylinder/cylinder_state.h"
 #include "core/fitting/ray_selection.h"
+#include "core/geometry/rotation_between.h"
 
 namespace foresight {
 namespace {
@@ -52,10 +53,12 @@ class CylinderFit {
       return Fail(ErrorCode::kNoConvergence,
                   "nothing round in the region: draw it around a pole or a pipe");
     context.Report(0.6, "improving the cylinder");
-    for (CylinderState& cylinder : found) cylinder = PolishedBeforePlanes(few, cylinder, 0.06, 4);
+    for (CylinderState& cylinder : found)
+      cylinder = AfterLocalSearchBeforePlanes(few, cylinder, 0.06, 4);
     KeepBest(found, kFine);
     if (context.Cancelled()) return Cancelled();
-    for (CylinderState& cylinder : found) cylinder = PolishedBeforePlanes(rays_, cylinder, 0.02, 4);
+    for (CylinderState& cylinder : found)
+      cylinder = AfterLocalSearchBeforePlanes(rays_, cylinder, 0.02, 4);
     KeepBest(found, 1);
     return WithOwnSigma(found.front());
   }
@@ -64,8 +67,7 @@ class CylinderFit {
     CylinderDetection detection;
     const Eigen::Vector3d z =
         cylinder.axis.dot(options_.up) >= 0.0 ? cylinder.axis : -cylinder.axis;
-    detection.base_from_object = {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z),
-                                  cylinder.middle};
+    detection.base_from_object = {RotationBetween(Eigen::Vector3d::UnitZ(), z), cylinder.middle};
     detection.model = {cylinder.radius_m, cylinder.length_m};
     detection.evidence = GatherEvidence(rays_, cylinder);
     const OutlineLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_));
@@ -74,7 +76,7 @@ class CylinderFit {
         std::max(2.0, static_cast<double>(rays_.rays.size()) * rays_.samples_per_ray);
     detection.evidence.box_margin_nats =
         cylinder.score - BestBoxScore(cylinder, likelihood) +
-        0.5 * (kBoxRivalParameters - kCylinderParameters) * std::log(measurements);
+        0.5 * (kBoxAlternativeParameters - kCylinderParameters) * std::log(measurements);
     SetSigmas(rays_, cylinder, detection);
     Assess(rays_, bounds_, detection);
     return detection;
@@ -107,10 +109,10 @@ class CylinderFit {
   }
 
   /// Before the flat surfaces that are not slabs through it.
-  CylinderState PolishedBeforePlanes(const RaySet& rays, const CylinderState& cylinder,
-                                     double first_step_m, int rounds) const {
+  CylinderState AfterLocalSearchBeforePlanes(const RaySet& rays, const CylinderState& cylinder,
+                                             double first_step_m, int rounds) const {
     const OutlineLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays));
-    return Polished(cylinder, likelihood, bounds_, first_step_m, rounds);
+    return AfterLocalSearch(cylinder, likelihood, bounds_, first_step_m, rounds);
   }
 
   /// The ranges' deviation and the cylinder depend on each other.
@@ -119,7 +121,7 @@ class CylinderFit {
       const double sigma_m = RangeSigmaFrom(rays_, cylinder);
       if (!std::isfinite(sigma_m)) break;
       rays_.sigma_m = sigma_m;
-      cylinder = PolishedBeforePlanes(rays_, cylinder, 0.01, 5);
+      cylinder = AfterLocalSearchBeforePlanes(rays_, cylinder, 0.01, 5);
     }
     return cylinder;
   }

@@ -31,16 +31,18 @@ double OutlineLikelihood::operator()(const SolidPart& solid_in_base) const {
   for (std::size_t i = 0; i < noise_.size(); ++i) {
     const RangeRay& ray = rays_.rays[i];
     const RayNoise& noise = noise_[i];
-    const double shift_m = 0.5 * noise.spot_m, width_m = 0.5 * noise.spot_m + kEdgeError_m;
-    const SolidMeeting meeting = tracer.MeetWithDepth(ray, shift_m + kReachWidths * width_m);
-    if (meeting.part < 0) {
+    const double shift_m = 0.5 * noise.footprint_m,
+                 width_m = 0.5 * noise.footprint_m + kEdgeError_m;
+    const SolidIntersection intersection =
+        tracer.IntersectWithDepth(ray, shift_m + kReachWidths * width_m);
+    if (intersection.part < 0) {
       sum += noise.log_background;
       continue;
     }
-    const double beyond = (meeting.clearance_m - shift_m) / width_m;
+    const double beyond = (intersection.clearance_m - shift_m) / width_m;
     const double hit = 0.5 * BeamModel::kHit * std::erfc(beyond / std::numbers::sqrt2);
     const double on_solid =
-        BeamModel::kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, sigma_m_) +
+        BeamModel::kGoodReturn * NormalDensity(ray.range_m - intersection.range_m, sigma_m_) +
         (1.0 - BeamModel::kGoodReturn) * BeamModel::kUniform;
     sum += std::log(hit * on_solid + (1.0 - hit) * noise.background);
   }

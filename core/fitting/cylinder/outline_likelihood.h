@@ -11,9 +11,9 @@ namespace foresight {
 
 /// How well one solid in base explains every ray of a region, with an outline that neither pulls
 /// the solid inwards nor outwards: the chance that a beam returns from it falls from 0.93 to 0 over
-/// the beam's spot, and is half of it where a quarter of the spot still touches. How wide a real
-/// spot is is not known; the angle between neighbouring rays stands for it. Other terms as in
-/// SolidLikelihood.
+/// the beam's footprint, and is half of it where a quarter of the footprint still touches. How wide
+/// a real footprint is is not known; the angle between neighbouring rays stands for it. Other terms
+/// as in SolidLikelihood.
 class OutlineLikelihood {
  public:
   /// `planes` = what lies behind. Keeps a copy of the rays.
@@ -25,8 +25,8 @@ class OutlineLikelihood {
 
  private:
   struct RayNoise {
-    double spot_m = 0.0;      ///< half of it, at the measured range
-    double background = 0.0;  ///< density of the measured range without a solid
+    double footprint_m = 0.0;  ///< half of it, at the measured range
+    double background = 0.0;   ///< density of the measured range without a solid
     double log_background = 0.0;
   };
 

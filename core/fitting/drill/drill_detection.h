@@ -15,17 +15,17 @@ namespace foresight {
 
 /// How well the measurements support a drill.
 struct DrillEvidence {
-  int rays = 0;                    ///< looked at
-  int hits = 0;                    ///< rays that meet the template
-  double inlier_share = 0.0;       ///< of the hits, those with a range that agrees
-  double see_through = 0.0;        ///< of the hits, those whose beam went on behind the template
-  double rms_m = 0.0;              ///< of the agreeing ranges
-  double yaw_margin_nats = 0.0;    ///< ahead of the best answer that points elsewhere (> 0.5 rad)
-  double flip_margin_nats = 0.0;   ///< ahead of the same drill turned by 180 deg
-  double head_nats = 0.0;          ///< ahead of body and foot alone: is a head seen at all?
-  double gain_nats = 0.0;          ///< ahead of no drill at all
-  double rival_margin_nats = 0.0;  ///< ahead of the best free box, cylinder, or both
-  std::string best_rival;          ///< "box", "cylinder", "box and cylinder"
+  int rays = 0;                   ///< looked at
+  int hits = 0;                   ///< rays that intersect the template
+  double inlier_ratio = 0.0;      ///< of the hits, those with a range that agrees
+  double see_through = 0.0;       ///< of the hits, those whose beam went on behind the template
+  double rms_m = 0.0;             ///< of the agreeing ranges
+  double yaw_margin_nats = 0.0;   ///< ahead of the best answer that points elsewhere (> 0.5 rad)
+  double flip_margin_nats = 0.0;  ///< ahead of the same drill turned by 180 deg
+  double head_nats = 0.0;         ///< ahead of body and foot alone: is a head seen at all?
+  double gain_nats = 0.0;         ///< ahead of no drill at all
+  double alternative_margin_nats = 0.0;  ///< ahead of the best free box, cylinder, or both
+  std::string best_alternative;          ///< "box", "cylinder", "box and cylinder"
 };
 
 /// One answer to "where is the drill".
@@ -45,7 +45,7 @@ struct DrillDetection {
   std::optional<Plane> table;  ///< in base, normal up; what it was found to stand on
   DrillEvidence evidence;
   Verdict verdict;
-  std::vector<DrillCandidate> rivals;  ///< best first; other directions and templates
+  std::vector<DrillCandidate> alternatives;  ///< best first; other directions and templates
   FitOrigin origin;
 };
 

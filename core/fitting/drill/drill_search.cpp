@@ -62,6 +62,20 @@ std::vector<DrillState> BestByYaw(const SolidLikelihood& likelihood, const Drill
   return best;
 }
 
+/// The yaws that are better than those beside them. Points that say nothing about the yaw, as those
+/// of a vertical line do, make all yaws equal: the first stands for all then.
+void AppendPeaks(const std::vector<DrillState>& by_yaw, std::vector<DrillState>& peaks) {
+  const std::size_t before = peaks.size();
+  for (std::size_t i = 0; i < kYaws; ++i) {
+    const double score = by_yaw[i].log_likelihood;
+    if (score >= by_yaw[(i + 1) % kYaws].log_likelihood &&
+        score > by_yaw[(i + kYaws - 1) % kYaws].log_likelihood)
+      peaks.push_back(by_yaw[i]);
+  }
+  if (peaks.size() == before && std::isfinite(by_yaw.front().log_likelihood))
+    peaks.push_back(by_yaw.front());
+}
+
 bool SameMode(const DrillState& a, const DrillState& b) {
   return (a.values.head<2>() - b.values.head<2>()).norm() < kSameMode_m &&
          TurnBetween(a.yaw(), b.yaw()) < kSameMode_rad;
@@ -80,7 +94,7 @@ void KeepDistinct(std::vector<DrillState>& states, std::size_t count) {
   states = std::move(kept);
 }
 
-PatternSearchOptions Steps(PolishEffort effort) {
+PatternSearchOptions Steps(LocalSearchEffort effort) {
   PatternSearchOptions options;
   const auto add = [&options](std::initializer_list<std::pair<int, double>> entries) {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(kDrillParameters);
@@ -98,8 +112,8 @@ PatternSearchOptions Steps(PolishEffort effort) {
   add({{kDrillFoot, 0.080}});
   // Thicker or thinner, as tall and on as large a foot as before.
   add({{kDrillScale, 0.040}, {kDrillHeadUp, -0.040 * kHeadHeight_m}, {kDrillFoot, -0.040}});
-  options.rounds = effort == PolishEffort::kCoarse ? 3 : 5;
-  if (effort == PolishEffort::kCoarse) return options;
+  options.rounds = effort == LocalSearchEffort::kCoarse ? 3 : 5;
+  if (effort == LocalSearchEffort::kCoarse) return options;
   add({{kDrillZ, 0.004}});
   add({{kDrillBit, 0.010}});
   return options;
@@ -167,15 +181,8 @@ std::vector<DrillState> FindModes(const SolidLikelihood& likelihood,
   std::vector<DrillState> modes;
   for (const DrillTemplate& kind : templates) {
     std::vector<DrillState> of_kind;
-    for (const Eigen::Vector2d& body : bodies) {
-      const auto by_yaw = BestByYaw(likelihood, kind, body, base_from_table, prior);
-      for (std::size_t i = 0; i < kYaws; ++i) {
-        const double score = by_yaw[i].log_likelihood;
-        if (score >= by_yaw[(i + 1) % kYaws].log_likelihood &&
-            score > by_yaw[(i + kYaws - 1) % kYaws].log_likelihood)
-          of_kind.push_back(by_yaw[i]);
-      }
-    }
+    for (const Eigen::Vector2d& body : bodies)
+      AppendPeaks(BestByYaw(likelihood, kind, body, base_from_table, prior), of_kind);
     KeepDistinct(of_kind, kModesPerTemplate);
     modes.insert(modes.end(), of_kind.begin(), of_kind.end());
   }
@@ -185,11 +192,13 @@ std::vector<DrillState> FindModes(const SolidLikelihood& likelihood,
   return modes;
 }
 
-DrillState Polish(const SolidLikelihood& likelihood, const DrillState& start,
-                  const TableFrame& base_from_table, const DrillPrior& prior, PolishEffort effort) {
+DrillState LocalSearch(const SolidLikelihood& likelihood, const DrillState& start,
+                       const TableFrame& base_from_table, const DrillPrior& prior,
+                       LocalSearchEffort effort) {
   DrillState best = start;
   best.log_likelihood = Score(likelihood, start, base_from_table, prior);
-  if (effort == PolishEffort::kFine) best = WithBestBit(likelihood, best, base_from_table, prior);
+  if (effort == LocalSearchEffort::kFine)
+    best = WithBestBit(likelihood, best, base_from_table, prior);
   // A lean about the middle of the body, whose place is known best, moves the foot.
   const auto score = [&](const Eigen::VectorXd& values) {
     DrillState tried = best;

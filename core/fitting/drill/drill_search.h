@@ -22,12 +22,13 @@ std::vector<DrillState> FindModes(const SolidLikelihood& likelihood,
                                   const std::vector<Eigen::Vector2d>& bodies,
                                   const TableFrame& base_from_table, const DrillPrior& prior);
 
-enum class PolishEffort { kCoarse, kFine };
+enum class LocalSearchEffort { kCoarse, kFine };
 
 /// Climbs the likelihood over all parameters of a drill, the bit's length by trying lengths first.
 /// The result's log_likelihood is never below the start's under the same likelihood.
-DrillState Polish(const SolidLikelihood& likelihood, const DrillState& start,
-                  const TableFrame& base_from_table, const DrillPrior& prior, PolishEffort effort);
+DrillState LocalSearch(const SolidLikelihood& likelihood, const DrillState& start,
+                       const TableFrame& base_from_table, const DrillPrior& prior,
+                       LocalSearchEffort effort);
 
 /// Log likelihood with the prior.
 double Score(const SolidLikelihood& likelihood, const DrillState& state,

@@ -51,7 +51,7 @@ struct DrillPrior {
   double tilt_sigma_rad = 0.07;         ///< 4 deg
   double head_up_sigma_m = 0.012;       ///< against the template's
   double head_forward_sigma_m = 0.006;  ///< its ends tell front from back: not free to slide
-  double foot_sigma = 0.12;             ///< share of its size
+  double foot_sigma = 0.12;             ///< fraction of its size
 
   /// Log of the density without its constant; minus infinity outside the template's ranges and
   /// beyond three sigmas of head and foot: that is another kind of drill.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/fitting/drill/solid_tracer.h"
-#include "core/fitting/drill/surroundings.h"
+#include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/region_place.h"
 #include "core/fitting/verdict_model.h"
 #include "core/geometry/angles.h"
@@ -40,10 +40,10 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
   const double hits = std::max(1.0, Hits(rays, evidence));
   return {Compressed(evidence.yaw_margin_nats),
           Compressed(evidence.head_nats),
-          Compressed(evidence.rival_margin_nats),
-          evidence.rival_margin_nats / hits,
+          Compressed(evidence.alternative_margin_nats),
+          evidence.alternative_margin_nats / hits,
           evidence.gain_nats / hits,
-          evidence.inlier_share,
+          evidence.inlier_ratio,
           evidence.see_through,
           std::log(hits),
           std::log(std::max(1e-3, detection.sigma_yaw_rad)),
@@ -52,7 +52,7 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
 }
 
 /// What its direction has against it; empty when nothing.
-std::string DirectionObjection(const DrillEvidence& evidence, bool dense) {
+std::string FailedDirectionGate(const DrillEvidence& evidence, bool dense) {
   if (evidence.head_nats < kMinHead_nats) return "the head is not seen: it may point either way";
   const double least_margin = dense ? kMinYawMarginDense_nats : kMinYawMargin_nats;
   if (evidence.flip_margin_nats < least_margin)
@@ -74,8 +74,8 @@ std::string PartOutside(const RaySet& region, const DrillCandidate& drill) {
 }
 
 /// What a size or a lean at its bound says; empty when nothing.
-std::string BoundObjection(const DrillModel& model, const DrillState& drill,
-                           const DrillPrior& prior) {
+std::string FailedBoundGate(const DrillModel& model, const DrillState& drill,
+                            const DrillPrior& prior) {
   const double range = drill.kind->max_scale - drill.kind->min_scale;
   if (model.scale < drill.kind->min_scale + kBound * range ||
       model.scale > drill.kind->max_scale - kBound * range)
@@ -88,14 +88,14 @@ std::string BoundObjection(const DrillModel& model, const DrillState& drill,
 }
 
 /// Why the drill must not be confirmed.
-std::vector<std::string> Objections(const RaySet& rays, const RaySet& region,
-                                    const DrillDetection& detection, const DrillState& drill,
-                                    const DrillPrior& prior) {
+std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
+                                     const DrillDetection& detection, const DrillState& drill,
+                                     const DrillPrior& prior) {
   const DrillEvidence& evidence = detection.evidence;
   const DrillModel& model = detection.best.model;
-  std::vector<std::string> objections;
-  const auto object = [&objections](std::string objection) {
-    if (!objection.empty()) objections.push_back(std::move(objection));
+  std::vector<std::string> failed_gates;
+  const auto object = [&failed_gates](std::string failed_gate) {
+    if (!failed_gate.empty()) failed_gates.push_back(std::move(failed_gate));
   };
   if (!detection.table) object("no table is seen under it: draw the region a little lower");
   if (const double hits = Hits(rays, evidence); hits < kMinHits)
@@ -104,25 +104,25 @@ std::vector<std::string> Objections(const RaySet& rays, const RaySet& region,
   if (evidence.see_through > kMaxSeeThrough)
     object(
         fmt::format("{:.0f} % of the beams went through the drill", 100.0 * evidence.see_through));
-  if (!(evidence.rival_margin_nats > 0.0))
-    object(fmt::format("a {} explains it as well", evidence.best_rival));
+  if (!(evidence.alternative_margin_nats > 0.0))
+    object(fmt::format("a {} explains it as well", evidence.best_alternative));
   object(PartOutside(region, detection.best));
-  object(DirectionObjection(evidence, rays.dense));
-  object(BoundObjection(model, drill, prior));
+  object(FailedDirectionGate(evidence, rays.dense));
+  object(FailedBoundGate(model, drill, prior));
   const double off_m = DistanceFromRegionCenter(
       region, detection.best.base_from_object * model.object_from_grasp.translation());
   if (off_m > kMaxOffCenter_m)
     object(
         fmt::format("the drill lies {:.0f} mm from the region's centre: draw the region around it",
                     1000.0 * off_m));
-  return objections;
+  return failed_gates;
 }
 
 std::string WeakestPoint(const DrillDetection& detection) {
   const DrillEvidence& evidence = detection.evidence;
-  if (evidence.inlier_share < 0.7)
+  if (evidence.inlier_ratio < 0.7)
     return fmt::format("only {:.0f} % of the beams on the drill agree with it",
-                       100.0 * evidence.inlier_share);
+                       100.0 * evidence.inlier_ratio);
   if (evidence.see_through > 0.08)
     return fmt::format("{:.0f} % of the beams went through the drill",
                        100.0 * evidence.see_through);
@@ -131,8 +131,8 @@ std::string WeakestPoint(const DrillDetection& detection) {
                        DegreesFromRadians(detection.sigma_yaw_rad));
   if (evidence.yaw_margin_nats < 5.0 * kMinYawMargin_nats)
     return fmt::format("its direction leads by {:.0f} nats only", evidence.yaw_margin_nats);
-  return fmt::format("it leads a {} by {:.0f} nats only", evidence.best_rival,
-                     evidence.rival_margin_nats);
+  return fmt::format("it leads a {} by {:.0f} nats only", evidence.best_alternative,
+                     evidence.alternative_margin_nats);
 }
 
 double Squared(double value) {
@@ -150,17 +150,17 @@ DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill) {
   double square_sum = 0.0;
   for (const RangeRay& ray : rays.rays) {
     ++evidence.rays;
-    const SolidMeeting meeting = tracer.Meet(ray, 0.0);
-    if (!meeting.Hits()) continue;
+    const SolidIntersection intersection = tracer.Intersect(ray, 0.0);
+    if (!intersection.Hits()) continue;
     ++evidence.hits;
-    const double error = ray.range_m - meeting.range_m;
+    const double error = ray.range_m - intersection.range_m;
     if (error > agree_m) ++behind;
     if (std::abs(error) > agree_m) continue;
     ++agreeing;
     square_sum += error * error;
   }
   const double hits = std::max(1, evidence.hits);
-  evidence.inlier_share = agreeing / hits;
+  evidence.inlier_ratio = agreeing / hits;
   evidence.see_through = behind / hits;
   evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
   return evidence;
@@ -186,21 +186,22 @@ DrillInformation InformationOf(const RaySet& rays, const DrillState& drill,
   }
   DrillInformation information = DrillInformation::Zero();
   for (const RangeRay& ray : rays.rays) {
-    const SolidMeeting meeting = here.MeetWithDepth(ray, kReach_m);
-    if (meeting.part < 0) continue;
+    const SolidIntersection intersection = here.IntersectWithDepth(ray, kReach_m);
+    if (intersection.part < 0) continue;
     const double width = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
-    const bool inside = meeting.Hits();
-    if (inside && std::abs(ray.range_m - meeting.range_m) > kAgreeSigmas * sigma) continue;
+    const bool inside = intersection.Hits();
+    if (inside && std::abs(ray.range_m - intersection.range_m) > kAgreeSigmas * sigma) continue;
     // A ray that grazes the outline knows where that is, one further in how far the surface is.
-    const bool outline = std::abs(meeting.clearance_m) < width;
+    const bool outline = std::abs(intersection.clearance_m) < width;
     if (!inside && !outline) continue;
     DrillStep slope;
     for (int p = 0; p < kDrillParameters; ++p) {
-      const SolidMeeting there = moved[static_cast<std::size_t>(p)].MeetWithDepth(ray, kReach_m);
-      const double change = outline ? (there.clearance_m - meeting.clearance_m) / width
-                                    : (there.range_m - meeting.range_m) / sigma;
-      const bool same = there.part == meeting.part && there.Hits() == inside;
-      slope[p] = same || (outline && there.part == meeting.part)
+      const SolidIntersection there =
+          moved[static_cast<std::size_t>(p)].IntersectWithDepth(ray, kReach_m);
+      const double change = outline ? (there.clearance_m - intersection.clearance_m) / width
+                                    : (there.range_m - intersection.range_m) / sigma;
+      const bool same = there.part == intersection.part && there.Hits() == inside;
+      slope[p] = same || (outline && there.part == intersection.part)
                      ? change / steps[static_cast<std::size_t>(p)]
                      : 0.0;
     }
@@ -253,15 +254,15 @@ Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetecti
   Verdict verdict;
   verdict.features = FeaturesOf(rays, detection);
   verdict.probability = model.Probability(verdict.features);
-  verdict.objections = Objections(rays, region, detection, drill, prior);
-  model.AddReservation(verdict.objections);
-  verdict.level = LevelFor(verdict.probability, !verdict.objections.empty());
-  if (!verdict.objections.empty())
-    verdict.reason = verdict.objections.front();
+  verdict.failed_gates = FailedGates(rays, region, detection, drill, prior);
+  model.AddReservation(verdict.failed_gates);
+  verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
+  if (!verdict.failed_gates.empty())
+    verdict.reason = verdict.failed_gates.front();
   else if (verdict.level == VerdictLevel::kConfirmed)
     verdict.reason =
         fmt::format("{} beams on the drill, {:.0f} % of them agree; the other way fits worse",
-                    detection.evidence.hits, 100.0 * detection.evidence.inlier_share);
+                    detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio);
   else
     verdict.reason = WeakestPoint(detection);
   return verdict;

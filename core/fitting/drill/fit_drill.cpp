@@ -6,12 +6,12 @@
 #include <numbers>
 #include <utility>
 
+#include "core/fitting/drill/alternative_shapes.h"
 #include "core/fitting/drill/drill_search.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/drill_verdict.h"
-#include "core/fitting/drill/rival_shapes.h"
 #include "core/fitting/drill/solid_likelihood.h"
-#include "core/fitting/drill/surroundings.h"
+#include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/region_place.h"
 
@@ -23,17 +23,18 @@ constexpr std::size_t kMinForeground = 25;
 constexpr int kCoarseRays = 500;
 constexpr std::size_t kCoarseModes = 10;
 constexpr std::size_t kFineModes = 4;
-constexpr std::size_t kRivals = 3;
+constexpr std::size_t kAlternatives = 3;
 constexpr double kBodyRadius_m = 0.027;
 constexpr double kOtherWay_rad = 0.5;
-constexpr double kOwnReach_m = 0.04;       // of the points that a drill or its rivals account for
-constexpr double kRivalReach_m = 0.06;     // round the drill: what a rival must explain too
+constexpr double kOwnReach_m = 0.04;  // of the points that a drill or its alternatives account for
+constexpr double kAlternativeReach_m =
+    0.06;                                  // round the drill: what an alternative must explain too
 constexpr double kUnknownHeight_m = 0.04;  // deviation of a foot's height without a table
 
 /// Streams of the seed: each stage draws its own numbers.
-enum Stream : std::uint64_t { kThinning, kSurroundings };
+enum Stream : std::uint64_t { kThinning, kSupportAndBackground };
 
-Status CheckForeground(const RaySet& rays, const Surroundings& found) {
+Status CheckForeground(const RaySet& rays, const SupportAndBackground& found) {
   if (found.foreground.size() >= kMinForeground) return {};
   return Fail(ErrorCode::kNoConvergence,
               "only {} of {} measurements stand on the table before the wall: draw the region "
@@ -65,8 +66,8 @@ void SortBest(std::vector<DrillState>& states) {
 /// One drill's fit while it lasts.
 class DrillFit {
  public:
-  DrillFit(const RaySet& region, const RaySet& rays, RaySet few_rays, const Surroundings& around,
-           const FitDrillOptions& options)
+  DrillFit(const RaySet& region, const RaySet& rays, RaySet few_rays,
+           const SupportAndBackground& around, const FitDrillOptions& options)
       : region_(region),
         options_(options),
         around_(around),
@@ -78,7 +79,7 @@ class DrillFit {
     if (!around.table) prior_.height_sigma_m = kUnknownHeight_m;
   }
 
-  /// Modes of all templates, polished, best first.
+  /// Modes of all templates after local search, best first.
   Result<std::vector<DrillState>> Search(const RunContext& context) const {
     context.Report(0.2, "looking for the body");
     std::vector<Eigen::Vector3d> central = around_.foreground;
@@ -93,10 +94,16 @@ class DrillFit {
     std::vector<DrillState> modes =
         FindModes(coarse_, options_.templates, bodies, base_from_table_, prior_);
     if (context.Cancelled()) return Cancelled();
+    if (modes.empty())
+      return Fail(ErrorCode::kNoConvergence,
+                  "no template of a drill can be compared with the region: draw it around the "
+                  "drill");
     context.Report(0.5, "improving the pose");
-    FORESIGHT_CHECK(PolishAll(coarse_, modes, kCoarseModes, PolishEffort::kCoarse, context));
+    FORESIGHT_CHECK(
+        LocalSearchOfAll(coarse_, modes, kCoarseModes, LocalSearchEffort::kCoarse, context));
     DropDuplicates(modes);
-    FORESIGHT_CHECK(PolishAll(likelihood_, modes, kFineModes, PolishEffort::kFine, context));
+    FORESIGHT_CHECK(
+        LocalSearchOfAll(likelihood_, modes, kFineModes, LocalSearchEffort::kFine, context));
     return modes;
   }
 
@@ -106,8 +113,8 @@ class DrillFit {
     constexpr int kMostTurns = 4;
     DrillState flipped;
     for (int i = 0; i < kMostTurns; ++i) {
-      flipped = Polish(likelihood_, Flipped(modes.front()), base_from_table_, prior_,
-                       PolishEffort::kFine);
+      flipped = LocalSearch(likelihood_, Flipped(modes.front()), base_from_table_, prior_,
+                            LocalSearchEffort::kFine);
       const bool better = flipped.log_likelihood > modes.front().log_likelihood;
       modes.insert(modes.begin() + (better ? 0 : 1), flipped);
       if (!better) break;
@@ -122,12 +129,12 @@ class DrillFit {
     DrillDetection detection;
     detection.best = CandidateOf(best, base_from_table_);
     detection.table = around_.table;
-    for (std::size_t i = 1; i < modes.size() && detection.rivals.size() < kRivals; ++i)
-      detection.rivals.push_back(CandidateOf(modes[i], base_from_table_));
+    for (std::size_t i = 1; i < modes.size() && detection.alternatives.size() < kAlternatives; ++i)
+      detection.alternatives.push_back(CandidateOf(modes[i], base_from_table_));
     SetSigmas(InformationOf(likelihood_.rays(), best, base_from_table_, prior_), best, detection);
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
-    SetRivalMargin(best, detection);
+    SetAlternativeMargin(best, detection);
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_);
     return detection;
   }
@@ -139,12 +146,13 @@ class DrillFit {
     return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
   }
 
-  Status PolishAll(const SolidLikelihood& likelihood, std::vector<DrillState>& states,
-                   std::size_t count, PolishEffort effort, const RunContext& context) const {
+  Status LocalSearchOfAll(const SolidLikelihood& likelihood, std::vector<DrillState>& states,
+                          std::size_t count, LocalSearchEffort effort,
+                          const RunContext& context) const {
     if (states.size() > count) states.resize(count);
     for (DrillState& state : states) {
       if (context.Cancelled()) return Cancelled();
-      state = Polish(likelihood, state, base_from_table_, prior_, effort);
+      state = LocalSearch(likelihood, state, base_from_table_, prior_, effort);
     }
     SortBest(states);
     return {};
@@ -196,29 +204,31 @@ class DrillFit {
     return points;
   }
 
-  /// Half of Schwarz's penalty for each parameter that a rival has more than the drill.
-  void SetRivalMargin(const DrillState& best, DrillDetection& detection) const {
+  /// Half of Schwarz's penalty for each parameter that an alternative has more than the drill.
+  void SetAlternativeMargin(const DrillState& best, DrillDetection& detection) const {
     const auto& parts = detection.best.model.parts;
     const auto& pose = detection.best.base_from_object;
-    const SolidLikelihood near = likelihood_.Near(parts, pose, kRivalReach_m);
+    const SolidLikelihood near = likelihood_.Near(parts, pose, kAlternativeReach_m);
     const double own = near(parts, pose);
     const double measurements =
         std::max(2.0, static_cast<double>(near.rays().rays.size()) * near.rays().samples_per_ray);
     DrillEvidence& evidence = detection.evidence;
-    evidence.rival_margin_nats = own - near.Nothing();
-    for (const RivalShape& rival : FitRivalShapes(near, ForegroundAt(detection.best),
-                                                  base_from_table_, best.values.head<2>())) {
-      const double margin = own - rival.log_likelihood +
-                            0.5 * (rival.parameters - kDrillParameters) * std::log(measurements);
-      if (!evidence.best_rival.empty() && margin >= evidence.rival_margin_nats) continue;
-      evidence.rival_margin_nats = margin;
-      evidence.best_rival = rival.name;
+    evidence.alternative_margin_nats = own - near.Nothing();
+    for (const AlternativeShape& alternative : FitAlternativeShapes(
+             near, ForegroundAt(detection.best), base_from_table_, best.values.head<2>())) {
+      const double margin =
+          own - alternative.log_likelihood +
+          0.5 * (alternative.parameters - kDrillParameters) * std::log(measurements);
+      if (!evidence.best_alternative.empty() && margin >= evidence.alternative_margin_nats)
+        continue;
+      evidence.alternative_margin_nats = margin;
+      evidence.best_alternative = alternative.name;
     }
   }
 
   const RaySet& region_;
   const FitDrillOptions& options_;
-  const Surroundings& around_;
+  const SupportAndBackground& around_;
   SolidLikelihood likelihood_;
   SolidLikelihood coarse_;
   Plane table_;
@@ -254,10 +264,10 @@ Result<DrillDetection> FitDrill(const RaySet& all_rays, const FitDrillOptions& o
 
   context.Report(0.0, "looking for the table");
   Random thinning(options.seed, kThinning);
-  Random random(options.seed, kSurroundings);
+  Random random(options.seed, kSupportAndBackground);
   RaySet rays = Thinned(usable, options.max_rays, thinning);
-  const Surroundings around =
-      FindSurroundings(rays, {options.up, options.max_table_tilt_rad}, random);
+  const SupportAndBackground around =
+      FindSupportAndBackground(rays, {options.up, options.max_table_tilt_rad}, random);
   FORESIGHT_CHECK(CheckForeground(rays, around));
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
 

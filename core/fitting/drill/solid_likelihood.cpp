@@ -45,15 +45,16 @@ double SolidLikelihood::OfRays(std::span<const SolidPart> parts,
   for (std::size_t i = 0; i < noise_.size(); ++i) {
     const RangeRay& ray = rays_.rays[i];
     const RayNoise& noise = noise_[i];
-    const SolidMeeting meeting = tracer.Meet(ray, kReachWidths * noise.width_m);
-    if (meeting.part < 0) {
+    const SolidIntersection intersection = tracer.Intersect(ray, kReachWidths * noise.width_m);
+    if (intersection.part < 0) {
       sum += noise.log_background;
       continue;
     }
-    const double ratio = meeting.clearance_m / noise.width_m;
-    const double hit = meeting.Hits() ? BeamModel::kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
+    const double ratio = intersection.clearance_m / noise.width_m;
+    const double hit =
+        intersection.Hits() ? BeamModel::kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
     const double on_solid =
-        BeamModel::kGoodReturn * NormalDensity(ray.range_m - meeting.range_m, noise.sigma_m) +
+        BeamModel::kGoodReturn * NormalDensity(ray.range_m - intersection.range_m, noise.sigma_m) +
         (1.0 - BeamModel::kGoodReturn) * BeamModel::kUniform;
     sum += std::log(hit * on_solid + (1.0 - hit) * noise.background);
   }
@@ -78,7 +79,7 @@ SolidLikelihood SolidLikelihood::Near(std::span<const SolidPart> parts,
   near.rays_ = rays_;
   near.rays_.rays.clear();
   for (std::size_t i = 0; i < noise_.size(); ++i) {
-    if (tracer.Meet(rays_.rays[i], reach_m).part < 0) continue;
+    if (tracer.Intersect(rays_.rays[i], reach_m).part < 0) continue;
     near.rays_.rays.push_back(rays_.rays[i]);
     near.noise_.push_back(noise_[i]);
   }

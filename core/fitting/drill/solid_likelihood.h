@@ -10,11 +10,11 @@
 
 namespace foresight {
 
-/// How well solids at a place explain every ray of a region: those that should meet them, and those
-/// that went past or through. The same rays score every shape, a drill or a box, so scores compare
-/// directly. The terms are those of the valve's RayLikelihood.
+/// How well solids at a place explain every ray of a region: those that should intersect them, and
+/// those that went past or through. The same rays score every shape, a drill or a box, so scores
+/// compare directly. The terms are those of the valve's RayLikelihood.
 ///
-/// A ray that meets a solid returns its range with probability 0.93 (or something nearer, or
+/// A ray that intersects a solid returns its range with probability 0.93 (or something nearer, or
 /// nonsense); one that passes within its footprint may have touched it; all others return one of
 /// the planes behind, or anything.
 class SolidLikelihood {

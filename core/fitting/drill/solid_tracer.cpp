@@ -157,8 +157,8 @@ SolidTracer::SolidTracer(std::span<const SolidPart> parts,
     bound_m_ = std::max(bound_m_, (part.middle - middle_).norm() + part.bound_m);
 }
 
-SolidMeeting SolidTracer::Meet(const RangeRay& ray, double reach_m) const {
-  SolidMeeting best{kNever, kNever, -1};
+SolidIntersection SolidTracer::Intersect(const RangeRay& ray, double reach_m) const {
+  SolidIntersection best{kNever, kNever, -1};
   if (!PassesNear(ray, middle_, bound_m_ + reach_m)) return best;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
@@ -169,13 +169,13 @@ SolidMeeting SolidTracer::Meet(const RangeRay& ray, double reach_m) const {
   return best.part < 0 && reach_m > 0.0 ? Passed(ray, reach_m) : best;
 }
 
-SolidMeeting SolidTracer::Passed(const RangeRay& ray, double reach_m) const {
-  SolidMeeting best{kNever, kNever, -1};
+SolidIntersection SolidTracer::Passed(const RangeRay& ray, double reach_m) const {
+  SolidIntersection best{kNever, kNever, -1};
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     if (!PassesNear(ray, part.middle, part.bound_m + reach_m)) continue;
     const LocalRay local = InPart(ray, part);
-    // The search along the ray is dear: first see whether it meets a solid that is larger all
+    // The search along the ray is dear: first see whether it intersects a solid that is larger all
     // round.
     const Eigen::Vector3d larger = part.half + Eigen::Vector3d::Constant(reach_m);
     if (Enter(part.shape, local, larger) == kNever) continue;
@@ -186,13 +186,13 @@ SolidMeeting SolidTracer::Passed(const RangeRay& ray, double reach_m) const {
   return best;
 }
 
-SolidMeeting SolidTracer::MeetWithDepth(const RangeRay& ray, double reach_m) const {
-  SolidMeeting meeting = Meet(ray, reach_m);
-  if (!meeting.Hits()) return meeting;
-  const Part& part = parts_[static_cast<std::size_t>(meeting.part)];
-  meeting.clearance_m = std::min(
+SolidIntersection SolidTracer::IntersectWithDepth(const RangeRay& ray, double reach_m) const {
+  SolidIntersection intersection = Intersect(ray, reach_m);
+  if (!intersection.Hits()) return intersection;
+  const Part& part = parts_[static_cast<std::size_t>(intersection.part)];
+  intersection.clearance_m = std::min(
       ClosestOnRay(part.shape, InPart(ray, part), part.half, part.bound_m).distance_m, -1e-9);
-  return meeting;
+  return intersection;
 }
 
 }  // namespace foresight

@@ -10,7 +10,7 @@
 namespace foresight {
 
 /// How a ray passes some solids.
-struct SolidMeeting {
+struct SolidIntersection {
   /// Least distance between ray and solids; negative when the ray enters one: how deep.
   double clearance_m = 0.0;
   double range_m = 0.0;  ///< where the ray enters the first solid, or passes it closest
@@ -26,10 +26,11 @@ class SolidTracer {
   SolidTracer(std::span<const SolidPart> parts,
               const Rigid<frame::Base, frame::Object>& base_from_object);
 
-  /// What the ray meets, or misses by at most `reach_m`. A hit's clearance is not measured: -1 m.
-  SolidMeeting Meet(const RangeRay& ray, double reach_m) const;
+  /// What the ray intersects, or misses by at most `reach_m`. A hit's clearance is not measured: -1
+  /// m.
+  SolidIntersection Intersect(const RangeRay& ray, double reach_m) const;
   /// The same with a hit's depth: how far the ray gets inside the solid that it enters first.
-  SolidMeeting MeetWithDepth(const RangeRay& ray, double reach_m) const;
+  SolidIntersection IntersectWithDepth(const RangeRay& ray, double reach_m) const;
 
  private:
   struct Part {
@@ -41,7 +42,7 @@ class SolidTracer {
     double bound_m;          ///< radius of the sphere round it
   };
 
-  SolidMeeting Passed(const RangeRay& ray, double reach_m) const;
+  SolidIntersection Passed(const RangeRay& ray, double reach_m) const;
 
   std::vector<Part> parts_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< of a sphere round all

@@ -22,9 +22,9 @@ constexpr double kAround_m = 0.120;
 
 // What no number of points averages away: of a plane fitted to lidar ranges or to a dense map.
 // Where a top ends: creases and flying points shift it, more so along the line of sight, where a
-// spot is stretched over the plane.
+// footprint is stretched over the plane.
 constexpr double kEdgeFloor_m = 0.004, kEdgeFloorAlongSight_m = 0.0075;
-constexpr double kSpotShare = 0.25;  // of a stretched spot's length
+constexpr double kFootprintRatio = 0.25;  // of a stretched footprint's length
 constexpr double kHeightFloor_m = 0.001;
 constexpr double kTiltFloor_rad = RadiansFromDegrees(0.15);
 constexpr double kUnknownPlace_m = 0.030;
@@ -58,7 +58,7 @@ void AddToBands(const Eigen::Vector2d& local, double area_m2, const Eigen::Vecto
   }
 }
 
-void ToShares(const Eigen::Vector2d& half, double band_m, std::array<BlockEdge, 4>& edges) {
+void ToFractions(const Eigen::Vector2d& half, double band_m, std::array<BlockEdge, 4>& edges) {
   for (int e = 0; e < 4; ++e) {
     const double length = 2.0 * (half[1 - e % 2] - kCorner_m);
     const double outer = length * band_m;
@@ -126,7 +126,7 @@ RectangleEvidence GatherEvidence(const SurfaceGrid& grid, const PlaneView& view,
   for (const auto& sample : view.occupied)
     AddToBands(rectangle.Local(sample.at), sample.area_m2, half, band_m, &BlockEdge::outer_occupied,
                false, evidence.edges);
-  ToShares(half, band_m, evidence.edges);
+  ToFractions(half, band_m, evidence.edges);
   const double area = rectangle.size_m.prod();
   block.cover = std::min(1.0, block.cover / area);
   block.see_through /= area;
@@ -169,14 +169,15 @@ PoseCovariance BlockCovariance(const SurfaceGrid& grid, const PlaneView& view,
   const Eigen::Vector2d flat_sight(view.x.dot(sight), view.y.dot(sight));
   const Eigen::Vector2d along_sight =
       (Eigen::Rotation2Dd(-rectangle.yaw_rad) * flat_sight).normalized();
-  const double spot_m =
-      LengthOn(view.surface.plane, sight.normalized(), sight.norm(), grid.spot_rad());
+  const double footprint_m =
+      LengthOn(view.surface.plane, sight.normalized(), sight.norm(), grid.footprint_height_rad());
   double yaw_information = 1.0 / (kUnknownYaw_rad * kUnknownYaw_rad);
   for (int axis = 0; axis < 2; ++axis) {
     double place_information = 1.0 / (kUnknownPlace_m * kUnknownPlace_m);
     const double length = rectangle.size_m[1 - axis];
     const double sharp_m = std::hypot(
-        kEdgeFloor_m, along_sight[axis] * std::hypot(kEdgeFloorAlongSight_m, kSpotShare * spot_m));
+        kEdgeFloor_m,
+        along_sight[axis] * std::hypot(kEdgeFloorAlongSight_m, kFootprintRatio * footprint_m));
     for (const int e : {axis, axis + 2}) {
       if (!evidence.edges[static_cast<std::size_t>(e)].Confirmed()) continue;
       // Each point along the edge tells where it is to within its spacing and the blur.

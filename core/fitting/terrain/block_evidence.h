@@ -7,7 +7,7 @@
 
 namespace foresight {
 
-/// What the bands on both sides of a block's edge hold, as shares of the bands' areas.
+/// What the bands on both sides of a block's edge hold, as fractions of the bands' areas.
 struct BlockEdge {
   double inner_support = 0.0;
   double outer_support = 0.0;

@@ -17,7 +17,7 @@ using Rows = Eigen::Matrix<double, 2, 4>;  // of a place by origin (2) and step 
 
 constexpr int kMinBlocks = 5;
 constexpr double kWellPlaced_m = 0.022;  // deviation in the worse direction
-constexpr double kLeastShare = 0.8;      // of the well placed blocks that stand in rows
+constexpr double kLeastFraction = 0.8;   // of the well placed blocks that stand in rows
 constexpr double kMaxGap_sigmas = 3.0;
 constexpr double kLeastPitch = 0.90, kMostPitch = 1.35;  // sides of a block
 constexpr double kPitchStep_m = 0.003;
@@ -157,7 +157,7 @@ LatticePlace Weighed(const BlockPlace& block, const Fit& fit, std::size_t i) {
   const Rows rows = RowsOf(fit.cells[i]);
   const double jitter2 = fit.jitter_m * fit.jitter_m;
   const Eigen::Matrix2d own =
-      jitter2 * WithJitter(block.covariance, fit.jitter_m).inverse();  // share of its own edges
+      jitter2 * WithJitter(block.covariance, fit.jitter_m).inverse();  // fraction of its own edges
   const Eigen::Matrix2d of_rows = Eigen::Matrix2d::Identity() - own;
   BlockPlace& place = result.place;
   place.at = fit.Node(i) + own * (block.at - fit.Node(i));
@@ -193,7 +193,7 @@ std::optional<BlockLattice> FindBlockLattice(std::span<const BlockPlace> blocks,
     lattice.places.push_back(Weighed(blocks[i], fit, i));
     in_rows += used[i] && lattice.places.back().in_rows ? 1 : 0;
   }
-  if (in_rows < kMinBlocks || in_rows < kLeastShare * placed) return std::nullopt;
+  if (in_rows < kMinBlocks || in_rows < kLeastFraction * placed) return std::nullopt;
   return lattice;
 }
 

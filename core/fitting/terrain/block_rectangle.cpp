@@ -18,8 +18,8 @@ constexpr double kOutsideWeight = 0.7;
 // and a whole face falls on one line of the plane.
 constexpr double kOccupied_m = 0.050;
 
-// A beam counts as gone past an edge as soon as a part of its spot reads what lies behind: its
-// middle is then this share of the spot's length inside the edge.
+// A beam counts as gone past an edge as soon as a part of its footprint reads what lies behind: its
+// middle is then this fraction of the footprint's length inside the edge.
 constexpr double kPastEdge = 0.20;
 
 constexpr double kOneBlock = 1.25;       // a patch of more area may hold several
@@ -67,8 +67,8 @@ double Score(const std::vector<Piece>& pieces, const BlockRectangle& rectangle, 
     const double inside =
         std::min(half.x() - std::abs(c * dx + s * dy), half.y() - std::abs(c * dy - s * dx));
     if (inside < -kBand_m) continue;
-    const double share = std::clamp(0.5 + 0.5 * inside / softness_m, 0.0, 1.0);
-    score += share * piece.inside + (1.0 - share) * piece.around;
+    const double fraction = std::clamp(0.5 + 0.5 * inside / softness_m, 0.0, 1.0);
+    score += fraction * piece.inside + (1.0 - fraction) * piece.around;
   }
   return score;
 }
@@ -181,13 +181,13 @@ BlockRectangle BestRectangle(const PlaneView& view, const std::vector<PlaneView:
   return best;
 }
 
-/// From the middle of a beam's spot on the plane to the part of it that went past an edge.
-Eigen::Vector2d SpotShift(const SurfaceGrid& grid, int i, const PlaneView& view) {
+/// From the middle of a beam's footprint on the plane to the part of it that went past an edge.
+Eigen::Vector2d FootprintShift(const SurfaceGrid& grid, int i, const PlaneView& view) {
   const GridPoint& point = grid[i];
   const Eigen::Vector2d away(view.x.dot(point.direction), view.y.dot(point.direction));
-  const double spot_m =
-      LengthOn(view.surface.plane, point.direction, point.range_m, grid.spot_rad());
-  return kPastEdge * spot_m * away.normalized();
+  const double footprint_m =
+      LengthOn(view.surface.plane, point.direction, point.range_m, grid.footprint_height_rad());
+  return kPastEdge * footprint_m * away.normalized();
 }
 
 }  // namespace
@@ -233,7 +233,7 @@ PlaneView ViewOfPlane(const SurfaceGrid& grid, const SurfacePlanes& surfaces, in
       const double range_m = RangeTo(surface, grid[i].origin, grid[i].direction);
       if (!std::isfinite(range_m)) continue;
       const Eigen::Vector2d at =
-          view.Flat(grid[i].origin + range_m * grid[i].direction) + SpotShift(grid, i, view);
+          view.Flat(grid[i].origin + range_m * grid[i].direction) + FootprintShift(grid, i, view);
       if (bounds.contains(at))
         view.through.push_back({at, certainty * AreaOn(surface, grid[i], range_m), i});
     } else if (above < kOccupied_m) {

@@ -8,10 +8,10 @@
 namespace foresight {
 
 /// What the rays say about a plane and the space around its points. Coordinates are of a frame in
-/// the plane: where a ray meets it is known much better than where its return lies.
+/// the plane: where a ray intersects it is known much better than where its return lies.
 struct PlaneView {
   struct Sample {
-    Eigen::Vector2d at;    ///< where the ray meets the plane
+    Eigen::Vector2d at;    ///< where the ray intersects the plane
     double area_m2 = 0.0;  ///< that it stands for, on the plane
     int point = -1;        ///< of the grid
   };
@@ -32,7 +32,7 @@ struct PlaneView {
   }
 };
 
-/// Rays that meet a plane within `margin_m` of its points' bounds.
+/// Rays that intersect a plane within `margin_m` of its points' bounds.
 PlaneView ViewOfPlane(const SurfaceGrid& grid, const SurfacePlanes& surfaces, int plane,
                       double margin_m);
 

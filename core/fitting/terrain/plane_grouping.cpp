@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/geometry/angles.h"
+#include "core/geometry/rotation_between.h"
 
 namespace foresight {
 namespace {
@@ -14,14 +15,14 @@ constexpr int kMaxDirections = 14;
 constexpr double kCone_rad = RadiansFromDegrees(9.0);
 constexpr double kNearest_rad = RadiansFromDegrees(14.0);
 constexpr int kMeanShifts = 5;
-constexpr double kLeastShare = 0.004;  // of all normals, within a cone
-constexpr int kBinsAcross = 61;        // of the tangent plane; 1.7 deg each at 45 deg of tilt
-constexpr int kReach = 2;              // cells that a component may jump
+constexpr double kLeastFraction = 0.004;  // of all normals, within a cone
+constexpr int kBinsAcross = 61;           // of the tangent plane; 1.7 deg each at 45 deg of tilt
+constexpr int kReach = 2;                 // cells that a component may jump
 constexpr double kFarSteps = 8.0;  // between neighbours seen at a grazing angle, in beam spacings
 constexpr double kMinArea_m2 = 0.01;
 constexpr double kMergeAngle_rad = RadiansFromDegrees(14.0);
 constexpr double kMergeSigmas = 2.5;
-constexpr double kMergeShare = 0.75;
+constexpr double kMergeFraction = 0.75;
 constexpr double kMergeOffset_m = 0.010;
 constexpr double kMergeGap_m = 0.06;
 
@@ -29,7 +30,7 @@ constexpr double kMergeGap_m = 0.06;
 class DirectionMap {
  public:
   DirectionMap(const Eigen::Vector3d& up, double max_tilt_rad)
-      : turn_(Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ())),
+      : turn_(RotationBetween(up, Eigen::Vector3d::UnitZ())),
         reach_(std::sin(std::min(1.5, max_tilt_rad + kCone_rad))),
         counts_(Eigen::MatrixXd::Zero(kBinsAcross, kBinsAcross)) {}
 
@@ -138,7 +139,7 @@ bool LiesOn(const SurfaceGrid& grid, const std::vector<int>& points, const Surfa
     near += std::abs(off) < kMergeSigmas * DistanceSigma(grid, i, larger.plane) ? 1 : 0;
   }
   const auto count = static_cast<double>(points.size());
-  return near > kMergeShare * count &&
+  return near > kMergeFraction * count &&
          std::abs(sum / count) < std::max(kMergeOffset_m, 0.8 * grid.sigma_m());
 }
 
@@ -150,7 +151,7 @@ std::vector<Eigen::Vector3d> FrequentDirections(std::span<const Eigen::Vector3d>
   for (const Eigen::Vector3d& normal : normals)
     if (normal.allFinite() && normal.dot(up) > std::cos(max_tilt_rad + kCone_rad))
       left.push_back(normal);
-  const double least = std::max(6.0, kLeastShare * static_cast<double>(left.size()));
+  const double least = std::max(6.0, kLeastFraction * static_cast<double>(left.size()));
   std::vector<Eigen::Vector3d> directions;
   while (static_cast<int>(directions.size()) < kMaxDirections &&
          static_cast<double>(left.size()) >= least) {

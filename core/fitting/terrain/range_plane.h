@@ -29,8 +29,8 @@ class RangePlaneSums {
   Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
 };
 
-/// Where the ray from `origin` along `direction` meets the plane; NaN when it runs along it, away
-/// from it or comes from behind.
+/// Where the ray from `origin` along `direction` intersects the plane; NaN when it runs along it,
+/// away from it or comes from behind.
 double RangeTo(const Plane& plane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
 }  // namespace foresight

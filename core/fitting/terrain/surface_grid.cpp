@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/rotation_between.h"
+
 namespace foresight {
 namespace {
 
@@ -50,7 +52,7 @@ std::vector<Eigen::Vector2i> MeasuredCells(const RaySet& rays) {
 SurfaceGrid::SurfaceGrid(const RaySet& rays, int max_rays)
     : sigma_m_(rays.sigma_m),
       samples_per_point_(rays.samples_per_ray),
-      spot_rad_(rays.spot_height_rad),
+      footprint_height_rad_(rays.footprint_height_rad),
       viewpoint_(rays.viewpoint) {
   PutOnMeasuredGrid(rays, max_rays);
   if (points_.empty()) PutOnAngles(rays);
@@ -78,8 +80,7 @@ void SurfaceGrid::PutOnAngles(const RaySet& rays) {
   for (const RangeRay& ray : rays.rays)
     if (Usable(ray)) ahead += ray.direction;
   if (!(ahead.norm() > 0.0)) return;
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(ahead, Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond turn = RotationBetween(ahead, Eigen::Vector3d::UnitZ());
   std::vector<Eigen::Vector2d> angles;
   Eigen::Vector2d low = Eigen::Vector2d::Constant(10.0), high = -low;
   for (const RangeRay& ray : rays.rays) {

@@ -46,8 +46,9 @@ class SurfaceGrid {
   const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
   /// Median angle between neighbours in x and in y.
   const Eigen::Vector2d& step_rad() const { return step_rad_; }
-  /// Full angle of a beam's spot across its scan line; 0 where a point has no spot of its own.
-  double spot_rad() const { return spot_rad_; }
+  /// Full angle of a beam's footprint across its scan line; 0 where a point has no footprint of its
+  /// own.
+  double footprint_height_rad() const { return footprint_height_rad_; }
   /// Independent measurements behind a point, at most 1.
   double samples_per_point() const { return samples_per_point_; }
 
@@ -63,7 +64,7 @@ class SurfaceGrid {
   int height_ = 0;
   double sigma_m_ = 0.0;
   double samples_per_point_ = 1.0;
-  double spot_rad_ = 0.0;
+  double footprint_height_rad_ = 0.0;
   Eigen::Vector3d viewpoint_ = Eigen::Vector3d::Zero();
   Eigen::Vector2d step_rad_ = Eigen::Vector2d::Constant(1e-3);
 };

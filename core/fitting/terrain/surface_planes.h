@@ -30,12 +30,12 @@ std::vector<std::vector<int>> PointsOfEach(const SurfacePlanes& surfaces);
 /// surface is rough by.
 double DistanceSigma(const SurfaceGrid& grid, int i, const Plane& plane);
 
-/// Area of a plane that a point's ray stands for which meets it at `range_m`: of a point behind the
-/// plane that is not the point's own range.
+/// Area of a plane that a point's ray stands for which intersects it at `range_m`: of a point
+/// behind the plane that is not the point's own range.
 double AreaOn(const Plane& plane, const GridPoint& point, double range_m);
 
-/// How far a small angle in the plane of sight and normal reaches on a plane, met at `range_m` by a
-/// ray along `direction` (length 1); ten times its width at most.
+/// How far a small angle in the plane of sight and normal reaches on a plane, intersected at
+/// `range_m` by a ray along `direction` (length 1); ten times its width at most.
 double LengthOn(const Plane& plane, const Eigen::Vector3d& direction, double range_m,
                 double angle_rad);
 

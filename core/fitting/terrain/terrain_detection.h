@@ -15,9 +15,9 @@ namespace foresight {
 /// How well the measurements support a block's top.
 struct BlockEvidence {
   int points = 0;            ///< of its plane, inside the rectangle
-  double cover = 0.0;        ///< share of the rectangle with support
+  double cover = 0.0;        ///< fraction of the rectangle with support
   double see_through = 0.0;  ///< ... with beams that went through
-  double outside = 0.0;      ///< support beyond the rectangle, as a share of its area
+  double outside = 0.0;      ///< support beyond the rectangle, as a fraction of its area
   int confirmed_edges = 0;   ///< 0 to 4: support inside, none outside
   double rms_m = 0.0;        ///< of the points from the plane
 };

@@ -24,17 +24,17 @@ std::string Edges(int count) {
 }
 
 /// Why a block must not be confirmed.
-std::vector<std::string> Objections(const BlockEvidence& evidence) {
-  std::vector<std::string> objections;
+std::vector<std::string> FailedGates(const BlockEvidence& evidence) {
+  std::vector<std::string> failed_gates;
   if (evidence.outside > kMaxOutside)
-    objections.push_back(
+    failed_gates.push_back(
         fmt::format("part of a larger patch: {:.0f} % of a block's area lies beyond it",
                     100.0 * evidence.outside));
   if (evidence.cover < kMinCover)
-    objections.push_back(fmt::format("only {:.0f} % of its top is seen", 100.0 * evidence.cover));
+    failed_gates.push_back(fmt::format("only {:.0f} % of its top is seen", 100.0 * evidence.cover));
   if (evidence.confirmed_edges < kMinEdges)
-    objections.push_back(fmt::format("{} not confirmed", Edges(4 - evidence.confirmed_edges)));
-  return objections;
+    failed_gates.push_back(fmt::format("{} not confirmed", Edges(4 - evidence.confirmed_edges)));
+  return failed_gates;
 }
 
 std::string WeakestPoint(const TerrainSurface& block, const RectangleEvidence& evidence) {
@@ -97,14 +97,14 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
   Verdict verdict;
   verdict.features = FeaturesOf(rays, block, evidence);
   verdict.probability = model.Probability(verdict.features);
-  verdict.objections = Objections(block.evidence);
-  model.AddReservation(verdict.objections);
+  verdict.failed_gates = FailedGates(block.evidence);
+  model.AddReservation(verdict.failed_gates);
   const bool unsure =
       verdict.probability < kWorthOffering || block.evidence.confirmed_edges <= kUnsureEdges;
   verdict.level =
-      unsure ? VerdictLevel::kUnsure : LevelFor(verdict.probability, !verdict.objections.empty());
-  if (!verdict.objections.empty())
-    verdict.reason = verdict.objections.front();
+      unsure ? VerdictLevel::kUnsure : LevelFor(verdict.probability, !verdict.failed_gates.empty());
+  if (!verdict.failed_gates.empty())
+    verdict.reason = verdict.failed_gates.front();
   else if (verdict.level == VerdictLevel::kConfirmed)
     verdict.reason =
         fmt::format("{} confirmed, {:.0f} % of its top seen", Edges(block.evidence.confirmed_edges),

@@ -7,7 +7,7 @@
 
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/valve/lever_search.h"
-#include "core/fitting/valve/polish.h"
+#include "core/fitting/valve/local_search.h"
 #include "core/fitting/valve/ray_likelihood.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/rim_search.h"
@@ -25,11 +25,11 @@ constexpr int kMinForeground = 25;
 constexpr int kRimPoints = 500;  // of the foreground, for the circle search
 constexpr int kGridRays = 900;   // for the grid of dish and phase
 constexpr int kKeptRims = 2;
-constexpr int kPolished = 2;  // numbers of spokes
-constexpr int kRivals = 3;
+constexpr int kLocallySearched = 2;  // numbers of spokes
+constexpr int kAlternatives = 3;
 constexpr double kAround = 1.7;  // radii of the valve that a closer look takes in
-constexpr std::size_t kPolishedLevers = 3;
-constexpr double kHopeless_nats = 200.0;  // more than polishing brings
+constexpr std::size_t kLocallySearchedLevers = 3;
+constexpr double kHopeless_nats = 200.0;  // more than local search brings
 constexpr double kTubeRadius_m = 0.012;   // where the search starts
 
 /// Streams of the seed: each stage draws its own numbers.
@@ -97,10 +97,11 @@ std::vector<RimHypothesis> SearchRims(const RaySet& rays, const WallSplit& split
   return FindRims(points, search, random);
 }
 
-/// The best lever, if there is a bar at all; only roughly placed when it is far behind `rival`.
+/// The best lever, if there is a bar at all; only roughly placed when it is far behind
+/// `alternative`.
 std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& split,
                                        const RayLikelihood& likelihood,
-                                       const std::optional<ValveCandidate>& rival,
+                                       const std::optional<ValveCandidate>& alternative,
                                        const FitValveOptions& options) {
   Random random(options.seed, kLevers);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
@@ -117,11 +118,11 @@ std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& spli
   for (ValveCandidate& lever : levers) lever.log_likelihood = likelihood(lever);
   SortByLikelihood(levers);
   if (levers.empty()) return std::nullopt;
-  if (rival && levers.front().log_likelihood < rival->log_likelihood - kHopeless_nats)
+  if (alternative && levers.front().log_likelihood < alternative->log_likelihood - kHopeless_nats)
     return levers.front();
   // The likelihood has many small peaks along a bar: some of them are climbed.
-  if (levers.size() > kPolishedLevers) levers.resize(kPolishedLevers);
-  for (ValveCandidate& lever : levers) lever = Polish(likelihood, lever);
+  if (levers.size() > kLocallySearchedLevers) levers.resize(kLocallySearchedLevers);
+  for (ValveCandidate& lever : levers) lever = LocalSearch(likelihood, lever);
   SortByLikelihood(levers);
   return levers.front();
 }
@@ -139,12 +140,12 @@ void SortByPlaceAndLikelihood(const RaySet& region, std::vector<ValveCandidate>&
   for (std::size_t i = 0; i < valves.size(); ++i) valves[i] = placed[i].second;
 }
 
-/// Polishes the leading candidates and puts them back in order.
-Status PolishLeaders(const RaySet& region, const RayLikelihood& likelihood,
-                     std::vector<ValveCandidate>& valves, const RunContext& context) {
-  for (std::size_t i = 0; i < std::min<std::size_t>(kPolished, valves.size()); ++i) {
+/// Runs local search on the leading candidates and puts them back in order.
+Status LocalSearchOfLeaders(const RaySet& region, const RayLikelihood& likelihood,
+                            std::vector<ValveCandidate>& valves, const RunContext& context) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(kLocallySearched, valves.size()); ++i) {
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
-    valves[i] = Polish(likelihood, valves[i]);
+    valves[i] = LocalSearch(likelihood, valves[i]);
   }
   SortByPlaceAndLikelihood(region, valves);
   return {};
@@ -185,7 +186,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
                 1000.0 * options.min_rim_radius_m, 1000.0 * options.max_rim_radius_m);
   SortByPlaceAndLikelihood(region, valves);
   context.Report(0.7, "improving the pose");
-  FORESIGHT_CHECK(PolishLeaders(region, likelihood, valves, context));
+  FORESIGHT_CHECK(LocalSearchOfLeaders(region, likelihood, valves, context));
 
   ValveDetection detection;
   detection.best = WithUpwardSpoke(valves.front());
@@ -193,8 +194,8 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   if (!(detection.best.log_likelihood > nothing))
     return Fail(ErrorCode::kNoConvergence,
                 "nothing in the region looks like a wheel: draw it around one, or scan slower");
-  for (std::size_t i = 1; i < valves.size() && i <= kRivals; ++i)
-    detection.rivals.push_back(WithUpwardSpoke(valves[i]));
+  for (std::size_t i = 1; i < valves.size() && i <= kAlternatives; ++i)
+    detection.alternatives.push_back(WithUpwardSpoke(valves[i]));
   RefineOptions at_end;
   at_end.wall = split.wall;
   at_end.rounds = at_end.steps = 1;

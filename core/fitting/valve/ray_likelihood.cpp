@@ -9,23 +9,23 @@
 namespace foresight {
 namespace {
 
-constexpr double kMixing = 0.75;  // a spot on two surfaces reads in between, else one of them
+constexpr double kMixing = 0.75;  // a footprint on two surfaces reads in between, else one of them
 
 }  // namespace
 
 RayLikelihood::RayLikelihood(const RaySet& rays, const std::optional<Plane>& wall)
-    : rays_(rays), wall_(wall), spots_(rays, wall) {
+    : rays_(rays), wall_(wall), footprints_(rays, wall) {
   backgrounds_.reserve(rays.rays.size());
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
     Background background;
     background.density = BeamModel::kUniform;
     if (wall)
       background.density =
-          BeamModel::kPlaneShare *
-              NormalDensity(rays.rays[i].range_m - spots_.WallRange(i), spots_.Sigma()) +
-          (1.0 - BeamModel::kPlaneShare) * BeamModel::kUniform;
+          BeamModel::kPlaneFraction *
+              NormalDensity(rays.rays[i].range_m - footprints_.WallRange(i), footprints_.Sigma()) +
+          (1.0 - BeamModel::kPlaneFraction) * BeamModel::kUniform;
     background.log_density = std::log(background.density);
-    background.reach_m = spots_.Reach(i);
+    background.reach_m = footprints_.Reach(i);
     backgrounds_.push_back(background);
   }
   if (rays.beams) beams_ = std::make_unique<const RayLikelihood>(*rays.beams, wall);
@@ -35,8 +35,8 @@ double RayLikelihood::DensityOn(std::size_t i, const ExpectedRange& expected) co
   const double range_m = rays_.rays[i].range_m;
   const double background = backgrounds_[i].density;
   if (expected.gap_m <= 0.0) {
-    // The stronger of two returns is reported: that of the larger part of the spot.
-    const double hit = BeamModel::kHit * std::clamp(1.5 * expected.share - 0.1, 0.0, 1.0);
+    // The stronger of two returns is reported: that of the larger part of the footprint.
+    const double hit = BeamModel::kHit * std::clamp(1.5 * expected.fraction - 0.1, 0.0, 1.0);
     const double on_valve =
         BeamModel::kGoodReturn * NormalDensity(range_m - expected.range_m, expected.sigma_m) +
         (1.0 - BeamModel::kGoodReturn) * BeamModel::kUniform;
@@ -44,13 +44,14 @@ double RayLikelihood::DensityOn(std::size_t i, const ExpectedRange& expected) co
   }
   const double between = NormalDensity(range_m - expected.range_m, expected.sigma_m);
   const double either =
-      expected.share * NormalDensity(range_m - expected.valve_m, spots_.Sigma()) +
-      (1.0 - expected.share) * NormalDensity(range_m - spots_.WallRange(i), spots_.Sigma());
-  // From the share of good returns beside the template to that on it, without a step.
+      expected.fraction * NormalDensity(range_m - expected.valve_m, footprints_.Sigma()) +
+      (1.0 - expected.fraction) *
+          NormalDensity(range_m - footprints_.WallRange(i), footprints_.Sigma());
+  // From the fraction of good returns beside the template to that on it, without a step.
   const double good =
-      BeamModel::kPlaneShare +
-      (BeamModel::kHit * BeamModel::kGoodReturn - BeamModel::kPlaneShare) * expected.share;
-  const double missed = (1.0 - BeamModel::kHit) * expected.share;
+      BeamModel::kPlaneFraction +
+      (BeamModel::kHit * BeamModel::kGoodReturn - BeamModel::kPlaneFraction) * expected.fraction;
+  const double missed = (1.0 - BeamModel::kHit) * expected.fraction;
   return good * (kMixing * between + (1.0 - kMixing) * either) + missed * background +
          (1.0 - good - missed) * BeamModel::kUniform;
 }
@@ -68,8 +69,8 @@ double RayLikelihood::OfRays(const ValveCandidate& valve, ValveParts parts) cons
     const RangeRay& ray = rays_.rays[i];
     double log_density = backgrounds_[i].log_density;
     if (tracer.Near(ray, backgrounds_[i].reach_m)) {
-      const ExpectedRange expected = spots_.Expect(i, tracer.Meet(ray), valve.brightness);
-      if (expected.share > 0.0) log_density = std::log(DensityOn(i, expected));
+      const ExpectedRange expected = footprints_.Expect(i, tracer.Intersect(ray), valve.brightness);
+      if (expected.fraction > 0.0) log_density = std::log(DensityOn(i, expected));
     }
     sum += log_density;
   }

@@ -5,19 +5,19 @@
 #include <vector>
 
 #include "core/fitting/ray_set.h"
-#include "core/fitting/valve/beam_spots.h"
+#include "core/fitting/valve/beam_footprints.h"
 #include "core/fitting/valve/valve_state.h"
 #include "core/geometry/plane.h"
 
 namespace foresight {
 
-/// How well a valve explains every ray of a region: those that should meet it, and those that went
-/// past or through it. The same rays score every template, so scores compare directly.
+/// How well a valve explains every ray of a region: those that should intersect it, and those that
+/// went past or through it. The same rays score every template, so scores compare directly.
 ///
-/// A beam whose spot lies on the template returns its range (or something nearer, or nonsense) with
-/// probability 0.93; a spot that is half on the wall returns a range in between, or either one; all
-/// others return the wall or anything. Points alone could not tell: more spokes always explain more
-/// of them, and a template hanging in empty space costs nothing.
+/// A beam whose footprint lies on the template returns its range (or something nearer, or nonsense)
+/// with probability 0.93; a footprint that is half on the wall returns a range in between, or
+/// either one; all others return the wall or anything. Points alone could not tell: more spokes
+/// always explain more of them, and a template hanging in empty space costs nothing.
 ///
 /// Where the beams behind a dense map are known they count in full, and the map, which was made
 /// from them, for kMapWithBeams of its own.
@@ -46,7 +46,7 @@ class RayLikelihood {
 
   const RaySet& rays_;
   std::optional<Plane> wall_;
-  BeamSpots spots_;
+  BeamFootprints footprints_;
   std::vector<Background> backgrounds_;
   std::unique_ptr<const RayLikelihood> beams_;  ///< behind a dense map; null = not known
 };

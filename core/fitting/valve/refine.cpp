@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/fitting/valve/beam_spots.h"
+#include "core/fitting/valve/beam_footprints.h"
 
 namespace foresight {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kGate = 2.5;          // sigmas of range within which a ray saw
 constexpr double kStep = 1e-5;         // of the numeric derivative, metres and radians
 constexpr int kPriors = 5;
 
-constexpr double kLeastShare = 0.5;  // of the spot of a ray that saw the template
+constexpr double kLeastFraction = 0.5;  // of the footprint of a ray that saw the template
 
 /// What a ray says about the template while a round lasts.
 enum class Role { kSurface, kFree, kNothing };
@@ -37,7 +37,7 @@ double StepTowardsUsual(const ValveModel& model, int parameter) {
 class Problem {
  public:
   Problem(const RaySet& rays, const RefineOptions& options)
-      : rays_(rays), options_(options), spots_(rays, options.wall) {
+      : rays_(rays), options_(options), footprints_(rays, options.wall) {
     const std::size_t stride = std::max<std::size_t>(
         1, (rays.rays.size() + static_cast<std::size_t>(options.max_rays) - 1) /
                static_cast<std::size_t>(options.max_rays));
@@ -51,13 +51,14 @@ class Problem {
     const ValveTracer tracer(valve, options_.parts);
     for (RoledRay& roled : roled_) {
       const double range_m = rays_.rays[roled.index].range_m;
-      const ValveMeeting meeting = tracer.Meet(rays_.rays[roled.index]);
-      const ExpectedRange expected = spots_.Expect(roled.index, meeting, valve.brightness);
-      const double behind = range_m - meeting.middle_m;
+      const ValveIntersection intersection = tracer.Intersect(rays_.rays[roled.index]);
+      const ExpectedRange expected =
+          footprints_.Expect(roled.index, intersection, valve.brightness);
+      const double behind = range_m - intersection.middle_m;
       // A range nearer to the wall's than to the template's says nothing of the template.
-      const double from_wall = std::abs(range_m - spots_.WallRange(roled.index));
-      const bool on_template = std::abs(behind) < std::min(kGate * spots_.Sigma(), from_wall);
-      const bool between = expected.share > kLeastShare && expected.gap_m > 0.0 &&
+      const double from_wall = std::abs(range_m - footprints_.WallRange(roled.index));
+      const bool on_template = std::abs(behind) < std::min(kGate * footprints_.Sigma(), from_wall);
+      const bool between = expected.fraction > kLeastFraction && expected.gap_m > 0.0 &&
                            std::abs(range_m - expected.range_m) < kGate * expected.sigma_m;
       roled.role = on_template || between                ? Role::kSurface
                    : behind > 0.0 && options_.free_space ? Role::kFree
@@ -73,15 +74,15 @@ class Problem {
       const RoledRay& roled = roled_[static_cast<std::size_t>(i)];
       if (roled.role == Role::kNothing) continue;
       const RangeRay& ray = rays_.rays[roled.index];
-      const ValveMeeting meeting = tracer.Meet(ray);
-      const double lateral_m = spots_.HalfWidth(roled.index, meeting.across);
+      const ValveIntersection intersection = tracer.Intersect(ray);
+      const double lateral_m = footprints_.HalfWidth(roled.index, intersection.across);
       if (roled.role == Role::kSurface) {
         const ExpectedRange expected =
-            spots_.Expect(roled.index, meeting, valve.brightness, kLeastShare);
+            footprints_.Expect(roled.index, intersection, valve.brightness, kLeastFraction);
         residuals[2 * i] = (ray.range_m - expected.range_m) / expected.sigma_m;
-        residuals[2 * i + 1] = std::max(0.0, meeting.Clearance()) / lateral_m;
+        residuals[2 * i + 1] = std::max(0.0, intersection.Clearance()) / lateral_m;
       } else {
-        residuals[2 * i] = std::max(0.0, -meeting.Clearance()) / lateral_m;
+        residuals[2 * i] = std::max(0.0, -intersection.Clearance()) / lateral_m;
       }
     }
     residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
@@ -111,7 +112,7 @@ class Problem {
         continue;
       }
       const double step = StepTowardsUsual(valve.model, p);
-      jacobian.col(p) = (Residuals(Moved(valve, step * ValveStep::Unit(p))) - residuals) / step;
+      jacobian.col(p) = (Residuals(Retract(valve, step * ValveStep::Unit(p))) - residuals) / step;
     }
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(residuals.size());
     for (Eigen::Index i = 0; i < std::ssize(roled_); ++i)
@@ -124,7 +125,7 @@ class Problem {
  private:
   const RaySet& rays_;
   const RefineOptions& options_;
-  BeamSpots spots_;
+  BeamFootprints footprints_;
   std::vector<RoledRay> roled_;
   double weight_ = 1.0;  ///< measurements that one used ray stands for
 };
@@ -145,7 +146,7 @@ RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const Refin
       // A direction that no ray sees (the phase of a bare rim) must not make the system singular.
       ValveInformation damped = best.information;
       damped.diagonal() += damping * best.information.diagonal() + ValveStep::Constant(1e-3);
-      const ValveCandidate tried = Moved(best.valve, damped.ldlt().solve(-gradient));
+      const ValveCandidate tried = Retract(best.valve, damped.ldlt().solve(-gradient));
       const Eigen::VectorXd tried_residuals = problem.Residuals(tried);
       const double tried_cost = problem.Cost(tried_residuals);
       if (!(tried_cost < cost)) {

@@ -22,7 +22,7 @@ ValveCandidate BestOfGrid(const RayLikelihood& likelihood, const ValveCandidate&
   std::optional<ValveCandidate> best;
   for (int d = 0; d < kDishes; ++d) {
     for (int p = 0; p < phases; ++p) {
-      ValveCandidate tried = Moved(rim, sector * p / phases * ValveStep::Unit(int{kPhase}));
+      ValveCandidate tried = Retract(rim, sector * p / phases * ValveStep::Unit(int{kPhase}));
       tried.model = UsualValve(rim.model.rim_radius_m, rim.model.tube_radius_m, spokes,
                                kFirstDish_m + d * kDishStep_m);
       tried.log_likelihood = likelihood(tried);

@@ -14,19 +14,19 @@ namespace foresight {
 /// How well the measurements support a fit.
 struct ValveEvidence {
   int rays = 0;               ///< looked at
-  int hits = 0;               ///< rays that meet the template
-  double inlier_share = 0.0;  ///< of the hits, those with a range that agrees
+  int hits = 0;               ///< rays that intersect the template
+  double inlier_ratio = 0.0;  ///< of the hits, those with a range that agrees
   double see_through = 0.0;   ///< of the hits, those whose beam went on behind the template
   double blocked_gaps = 0.0;  ///< of the rays between the spokes, those that did not get through
   double rms_m = 0.0;         ///< of the agreeing ranges
-  double arc_coverage = 0.0;  ///< share of the rim's circle, or of a lever, with support
+  double arc_coverage = 0.0;  ///< fraction of the rim's circle, or of a lever, with support
   double margin_nats = 0.0;   ///< log likelihood ahead of the next number of spokes or kind
   double gain_nats = 0.0;     ///< log likelihood ahead of no valve at all
   /// Of the rays on the spoke that is seen worst, those with a range that agrees; 1 without spokes.
   double weakest_spoke = 1.0;
 };
 
-/// One answer to "where is the valve": the best one, or a rival.
+/// One answer to "where is the valve": the best one, or an alternative.
 struct ValveCandidate {
   Rigid<frame::Base, frame::Object> base_from_object;
   ValveModel model;
@@ -45,7 +45,7 @@ struct ValveDetection {
   double sigma_phase_rad = 0.0;
   ValveEvidence evidence;
   Verdict verdict;
-  std::vector<ValveCandidate> rivals;  ///< best first
+  std::vector<ValveCandidate> alternatives;  ///< best first
   /// Of best; about the object's axes. The centre along the axis (2, 2) trades with the dish and is
   /// known worse than across. NaN where a disc has no phase.
   PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));

@@ -8,30 +8,30 @@
 #include <numbers>
 
 #include "core/fitting/region_place.h"
-#include "core/fitting/valve/beam_spots.h"
+#include "core/fitting/valve/beam_footprints.h"
 
 namespace foresight {
 namespace {
 
 constexpr int kBins = 24;
 constexpr double kAgreeSigmas = 3.0;
-constexpr double kMetShare = 0.5;
-constexpr double kWholeShare = 0.9;
+constexpr double kIntersectedFraction = 0.5;
+constexpr double kWholeFraction = 0.9;
 constexpr double kMaxPhaseSigma_rad = 0.15;
 
-/// Of the rays that meet one part, those whose range agrees.
+/// Of the rays that intersect one part, those whose range agrees.
 struct PartSupport {
   int hits = 0;
   int agreeing = 0;
 
-  double Share() const { return hits > 0 ? static_cast<double>(agreeing) / hits : 0.0; }
+  double Fraction() const { return hits > 0 ? static_cast<double>(agreeing) / hits : 0.0; }
 };
 
 /// Of the rays that cross the plane z = 0 inside the rim (beside a lever: within half its length of
-/// its middle) and touch nothing of the valve, the share that ends there all the same: a valve is
-/// open, a box or a ball is not.
+/// its middle) and touch nothing of the valve, the fraction that ends there all the same: a valve
+/// is open, a box or a ball is not.
 double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveTracer& tracer,
-                   const BeamSpots& spots) {
+                   const BeamFootprints& footprints) {
   const ValveModel& model = valve.model;
   const Eigen::Vector3d axis = valve.base_from_object.Rotate(Eigen::Vector3d::UnitZ());
   const double reach = model.IsLever() ? 0.5 * model.lever_length_m + 4.0 * model.tube_radius_m
@@ -48,18 +48,19 @@ double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveT
     const double crossing_m = axis.dot(ray.origin - middle) / closing;
     const Eigen::Vector3d crossing = ray.origin + crossing_m * ray.direction;
     if ((crossing - middle).norm() > reach) continue;
-    if (tracer.Meet(ray).Clearance() < spots.Reach(i)) continue;
+    if (tracer.Intersect(ray).Clearance() < footprints.Reach(i)) continue;
     ++gaps;
     if (ray.range_m < crossing_m + rays.sigma_m) ++blocked;
   }
   return gaps > 0 ? static_cast<double>(blocked) / gaps : 0.0;
 }
 
-/// Share of the middle line's bins that have support: of the rim's circle, or along a lever.
-int BinOf(const ValveMeeting& meeting, const ValveModel& model) {
-  const double share = model.IsLever() ? meeting.along_m / std::max(model.lever_length_m, 1e-6)
-                                       : meeting.azimuth_rad / (2.0 * std::numbers::pi) + 0.5;
-  return std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
+/// Fraction of the middle line's bins that have support: of the rim's circle, or along a lever.
+int BinOf(const ValveIntersection& intersection, const ValveModel& model) {
+  const double fraction = model.IsLever()
+                              ? intersection.along_m / std::max(model.lever_length_m, 1e-6)
+                              : intersection.azimuth_rad / (2.0 * std::numbers::pi) + 0.5;
+  return std::clamp(static_cast<int>(fraction * kBins), 0, kBins - 1);
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ int BinOf(const ValveMeeting& meeting, const ValveModel& model) {
 ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wall,
                              const ValveCandidate& valve) {
   const ValveTracer tracer(valve, ValveParts::kAll);
-  const BeamSpots spots(rays, wall);
+  const BeamFootprints footprints(rays, wall);
   const ValvePart outline = valve.model.IsLever() ? ValvePart::kLever : ValvePart::kRim;
   ValveEvidence evidence;
   std::bitset<kBins> covered;
@@ -79,36 +80,37 @@ ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wal
     const RangeRay& ray = rays.rays[i];
     ++evidence.rays;
     if (!tracer.Near(ray, 0.0)) continue;
-    const ValveMeeting meeting = tracer.Meet(ray);
-    const ExpectedRange expected = spots.Expect(i, meeting, valve.brightness);
-    if (meeting.Clearance() >= 0.0 || expected.share < kMetShare) continue;
+    const ValveIntersection intersection = tracer.Intersect(ray);
+    const ExpectedRange expected = footprints.Expect(i, intersection, valve.brightness);
+    if (intersection.Clearance() >= 0.0 || expected.fraction < kIntersectedFraction) continue;
     const double error = ray.range_m - expected.range_m;
     const double agree_m = kAgreeSigmas * expected.sigma_m;
     const bool agrees = std::abs(error) <= agree_m;
-    if (meeting.part == ValvePart::kSpoke) {
-      PartSupport& spoke = spokes[static_cast<std::size_t>(meeting.spoke)];
+    if (intersection.part == ValvePart::kSpoke) {
+      PartSupport& spoke = spokes[static_cast<std::size_t>(intersection.spoke)];
       ++spoke.hits;
       spoke.agreeing += agrees ? 1 : 0;
     }
-    // A spot that is partly on something unknown may read anything in between.
-    if (!agrees && !spots.BeforeWall(i) && expected.share < kWholeShare) continue;
+    // A footprint that is partly on something unknown may read anything in between.
+    if (!agrees && !footprints.BeforeWall(i) && expected.fraction < kWholeFraction) continue;
     ++evidence.hits;
     if (error > agree_m) ++behind;
     if (!agrees) continue;
     ++agreeing;
     square_sum += error * error;
-    if (meeting.part == outline) covered.set(static_cast<std::size_t>(BinOf(meeting, valve.model)));
+    if (intersection.part == outline)
+      covered.set(static_cast<std::size_t>(BinOf(intersection, valve.model)));
   }
   const double hits = std::max(1, evidence.hits);
-  evidence.inlier_share = agreeing / hits;
+  evidence.inlier_ratio = agreeing / hits;
   evidence.see_through = behind / hits;
-  evidence.blocked_gaps = BlockedGaps(rays, valve, tracer, spots);
+  evidence.blocked_gaps = BlockedGaps(rays, valve, tracer, footprints);
   evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
   evidence.arc_coverage = static_cast<double>(covered.count()) / kBins;
   evidence.weakest_spoke = 1.0;
   for (int i = 0; i < valve.model.spokes && !valve.model.IsLever(); ++i)
     evidence.weakest_spoke =
-        std::min(evidence.weakest_spoke, spokes[static_cast<std::size_t>(i)].Share());
+        std::min(evidence.weakest_spoke, spokes[static_cast<std::size_t>(i)].Fraction());
   return evidence;
 }
 
@@ -164,7 +166,7 @@ std::vector<double> ValveFeatures(const RaySet& rays, const ValveDetection& dete
   return {std::log1p(std::max(0.0, evidence.margin_nats)),
           std::clamp(evidence.gain_nats / hits, 0.0, 5.0),
           std::log(hits),
-          evidence.inlier_share,
+          evidence.inlier_ratio,
           evidence.see_through,
           evidence.blocked_gaps,
           evidence.arc_coverage,

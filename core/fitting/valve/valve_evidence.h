@@ -10,8 +10,8 @@
 
 namespace foresight {
 
-/// What the rays of a region say about a valve before a wall. A ray meets it where half of its spot
-/// lies on it. The two likelihoods are left at 0.
+/// What the rays of a region say about a valve before a wall. A ray intersects it where half of its
+/// footprint lies on it. The two likelihoods are left at 0.
 ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wall,
                              const ValveCandidate& valve);
 

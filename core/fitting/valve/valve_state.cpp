@@ -19,8 +19,8 @@ double SquareWeight(double tilt2) {
   const double square2 = Squared(ValvePrior::kSquareSigma_rad);
   const double skew2 = Squared(ValvePrior::kSkewSigma_rad);
   if (tilt2 < 1e-12) return 1.0 / ValvePrior::kSquareSigma_rad;
-  const double square = ValvePrior::kSquareShare / square2;
-  const double skew = (1.0 - ValvePrior::kSquareShare) / skew2;
+  const double square = ValvePrior::kSquareFraction / square2;
+  const double skew = (1.0 - ValvePrior::kSquareFraction) / skew2;
   const double density =
       square * std::exp(-0.5 * tilt2 / square2) + skew * std::exp(-0.5 * tilt2 / skew2);
   return std::sqrt(-2.0 * std::log(density / (square + skew)) / tilt2);
@@ -49,7 +49,7 @@ ValveModel UsualLever(double length_m, double tube_radius_m, double head_radius_
   return model;
 }
 
-ValveCandidate Moved(const ValveCandidate& valve, const ValveStep& step) {
+ValveCandidate Retract(const ValveCandidate& valve, const ValveStep& step) {
   const Eigen::Quaterniond& rotation = valve.base_from_object.rotation();
   const Eigen::Vector3d turn = step.segment<3>(kTiltX);
   const double angle = turn.norm();

@@ -38,8 +38,9 @@ struct ValvePrior {
   static constexpr double kHeadRadius_m = 0.025;   ///< of a lever
   static constexpr double kHeadRadiusSigma_m = 0.006;
   /// Most valves are mounted square to the wall behind them, the others at any angle: two normal
-  /// densities of the axis about the wall's normal, with these sigmas and this share of the first.
-  static constexpr double kSquareShare = 0.7;
+  /// densities of the axis about the wall's normal, with these sigmas and this fraction of the
+  /// first.
+  static constexpr double kSquareFraction = 0.7;
   static constexpr double kSquareSigma_rad = 0.035;
   static constexpr double kSkewSigma_rad = 0.21;
   /// A lever's bar and head look the same turned about the bar: that turn is taken to be square.
@@ -56,7 +57,7 @@ ValveModel UsualLever(double length_m, double tube_radius_m,
                       double head_radius_m = ValvePrior::kHeadRadius_m);
 
 /// The valve after a step. Radii and dish stay within what is built.
-ValveCandidate Moved(const ValveCandidate& valve, const ValveStep& step);
+ValveCandidate Retract(const ValveCandidate& valve, const ValveStep& step);
 
 /// What the prior of an axis square to the wall counts in a sum of squares: components along the
 /// object's x and y, of which half the squared length is the prior's -log, 0 where the axis is the

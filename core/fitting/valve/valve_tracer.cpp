@@ -12,25 +12,25 @@ constexpr double kMaxStretch = 3.0;
 
 /// The ray's closest approach to a point of a middle line that runs along `tangent` there; a point
 /// of a sphere or an end has none.
-ValveMeeting Approach(ValvePart part, const Eigen::Vector3d& origin,
-                      const Eigen::Vector3d& direction, const Eigen::Vector3d& point,
-                      const Eigen::Vector3d& tangent, double radius) {
-  ValveMeeting meeting;
-  meeting.part = part;
-  meeting.radius_m = radius;
-  meeting.middle_m = (point - origin).dot(direction);
-  const Eigen::Vector3d offset = origin + meeting.middle_m * direction - point;
-  meeting.offset_m = offset.norm();
+ValveIntersection Approach(ValvePart part, const Eigen::Vector3d& origin,
+                           const Eigen::Vector3d& direction, const Eigen::Vector3d& point,
+                           const Eigen::Vector3d& tangent, double radius) {
+  ValveIntersection intersection;
+  intersection.part = part;
+  intersection.radius_m = radius;
+  intersection.middle_m = (point - origin).dot(direction);
+  const Eigen::Vector3d offset = origin + intersection.middle_m * direction - point;
+  intersection.offset_m = offset.norm();
   const double cosine = tangent.dot(direction);
   const double sine2 = 1.0 - cosine * cosine;
   const Eigen::Vector3d across = tangent.cross(direction);
   const double length = across.norm();
   if (length > 1e-3)
-    meeting.across = across / length;
-  else if (meeting.offset_m > 1e-9)
-    meeting.across = offset / meeting.offset_m;
-  meeting.stretch = 1.0 / std::sqrt(std::max(sine2, 1.0 / (kMaxStretch * kMaxStretch)));
-  return meeting;
+    intersection.across = across / length;
+  else if (intersection.offset_m > 1e-9)
+    intersection.across = offset / intersection.offset_m;
+  intersection.stretch = 1.0 / std::sqrt(std::max(sine2, 1.0 / (kMaxStretch * kMaxStretch)));
+  return intersection;
 }
 
 /// Where along a line (point, unit direction) it is closest to a ray.
@@ -42,8 +42,8 @@ double ClosestAlongLine(const Eigen::Vector3d& origin, const Eigen::Vector3d& di
   return (cosine * from_ray.dot(direction) - from_ray.dot(along)) / sine2;
 }
 
-/// Of two parts the one that is met first, or missed by less.
-ValveMeeting FirstMet(const ValveMeeting& a, const ValveMeeting& b) {
+/// Of two parts the one that is intersected first, or missed by less.
+ValveIntersection FirstMet(const ValveIntersection& a, const ValveIntersection& b) {
   const double gap_a = a.Clearance();
   const double gap_b = b.Clearance();
   const bool both_met = gap_a < 0.0 && gap_b < 0.0;
@@ -52,7 +52,7 @@ ValveMeeting FirstMet(const ValveMeeting& a, const ValveMeeting& b) {
 
 }  // namespace
 
-double ValveMeeting::Range() const {
+double ValveIntersection::Range() const {
   const double depth2 = radius_m * radius_m - offset_m * offset_m;
   return depth2 > 0.0 ? middle_m - stretch * std::sqrt(depth2) : middle_m;
 }
@@ -90,7 +90,7 @@ bool ValveTracer::Near(const RangeRay& ray, double margin_m) const {
   return to_center.squaredNorm() - along * along < reach * reach;
 }
 
-ValveMeeting ValveTracer::MeetRim(const LocalRay& ray) const {
+ValveIntersection ValveTracer::IntersectRim(const LocalRay& ray) const {
   const double radius = model_.rim_radius_m;
   // From where the ray crosses the rim's plane; along it there is no crossing, take the nearest
   // point to the centre.
@@ -108,39 +108,39 @@ ValveMeeting ValveTracer::MeetRim(const LocalRay& ray) const {
     if (step < 2)
       point = on_rim + ClosestAlongLine(ray.origin, ray.direction, on_rim, tangent) * tangent;
   }
-  ValveMeeting meeting =
+  ValveIntersection intersection =
       Approach(ValvePart::kRim, ray.origin, ray.direction, on_rim, tangent, model_.tube_radius_m);
-  meeting.azimuth_rad = std::atan2(on_rim.y(), on_rim.x());
-  return meeting;
+  intersection.azimuth_rad = std::atan2(on_rim.y(), on_rim.x());
+  return intersection;
 }
 
-ValveMeeting ValveTracer::MeetHub(const LocalRay& ray) const {
+ValveIntersection ValveTracer::IntersectHub(const LocalRay& ray) const {
   return Approach(ValvePart::kHub, ray.origin, ray.direction, hub_, Eigen::Vector3d::Zero(),
                   model_.hub_radius_m);
 }
 
-ValveMeeting ValveTracer::MeetBar(ValvePart part, const LocalRay& ray, const Bar& bar) {
+ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar) {
   const double along = std::clamp(
       ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction), 0.0, bar.length_m);
   const bool at_end = part == ValvePart::kLever && along == bar.length_m;
   const Eigen::Vector3d tangent = at_end ? Eigen::Vector3d::Zero() : bar.direction;
-  ValveMeeting meeting = Approach(part, ray.origin, ray.direction,
-                                  bar.begin + along * bar.direction, tangent, bar.radius_m);
-  meeting.along_m = along;
-  return meeting;
+  ValveIntersection intersection = Approach(
+      part, ray.origin, ray.direction, bar.begin + along * bar.direction, tangent, bar.radius_m);
+  intersection.along_m = along;
+  return intersection;
 }
 
-ValveMeeting ValveTracer::MeetStem(const LocalRay& ray) const {
-  ValveMeeting meeting = MeetBar(ValvePart::kStem, ray, stem_);
-  const Eigen::Vector3d entry = ray.origin + meeting.Range() * ray.direction;
+ValveIntersection ValveTracer::IntersectStem(const LocalRay& ray) const {
+  ValveIntersection intersection = IntersectBar(ValvePart::kStem, ray, stem_);
+  const Eigen::Vector3d entry = ray.origin + intersection.Range() * ray.direction;
   // Seen from the front, a stem without end would be entered before its beginning.
   if ((entry - stem_.begin).dot(stem_.direction) < 0.0)
-    meeting = Approach(ValvePart::kStem, ray.origin, ray.direction, stem_.begin,
-                       Eigen::Vector3d::Zero(), stem_.radius_m);
-  return meeting;
+    intersection = Approach(ValvePart::kStem, ray.origin, ray.direction, stem_.begin,
+                            Eigen::Vector3d::Zero(), stem_.radius_m);
+  return intersection;
 }
 
-bool ValveTracer::MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const {
+bool ValveTracer::IntersectDisc(const LocalRay& ray, ValveIntersection& intersection) const {
   if (std::abs(ray.direction.z()) < 0.1) return false;
   double range = -ray.origin.z() / ray.direction.z();
   double radial = 0.0;
@@ -152,38 +152,40 @@ bool ValveTracer::MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const {
     range = (height - ray.origin.z()) / ray.direction.z();
   }
   if (radial >= model_.rim_radius_m) return false;
-  meeting = ValveMeeting{};
-  meeting.part = ValvePart::kDisc;
-  meeting.middle_m = range;
-  meeting.radius_m = model_.spoke_radius_m;
-  meeting.stretch = std::min(1.0 / std::abs(ray.direction.z()), kMaxStretch);
+  intersection = ValveIntersection{};
+  intersection.part = ValvePart::kDisc;
+  intersection.middle_m = range;
+  intersection.radius_m = model_.spoke_radius_m;
+  intersection.stretch = std::min(1.0 / std::abs(ray.direction.z()), kMaxStretch);
   return true;
 }
 
-ValveMeeting ValveTracer::MeetWheel(const LocalRay& ray) const {
-  ValveMeeting best = MeetRim(ray);
+ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray) const {
+  ValveIntersection best = IntersectRim(ray);
   if (parts_ == ValveParts::kRim) return best;
-  best = FirstMet(best, MeetHub(ray));
+  best = FirstMet(best, IntersectHub(ray));
   for (int i = 0; i < model_.spokes; ++i) {
-    ValveMeeting spoke = MeetBar(ValvePart::kSpoke, ray, spokes_[static_cast<std::size_t>(i)]);
+    ValveIntersection spoke =
+        IntersectBar(ValvePart::kSpoke, ray, spokes_[static_cast<std::size_t>(i)]);
     spoke.spoke = i;
     best = FirstMet(best, spoke);
   }
-  if (ValveMeeting disc; model_.spokes == 0 && MeetDisc(ray, disc)) best = FirstMet(best, disc);
+  if (ValveIntersection disc; model_.spokes == 0 && IntersectDisc(ray, disc))
+    best = FirstMet(best, disc);
   return best;
 }
 
-ValveMeeting ValveTracer::MeetLever(const LocalRay& ray) const {
-  const ValveMeeting bar = MeetBar(ValvePart::kLever, ray, lever_);
-  return FirstMet(FirstMet(bar, MeetHub(ray)), MeetStem(ray));
+ValveIntersection ValveTracer::IntersectLever(const LocalRay& ray) const {
+  const ValveIntersection bar = IntersectBar(ValvePart::kLever, ray, lever_);
+  return FirstMet(FirstMet(bar, IntersectHub(ray)), IntersectStem(ray));
 }
 
-ValveMeeting ValveTracer::Meet(const RangeRay& ray) const {
+ValveIntersection ValveTracer::Intersect(const RangeRay& ray) const {
   const LocalRay local{object_from_base_ * (ray.origin - center_),
                        object_from_base_ * ray.direction};
-  ValveMeeting meeting = model_.IsLever() ? MeetLever(local) : MeetWheel(local);
-  meeting.across = object_from_base_.transpose() * meeting.across;
-  return meeting;
+  ValveIntersection intersection = model_.IsLever() ? IntersectLever(local) : IntersectWheel(local);
+  intersection.across = object_from_base_.transpose() * intersection.across;
+  return intersection;
 }
 
 }  // namespace foresight

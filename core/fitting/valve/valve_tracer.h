@@ -10,9 +10,9 @@ namespace foresight {
 
 enum class ValvePart { kRim, kHub, kSpoke, kDisc, kLever, kStem };
 
-/// How a ray passes the part of a valve that it meets first, or that it misses by least. Each part
-/// is a tube of some radius around its middle line.
-struct ValveMeeting {
+/// How a ray passes the part of a valve that it intersects first, or that it misses by least. Each
+/// part is a tube of some radius around its middle line.
+struct ValveIntersection {
   ValvePart part = ValvePart::kRim;
   double middle_m = 0.0;  ///< range at which the ray is closest to the middle line
   double offset_m = 0.0;  ///< how close that is
@@ -24,7 +24,7 @@ struct ValveMeeting {
   double along_m = 0.0;      ///< of the closest point of a spoke, lever or stem, from its beginning
   int spoke = 0;             ///< which one
 
-  /// Gap between ray and part; negative when the ray meets it.
+  /// Gap between ray and part; negative when the ray intersects it.
   double Clearance() const { return offset_m - radius_m; }
   /// Range at which the ray enters the part, or passes it closest.
   double Range() const;
@@ -36,12 +36,12 @@ class ValveTracer {
  public:
   ValveTracer(const ValveCandidate& valve, ValveParts parts);
 
-  /// False for a ray that stays further than `margin_m` from all of the valve, so that Meet can be
-  /// saved.
+  /// False for a ray that stays further than `margin_m` from all of the valve, so that Intersect
+  /// can be saved.
   bool Near(const RangeRay& ray, double margin_m) const;
 
   /// Ranges count from the ray's origin; a valve behind it has a negative one.
-  ValveMeeting Meet(const RangeRay& ray) const;
+  ValveIntersection Intersect(const RangeRay& ray) const;
 
  private:
   struct LocalRay {
@@ -55,13 +55,13 @@ class ValveTracer {
     double radius_m = 0.0;
   };
 
-  ValveMeeting MeetRim(const LocalRay& ray) const;
-  ValveMeeting MeetHub(const LocalRay& ray) const;
-  static ValveMeeting MeetBar(ValvePart part, const LocalRay& ray, const Bar& bar);
-  ValveMeeting MeetStem(const LocalRay& ray) const;
-  ValveMeeting MeetWheel(const LocalRay& ray) const;
-  ValveMeeting MeetLever(const LocalRay& ray) const;
-  bool MeetDisc(const LocalRay& ray, ValveMeeting& meeting) const;
+  ValveIntersection IntersectRim(const LocalRay& ray) const;
+  ValveIntersection IntersectHub(const LocalRay& ray) const;
+  static ValveIntersection IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar);
+  ValveIntersection IntersectStem(const LocalRay& ray) const;
+  ValveIntersection IntersectWheel(const LocalRay& ray) const;
+  ValveIntersection IntersectLever(const LocalRay& ray) const;
+  bool IntersectDisc(const LocalRay& ray, ValveIntersection& intersection) const;
 
   Eigen::Matrix3d object_from_base_;
   Eigen::Vector3d center_;

@@ -24,7 +24,8 @@ std::string NameOf(const ValveModel& model) {
 }
 
 /// Why there is no valve to speak of; empty when there may be one.
-std::string Disbelief(const ValveDetection& detection, const FitValveOptions& options) {
+std::string FailedConfirmationGate(const ValveDetection& detection,
+                                   const FitValveOptions& options) {
   const ValveEvidence& evidence = detection.evidence;
   const ValveModel& model = detection.best.model;
   if (evidence.see_through > kAbsurdSeeThrough)
@@ -37,8 +38,8 @@ std::string Disbelief(const ValveDetection& detection, const FitValveOptions& op
 }
 
 /// What a size or a shape alone says against confirming; empty when nothing does.
-std::string ShapeObjection(const ValveModel& model, const FitValveOptions& options) {
-  if (model.IsLever()) return "a bar looks like a lever: check it in the picture";
+std::string FailedShapeGate(const ValveModel& model, const FitValveOptions& options) {
+  if (model.IsLever()) return "a bar looks like a lever: check it in the image";
   if (model.spokes == 0) return "no spokes are seen: any round or flat thing looks like this";
   if (model.rim_radius_m < 1.08 * options.min_rim_radius_m ||
       model.rim_radius_m > 1.04 * options.max_rim_radius_m)
@@ -48,32 +49,32 @@ std::string ShapeObjection(const ValveModel& model, const FitValveOptions& optio
 }
 
 /// Why the valve must not be confirmed.
-std::vector<std::string> Objections(const RaySet& rays, const RaySet& region,
-                                    const ValveDetection& detection,
-                                    const FitValveOptions& options) {
+std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
+                                     const ValveDetection& detection,
+                                     const FitValveOptions& options) {
   const ValveEvidence& evidence = detection.evidence;
   const ValveCandidate& best = detection.best;
-  std::vector<std::string> objections;
+  std::vector<std::string> failed_gates;
   if (const double hits = MeasuredHits(rays, evidence); hits < kMinHits)
-    objections.push_back(
+    failed_gates.push_back(
         fmt::format("only {:.0f} measurements lie on the valve: scan slower or move closer", hits));
   if (evidence.see_through > kMaxSeeThrough)
-    objections.push_back(
+    failed_gates.push_back(
         fmt::format("{:.0f} % of the beams went through the valve", 100.0 * evidence.see_through));
   if (evidence.blocked_gaps > kMaxBlockedGaps)
-    objections.push_back(
+    failed_gates.push_back(
         fmt::format("{:.0f} % of the beams beside the valve's parts did not get through",
                     100.0 * evidence.blocked_gaps));
-  if (evidence.margin_nats < kMinMargin_nats && !detection.rivals.empty())
-    objections.push_back(fmt::format("{} and {} fit almost equally well", NameOf(best.model),
-                                     NameOf(detection.rivals.front().model)));
+  if (evidence.margin_nats < kMinMargin_nats && !detection.alternatives.empty())
+    failed_gates.push_back(fmt::format("{} and {} fit almost equally well", NameOf(best.model),
+                                       NameOf(detection.alternatives.front().model)));
   if (const double off_m = DistanceFromRegionCenter(region, best); off_m > kMaxOffCenter_m)
-    objections.push_back(
+    failed_gates.push_back(
         fmt::format("the valve lies {:.0f} mm from the region's centre: draw the region around it",
                     1000.0 * off_m));
-  if (std::string shape = ShapeObjection(best.model, options); !shape.empty())
-    objections.push_back(std::move(shape));
-  return objections;
+  if (std::string shape = FailedShapeGate(best.model, options); !shape.empty())
+    failed_gates.push_back(std::move(shape));
+  return failed_gates;
 }
 
 std::string WeakestPoint(const ValveDetection& detection) {
@@ -84,9 +85,9 @@ std::string WeakestPoint(const ValveDetection& detection) {
   if (evidence.weakest_spoke < 0.4)
     return fmt::format("of the beams on one spoke only {:.0f} % agree",
                        100.0 * evidence.weakest_spoke);
-  if (evidence.inlier_share < 0.6)
+  if (evidence.inlier_ratio < 0.6)
     return fmt::format("only {:.0f} % of the beams on the valve agree with it",
-                       100.0 * evidence.inlier_share);
+                       100.0 * evidence.inlier_ratio);
   if (evidence.see_through > 0.08)
     return fmt::format("{:.0f} % of the beams went through the valve",
                        100.0 * evidence.see_through);
@@ -105,22 +106,22 @@ std::string WeakestPoint(const ValveDetection& detection) {
 Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetection& detection,
                     const FitValveOptions& options) {
   const VerdictModel& model = ShippedVerdictModel("valve", VerdictSourceOf(rays));
-  const std::string disbelief = Disbelief(detection, options);
+  const std::string failed_confirmation = FailedConfirmationGate(detection, options);
   Verdict verdict;
-  verdict.objections = Objections(rays, region, detection, options);
-  model.AddReservation(verdict.objections);
+  verdict.failed_gates = FailedGates(rays, region, detection, options);
+  model.AddReservation(verdict.failed_gates);
   verdict.features = ValveFeatures(rays, detection);
   verdict.probability = model.Probability(verdict.features);
-  if (!disbelief.empty()) {
-    verdict.objections.insert(verdict.objections.begin(), disbelief);
+  if (!failed_confirmation.empty()) {
+    verdict.failed_gates.insert(verdict.failed_gates.begin(), failed_confirmation);
     verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
   }
-  verdict.level = LevelFor(verdict.probability, !verdict.objections.empty());
-  if (!verdict.objections.empty())
-    verdict.reason = verdict.objections.front();
+  verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
+  if (!verdict.failed_gates.empty())
+    verdict.reason = verdict.failed_gates.front();
   else if (verdict.level == VerdictLevel::kConfirmed)
     verdict.reason = fmt::format("{} beams on the valve, {:.0f} % of them agree",
-                                 detection.evidence.hits, 100.0 * detection.evidence.inlier_share);
+                                 detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio);
   else
     verdict.reason = WeakestPoint(detection);
   return verdict;

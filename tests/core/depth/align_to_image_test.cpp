@@ -52,7 +52,7 @@ TEST(AlignToImage, HandsOutTheCamerasRays) {
   EXPECT_EQ(aligned->rays, RaysOf(scan.rig.camera));
 }
 
-TEST(AlignToImage, ThePictureLooksUpWithThePlate) {
+TEST(AlignToImage, TheImageLooksUpWithThePlate) {
   const Scan scan = SweptPlane({Eigen::Vector3d::UnitZ(), 2.0}, -20, 20, 40);
   const auto registered = RegisterScan(scan, {});
   const auto mean_v = [&](double motor_deg) {
@@ -61,11 +61,11 @@ TEST(AlignToImage, ThePictureLooksUpWithThePlate) {
     for (const auto& sample : aligned->samples) sum += sample.v;
     return sum / static_cast<double>(aligned->samples.size());
   };
-  // Looking up, the same wall lies lower in the picture: v grows downwards.
+  // Looking up, the same wall lies lower in the image: v grows downwards.
   EXPECT_GT(mean_v(15), mean_v(0) + 100);
 }
 
-TEST(AlignToImage, SaysWhenThePictureSeesNothing) {
+TEST(AlignToImage, SaysWhenTheImageSeesNothing) {
   const Scan scan = SweptPlane({Eigen::Vector3d::UnitZ(), 2.0}, -2, 2, 40);
   const auto registered = RegisterScan(scan, {});
   const auto aligned = AlignToImage(*registered, scan.rig, RadiansFromDegrees(-89), {});

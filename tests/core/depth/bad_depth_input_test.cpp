@@ -59,7 +59,7 @@ class BadDepthInput : public testing::TestWithParam<DepthMethod> {
       }
     }
   }
-  /// Depths between those of the samples, up to a share of overshoot.
+  /// Depths between those of the samples, up to a fraction of overshoot.
   static void ExpectBetween(const Result<DepthResult>& result, float near_m, float far_m) {
     ExpectDefined(result);
     for (const float depth_m : result->dense.depth_m.values())
@@ -111,14 +111,14 @@ TEST_P(BadDepthInput, AllSamplesNanZeroOrNegativeNameTheFirstOne) {
   }
 }
 
-TEST_P(BadDepthInput, APictureOfAnotherSizeNamesBoth) {
+TEST_P(BadDepthInput, AnImageOfAnotherSizeNamesBoth) {
   const auto samples = SamplesOnLattice(40, 30, 4, 6, [](int, int) { return 1.0; });
   const auto result = Run(samples, ColorImage(41, 30));
   ExpectError(result, ErrorCode::kInvalidInput, "41 x 30");
   EXPECT_NE(result.error().message.find("40 x 30"), std::string::npos);
 }
 
-TEST_P(BadDepthInput, AnEmptyPictureHasNoSamples) {
+TEST_P(BadDepthInput, AnEmptyImageHasNoSamples) {
   EXPECT_FALSE(Run(Of(0, 0, {})));
   EXPECT_FALSE(Run(Of(0, 5, {})));
 }
@@ -147,7 +147,7 @@ TEST_P(BadDepthInput, TheNearestAndFarthestDepthsAllowedGiveDefinedDepths) {
         Run(SamplesOnLattice(60, 40, 4, 6, [&](int u, int) { return u < 30 ? 0.001 : far_m; })));
 }
 
-TEST_P(BadDepthInput, SmallPictures) {
+TEST_P(BadDepthInput, SmallImages) {
   for (const int width : {1, 2, 3, 7})
     for (const int height : {1, 2, 5}) {
       SCOPED_TRACE(testing::Message() << width << " x " << height);

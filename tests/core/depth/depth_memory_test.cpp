@@ -1,4 +1,4 @@
-// How much memory a depth map needs while it is made, beyond the picture and samples that go in and
+// How much memory a depth map needs while it is made, beyond the image and samples that go in and
 // the result that comes out.
 #include <gtest/gtest.h>
 

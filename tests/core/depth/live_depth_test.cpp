@@ -16,7 +16,7 @@ namespace {
 const Scan& SmallScan() {
   // 80 lines about 2 px apart, with every other beam; made once, as it takes a while.
   static const Scan scan = [] {
-    SensorRig rig = testing::RigWithPicture(324, 242);
+    SensorRig rig = testing::RigWithImage(324, 242);
     rig.lidar.beams = 541;
     rig.lidar.angle_step_rad *= 2.0;
     return testing::SweepOverRoom(rig, RadiansFromDegrees(30.0));
@@ -99,7 +99,7 @@ TEST(LiveDepth, IsAsRightWithTheRejectionsThatMostLinesCanChange) {
   ExpectTheSameAsTheWhole(options, 30, 5, 50);
 }
 
-TEST(LiveDepth, OfAMethodThatSolvesForTheWholePictureIsItsAnswer) {
+TEST(LiveDepth, OfAMethodThatSolvesForTheWholeImageIsItsAnswer) {
   DepthOptions options = DefaultsOf(DepthMethod::kTgv);
   options.tgv.iterations = 20;  // not to wait for
   ExpectTheSameAsTheWhole(options, 50, 4, 54);
@@ -136,7 +136,7 @@ TEST(LiveDepth, IsRightAgainAfterItWasCancelled) {
   ExpectSameBits(*grown, *whole, "after a cancelled update");
 }
 
-TEST(LiveDepth, StartsOverWithAnotherScanOfTheSamePicture) {
+TEST(LiveDepth, StartsOverWithAnotherScanOfTheSameImage) {
   const Scan& scan = SmallScan();
   const DepthOptions options = FixedOptions(DepthMethod::kForesight);
   LiveDepth live(scan.rig, scan.frames[0], options);
@@ -148,10 +148,10 @@ TEST(LiveDepth, StartsOverWithAnotherScanOfTheSamePicture) {
   ExpectSameBits(*grown, *whole, "with fewer lines");
 }
 
-TEST(LiveDepth, SaysThatNothingIsInThePictureYet) {
+TEST(LiveDepth, SaysThatNothingIsInTheImageYet) {
   Scan scan = SmallScan();
-  // A picture of what is above: the first lines look below it.
-  scan.frames[0].motor_angle_rad = RadiansFromDegrees(40.0);
+  // An image of what is above: the first lines look below it.
+  scan.frames.Edit(0).motor_angle_rad = RadiansFromDegrees(40.0);
   LiveDepth live(scan.rig, scan.frames[0], FixedOptions(DepthMethod::kForesight));
   const auto depth = live.Update(testing::RegisteredAfter(scan, 2), {});
   ASSERT_FALSE(depth);
@@ -199,7 +199,7 @@ TEST(FixedForPlan, TakesTheLengthsFromThePredictionAndKeepsGivenOnes) {
   EXPECT_TRUE(fixed->Check());
 }
 
-TEST(FixedForPlan, RefusesAPlanThatCannotBeFlown) {
+TEST(FixedForPlan, RefusesAPlanThatCannotBeExecuted) {
   ScanPlan plan;
   plan.speed_rad_s = 0.0;
   const auto fixed = FixedForPlan({}, plan, DefaultSensorRig());

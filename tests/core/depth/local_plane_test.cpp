@@ -69,7 +69,7 @@ TEST(LocalPlanes, TrustPixelsAmongSamplesAndNotThoseInAHole) {
 }
 
 TEST(LocalPlanes, TheirConfidenceIsAbsolute) {
-  // Twice as many samples in a corner do not lower the confidence elsewhere, as a share of the
+  // Twice as many samples in a corner do not lower the confidence elsewhere, as a fraction of the
   // largest would.
   AlignedSamples samples = SamplesOnLattice(160, 120, 4, 12, [](int, int) { return 1.5; });
   LocalPlaneOptions options = Window();

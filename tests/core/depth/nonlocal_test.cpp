@@ -79,6 +79,7 @@ TEST(UpsampleNonlocal, TrustsEveryPixelAlike) {
   ASSERT_TRUE(dense);
   EXPECT_EQ(dense->confidence, FloatImage(60, 44, 1.0f));
   EXPECT_EQ(dense->max_confidence, 1.0f);
+  EXPECT_FALSE(dense->has_confidence) << "the 1 is the lidar's coverage";
 }
 
 TEST(UpsampleNonlocal, DoesNotDependOnTheNumberOfThreads) {

@@ -10,8 +10,8 @@ namespace foresight {
 namespace {
 
 /// The head's camera with a quarter of its pixels: the same lens, more curvature a pixel.
-FisheyeCamera SmallFisheye() {
-  FisheyeCamera camera = DefaultSensorRig().camera;
+CameraModel SmallFisheye() {
+  CameraModel camera = DefaultSensorRig().camera;
   camera.width /= 4;
   camera.height /= 4;
   for (double* parameter : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *parameter /= 4.0;
@@ -19,13 +19,13 @@ FisheyeCamera SmallFisheye() {
 }
 
 /// A slanted wall: inverse depth 0.5 + 0.08 X/Z - 0.06 Y/Z, per metre.
-double WallAt(const FisheyeCamera& camera, int u, int v) {
+double WallAt(const CameraModel& camera, int u, int v) {
   const Eigen::Vector2d ray = *camera.UnprojectToPlane({u, v});
   return 1.0 / (0.5 + 0.08 * ray.x() - 0.06 * ray.y());
 }
 
 /// Samples with their exact rays.
-AlignedSamples SeenBy(const FisheyeCamera& camera) {
+AlignedSamples SeenBy(const CameraModel& camera) {
   AlignedSamples samples = SamplesOnLattice(camera.width, camera.height, 4, 12,
                                             [&](int u, int v) { return WallAt(camera, u, v); });
   for (AlignedSample& s : samples.samples) {
@@ -53,7 +53,7 @@ double LargestError(const AlignedSamples& samples, int border, const Truth& trut
 }
 
 TEST(PlanesInSpace, AreExactThroughTheFisheyeLens) {
-  const FisheyeCamera camera = SmallFisheye();
+  const CameraModel camera = SmallFisheye();
   AlignedSamples samples = SeenBy(camera);
   const auto truth = [&](int u, int v) { return WallAt(camera, u, v); };
   const double over_rays = LargestError(samples, 36, truth);

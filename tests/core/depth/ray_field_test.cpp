@@ -11,7 +11,7 @@ namespace foresight {
 namespace {
 
 TEST(RaysOfACamera, AreWhereItsPixelsLook) {
-  const FisheyeCamera camera = DefaultSensorRig().camera;
+  const CameraModel camera = DefaultSensorRig().camera;
   const auto rays = RaysOf(camera);
   ASSERT_EQ(rays->x.width(), camera.width);
   ASSERT_EQ(rays->x.height(), camera.height);
@@ -26,8 +26,8 @@ TEST(RaysOfACamera, AreWhereItsPixelsLook) {
 }
 
 TEST(RaysOfACamera, AreNaNAtRightAnglesAndBeyond) {
-  FisheyeCamera camera = PinholeCamera(401, 21, 100.0, 200.0, 10.0);
-  camera.k = 1.0;  // u - cx = 100 px times the angle: pi / 2 is 157 px away
+  CameraModel camera = PinholeCamera(401, 21, 100.0, 200.0, 10.0);
+  camera.lens = FisheyeLens{1.0};  // u - cx = 100 px times the angle: pi / 2 is 157 px away
   const auto rays = RaysOf(camera);
   EXPECT_TRUE(std::isfinite(rays->x(200 + 157, 10)));
   EXPECT_TRUE(std::isnan(rays->x(200 + 158, 10)));
@@ -36,7 +36,7 @@ TEST(RaysOfACamera, AreNaNAtRightAnglesAndBeyond) {
 }
 
 TEST(RaysOfACamera, AreSharedByThoseWhoAskForTheSameCamera) {
-  FisheyeCamera camera = PinholeCamera(32, 24, 50.0, 16.0, 12.0);
+  CameraModel camera = PinholeCamera(32, 24, 50.0, 16.0, 12.0);
   const auto first = RaysOf(camera);
   EXPECT_EQ(RaysOf(camera), first);
   camera.fx = 51.0;

@@ -117,7 +117,7 @@ HiddenWall PlateBeforeAWall(int plate_left, int plate_right) {
   const auto plate_m = [](double u) { return 1.0 + 0.0005 * u; };
   const auto wall_m = [](double u) { return 2.0 + 0.001 * u; };
   HiddenWall scene;
-  // In the lidar's picture first.
+  // In the lidar's image first.
   scene.samples = SamplesOnLattice(400, 120, 4, 12, [&](int u, int) {
     return (u >= plate_left && u < plate_right ? plate_m(u) : wall_m(u)) + 0.01 * random.Normal();
   });

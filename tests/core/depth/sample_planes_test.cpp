@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/sensor/fisheye_camera.h"
+#include "core/sensor/camera_model.h"
 #include "tests/core/depth/plane_problem.h"
 #include "tests/support/on_every_vector_target.h"
 
@@ -51,8 +51,8 @@ TEST(LevelPlanes, LieOnTheSamplesExactRaysWithThem) {
 }
 
 TEST(LevelPlanes, TheirUnitIsThatOfTheLensThere) {
-  FisheyeCamera camera = PinholeCamera(201, 3, 100.0, 100.0, 1.0);
-  camera.k = 1.0;
+  CameraModel camera = PinholeCamera(201, 3, 100.0, 100.0, 1.0);
+  camera.lens = FisheyeLens{1.0};
   AlignedSamples samples = SamplesOnLattice(201, 3, 100, 1, [](int, int) { return 1.0; });
   samples.rays = RaysOf(camera);
   const SparseDepthMap map(samples);

@@ -111,7 +111,7 @@ TEST(UpsampleDepth, RefusesToInventFromNothing) {
             ErrorCode::kTooFewPoints);
 }
 
-TEST(ConfidenceMask, KeepsTheShareOfTheLargestConfidence) {
+TEST(ConfidenceMask, KeepsTheFractionOfTheLargestConfidence) {
   DenseDepth dense;
   dense.depth_m = DepthImage(4, 1, 1.0f);
   dense.confidence = FloatImage(4, 1);

@@ -10,15 +10,15 @@
 namespace foresight {
 namespace {
 
-ValveDetection ValveWithARival() {
+ValveDetection ValveWithAnAlternative() {
   ValveDetection valve;
   valve.best.model.spokes = 4;
   valve.best.model.rim_radius_m = 0.120;
   valve.best.base_from_object = {Eigen::Quaterniond::Identity(), {0.1, 0.2, 1.5}};
   valve.best.log_likelihood = 100.0;
-  valve.rivals = {valve.best};
-  valve.rivals[0].model.spokes = 3;
-  valve.rivals[0].log_likelihood = 62.0;
+  valve.alternatives = {valve.best};
+  valve.alternatives[0].model.spokes = 3;
+  valve.alternatives[0].log_likelihood = 62.0;
   valve.verdict = {VerdictLevel::kConfirmed, 0.97, "a valve", {}};
   return valve;
 }
@@ -35,18 +35,18 @@ TerrainDetection TwoSurfaces() {
   return terrain;
 }
 
-TEST(Candidates, ARivalSaysByHowMuchItIsWorse) {
-  const Detection valve = ValveWithARival();
+TEST(Candidates, AnAlternativeSaysByHowMuchItIsWorse) {
+  const Detection valve = ValveWithAnAlternative();
   EXPECT_EQ(CandidateCount(valve), 2);
   EXPECT_EQ(CandidateText(valve, 0), "4 spokes, rim 240 mm across");
   EXPECT_EQ(CandidateText(valve, 1),
-            "rival 1 of 1: 3 spokes, rim 240 mm across, clearly less likely (38 nats)");
+            "alternative 1 of 1: 3 spokes, rim 240 mm across, clearly less likely");
 }
 
-TEST(Candidates, ARivalIsNeverConfirmed) {
-  const Detection valve = ValveWithARival();
+TEST(Candidates, AnAlternativeIsNeverConfirmed) {
+  const Detection valve = ValveWithAnAlternative();
   EXPECT_EQ(CandidateLevel(valve, 0), VerdictLevel::kConfirmed);
-  EXPECT_EQ(CandidateLevel(valve, 1), VerdictLevel::kLikely);
+  EXPECT_LT(CandidateLevel(valve, 1), VerdictLevel::kConfirmed);
 }
 
 TEST(Candidates, ThoseOfTerrainAreItsSurfaces) {
@@ -65,7 +65,7 @@ TEST(Candidates, TerrainWithoutASurfaceHasNoneAndDrawsNothing) {
 }
 
 TEST(Outlines, ATemplateLiesWhereItsPoseIs) {
-  const auto outlines = OutlinesOf(ValveWithARival(), 0);
+  const auto outlines = OutlinesOf(ValveWithAnAlternative(), 0);
   ASSERT_EQ(outlines.size(), 1U);
   double farthest = 0.0;
   for (const auto& line : outlines[0].lines)
@@ -85,7 +85,7 @@ TEST(Outlines, EverySurfaceIsDrawnAndTheToeholdInsideIt) {
   EXPECT_EQ(outlines[0].level, VerdictLevel::kConfirmed);
 }
 
-TEST(Outlines, DashesCoverTheirShareOfTheLine) {
+TEST(Outlines, DashesCoverTheirFractionOfTheLine) {
   const Wireframe line = {{{0, 0, 0}, {0.5, 0, 0}, {1.0, 0, 0}}};
   const Wireframe dashes = Dashed(line, 0.06, 0.04);
   EXPECT_EQ(dashes.size(), 10U);
@@ -97,24 +97,36 @@ TEST(Outlines, DashesCoverTheirShareOfTheLine) {
 
 TEST(Facts, APositionIsToldInTheRobotsFrameInMillimetres) {
   const Rigid<frame::Robot, frame::Base> mounted(Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0});
-  const auto facts = FactsOf(ValveWithARival(), 0, mounted);
+  const auto facts = FactsOf(ValveWithAnAlternative(), 0, mounted);
   ASSERT_GT(facts.size(), 3U);
   EXPECT_EQ(facts[1].name, "Centre");
   EXPECT_EQ(facts[1].value.rfind("x 100, y 200, z 2500 mm", 0), 0U) << facts[1].value;
 }
 
 TEST(Facts, ADirectionThatIsNotObservableIsNotTold) {
-  ValveDetection valve = ValveWithARival();
+  ValveDetection valve = ValveWithAnAlternative();
   valve.phase_observable = false;
   const auto facts = FactsOf(valve, 0, {});
   EXPECT_EQ(facts[3].value, "angle not observable");
 }
 
-TEST(Facts, AdviceFollowsTheVerdict) {
-  ValveDetection valve = ValveWithARival();
-  EXPECT_EQ(AdviceOn(valve).rfind("Good", 0), 0U);
-  valve.verdict.level = VerdictLevel::kUnsure;
-  EXPECT_EQ(AdviceOn(valve).rfind("Do not act", 0), 0U);
+TEST(Facts, AnAlternativeIsToldWithoutTheDeviationsOfTheBestAnswer) {
+  const Detection valve = ValveWithAnAlternative();
+  EXPECT_NE(FactsOf(valve, 0, {})[1].value.find("sigma"), std::string::npos);
+  for (const Fact& fact : FactsOf(valve, 1, {})) {
+    EXPECT_EQ(fact.value.find("sigma"), std::string::npos) << fact.name;
+    EXPECT_NE(fact.name, "Support");
+  }
+}
+
+TEST(Candidates, AnAlternativeThatIsClearlyBehindIsUnsureHoweverSureTheBestAnswerIs) {
+  ValveDetection valve = ValveWithAnAlternative();
+  valve.verdict.level = VerdictLevel::kConfirmed;
+  valve.alternatives[0].log_likelihood = valve.best.log_likelihood - 275.0;
+  EXPECT_EQ(CandidateLevel(valve, 0), VerdictLevel::kConfirmed);
+  EXPECT_EQ(CandidateLevel(valve, 1), VerdictLevel::kUnsure);
+  valve.alternatives[0].log_likelihood = valve.best.log_likelihood - 1.0;
+  EXPECT_EQ(CandidateLevel(valve, 1), VerdictLevel::kLikely);
 }
 
 }  // namespace

@@ -25,13 +25,13 @@ ValveDetection Sample() {
   detection.evidence = {900, 200, 0.9, 0.03, 0.02, 0.006, 0.95, 88.0, 700.0};
   detection.evidence.weakest_spoke = 0.4;
   detection.verdict = {VerdictLevel::kLikely, 0.83, "only 58 % of the rim is seen", {}};
-  detection.rivals = {detection.best};
-  detection.rivals[0].model.spokes = 2;
+  detection.alternatives = {detection.best};
+  detection.alternatives[0].model.spokes = 2;
   detection.origin.roi = ImageRoi::Rectangle(0.25, {10.0, 20.0}, {30.5, 40.0});
   detection.origin.seconds = 0.4;
   detection.origin.source = "jbu";
   detection.verdict.features = {0.5, -3.25};
-  detection.verdict.objections = {"too few measurements", "a disc fits as well"};
+  detection.verdict.failed_gates = {"too few measurements", "a disc fits as well"};
   detection.covariance = PoseCovariance::Identity() * 1e-6;
   return detection;
 }
@@ -53,11 +53,11 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->best.brightness, 0.7);
   EXPECT_EQ(read->verdict.level, VerdictLevel::kLikely);
   EXPECT_EQ(read->verdict.reason, sample.verdict.reason);
-  ASSERT_EQ(read->rivals.size(), 1U);
-  EXPECT_EQ(read->rivals[0].model.spokes, 2);
+  ASSERT_EQ(read->alternatives.size(), 1U);
+  EXPECT_EQ(read->alternatives[0].model.spokes, 2);
   EXPECT_EQ(read->origin.source, "jbu");
   EXPECT_EQ(read->verdict.features, sample.verdict.features);
-  EXPECT_EQ(read->verdict.objections, sample.verdict.objections);
+  EXPECT_EQ(read->verdict.failed_gates, sample.verdict.failed_gates);
   EXPECT_EQ(read->covariance, sample.covariance);
   EXPECT_EQ(std::get<ImageRoi>(read->origin.roi).polygon,
             std::get<ImageRoi>(sample.origin.roi).polygon);
@@ -72,10 +72,10 @@ DrillDetection SampleDrill() {
   drill.best.log_likelihood = 90.0;
   drill.sigma_yaw_rad = 0.04;
   drill.table = Plane{-Eigen::Vector3d::UnitY(), 0.2};
-  drill.evidence.best_rival = "box";
+  drill.evidence.best_alternative = "box";
   drill.evidence.flip_margin_nats = 21.0;
-  drill.rivals = {drill.best};
-  drill.rivals[0].log_likelihood = 80.0;
+  drill.alternatives = {drill.best};
+  drill.alternatives[0].log_likelihood = 80.0;
   drill.verdict = {VerdictLevel::kConfirmed, 0.97, "drill", {1.0}};
   drill.origin.roi = BoxRoi{drill.best.base_from_object, {0.3, 0.4, 0.5}};
   return drill;
@@ -93,14 +93,24 @@ TEST(DetectionJson, ADrillSurvivesTheRoundTrip) {
   EXPECT_EQ(DetectionToJson(*read, {}), DetectionToJson(sample, {}));
 }
 
-TEST(DetectionJson, ADrillSaysWhereToGraspAndByHowMuchItBeatsItsRivals) {
+TEST(DetectionJson, ADrillSaysWhereToGraspAndByHowMuchItBeatsItsAlternatives) {
   const Rigid<frame::Robot, frame::Base> mounted(Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.5});
   const auto json = nlohmann::json::parse(DetectionToJson(SampleDrill(), mounted));
   const double in_base = json["grasp"]["bit_tip_in_base_m"][2];
   EXPECT_NEAR(json["grasp"]["bit_tip_in_robot_m"][2].get<double>(), in_base + 1.5, 1e-12);
-  EXPECT_EQ(json["rivals"][0]["margin_nats"], 10.0);
+  EXPECT_EQ(json["alternatives"][0]["margin_nats"], 10.0);
   // Turned by 180 deg about x.
   EXPECT_EQ(json["best"]["base_from_object"]["z_axis"], nlohmann::json({0.0, 0.0, -1.0}));
+}
+
+TEST(DetectionJson, AlternativesThatWereCalledRivalsAreRead) {
+  const std::string text = DetectionToJson(SampleDrill(), {});
+  nlohmann::json old = nlohmann::json::parse(text);
+  old["rivals"] = old["alternatives"];
+  old.erase("alternatives");
+  EXPECT_EQ(DetectionToJson(DetectionFromJson(old.dump()).value(), {}), text);
+  old.erase("rivals");
+  EXPECT_FALSE(DetectionFromJson(old.dump()));
 }
 
 TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
@@ -140,9 +150,61 @@ TEST(DetectionJson, AValveOfAnOlderRecordIsStillRead) {
   const auto& read = std::get<ValveDetection>(*any);
   EXPECT_EQ(read.origin.source, "raw");
   EXPECT_TRUE(read.verdict.features.empty());
-  EXPECT_TRUE(read.verdict.objections.empty());
+  EXPECT_TRUE(read.verdict.failed_gates.empty());
   EXPECT_TRUE(read.covariance.hasNaN());
   EXPECT_FALSE(read.best.model.IsLever());
+}
+
+std::string FaultOf(const nlohmann::json& json) {
+  const auto read = DetectionFromJson(json.dump());
+  if (read) return "was read";
+  EXPECT_EQ(read.error().code, ErrorCode::kBadData);
+  return read.error().message;
+}
+
+TEST(DetectionJson, NumbersThatNoObjectHasAreRefusedByName) {
+  const auto valve = nlohmann::json::parse(DetectionToJson(Sample(), {}));
+  const std::string model = "/best/model/";
+  for (const auto& [member, value] : std::vector<std::pair<std::string, nlohmann::json>>{
+           {model + "spokes", 1'000'000'000},
+           {model + "spokes", 1e300},
+           {model + "spokes", -1},
+           {model + "rim_radius_m", 1e308},
+           {model + "tube_radius_m", nullptr},
+           {model + "dish_m", -1e9},
+           {"/alternatives/0/model/spokes", 7},
+           {"/evidence/hits", 1e10},
+           {"/best/base_from_object/position_m", {0.0, 0.0, 1e308}},
+           {"/best/base_from_object/position_m", {0.0, nullptr, 1.0}},
+           {"/roi/polygon_px", {{0.0, 0.0}, {1e300, 0.0}, {1.0, 1.0}}},
+           {"/alternatives", 3}}) {
+    nlohmann::json changed = valve;
+    changed[nlohmann::json::json_pointer(member)] = value;
+    const std::string fault = FaultOf(changed);
+    EXPECT_NE(fault, "was read") << member << value;
+    const std::string name = member.substr(member.rfind('/') + 1);
+    EXPECT_NE(fault.find(name == "polygon_px" ? "polygon" : name), std::string::npos) << fault;
+  }
+}
+
+TEST(DetectionJson, ADrillOfAbsurdPartsIsRefused) {
+  const auto drill = nlohmann::json::parse(DetectionToJson(SampleDrill(), {}));
+  for (const auto& [member, value] : std::vector<std::pair<std::string, nlohmann::json>>{
+           {"/best/model/parts/0/size_m", {1e308, 1.0, 1.0}},
+           {"/best/model/parts/0/size_m", {-1.0, 1.0, 1.0}},
+           {"/best/model/scale", 1e9},
+           {"/best/model/bit_length_m", 1e9},
+           {"/best/model/trigger_m", {0.0, 0.0, 1e9}}}) {
+    nlohmann::json changed = drill;
+    changed[nlohmann::json::json_pointer(member)] = value;
+    EXPECT_NE(FaultOf(changed), "was read") << member << value;
+  }
+}
+
+TEST(DetectionJson, ATextThatIsNoUtf8IsStillWrittenAsJson) {
+  DrillDetection drill = SampleDrill();
+  drill.best.model.template_name = "caf\xe9";
+  EXPECT_NO_THROW(nlohmann::json::parse(DetectionToJson(drill, {})));
 }
 
 TEST(DetectionJson, TellsThePoseInTheRobotsFrameToo) {

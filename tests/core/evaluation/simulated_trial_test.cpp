@@ -34,14 +34,19 @@ SimulatedTrialOptions Exact() {
   options.plan.image_angles_rad = {0.0};
   options.world = test::Noiseless();
   options.true_rig = test::SmallRig();
-  options.true_rig.camera = {
-      .width = 320, .height = 240, .fx = 150.0, .fy = 150.0, .cx = 159.5, .cy = 119.5, .k = 0.9413};
+  options.true_rig.camera = {.width = 320,
+                             .height = 240,
+                             .fx = 150.0,
+                             .fy = 150.0,
+                             .cx = 159.5,
+                             .cy = 119.5,
+                             .lens = FisheyeLens{0.9413}};
   options.calibration_error = {0.0, 0.0};
   return options;
 }
 
 /// The truth where the camera sees a point at (0, -slope, 1) of its axes: upwards in the middle.
-float TruthAtSlope(const SimulatedTrial& trial, const FisheyeCamera& camera, double up) {
+float TruthAtSlope(const SimulatedTrial& trial, const CameraModel& camera, double up) {
   const auto pixel = camera.Project(Eigen::Vector3d(0.0, -up, 1.0));
   return trial.truth_m(static_cast<int>(std::lround(pixel->x())),
                        static_cast<int>(std::lround(pixel->y())));
@@ -123,7 +128,7 @@ TEST(SimulatedTrial, WhatTheLidarCouldNotSeeIsNotScored) {
   const SimulatedTrialOptions options = Exact();
   const auto trial = MakeSimulatedTrial(BoxBeforeWall(), options, {});
   ASSERT_TRUE(trial) << trial.error().message;
-  const FisheyeCamera& camera = options.true_rig.camera;
+  const CameraModel& camera = options.true_rig.camera;
   // The box's front edge is 0.165 m above and 0.96 m before the camera, which lies 70 mm above and
   // 15 mm before the lidar: of the wall, slopes of 0.172 to 0.207 are hidden from the lidar alone.
   EXPECT_NEAR(TruthAtSlope(*trial, camera, 0.15), 0.96f, 0.001f);

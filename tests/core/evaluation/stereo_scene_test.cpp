@@ -22,7 +22,7 @@ constexpr const char* kCalibration =
     "cam0=[500 0 6; 0 500 4; 0 0 1]\ncam1=[500 0 8; 0 500 4; 0 0 1]\ndoffs=2\nbaseline=100\n"
     "width=12\nheight=8\nndisp=64\nisint=0\nvmin=2\nvmax=60\ndyavg=0\ndymax=0\n";
 
-/// A folder with calibration and pictures, without any disparity.
+/// A folder with calibration and images, without any disparity.
 class StereoFolder : public testing::Test {
  protected:
   void SetUp() override {

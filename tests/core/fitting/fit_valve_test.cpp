@@ -83,7 +83,7 @@ TEST(FitValve, ALeverIsFoundByItsPivot) {
   EXPECT_NEAR(found->best.model.lever_length_m, 0.22, 0.020);
   // Any bar looks like a lever.
   EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed);
-  EXPECT_THAT(found->verdict.objections,
+  EXPECT_THAT(found->verdict.failed_gates,
               ::testing::Contains(::testing::HasSubstr("a bar looks like a lever")));
 }
 

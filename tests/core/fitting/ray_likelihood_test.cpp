@@ -4,7 +4,7 @@
 
 #include "core/fitting/beam_model.h"
 #include "core/fitting/valve/fit_valve.h"
-#include "core/fitting/valve/polish.h"
+#include "core/fitting/valve/local_search.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/wall.h"
 #include "core/geometry/angles.h"
@@ -37,7 +37,7 @@ ValveCandidate Displaced(const ValveScene& scene, std::uint64_t seed) {
   for (int p = 0; p < kValveParameters; ++p) step[p] = random.Uniform(-1.0, 1.0);
   const ValveStep sizes =
       (ValveStep() << 0.01, 0.01, 0.01, 0.05, 0.05, 0.1, 0.01, 0.003, 0.01, 0.2).finished();
-  return Moved(scene.truth, step.cwiseProduct(sizes));
+  return Retract(scene.truth, step.cwiseProduct(sizes));
 }
 
 TEST(RayLikelihood, PrefersTheTruthToABiggerWheel) {
@@ -45,7 +45,7 @@ TEST(RayLikelihood, PrefersTheTruthToABiggerWheel) {
   const ValveScene scene = FourSpokes();
   const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
   const ValveStep bigger = 0.020 * ValveStep::Unit(int{kRimRadius});
-  EXPECT_GT(likelihood(scene.truth), likelihood(Moved(scene.truth, bigger)) + 50.0);
+  EXPECT_GT(likelihood(scene.truth), likelihood(Retract(scene.truth, bigger)) + 50.0);
 }
 
 TEST(RayLikelihood, DoesNotPayForSpokesThatRaysWentThrough) {
@@ -61,7 +61,7 @@ TEST(AxisPrior, PrefersAnAxisSquareToTheWallAndForgivesOneThatIsNot) {
   const auto prior = [&](double tilt_deg, const ValveModel& model) {
     ValveCandidate valve;
     valve.model = model;
-    return LogPrior(Moved(valve, RadiansFromDegrees(tilt_deg) * ValveStep::Unit(int{kTiltY})),
+    return LogPrior(Retract(valve, RadiansFromDegrees(tilt_deg) * ValveStep::Unit(int{kTiltY})),
                     wall);
   };
   for (const ValveModel& model : {UsualValve(0.1, 0.013, 3, 0.02), UsualLever(0.2, 0.013)}) {
@@ -91,7 +91,7 @@ TEST(RayLikelihood, CorrelatedRaysCountForLess) {
   EXPECT_NEAR(correlated.Nothing(), 0.25 * independent.Nothing(), 1e-9);
 }
 
-TEST(RayLikelihood, BeamsBehindAMapCountInFullAndTheMapForAShare) {
+TEST(RayLikelihood, BeamsBehindAMapCountInFullAndTheMapForAFraction) {
   const ValveScene scene = FourSpokes();
   const auto wall = WallOf(scene.rays);
   RaySet map = scene.rays;
@@ -124,13 +124,13 @@ TEST(FitValve, BeamsBehindAMapThatIsShiftedBringTheValveBack) {
   EXPECT_LT(off_m(*with_beams), 0.5 * off_m(*alone));
 }
 
-TEST(Polish, NeverLosesLikelihood) {
+TEST(LocalSearch, NeverLosesLikelihood) {
   const ValveScene scene = FourSpokes();
   const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     ValveCandidate start = Displaced(scene, seed);
     start.log_likelihood = likelihood(start);
-    const ValveCandidate end = Polish(likelihood, start);
+    const ValveCandidate end = LocalSearch(likelihood, start);
     EXPECT_GT(end.log_likelihood, start.log_likelihood);
     EXPECT_NEAR(end.log_likelihood, likelihood(end), 1e-9);
     // From a centimetre and a few degrees away to what the fit promises.
@@ -168,7 +168,7 @@ TEST(Refine, RaysThatWentPastTheWheelImproveTheFit) {
 
 TEST(Refine, ASizeAtTheEndOfItsRangeComesBack) {
   const ValveScene scene = FourSpokes();
-  const ValveCandidate thick = Moved(scene.truth, 0.050 * ValveStep::Unit(int{kTubeRadius}));
+  const ValveCandidate thick = Retract(scene.truth, 0.050 * ValveStep::Unit(int{kTubeRadius}));
   RefineOptions options;
   options.wall = WallOf(scene.rays);
   EXPECT_LT(Refine(scene.rays, thick, options).valve.model.tube_radius_m,

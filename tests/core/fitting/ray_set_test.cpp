@@ -138,7 +138,7 @@ TEST(RaysFromCloud, KnowsHowFarApartItsRaysAreAndLeavesOutWhatWasNotMeasured) {
   EXPECT_NEAR(set->footprint_rad, 0.01, 0.001);  // towards the wall's ends a little less
 }
 
-TEST(RaysFromCloud, ARegionInAPictureNeedsTheCalibration) {
+TEST(RaysFromCloud, ARegionInAnImageNeedsTheCalibration) {
   const SensorRig rig = DefaultSensorRig();
   const auto ahead = rig.CameraFromBase(0.2).Inverse() * Eigen::Vector3d(0.0, 0.0, 2.0);
   const std::vector<Eigen::Vector3d> points = {ahead, ahead + Eigen::Vector3d(1.0, 0.0, 0.0)};

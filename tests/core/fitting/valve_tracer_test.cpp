@@ -48,27 +48,27 @@ Traced SphereTrace(const ValveModel& model, const RangeRay& ray) {
   return traced;
 }
 
-TEST(ValveTracer, MeetsTheTemplateWhereSphereTracingDoes) {
+TEST(ValveTracer, IntersectsTheTemplateWhereSphereTracingDoes) {
   Random random(7);
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
     const Case c = MakeCase(random, std::array{0, 2, 3, 4, 5, 6}[i % 6]);
     const RangeRay ray = RandomRay(random, c.eye);
     const Traced traced = SphereTrace(c.valve.model, ray);
-    const ValveMeeting meeting = ValveTracer(c.valve, ValveParts::kAll).Meet(ray);
+    const ValveIntersection intersection = ValveTracer(c.valve, ValveParts::kAll).Intersect(ray);
     // A grazing ray may be decided either way within a tenth of a tube.
-    if (std::abs(meeting.Clearance()) < 0.002) continue;
-    EXPECT_EQ(meeting.Clearance() < 0.0, traced.hit);
-    if (!traced.hit || meeting.Clearance() > 0.0) continue;
+    if (std::abs(intersection.Clearance()) < 0.002) continue;
+    EXPECT_EQ(intersection.Clearance() < 0.0, traced.hit);
+    if (!traced.hit || intersection.Clearance() > 0.0) continue;
     ++hits;
-    // Tubes are taken as straight where the ray meets them: a few millimetres at a tube's flank,
-    // well below the range noise.
-    EXPECT_NEAR(meeting.Range(), traced.range_m, 0.004);
+    // Tubes are taken as straight where the ray intersects them: a few millimetres at a tube's
+    // flank, well below the range noise.
+    EXPECT_NEAR(intersection.Range(), traced.range_m, 0.004);
   }
   EXPECT_GT(hits, 300);
 }
 
-TEST(ValveTracer, MeetsALeverWhereSphereTracingDoes) {
+TEST(ValveTracer, IntersectsALeverWhereSphereTracingDoes) {
   Random random(10);
   int hits = 0;
   int on_head = 0;
@@ -77,16 +77,16 @@ TEST(ValveTracer, MeetsALeverWhereSphereTracingDoes) {
     c.valve.model = UsualLever(0.2, 0.012, 0.025);
     const RangeRay ray = RandomRay(random, c.eye);
     const Traced traced = SphereTrace(c.valve.model, ray);
-    const ValveMeeting meeting = ValveTracer(c.valve, ValveParts::kAll).Meet(ray);
-    if (std::abs(meeting.Clearance()) < 0.002) continue;
-    EXPECT_EQ(meeting.Clearance() < 0.0, traced.hit);
-    if (!traced.hit || meeting.Clearance() > 0.0) continue;
+    const ValveIntersection intersection = ValveTracer(c.valve, ValveParts::kAll).Intersect(ray);
+    if (std::abs(intersection.Clearance()) < 0.002) continue;
+    EXPECT_EQ(intersection.Clearance() < 0.0, traced.hit);
+    if (!traced.hit || intersection.Clearance() > 0.0) continue;
     ++hits;
-    if (meeting.part == ValvePart::kHub) ++on_head;
-    // The stem that leads back from the head must not be met before it; of its far end's flank
-    // little is seen.
-    const double tolerance_m = meeting.part == ValvePart::kStem ? 0.010 : 0.004;
-    EXPECT_NEAR(meeting.Range(), traced.range_m, tolerance_m);
+    if (intersection.part == ValvePart::kHub) ++on_head;
+    // The stem that leads back from the head must not be intersected before it; of its far end's
+    // flank little is seen.
+    const double tolerance_m = intersection.part == ValvePart::kStem ? 0.010 : 0.004;
+    EXPECT_NEAR(intersection.Range(), traced.range_m, tolerance_m);
   }
   EXPECT_GT(hits, 60);
   EXPECT_GT(on_head, 15);
@@ -98,21 +98,21 @@ TEST(ValveTracer, KnowsHowFarARayPassesBy) {
     const Case c = MakeCase(random, 4);
     const RangeRay ray = RandomRay(random, c.eye);
     const Traced traced = SphereTrace(c.valve.model, ray);
-    const ValveMeeting meeting = ValveTracer(c.valve, ValveParts::kAll).Meet(ray);
-    if (traced.hit || meeting.Clearance() < 0.0) continue;
+    const ValveIntersection intersection = ValveTracer(c.valve, ValveParts::kAll).Intersect(ray);
+    if (traced.hit || intersection.Clearance() < 0.0) continue;
     if (traced.closest_m < 0.03) {  // beyond, no footprint reaches
-      EXPECT_NEAR(meeting.Clearance(), traced.closest_m, 0.002);
+      EXPECT_NEAR(intersection.Clearance(), traced.closest_m, 0.002);
     }
   }
 }
 
-TEST(ValveTracer, NeverSkipsARayThatMeetsTheValve) {
+TEST(ValveTracer, NeverSkipsARayThatIntersectsTheValve) {
   Random random(9);
   for (int i = 0; i < 1000; ++i) {
     const Case c = MakeCase(random, 3);
     const RangeRay ray = RandomRay(random, c.eye);
     const ValveTracer tracer(c.valve, ValveParts::kAll);
-    if (tracer.Meet(ray).Clearance() < 0.01) {
+    if (tracer.Intersect(ray).Clearance() < 0.01) {
       EXPECT_TRUE(tracer.Near(ray, 0.01));
     }
   }

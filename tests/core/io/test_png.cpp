@@ -91,7 +91,7 @@ TEST(Png, AlphaIsDroppedWithoutBlending) {
   EXPECT_EQ(image(1, 0), (Rgb8{40, 50, 60}));
 }
 
-TEST(Png, AGreyPictureReadAsColorsHasThreeEqualChannels) {
+TEST(Png, AGreyImageReadAsColorsHasThreeEqualChannels) {
   const std::string bytes = EncodePng(GrayImage(2, 2, 77)).value();
   EXPECT_EQ(DecodePng(bytes, "memory").value(), ColorImage(2, 2, Rgb8{77, 77, 77}));
 }
@@ -121,7 +121,7 @@ TEST(Png, ADamagedByteIsAnErrorOrChangesNothing) {
   }
 }
 
-TEST(Png, AHugePictureIsRefusedBeforeItsMemoryIsTaken) {
+TEST(Png, AHugeImageIsRefusedBeforeItsMemoryIsTaken) {
   std::string bytes = EncodePng(GrayImage(8, 8)).value();
   // The width and height lie at byte 16 and 20, big end first; their CRC at 29 must fit again.
   for (const int at : {16, 20}) {
@@ -133,7 +133,7 @@ TEST(Png, AHugePictureIsRefusedBeforeItsMemoryIsTaken) {
     bytes[static_cast<std::size_t>(29 + i)] = static_cast<char>(crc >> (24 - 8 * i) & 0xff);
   const auto read = DecodePngGray(bytes, "bomb.png");
   ASSERT_FALSE(read);
-  EXPECT_THAT(read.error().message, HasSubstr("cannot hold a picture of 19999 x 19999"));
+  EXPECT_THAT(read.error().message, HasSubstr("cannot hold an image of 19999 x 19999"));
 }
 
 TEST(Png, AnotherKindOfFileIsCalledThat) {
@@ -142,11 +142,11 @@ TEST(Png, AnotherKindOfFileIsCalledThat) {
   EXPECT_EQ(read.error().message, "a.png: is not a PNG file");
 }
 
-TEST(Png, AnEmptyPictureCannotBeWritten) {
+TEST(Png, AnEmptyImageCannotBeWritten) {
   EXPECT_EQ(EncodePng(ColorImage()).error().code, ErrorCode::kInvalidInput);
 }
 
-TEST(Png, SixteenBitsSurviveTheRoundTripAndOtherPicturesAreNoNumbers) {
+TEST(Png, SixteenBitsSurviveTheRoundTripAndOtherImagesAreNoNumbers) {
   const TemporaryFolder folder;
   Image<std::uint16_t> depth_mm(3, 2, 0);
   depth_mm(0, 0) = 1234;

@@ -1,10 +1,13 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include "core/base/atomic_file.h"
 #include "core/io/point_cloud_file.h"
+#include "core/io/read_point_cloud.h"
 #include "tests/core/io/temporary_folder.h"
 
 namespace foresight {
@@ -46,6 +49,38 @@ TEST(PointCloudFile, PclReadsThePlyWithItsColors) {
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::io::loadPLYFile(folder / "a.ply", cloud), 0);
   ExpectPoints(cloud);
+}
+
+/// The header's lines before the points.
+std::string HeaderOf(const std::filesystem::path& file, const char* last) {
+  const std::string bytes = ReadFile(file).value();
+  return bytes.substr(0, bytes.find(last));
+}
+
+TEST(PointCloudFile, NamesItsFrameItsScanAndItsUnit) {
+  const TemporaryFolder folder;
+  // 2026-11-22 13:06:33.25 UTC
+  const CloudOrigin origin{"robot", "7b1c", 1795352793250000000};
+  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudColors::kNone, origin));
+  EXPECT_THAT(HeaderOf(folder / "a.ply", "end_header"),
+              testing::HasSubstr("comment unit metre\ncomment frame robot\n"
+                                 "comment scan 7b1c 2026-11-22T13:06:33.250Z\n"));
+  ASSERT_TRUE(WritePcd(folder / "a.pcd", Points(), CloudColors::kNone, origin));
+  EXPECT_THAT(HeaderOf(folder / "a.pcd", "DATA"),
+              testing::HasSubstr("# unit metre\n# frame robot\n"
+                                 "# scan 7b1c 2026-11-22T13:06:33.250Z\n"));
+  pcl::PCLPointCloud2 cloud;
+  EXPECT_EQ(pcl::io::loadPLYFile(folder / "a.ply", cloud), 0);
+  EXPECT_EQ(pcl::io::loadPCDFile(folder / "a.pcd", cloud), 0);
+  EXPECT_TRUE(ReadPointCloud(folder / "a.ply"));
+  EXPECT_TRUE(ReadPointCloud(folder / "a.pcd"));
+}
+
+TEST(PointCloudFile, ANameWithALineFeedStaysInItsComment) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudColors::kNone,
+                       {"robot", "x\nelement vertex 9", 0}));
+  EXPECT_EQ(ReadPointCloud(folder / "a.ply").value().size(), 2U);
 }
 
 TEST(PointCloudFile, WithoutColorsAPointTakes24Bytes) {

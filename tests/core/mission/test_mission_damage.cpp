@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <fstream>
+
 #include "core/base/atomic_file.h"
 #include "core/mission/mission_file.h"
 #include "tests/core/io/temporary_folder.h"
@@ -16,12 +18,13 @@ using testing::HasSubstr;
 struct Contents {
   std::vector<Scan> scans;
   std::vector<DetectionRecord> detections;
+  std::vector<DepthRecord> depths;
   std::vector<EventRecord> events;
 
   bool operator==(const Contents& other) const {
     return scans.size() == other.scans.size() &&
            std::equal(scans.begin(), scans.end(), other.scans.begin(), SameButForTheRig) &&
-           detections == other.detections && events == other.events;
+           detections == other.detections && depths == other.depths && events == other.events;
   }
 };
 
@@ -34,6 +37,7 @@ Result<Contents> ReadAll(const std::filesystem::path& path) {
     contents.scans.push_back(std::move(scan));
   }
   FORESIGHT_TRY(contents.detections, mission->ListDetections());
+  FORESIGHT_TRY(contents.depths, mission->ListDepths());
   FORESIGHT_TRY(contents.events, mission->ListEvents());
   return contents;
 }
@@ -43,7 +47,17 @@ class MissionDamage : public testing::Test {
   MissionDamage() {
     const auto mission = MissionFile::Create(folder_ / "good.mission").value();
     const std::int64_t id = Record(*mission, SampleScan(1));
-    mission->AddDetection({0, id, "valve", 42, R"({"score":0.9})"}).value();
+    DetectionRecord detection;
+    detection.scan_id = id;
+    detection.kind = "valve";
+    detection.json = R"({"score":0.9})";
+    const std::int64_t found = mission->AddDetection(detection).value();
+    EXPECT_TRUE(mission->AddDetectionEvent(
+        found, {44, "operator", DetectionEvent::Action::kAccepted, "looks right"}));
+    DepthRecord depth;
+    depth.scan_id = id;
+    depth.digest = "0123";
+    mission->AddDepth(depth).value();
     mission->AddEvent({0, 43, "head", "info", "homed", ""}).value();
     EXPECT_TRUE(mission->Close());
     good_ = ReadFile(folder_ / "good.mission").value();
@@ -52,7 +66,7 @@ class MissionDamage : public testing::Test {
 
   /// Reads the mission with other bytes; every error must be clear.
   Result<Contents> ReadWith(const std::string& bytes) {
-    EXPECT_TRUE(WriteFileAtomically(folder_ / "bad.mission", bytes));
+    std::ofstream(folder_ / "bad.mission", std::ios::binary) << bytes;
     auto contents = ReadAll(folder_ / "bad.mission");
     if (!contents) {
       EXPECT_EQ(contents.error().code, ErrorCode::kBadData) << contents.error().message;
@@ -148,12 +162,11 @@ TEST_F(MissionDamage, AnotherProgramsDatabaseIsNotAMission) {
 }
 
 TEST_F(MissionDamage, ANewerFormatIsRefusedAndLeftAsItIs) {
-  Execute("PRAGMA user_version = 2");
+  Execute("PRAGMA user_version = 3");
   const std::string before = ReadFile(folder_ / "good.mission").value();
   const auto opened = MissionFile::Open(folder_ / "good.mission");
   ASSERT_FALSE(opened);
-  EXPECT_THAT(opened.error().message, HasSubstr("mission format 2 is not known"));
-  EXPECT_THAT(opened.error().message, HasSubstr("a newer Foresight wrote the file"));
+  EXPECT_THAT(opened.error().message, HasSubstr("was written by a newer Foresight"));
   EXPECT_EQ(ReadFile(folder_ / "good.mission").value(), before);
 }
 
@@ -175,19 +188,19 @@ TEST_F(MissionDamage, AMissingRigIsNoticed) {
   EXPECT_THAT(ErrorAfter("DELETE FROM calibration"), HasSubstr("calibration 1 is missing"));
 }
 
-TEST_F(MissionDamage, AMissingPictureIsNoticed) {
+TEST_F(MissionDamage, AMissingImageIsNoticed) {
   EXPECT_THAT(ErrorAfter("DELETE FROM image_data WHERE position = 1"),
-              HasSubstr("scan 1, picture 1 is damaged"));
+              HasSubstr("scan 1, image 1 is damaged"));
 }
 
 TEST_F(MissionDamage, NegativeCountsAreNoticed) {
   EXPECT_THAT(ErrorAfter("UPDATE scan SET lines = -5"), HasSubstr("scan 1: its row is damaged"));
 }
 
-TEST_F(MissionDamage, VerifyFindsADamagedPicture) {
+TEST_F(MissionDamage, VerifyFindsADamagedImage) {
   Execute("UPDATE image_data SET png = zeroblob(10) WHERE position = 0");
   const auto mission = MissionFile::OpenReadOnly(folder_ / "good.mission").value();
-  EXPECT_THAT(mission->Verify({}).error().message, HasSubstr("scan 1, picture 0 is damaged"));
+  EXPECT_THAT(mission->Verify({}).error().message, HasSubstr("scan 1, image 0 is damaged"));
 }
 
 TEST_F(MissionDamage, VerifyPassesAGoodFile) {

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 TEST(PlanJson, EveryMemberSurvivesTheRoundTrip) {
   ScanPlan plan;
   plan.image_angles_rad = {-0.25, 0.125};
-  plan.picture_mode = ScanPlan::PictureMode::kStopAndShoot;
+  plan.image_mode = ScanPlan::ImageMode::kStopAndShoot;
   plan.max_blur_px = 0.1;
   plan.passes = 2;
   EXPECT_EQ(PlanFromJson(PlanToJson(plan), "plan.json").value(), plan);
@@ -23,17 +23,33 @@ TEST(PlanJson, APlanOfAnEarlierVersionIsOnePassOnTheFly) {
           "exposure_s": 0.004, "gain_db": 0})",
       "old.json");
   ASSERT_TRUE(plan) << plan.error().message;
-  EXPECT_EQ(plan->picture_mode, ScanPlan::PictureMode::kOnTheFly);
+  EXPECT_EQ(plan->image_mode, ScanPlan::ImageMode::kOnTheFly);
   EXPECT_EQ(plan->passes, 1);
   EXPECT_EQ(plan->max_blur_px, 0.5);
 }
 
-TEST(PlanJson, AnUnknownPictureModeIsNamed) {
+TEST(PlanJson, AnUnknownImageModeIsNamed) {
   std::string json = PlanToJson(ScanPlan());
   json.replace(json.find("on_the_fly"), 10, "in_flight");
   const auto plan = PlanFromJson(json, "plan.json");
   ASSERT_FALSE(plan);
-  EXPECT_THAT(plan.error().message, HasSubstr("plan.json: scan plan: picture mode 'in_flight'"));
+  EXPECT_THAT(plan.error().message, HasSubstr("plan.json: scan plan: image mode 'in_flight'"));
+}
+
+TEST(PlanJson, WhatNoHeadExecutesIsBadDataOfTheFile) {
+  for (const auto& [from, to] : {std::pair("\"passes\":1", "\"passes\":1000000000"),
+                                 std::pair("\"passes\":1", "\"passes\":1e300"),
+                                 std::pair("\"speed_rad_s\":0.1", "\"speed_rad_s\":1e308,\"x\":0"),
+                                 std::pair("\"gain_db\":0.0", "\"gain_db\":-1e308")}) {
+    std::string json = PlanToJson(ScanPlan());
+    const std::size_t at = json.find(from);
+    ASSERT_NE(at, std::string::npos) << from << json;
+    json.replace(at, std::string(from).size(), to);
+    const auto plan = PlanFromJson(json, "plan.json");
+    ASSERT_FALSE(plan) << to;
+    EXPECT_EQ(plan.error().code, ErrorCode::kBadData);
+    EXPECT_THAT(plan.error().message, HasSubstr("plan.json: ")) << to;
+  }
 }
 
 }  // namespace

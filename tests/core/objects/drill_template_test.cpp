@@ -43,6 +43,17 @@ DrillTemplate Example() {
   return *read;
 }
 
+TEST(DrillTemplate, WhatNoHandHoldsIsRefused) {
+  for (const auto& [from, to] :
+       {std::pair("radius_m: 0.025", "radius_m: 1.0e4"),
+        std::pair("radius_m: 0.025", "radius_m: 1.0e308"),
+        std::pair("size_m: [0.10, 0.06, 0.04]", "size_m: [0.10, 1.0e4, 0.04]"),
+        std::pair("to_m: [0.08, 0, 0.21]", "to_m: [1.0e308, 0, 0.21]"),
+        std::pair("grasp_m: [0, 0, 0.12]", "grasp_m: [0, 0, 1.0e4]"),
+        std::pair("{from_m: [0.11, 0, 0.21]}", "{from_m: [0.11, 0, 0.21], radius_m: 1.0e4}")})
+    EXPECT_NE(FaultOf(Replaced(from, to)).find("my.yaml:"), std::string::npos) << to;
+}
+
 TEST(DrillTemplate, ShipsABarrelDrillACutOutToolAndAPlainOne) {
   std::vector<std::string> names;
   for (const DrillTemplate& drill : ShippedDrillTemplates()) {

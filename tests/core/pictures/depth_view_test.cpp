@@ -39,7 +39,7 @@ TEST(PointsOfDepth, LeavesMaskedPixelsAndThoseWithoutARayOut) {
 
 struct ObliqueView : testing::TestWithParam<double> {};
 
-TEST_P(ObliqueView, ShowsNearlyAllPointsAndFillsThePicture) {
+TEST_P(ObliqueView, ShowsNearlyAllPointsAndFillsTheImage) {
   DepthImage depth(kWidth, kHeight, static_cast<float>(GetParam()));
   for (int y = 20; y < 40; ++y)
     for (int x = 30; x < 50; ++x) depth(x, y) *= 0.6f;

@@ -36,7 +36,7 @@ TEST(PaintError, APixelWithoutDepthIsMasked) {
   EXPECT_EQ(picture(0, 0), LegendOfError(0.050).swatches[0].color);
 }
 
-TEST(WithLegend, LeavesThePictureAsItIs) {
+TEST(WithLegend, LeavesTheImageAsItIs) {
   const ColorImage picture(320, 100, {10, 20, 30});
   const ColorImage page = WithLegend(picture, LegendOfError(0.050));
   EXPECT_EQ(page.width(), 320);
@@ -57,7 +57,7 @@ TEST(WithLegend, TheBarHasTheMapsColoursFromEndToEnd) {
   EXPECT_GT(yellow, 0);
 }
 
-TEST(WithLegend, ALineThatIsTooLongStaysInsideThePicture) {
+TEST(WithLegend, ALineThatIsTooLongStaysInsideTheImage) {
   PictureLegend legend;
   legend.lines = {std::string(500, 'w')};
   const ColorImage page = WithLegend(ColorImage(320, 10), legend);

@@ -76,7 +76,7 @@ TEST(RegisterScan, LeavesOutLinesWithoutAMotorAngle) {
 
 TEST(RegisterScan, RefusesLinesOfAnotherLidar) {
   Scan scan = SweptPlane(kWall, -1, 1, 20);
-  scan.lines[1].range_mm.pop_back();
+  scan.lines.Edit(1).range_mm.pop_back();
   const auto registered = RegisterScan(scan, {});
   ASSERT_FALSE(registered);
   EXPECT_EQ(registered.error().code, ErrorCode::kInvalidInput);

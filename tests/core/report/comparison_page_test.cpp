@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-ComparisonPage TwoRivals() {
+ComparisonPage TwoAlternatives() {
   ComparisonPage page;
   page.title = "Title";
   page.header = {"scene", "A80"};
@@ -32,21 +32,21 @@ std::size_t At(const std::string& html, const std::string& part) {
 }
 
 TEST(ComparisonPage, SetsTheSameRowOfAllColumnsSideBySide) {
-  const std::string html = Written(TwoRivals());
+  const std::string html = Written(TwoAlternatives());
   EXPECT_LT(At(html, "a-one.png"), At(html, "a-two.png"));
   EXPECT_LT(At(html, "a-two.png"), At(html, "a-one-2.png"));
   EXPECT_LT(At(html, "a-one-2.png"), At(html, "<td class=\"empty\">"));
 }
 
 TEST(ComparisonPage, EscapesWhatComesFromOutside) {
-  const std::string html = Written(TwoRivals());
+  const std::string html = Written(TwoAlternatives());
   EXPECT_EQ(html.find("<scene>"), std::string::npos);
   EXPECT_NE(html.find("<td>a &lt;scene&gt;</td><td class=\"number\">1.5</td>"), std::string::npos);
 }
 
 TEST(ComparisonPage, SaysWhereItCannotBeWritten) {
   const TemporaryFolder folder;
-  const auto status = WriteComparisonPage(TwoRivals(), folder / "missing" / "index.html");
+  const auto status = WriteComparisonPage(TwoAlternatives(), folder / "missing" / "index.html");
   ASSERT_FALSE(status);
   EXPECT_NE(status.error().message.find("index.html"), std::string::npos);
 }

@@ -61,7 +61,7 @@ TEST(PredictScan, TheBlurBoundCapsTheExposureOnlyOnTheFly) {
   const auto moving = PredictScan(plan, DefaultSensorRig());
   EXPECT_NEAR(moving->blur_px, 0.5, 1e-9);
   EXPECT_LT(moving->exposure_s, 0.005);
-  plan.picture_mode = ScanPlan::PictureMode::kStopAndShoot;
+  plan.image_mode = ScanPlan::ImageMode::kStopAndShoot;
   const auto standing = PredictScan(plan, DefaultSensorRig());
   EXPECT_EQ(standing->exposure_s, 0.02);
   EXPECT_EQ(standing->blur_px, 0.0);
@@ -86,7 +86,7 @@ TEST(SpatialSigma, FallsWithDensity) {
   EXPECT_LT(SpatialSigmaForDensity(0.15), SpatialSigmaForDensity(0.05));
 }
 
-TEST(ScanPlan, RefusesAPictureOutsideTheScope) {
+TEST(ScanPlan, RefusesAnImageOutsideTheScope) {
   ScanPlan plan;
   plan.image_angles_rad = {RadiansFromDegrees(45)};
   EXPECT_EQ(plan.Check().error().code, ErrorCode::kInvalidOptions);

@@ -2,10 +2,41 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
+#include "core/base/random.h"
+#include "core/sensor/rig_id.h"
+#include "tests/core/sensor/known_cameras.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {
+
+/// As programs before the id wrote it.
+constexpr const char* kOldYaml = R"(foresight_rig: 1
+name: "default"
+camera:
+  model: fisheye_k
+  width: 1288
+  height: 964
+  fx: 601
+  fy: 601
+  cx: 643.5
+  cy: 481.5
+  k: 0.9413
+lidar:
+  beams: 1081
+  first_angle_rad: -2.356194490192345
+  angle_step_rad: 0.004363323129985824
+  period_s: 0.025
+  min_range_m: 0.1
+  max_range_m: 30
+  range_offset_m: 0
+  stamp_offset_s: 0
+camera_from_head: {quaternion_wxyz: [1, 0, 0, 0], translation_m: [0, 0.035, -0.04]}
+camera_from_lidar: {quaternion_wxyz: [0.5, 0.5, -0.5, 0.5], translation_m: [0, 0.07, -0.015]}
+robot_from_base: {quaternion_wxyz: [-0.5, 0.5, -0.5, 0.5], translation_m: [0.1, 0, 1.4]}
+)";
 
 TEST(SensorRig, SurvivesItsFile) {
   const TemporaryFolder folder;
@@ -21,7 +52,144 @@ TEST(SensorRig, SurvivesItsFile) {
   EXPECT_EQ(loaded->camera, rig.camera);
   EXPECT_EQ(loaded->lidar, rig.lidar);
   EXPECT_EQ(loaded->angle_correction, rig.angle_correction);
-  EXPECT_LT((loaded->camera_from_lidar.Matrix() - rig.camera_from_lidar.Matrix()).norm(), 1e-14);
+  EXPECT_EQ(loaded->camera_from_lidar.Matrix(), rig.camera_from_lidar.Matrix());
+}
+
+/// A rig whose every number needs all of its digits.
+SensorRig OddRig(const Lens& lens) {
+  Random random(11);
+  const auto odd = [&random](double about) { return about * random.Uniform(0.9, 1.1); };
+  const auto rotation = [&random] {
+    return Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal());
+  };
+  const auto translation = [&random] {
+    return Eigen::Vector3d(random.Uniform(-0.5, 0.5), random.Uniform(-0.5, 0.5), -0.0);
+  };
+  SensorRig rig = DefaultSensorRig();
+  rig.name = "head \"7\": left";
+  rig.date_utc = "2026-03-01T09:30:00Z";
+  rig.parent_id = RigId(DefaultSensorRig());
+  rig.camera.fx = odd(600);
+  rig.camera.fy = odd(600);
+  rig.camera.cx = odd(640);
+  rig.camera.cy = odd(480);
+  rig.camera.lens = lens;
+  rig.lidar.period_s = odd(0.025);
+  rig.lidar.range_offset_m = odd(0.01);
+  rig.camera_from_head = {rotation(), translation()};
+  rig.camera_from_lidar = {rotation(), translation()};
+  rig.robot_from_base = {rotation(), translation()};
+  rig.angle_correction =
+      AngleCorrection::FromKnots({{-0.5, odd(-0.5)}, {0.0, 0.0}, {0.5, odd(0.5)}}).value();
+  return rig;
+}
+
+/// Tells 0 from -0.
+template <class To, class From>
+bool SameBits(const Rigid<To, From>& a, const Rigid<To, From>& b) {
+  return std::memcmp(a.rotation().coeffs().data(), b.rotation().coeffs().data(),
+                     4 * sizeof(double)) == 0 &&
+         std::memcmp(a.translation().data(), b.translation().data(), 3 * sizeof(double)) == 0;
+}
+
+TEST(SensorRig, OfEveryModelSurvivesItsYamlBitForBit) {
+  for (const KnownCamera& known : KnownCameras()) {
+    SCOPED_TRACE(known.what);
+    const SensorRig rig = OddRig(known.camera.lens);
+    const std::string yaml = SensorRigToYaml(rig);
+    const auto read = SensorRigFromYaml(yaml, "rig.yaml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->name, rig.name);
+    EXPECT_EQ(read->date_utc, rig.date_utc);
+    EXPECT_EQ(read->parent_id, rig.parent_id);
+    EXPECT_EQ(read->camera, rig.camera);
+    EXPECT_EQ(read->lidar, rig.lidar);
+    EXPECT_EQ(read->angle_correction, rig.angle_correction);
+    EXPECT_TRUE(SameBits(read->camera_from_head, rig.camera_from_head));
+    EXPECT_TRUE(SameBits(read->camera_from_lidar, rig.camera_from_lidar));
+    EXPECT_TRUE(SameBits(read->robot_from_base, rig.robot_from_base));
+    EXPECT_EQ(SensorRigToYaml(*read), yaml);
+    EXPECT_EQ(RigId(*read), RigId(rig));
+  }
+}
+
+TEST(SensorRig, RotationsSurviveTheYamlBitForBit) {
+  // The length of a rotation that was made to be 1 is 1 but for its last bits; dividing by it once
+  // more would change one rotation in some.
+  Random random(12);
+  for (int i = 0; i < 500; ++i) {
+    SensorRig rig = DefaultSensorRig();
+    rig.robot_from_base = {
+        Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal()),
+        Eigen::Vector3d::Zero()};
+    const auto read = SensorRigFromYaml(SensorRigToYaml(rig), "rig.yaml");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_TRUE(SameBits(read->robot_from_base, rig.robot_from_base)) << i;
+  }
+}
+
+TEST(SensorRig, OfAnOlderFileHasNeitherDateNorParent) {
+  const auto rig = SensorRigFromYaml(kOldYaml, "old.yaml");
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->date_utc, "");
+  EXPECT_EQ(rig->parent_id, "");
+  EXPECT_EQ(rig->camera, DefaultSensorRig().camera);
+  EXPECT_EQ(RigId(*rig), RigId(DefaultSensorRig()));
+}
+
+/// What reading `yaml` with `what` replaced by `with` complains of.
+std::string ComplaintAfter(std::string yaml, const std::string& what, const std::string& with) {
+  const std::size_t at = yaml.find(what);
+  if (at == std::string::npos) return "not in the file: " + what;
+  yaml.replace(at, what.size(), with);
+  const auto rig = SensorRigFromYaml(yaml, "rig.yaml");
+  return rig ? "none" : rig.error().message;
+}
+
+TEST(SensorRig, RefusesAnIdThatIsNotThatOfItsValues) {
+  const std::string yaml = SensorRigToYaml(DefaultSensorRig());
+  const std::string complaint = ComplaintAfter(yaml, "range_offset_m: 0", "range_offset_m: 0.01");
+  EXPECT_NE(complaint.find("rig.yaml:4: the id says " + RigId(DefaultSensorRig())),
+            std::string::npos)
+      << complaint;
+  EXPECT_NE(complaint.find("delete the line with the id"), std::string::npos) << complaint;
+  EXPECT_EQ(ComplaintAfter(yaml, "name: \"default\"", "name: \"mine\""), "none");
+}
+
+TEST(SensorRig, NamesTheLineOfADateOrAParentThatIsNone) {
+  SensorRig rig = DefaultSensorRig();
+  rig.date_utc = "2026-03-01T09:30:00Z";
+  rig.parent_id = RigId(rig);
+  const std::string yaml = SensorRigToYaml(rig);
+  const std::string date = ComplaintAfter(yaml, "2026-03-01T", "2026-02-30T");
+  EXPECT_NE(date.find("rig.yaml:5: '2026-02-30T09:30:00Z' is not a date"), std::string::npos)
+      << date;
+  const std::string parent = ComplaintAfter(yaml, "parent: \"", "parent: \"f");
+  EXPECT_NE(parent.find("rig.yaml:6: 'f"), std::string::npos) << parent;
+  rig.date_utc = "yesterday";
+  EXPECT_FALSE(rig.Check());
+}
+
+TEST(SensorRig, NamesTheLineAndTheKeyOfAWrongCameraParameter) {
+  SensorRig rig = DefaultSensorRig();
+  EXPECT_EQ(ComplaintAfter(SensorRigToYaml(rig), "model: fisheye_k", "model: fisheye"),
+            "rig.yaml:6: camera model 'fisheye' is not known; it is fisheye_k, radtan, kb4 or "
+            "eucm");
+  EXPECT_EQ(ComplaintAfter(SensorRigToYaml(rig), "k: 0.9413", "k: 9"),
+            "rig.yaml:13: camera: k 9 is neither 0 (pinhole) nor in (0.05, 2)");
+  rig.camera.lens = RadialTangentialLens(-0.28, 0.07, 2e-4, 1e-5, 0.0);
+  EXPECT_EQ(ComplaintAfter(SensorRigToYaml(rig), "  p2: 1e-05\n", ""),
+            "rig.yaml:6: 'p2' is missing");
+  EXPECT_EQ(ComplaintAfter(SensorRigToYaml(rig), "  p2: 1e-05", "  p2: nan"),
+            "rig.yaml:16: 'p2' is not a finite number");
+  rig.camera.lens = KannalaBrandtLens(0.01, 0.0, 0.0, 0.0);
+  EXPECT_EQ(ComplaintAfter(SensorRigToYaml(rig), "  k4: 0\n", "  k4: 0\n  k5: 0\n"),
+            "rig.yaml:17: 'k5' is not known here");
+  rig.camera.lens = ExtendedUnifiedLens{0.6, 1.1};
+  EXPECT_EQ(ComplaintAfter(SensorRigToYaml(rig), "alpha: 0.6", "alpha: 1.6"),
+            "rig.yaml:13: camera: alpha 1.6 is not in [0, 1]");
+  EXPECT_EQ(ComplaintAfter(SensorRigToYaml(rig), "width: 1288", "width: 0"),
+            "rig.yaml:7: camera: image size 0 x 964 is not between 1 and 20000");
 }
 
 TEST(SensorRig, NamesTheLineOfATypo) {
@@ -30,7 +198,7 @@ TEST(SensorRig, NamesTheLineOfATypo) {
   const auto rig = SensorRigFromYaml(yaml, "rig.yaml");
   ASSERT_FALSE(rig);
   EXPECT_EQ(rig.error().code, ErrorCode::kBadData);
-  EXPECT_NE(rig.error().message.find("rig.yaml:5: 'fx' is missing"), std::string::npos)
+  EXPECT_NE(rig.error().message.find("rig.yaml:6: 'fx' is missing"), std::string::npos)
       << rig.error().message;
 }
 

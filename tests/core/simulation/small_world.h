@@ -22,8 +22,13 @@ inline std::shared_ptr<const Scene> SceneOf(const std::string& body) {
 /// The default head, at the robot's origin, with a camera that renders in milliseconds.
 inline SensorRig SmallRig() {
   SensorRig rig = DefaultSensorRig();
-  rig.camera = {
-      .width = 64, .height = 48, .fx = 30.0, .fy = 30.0, .cx = 31.5, .cy = 23.5, .k = 0.9413};
+  rig.camera = {.width = 64,
+                .height = 48,
+                .fx = 30.0,
+                .fy = 30.0,
+                .cx = 31.5,
+                .cy = 23.5,
+                .lens = FisheyeLens{0.9413}};
   rig.robot_from_base = {rig.robot_from_base.rotation(), Eigen::Vector3d::Zero()};
   return rig;
 }

@@ -45,11 +45,11 @@ WorldOptions OnlyShotNoise() {
   return options;
 }
 
-ColorImage Picture(const World& world, double exposure_s = kWhiteExposure_s, std::int64_t seq = 0,
-                   int threads = 1) {
+ColorImage CaptureOf(const World& world, double exposure_s = kWhiteExposure_s, std::int64_t seq = 0,
+                     int threads = 1) {
   RunContext context;
   context.threads = threads;
-  return world.TakePicture(seq, 0.0, exposure_s, 0.0, Still, context).image;
+  return world.CaptureImage(seq, 0.0, exposure_s, 0.0, Still, context).image;
 }
 
 double MeanRed(const ColorImage& image) {
@@ -121,7 +121,7 @@ TEST(SimulatedCamera, AWhiteSurfaceTwoMetresFromLightOneGivesHalfTheRangeAtHalfT
               "  - {shape: plane, size_m: [9, 9], position_m: [2.04, 0, 0], rpy_deg: [0, 90, 0], "
               "material: white}\n"),
       SmallRig(), Linear());
-  EXPECT_NEAR(Picture(world, 0.5 * kWhiteExposure_s)(32, 24).r, 127.5, 1.5);
+  EXPECT_NEAR(CaptureOf(world, 0.5 * kWhiteExposure_s)(32, 24).r, 127.5, 1.5);
 }
 
 TEST(SimulatedCamera, AShadowLeavesOnlyTheLightFromEverywhere) {
@@ -135,13 +135,13 @@ TEST(SimulatedCamera, AShadowLeavesOnlyTheLightFromEverywhere) {
   const World open(SceneOf(wall), SmallRig(), Linear());
   const World shaded(SceneOf(wall + shelf), SmallRig(), Linear());
   // A wall gets 0.8 of the light from everywhere.
-  EXPECT_NEAR(Picture(shaded)(32, 24).r, 0.25 * 0.8 * 255.0, 1.0);
-  EXPECT_GT(Picture(open)(32, 24).r, 100);
+  EXPECT_NEAR(CaptureOf(shaded)(32, 24).r, 0.25 * 0.8 * 255.0, 1.0);
+  EXPECT_GT(CaptureOf(open)(32, 24).r, 100);
 }
 
 TEST(SimulatedCamera, ShotNoiseIsTheSquareRootOfTheElectrons) {
   const World world(SceneOf(EvenLight(0.625)), SmallRig(), OnlyShotNoise());
-  const ColorImage image = Picture(world);  // 0.625 * 0.8 = half the full well
+  const ColorImage image = CaptureOf(world);  // 0.625 * 0.8 = half the full well
   const double mean = MeanRed(image);
   double variance = 0.0;
   for (const Rgb8& pixel : image.values())
@@ -152,12 +152,12 @@ TEST(SimulatedCamera, ShotNoiseIsTheSquareRootOfTheElectrons) {
   EXPECT_NEAR(std::sqrt(variance), stated, 0.05 * stated);
 }
 
-TEST(SimulatedCamera, LosesTheStatedShareOfLightAtTheCorner) {
+TEST(SimulatedCamera, LosesTheStatedFractionOfLightAtTheCorner) {
   WorldOptions options = OnlyShotNoise();
   options.camera.vignetting = 0.3;
   options.camera.full_well_e = 1e12;  // leaves no noise to see
   const World world(SceneOf(EvenLight(1.0)), SmallRig(), options);
-  const ColorImage image = Picture(world);
+  const ColorImage image = CaptureOf(world);
   EXPECT_NEAR(image(0, 0).r / static_cast<double>(image(32, 24).r), 0.7, 0.01);
 }
 
@@ -168,22 +168,27 @@ TEST(SimulatedCamera, PixelGainsBelongToTheChip) {
   const World world(SceneOf(EvenLight(0.5)), SmallRig(), options);
   options.seed = 2;
   const World other_chip(SceneOf(EvenLight(0.5)), SmallRig(), options);
-  EXPECT_EQ(Picture(world, kWhiteExposure_s, 1), Picture(world, kWhiteExposure_s, 2));
-  EXPECT_NE(Picture(world, kWhiteExposure_s, 1), Picture(other_chip, kWhiteExposure_s, 1));
+  EXPECT_EQ(CaptureOf(world, kWhiteExposure_s, 1), CaptureOf(world, kWhiteExposure_s, 2));
+  EXPECT_NE(CaptureOf(world, kWhiteExposure_s, 1), CaptureOf(other_chip, kWhiteExposure_s, 1));
 }
 
 TEST(SimulatedCamera, SixDecibelsDoubleTheNumbers) {
   const World world(SceneOf(EvenLight(0.5)), SmallRig(), Linear());
-  const double plain = MeanRed(world.TakePicture(0, 0.0, 0.003, 0.0, Still, {}).image);
-  const double gained = MeanRed(world.TakePicture(0, 0.0, 0.003, 6.0206, Still, {}).image);
+  const double plain = MeanRed(world.CaptureImage(0, 0.0, 0.003, 0.0, Still, {}).image);
+  const double gained = MeanRed(world.CaptureImage(0, 0.0, 0.003, 6.0206, Still, {}).image);
   EXPECT_NEAR(gained / plain, 2.0, 0.02);
 }
 
 TEST(SimulatedCamera, ATurningPlateBlursAnEdgeAcrossItsWay) {
   // Bright above the horizon, dark below; 300 px to the radian, so 0.72 deg of way are 3.8 px.
   SensorRig rig = SmallRig();
-  rig.camera = {
-      .width = 8, .height = 64, .fx = 300.0, .fy = 300.0, .cx = 3.5, .cy = 31.5, .k = 0.9413};
+  rig.camera = {.width = 8,
+                .height = 64,
+                .fx = 300.0,
+                .fy = 300.0,
+                .cx = 3.5,
+                .cy = 31.5,
+                .lens = FisheyeLens{0.9413}};
   const World world(
       SceneOf(
           "ambient: 1\nmaterials: {white: {color: [1, 1, 1]}, black: {color: [0, 0, 0]}}\nsolids:\n"
@@ -191,7 +196,7 @@ TEST(SimulatedCamera, ATurningPlateBlursAnEdgeAcrossItsWay) {
           "  - {shape: box, size_m: [0.1, 9, 4], position_m: [2, 0, -2], material: black}\n"),
       rig, Linear());
   const auto grey_rows = [&](const std::function<double(double)>& motor_rad_at) {
-    const CameraFrame frame = world.TakePicture(0, 0.0, 0.006, 0.0, motor_rad_at, {});
+    const CameraFrame frame = world.CaptureImage(0, 0.0, 0.006, 0.0, motor_rad_at, {});
     int rows = 0;
     for (int y = 0; y < 64; ++y) {
       int sum = 0;
@@ -208,23 +213,23 @@ TEST(SimulatedCamera, ATurningPlateBlursAnEdgeAcrossItsWay) {
 TEST(SimulatedCamera, ReportsTheEncodersAngleAtMidExposure) {
   const World world(SceneOf(EvenLight(0.5)), SmallRig(), {});
   const auto motor_rad_at = [](double time_s) { return 0.1 * time_s; };
-  const CameraFrame frame = world.TakePicture(3, 2.0, 0.004, 0.0, motor_rad_at, {});
+  const CameraFrame frame = world.CaptureImage(3, 2.0, 0.004, 0.0, motor_rad_at, {});
   EXPECT_EQ(frame.motor_angle_rad, world.EncoderAngle(0.2));
   EXPECT_EQ(frame.time_s, 2.0);
 }
 
 TEST(SimulatedCamera, DoesNotDependOnTheNumberOfThreads) {
   const World world(SceneOf(EvenLight(0.5)), SmallRig(), {});
-  EXPECT_EQ(Picture(world, 0.004, 5, 1), Picture(world, 0.004, 5, 2));
+  EXPECT_EQ(CaptureOf(world, 0.004, 5, 1), CaptureOf(world, 0.004, 5, 2));
 }
 
-TEST(SimulatedCamera, PicturesAndSeedsDifferInTheirNoise) {
+TEST(SimulatedCamera, ImagesAndSeedsDifferInTheirNoise) {
   const World one(SceneOf(EvenLight(0.5)), SmallRig(),
                   {.seed = 1, .lidar = {}, .camera = {}, .motor = {}});
   const World two(SceneOf(EvenLight(0.5)), SmallRig(),
                   {.seed = 2, .lidar = {}, .camera = {}, .motor = {}});
-  EXPECT_NE(Picture(one, 0.004, 1), Picture(one, 0.004, 2));
-  EXPECT_NE(Picture(one, 0.004, 1), Picture(two, 0.004, 1));
+  EXPECT_NE(CaptureOf(one, 0.004, 1), CaptureOf(one, 0.004, 2));
+  EXPECT_NE(CaptureOf(one, 0.004, 1), CaptureOf(two, 0.004, 1));
 }
 
 TEST(SimulatedCamera, GivesNoImageWhenCancelled) {
@@ -233,7 +238,7 @@ TEST(SimulatedCamera, GivesNoImageWhenCancelled) {
   source.request_stop();
   RunContext context;
   context.stop = source.get_token();
-  EXPECT_TRUE(world.TakePicture(0, 0.0, 0.004, 0.0, Still, context).image.empty());
+  EXPECT_TRUE(world.CaptureImage(0, 0.0, 0.004, 0.0, Still, context).image.empty());
   EXPECT_TRUE(world.TrueDepth(0.0, context).empty());
 }
 
@@ -246,7 +251,7 @@ TEST(SimulatedCamera, ACheckerboardShowsBothColoursAlternately) {
           "  - {shape: plane, size_m: [20, 20], position_m: [2, 0, 0], rpy_deg: [0, 90, 0], "
           "material: board}\n"),
       rig, Linear());
-  const ColorImage image = Picture(world);
+  const ColorImage image = CaptureOf(world);
   const auto at = [&](double y_m, double z_m) {
     const auto camera_from_robot = rig.CameraFromBase(0.0) * rig.robot_from_base.Inverse();
     const Eigen::Vector2d pixel =

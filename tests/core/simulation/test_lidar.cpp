@@ -47,7 +47,7 @@ WorldOptions OnlyFootprint() {
                    .sigma_per_metre = 0.0,
                    .sigma_at_threshold_m = 0.0,
                    .walk_at_threshold_m = 0.0,
-                   .spurious_share = 0.0,
+                   .spurious_fraction = 0.0,
                    .enabled = true};
   return options;
 }
@@ -83,7 +83,7 @@ TEST(SimulatedLidar, LeavesOutTheOffsetThatACalibrationAdds) {
 
 TEST(SimulatedLidar, SpreadsItsRangesByTheStatedSigma) {
   WorldOptions options = Noiseless();
-  options.lidar = {.spurious_share = 0.0, .enabled = true};
+  options.lidar = {.spurious_fraction = 0.0, .enabled = true};
   const World world(SceneOf(Wall(4.0)), SmallRig(), options);
   constexpr int kLines = 60;
   constexpr int kBeams = 40;
@@ -146,7 +146,7 @@ TEST(SimulatedLidar, KeepsAWhiteSurfaceWhereADarkOneIsLost) {
   EXPECT_GT(line.intensity[kForward], 0);
 }
 
-TEST(SimulatedLidar, LosesAMirrorThatItMeetsAslant) {
+TEST(SimulatedLidar, LosesAMirrorThatItIntersectsAslant) {
   const std::string scene =
       "materials: {mirror: {lidar_reflectance: 0.5, specular: 1.0}}\n"
       "solids:\n"
@@ -163,9 +163,9 @@ TEST(SimulatedLidar, ReportsNoEchoWhereThereIsNothing) {
   EXPECT_EQ(world.MeasureLine(0, 0.0, Still).range_mm[0], 1);  // 135 deg to the right
 }
 
-TEST(SimulatedLidar, ThrowsInSpuriousReturnsAtTheStatedShare) {
+TEST(SimulatedLidar, ThrowsInSpuriousReturnsAtTheStatedFraction) {
   WorldOptions options = OnlyFootprint();
-  options.lidar.spurious_share = 0.2;
+  options.lidar.spurious_fraction = 0.2;
   const World world(SceneOf(Wall(3.0)), SmallRig(), options);
   int spurious = 0;
   int beams = 0;

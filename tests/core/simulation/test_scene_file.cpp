@@ -49,6 +49,28 @@ TEST(SceneFile, RefusesANegativeRadius) {
               testing::AllOf(HasSubstr("test.yaml:7"), HasSubstr("'radius_m' is not positive")));
 }
 
+TEST(SceneFile, RefusesWhatReachesBeyondAKilometre) {
+  for (const char* solid :
+       {"{shape: box, size_m: [1.0e9, 1, 1], material: grey}",
+        "{shape: plane, size_m: [1, 1.0e308], material: grey}",
+        "{shape: sphere, radius_m: 1.0e9, material: grey}",
+        "{shape: sphere, radius_m: 1, position_m: [0, 1.0e308, 0], material: grey}",
+        "{shape: cylinder, from_m: [0, 0, 0], to_m: [0, 0, 1.0e9], radius_m: 1, "
+        "material: grey}"})
+    EXPECT_THAT(ErrorOf(SceneWithSolid(solid)),
+                testing::AllOf(HasSubstr("test.yaml:7"), HasSubstr("1000")))
+        << solid;
+}
+
+TEST(SceneFile, RefusesALightThatIsNone) {
+  for (const char* light :
+       {"{position_m: [0, 0, 1.0e308]}", "{position_m: [0, 0, 2], intensity: 1.0e308}",
+        "{position_m: [0, 0, 2], intensity: -1}"})
+    EXPECT_THAT(ErrorOf("foresight_scene: 1\nname: x\nlights:\n  - " + std::string(light) + "\n"),
+                HasSubstr("test.yaml:4"))
+        << light;
+}
+
 TEST(SceneFile, RefusesAColourAboveOne) {
   EXPECT_THAT(ErrorOf("foresight_scene: 1\nname: x\nmaterials:\n  a: {color: [255, 0, 0]}\n"),
               testing::AllOf(HasSubstr("test.yaml:4"), HasSubstr("'color'")));

@@ -23,8 +23,8 @@ double VolumeOf(const Shape& shape) {
 }
 
 // 128 corners to a turn cut 0.04 % off a circle's area, 32 cut 0.64 % off a torus's tube.
-constexpr double kRoundShare = 0.001;
-constexpr double kTubeShare = 0.008;
+constexpr double kRoundFraction = 0.001;
+constexpr double kTubeFraction = 0.008;
 
 TEST(Shapes, BoxIsClosedAndWoundOutwards) {
   EXPECT_NEAR(VolumeOf(BoxShape({0.2, 0.3, 0.4})), 0.024, 1e-8);
@@ -32,27 +32,27 @@ TEST(Shapes, BoxIsClosedAndWoundOutwards) {
 
 TEST(Shapes, CylinderIsClosedAndWoundOutwards) {
   const double expected = kPi * 0.1 * 0.1 * 0.5;
-  EXPECT_NEAR(VolumeOf(CylinderShape(0.1, 0.5)), expected, kRoundShare * expected);
+  EXPECT_NEAR(VolumeOf(CylinderShape(0.1, 0.5)), expected, kRoundFraction * expected);
 }
 
 TEST(Shapes, SphereIsClosedAndWoundOutwards) {
   const double expected = 4.0 / 3.0 * kPi * 0.3 * 0.3 * 0.3;
-  EXPECT_NEAR(VolumeOf(SphereShape(0.3)), expected, 3.0 * kRoundShare * expected);
+  EXPECT_NEAR(VolumeOf(SphereShape(0.3)), expected, 3.0 * kRoundFraction * expected);
 }
 
 TEST(Shapes, CapsuleIsACylinderBetweenTwoHalfSpheres) {
   const double expected = kPi * 0.01 * 0.5 + 4.0 / 3.0 * kPi * 0.001;
-  EXPECT_NEAR(VolumeOf(CapsuleShape(0.1, 0.5)), expected, 2.0 * kRoundShare * expected);
+  EXPECT_NEAR(VolumeOf(CapsuleShape(0.1, 0.5)), expected, 2.0 * kRoundFraction * expected);
 }
 
 TEST(Shapes, TorusIsClosedAndWoundOutwards) {
   const double expected = 2.0 * kPi * kPi * 0.15 * 0.012 * 0.012;
-  EXPECT_NEAR(VolumeOf(TorusShape(0.15, 0.012)), expected, kTubeShare * expected);
+  EXPECT_NEAR(VolumeOf(TorusShape(0.15, 0.012)), expected, kTubeFraction * expected);
 }
 
 TEST(Shapes, FlatDishIsAPlateOfItsThickness) {
   const double expected = kPi * 0.15 * 0.15 * 0.01;
-  EXPECT_NEAR(VolumeOf(DishShape(0.15, 0.0, 0.01)), expected, kRoundShare * expected);
+  EXPECT_NEAR(VolumeOf(DishShape(0.15, 0.0, 0.01)), expected, kRoundFraction * expected);
 }
 
 TEST(Shapes, NoTriangleIsWithoutArea) {

@@ -38,7 +38,7 @@ class Look {
     return hit.mesh < 0 ? "" : caster_.scene().meshes[static_cast<std::size_t>(hit.mesh)].name;
   }
 
-  /// The motor angle that puts a point on the picture's horizontal middle line, roughly.
+  /// The motor angle that puts a point on the image's horizontal middle line, roughly.
   double ElevationDeg(const Eigen::Vector3d& point) const {
     const Eigen::Vector3d way = point - eye_;
     return DegreesFromRadians(std::atan2(way.z(), std::hypot(way.x(), way.y())));
@@ -50,7 +50,7 @@ class Look {
   Eigen::Vector3d eye_;
 };
 
-double SeenShareOfRim(const Look& look, const ValveTruth& valve) {
+double SeenFractionOfRim(const Look& look, const ValveTruth& valve) {
   int seen = 0;
   constexpr int kPoints = 72;
   for (int i = 0; i < kPoints; ++i) {
@@ -76,7 +76,7 @@ TEST_P(ShippedScene, ShowsItsObjectsToTheHead) {
   const Look look(scene_);
   EXPECT_FALSE(scene_.valves.empty() && scene_.drills.empty() && scene_.blocks.empty());
   for (const ValveTruth& valve : scene_.valves) {
-    EXPECT_GE(SeenShareOfRim(look, valve), 0.95) << valve.name;
+    EXPECT_GE(SeenFractionOfRim(look, valve), 0.95) << valve.name;
     EXPECT_LT(std::abs(look.ElevationDeg(valve.robot_from_object.translation())), 30.0);
   }
   for (const DrillTruth& drill : scene_.drills) {
@@ -88,7 +88,7 @@ TEST_P(ShippedScene, ShowsItsObjectsToTheHead) {
         << block.name;
 }
 
-TEST_P(ShippedScene, IsNeitherDarkNorGlaringInThePicture) {
+TEST_P(ShippedScene, IsNeitherDarkNorGlaringInTheImage) {
   const World world(std::make_shared<const Scene>(scene_),
                     [] {
                       SensorRig rig = DefaultSensorRig();
@@ -98,11 +98,11 @@ TEST_P(ShippedScene, IsNeitherDarkNorGlaringInThePicture) {
                                     .fy = 75.0,
                                     .cx = 80.0,
                                     .cy = 59.5,
-                                    .k = 0.9413};
+                                    .lens = FisheyeLens{0.9413}};
                       return rig;
                     }(),
                     {});
-  const CameraFrame frame = world.TakePicture(0, 0.0, 0.004, 0.0, test::Still, {});
+  const CameraFrame frame = world.CaptureImage(0, 0.0, 0.004, 0.0, test::Still, {});
   double sum = 0.0;
   int saturated = 0;
   for (const Rgb8& pixel : frame.image.values()) {

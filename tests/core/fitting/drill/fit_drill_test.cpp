@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fitting/drill/alternative_shapes.h"
 #include "core/fitting/drill/drill_search.h"
-#include "core/fitting/drill/rival_shapes.h"
-#include "core/fitting/drill/surroundings.h"
+#include "core/fitting/drill/support_and_background.h"
 #include "core/geometry/angles.h"
 #include "tests/support/drill_rays.h"
 
@@ -45,7 +45,7 @@ const Result<DrillDetection>& UsualFit() {
 struct Bench {
   explicit Bench(const DrillRays& scene) : templates(ShippedDrillTemplates()) {
     Random random(1);
-    around = FindSurroundings(scene.rays, {}, random);
+    around = FindSupportAndBackground(scene.rays, {}, random);
     frame = FrameOf(around.table.value(), scene.base_from_object.translation());
     const Eigen::Vector3d x =
         (frame.Inverse() * scene.base_from_object).Rotate(Eigen::Vector3d::UnitX());
@@ -56,7 +56,7 @@ struct Bench {
   }
 
   std::vector<DrillTemplate> templates;
-  Surroundings around;
+  SupportAndBackground around;
   TableFrame frame;
   DrillState truth;
   DrillPrior prior;
@@ -74,6 +74,19 @@ TEST(FitDrill, FindsWhereItStandsAndTheWayItPoints) {
     EXPECT_TRUE(found->table.has_value());
     EXPECT_TRUE(found->best.model.Check());
   }
+}
+
+TEST(FitDrill, PointsInOneVerticalLineSayNothingOfTheYaw) {
+  // Above the viewpoint: every yaw explains them equally well.
+  RaySet rays;
+  const FitDrillOptions options;
+  for (int i = 0; i < 100; ++i)
+    rays.rays.push_back({Eigen::Vector3d::Zero(), options.up, 0.5 + 0.003 * i});
+  const auto found = FitDrill(rays, options, {});
+  if (found)
+    EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure);
+  else
+    EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
 }
 
 TEST(FitDrill, GivesTheSameAnswerTwice) {
@@ -119,7 +132,7 @@ TEST(FitDrill, PriorAllowsAnotherHeadAndFootWithinReasonOnly) {
   }
 }
 
-TEST(FitDrill, PolishNeverLowersTheLikelihood) {
+TEST(FitDrill, LocalSearchNeverLowersTheLikelihood) {
   const DrillRays& scene = UsualScene();
   const Bench bench(scene);
   const SolidLikelihood likelihood(scene.rays, bench.around.planes);
@@ -130,8 +143,8 @@ TEST(FitDrill, PolishNeverLowersTheLikelihood) {
     start.values[kDrillYaw] += random.Uniform(-0.3, 0.3);
     start.values[kDrillScale] = random.Uniform(0.9, 1.1);
     start.log_likelihood = Score(likelihood, start, bench.frame, bench.prior);
-    for (const PolishEffort effort : {PolishEffort::kCoarse, PolishEffort::kFine})
-      EXPECT_GE(Polish(likelihood, start, bench.frame, bench.prior, effort).log_likelihood,
+    for (const LocalSearchEffort effort : {LocalSearchEffort::kCoarse, LocalSearchEffort::kFine})
+      EXPECT_GE(LocalSearch(likelihood, start, bench.frame, bench.prior, effort).log_likelihood,
                 start.log_likelihood);
   }
 }
@@ -141,11 +154,11 @@ TEST(FitDrill, TheFlippedDrillExplainsTheRaysWorse) {
   const DrillRays& scene = UsualScene();
   const Bench bench(scene);
   const SolidLikelihood likelihood(scene.rays, bench.around.planes);
-  const auto polished = [&](const DrillState& state) {
-    return Polish(likelihood, state, bench.frame, bench.prior, PolishEffort::kFine);
+  const auto searched = [&](const DrillState& state) {
+    return LocalSearch(likelihood, state, bench.frame, bench.prior, LocalSearchEffort::kFine);
   };
-  const DrillState wrong = polished(Flipped(bench.truth));
-  const DrillState turned = polished(Flipped(wrong));
+  const DrillState wrong = searched(Flipped(bench.truth));
+  const DrillState turned = searched(Flipped(wrong));
   EXPECT_GT(turned.log_likelihood, wrong.log_likelihood + 10.0);
   EXPECT_LT(TurnBetween(turned.yaw(), bench.truth.yaw()), 0.2);
 }
@@ -161,7 +174,7 @@ TEST(FitDrill, AFlippedDrillLeansTheSameWayInSpace) {
   EXPECT_LT((axis(state) - axis(Flipped(state))).norm(), 1e-12);
 }
 
-TEST(FitDrill, LookAlikesAreNotConfirmed) {
+TEST(FitDrill, DistractorsAreNotConfirmed) {
   using Object = DrillView::Object;
   for (const Object object : {Object::kBox, Object::kBottle, Object::kBoxOnCylinder}) {
     DrillView view;
@@ -170,7 +183,7 @@ TEST(FitDrill, LookAlikesAreNotConfirmed) {
     if (!found) continue;
     EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << static_cast<int>(object);
     if (object == Object::kBox) {
-      EXPECT_LT(found->evidence.rival_margin_nats, 0.0) << "a box explains a box better";
+      EXPECT_LT(found->evidence.alternative_margin_nats, 0.0) << "a box explains a box better";
     }
   }
 }
@@ -183,9 +196,9 @@ TEST(FitDrill, ABoxOnACylinderIsOneAlsoAmongClutter) {
     view.yaw_rad = yaw;
     const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
     ASSERT_TRUE(found) << found.error().message;
-    EXPECT_EQ(found->evidence.best_rival, "box and cylinder");
-    // Begun from the clutter's points too, the rival went astray and lost by 80 to 270 nats.
-    EXPECT_LT(found->evidence.rival_margin_nats, 0.0) << yaw;
+    EXPECT_EQ(found->evidence.best_alternative, "box and cylinder");
+    // Begun from the clutter's points too, the alternative went astray and lost by 80 to 270 nats.
+    EXPECT_LT(found->evidence.alternative_margin_nats, 0.0) << yaw;
     EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << yaw;
   }
 }
@@ -194,7 +207,7 @@ TEST(FitDrill, ADrillWhoseEndIsOutsideOfTheRegionIsNotConfirmed) {
   const DrillRays whole = MakeDrillRays(DrillView());
   const auto found_whole = FitDrill(whole.rays, {}, {});
   ASSERT_TRUE(found_whole) << found_whole.error().message;
-  EXPECT_THAT(found_whole->verdict.objections,
+  EXPECT_THAT(found_whole->verdict.failed_gates,
               ::testing::Not(::testing::Contains(::testing::HasSubstr("outside of the region"))));
   DrillRays cut = whole;
   const Eigen::Vector3d foot = whole.base_from_object * Eigen::Vector3d(0.0, 0.0, 0.02);
@@ -203,7 +216,7 @@ TEST(FitDrill, ADrillWhoseEndIsOutsideOfTheRegionIsNotConfirmed) {
   });
   const auto found = FitDrill(cut.rays, {}, {});
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_THAT(found->verdict.objections,
+  EXPECT_THAT(found->verdict.failed_gates,
               ::testing::Contains(::testing::HasSubstr("outside of the region")));
   EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed);
 }
@@ -268,10 +281,10 @@ TEST(FitDrill, OptionsNameWhatIsWrong) {
   EXPECT_NE(options.Check().error().message.find("up"), std::string::npos);
 }
 
-TEST(Surroundings, FindsTheTableUnderAndTheWallBehind) {
+TEST(SupportAndBackground, FindsTheTableUnderAndTheWallBehind) {
   const DrillRays& scene = UsualScene();
   Random random(1);
-  const Surroundings around = FindSurroundings(scene.rays, {}, random);
+  const SupportAndBackground around = FindSupportAndBackground(scene.rays, {}, random);
   ASSERT_TRUE(around.table.has_value());
   EXPECT_NEAR(around.table->Distance(scene.base_from_object.translation()), 0.0, 0.005);
   EXPECT_EQ(around.planes.size(), 2u);

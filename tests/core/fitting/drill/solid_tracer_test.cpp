@@ -41,7 +41,7 @@ Walk WalkAlong(const RangeRay& ray, const DrillModel& model) {
   return walk;
 }
 
-TEST(SolidTracer, MeetsWhatSmallStepsAlongTheRayMeet) {
+TEST(SolidTracer, IntersectsWhatSmallStepsAlongTheRayIntersect) {
   Random random(5);
   int hits = 0, passes = 0, misses = 0;
   for (const DrillTemplate& kind : ShippedDrillTemplates()) {
@@ -49,20 +49,20 @@ TEST(SolidTracer, MeetsWhatSmallStepsAlongTheRayMeet) {
     const SolidTracer tracer(model.parts, {});
     for (int i = 0; i < 150; ++i) {
       const RangeRay ray = RandomRay(random);
-      const SolidMeeting meeting = tracer.Meet(ray, kReach_m);
+      const SolidIntersection intersection = tracer.Intersect(ray, kReach_m);
       const Walk walk = WalkAlong(ray, model);
       if (std::abs(walk.clearance_m) < kStep_m) continue;  // too close for steps to tell
       if (walk.clearance_m < 0.0) {
         ++hits;
-        ASSERT_TRUE(meeting.Hits()) << kind.name << ' ' << i;
-        EXPECT_NEAR(meeting.range_m, walk.enters_m, 2.0 * kStep_m);
+        ASSERT_TRUE(intersection.Hits()) << kind.name << ' ' << i;
+        EXPECT_NEAR(intersection.range_m, walk.enters_m, 2.0 * kStep_m);
       } else if (walk.clearance_m < kReach_m - kStep_m) {
         ++passes;
-        ASSERT_GE(meeting.part, 0) << kind.name << ' ' << i;
-        EXPECT_NEAR(meeting.clearance_m, walk.clearance_m, kStep_m);
+        ASSERT_GE(intersection.part, 0) << kind.name << ' ' << i;
+        EXPECT_NEAR(intersection.clearance_m, walk.clearance_m, kStep_m);
       } else if (walk.clearance_m > kReach_m + kStep_m) {
         ++misses;
-        EXPECT_EQ(meeting.part, -1) << kind.name << ' ' << i;
+        EXPECT_EQ(intersection.part, -1) << kind.name << ' ' << i;
       }
     }
   }

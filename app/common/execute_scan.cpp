@@ -1,0 +1,126 @@
+#include "app/common/execute_scan.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <thread>
+
+#include "app/common/interrupt_watcher.h"
+#include "hardware/head/scan_recorder.h"
+
+namespace foresight {
+namespace {
+
+constexpr std::chrono::milliseconds kPoll{5};
+
+/// Waits until the head leaves `states`, and stands for the operator meanwhile; a cancelled context
+/// aborts the scan and stops the motor.
+HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
+                     const RunContext& context) {
+  bool aborted = false;
+  for (;;) {
+    head.OperatorSeen();
+    const HeadStatus status = head.Status();
+    if (std::find(states.begin(), states.end(), status.state) == states.end()) return status;
+    if (context.Cancelled() && !aborted) {
+      aborted = true;
+      const std::string reason = InterruptReason();
+      head.EndScan(reason.empty() ? "the scan was cancelled" : reason);
+      if (status.state == HeadState::kHoming) head.StopMotor();
+    }
+    std::this_thread::sleep_for(kPoll);
+  }
+}
+
+Status HomeAndWait(SensorHead& head, const RunContext& context) {
+  head.OperatorSeen();
+  FORESIGHT_CHECK(head.Home());
+  const HeadStatus status = WaitWhile(head, {HeadState::kHoming}, context);
+  if (status.state != HeadState::kReady)
+    return Fail(ErrorCode::kDevice, "the head is not ready after homing: {}{}{}", InterruptReason(),
+                InterruptReason().empty() ? "" : "; ", status.message);
+  return {};
+}
+
+/// User and system time of this process.
+double CpuSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Whether a file is empty, or a database without a single table and without a log that could hold
+/// some.
+bool HoldsNothing(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  if (std::filesystem::exists(path + "-wal", error)) return false;
+  if (std::filesystem::file_size(path, error) == 0) return !error;
+  // By SQLite's file format: 100 bytes of header, then the root of the list of tables: 0Dh says
+  // that it is a leaf, and two bytes behind the next two how many entries it has.
+  std::array<unsigned char, 108> head{};
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(reinterpret_cast<char*>(head.data()), head.size());
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  return stream && std::equal(kMagic.begin(), kMagic.end(), head.begin()) && head[100] == 0x0D &&
+         head[103] == 0 && head[104] == 0;
+}
+
+}  // namespace
+
+RemoveUnlessUsed::RemoveUnlessUsed(std::string path)
+    : path_(std::move(path)), was_there_(std::filesystem::exists(path_) && !HoldsNothing(path_)) {}
+
+RemoveUnlessUsed::~RemoveUnlessUsed() {
+  std::error_code error;
+  if (was_there_ || !std::filesystem::is_regular_file(path_, error)) return;
+  {
+    const auto mission = MissionFile::OpenReadOnly(path_);
+    if (!mission) {
+      // Damaged or in use: whatever it is, it may hold something.
+      if (!HoldsNothing(path_)) return;
+    } else if (const auto scans = (*mission)->ListScans(); !scans || !scans->empty()) {
+      return;
+    }
+  }
+  for (const char* suffix : {"", "-wal", "-journal"})
+    std::filesystem::remove(path_ + suffix, error);
+}
+
+Result<ExecutedScan> ExecuteScan(SensorHead& head, const ScanPlan& plan,
+                                 std::shared_ptr<MissionFile> mission, const RunContext& context) {
+  FORESIGHT_CHECK(plan.Check());
+  FORESIGHT_CHECK(HomeAndWait(head, context));
+  const auto recorder = std::make_shared<ScanRecorder>(std::move(mission));
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu_before_s = CpuSeconds();
+  FORESIGHT_CHECK(head.StartScan(plan, recorder));
+  const HeadStatus status = WaitWhile(head, {HeadState::kSweeping, HeadState::kStopping}, context);
+  ExecutedScan executed;
+  executed.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  executed.cpu_fraction = (CpuSeconds() - cpu_before_s) / executed.seconds;
+  FORESIGHT_TRY(executed.id, recorder->WaitUntilWritten());
+  if (status.state == HeadState::kFault) return Fail(ErrorCode::kDevice, "{}", status.message);
+  return executed;
+}
+
+Result<std::shared_ptr<MissionFile>> OpenOrCreateMission(const std::string& path) {
+  std::error_code error;
+  if (HoldsNothing(path)) std::filesystem::remove(path, error);
+  const bool there =
+      std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found;
+  auto opened = there ? MissionFile::Open(path) : MissionFile::Create(path);
+  if (!opened) return tl::unexpected(opened.error());
+  return std::shared_ptr<MissionFile>(std::move(*opened));
+}
+
+}  // namespace foresight

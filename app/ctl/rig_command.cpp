@@ -1,0 +1,164 @@
+#include <cmath>
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "core/geometry/angles.h"
+#include "core/sensor/rig_id.h"
+#include "core/sensor/sensor_rig.h"
+
+namespace foresight {
+namespace {
+
+struct RigArguments {
+  std::string file;
+  bool json = false;
+};
+
+/// From edge to edge through the principal point; NaN where an edge shows nothing.
+double FieldOfView(const CameraModel& camera, const Eigen::Vector2d& from,
+                   const Eigen::Vector2d& to) {
+  const auto angle = [&camera](const Eigen::Vector2d& pixel) {
+    const auto ray = camera.Unproject(pixel);
+    return ray ? std::atan2(ray->head<2>().norm(), ray->z()) : std::nan("");
+  };
+  return angle(from) + angle(to);
+}
+
+double HorizontalField(const CameraModel& camera) {
+  return FieldOfView(camera, {-0.5, camera.cy}, {camera.width - 0.5, camera.cy});
+}
+
+double VerticalField(const CameraModel& camera) {
+  return FieldOfView(camera, {camera.cx, -0.5}, {camera.cx, camera.height - 0.5});
+}
+
+template <class To, class From>
+nlohmann::ordered_json ToJson(const Rigid<To, From>& transform) {
+  const Eigen::Quaterniond& q = transform.rotation();
+  const Eigen::Vector3d& t = transform.translation();
+  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation_m", {t.x(), t.y(), t.z()}}};
+}
+
+nlohmann::ordered_json ToJson(const CameraModel& camera) {
+  nlohmann::ordered_json json = {{"model", camera.Key()},
+                                 {"name", camera.Name()},
+                                 {"width", camera.width},
+                                 {"height", camera.height}};
+  const std::vector<std::string_view> names = camera.ParameterNames();
+  const CameraModel::Parameters values = camera.Values();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    json[std::string(names[i])] = values[static_cast<Eigen::Index>(i)];
+  json["field_of_view_deg"] = {Finite(DegreesFromRadians(HorizontalField(camera))),
+                               Finite(DegreesFromRadians(VerticalField(camera)))};
+  return json;
+}
+
+nlohmann::ordered_json ToJson(const LidarModel& lidar) {
+  return {{"beams", lidar.beams},
+          {"first_angle_rad", lidar.first_angle_rad},
+          {"angle_step_rad", lidar.angle_step_rad},
+          {"period_s", lidar.period_s},
+          {"min_range_m", lidar.min_range_m},
+          {"max_range_m", lidar.max_range_m},
+          {"range_offset_m", lidar.range_offset_m},
+          {"stamp_offset_s", lidar.stamp_offset_s}};
+}
+
+nlohmann::ordered_json ToJson(const SensorRig& rig) {
+  const auto text_or_null = [](const std::string& text) {
+    return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
+  };
+  auto knots = nlohmann::ordered_json::array();
+  for (const auto& knot : rig.angle_correction.knots())
+    knots.push_back({{"motor_rad", knot.motor_rad}, {"plate_rad", knot.plate_rad}});
+  return {{"name", rig.name},
+          {"id", RigId(rig)},
+          {"date", text_or_null(rig.date_utc)},
+          {"parent", text_or_null(rig.parent_id)},
+          {"camera", ToJson(rig.camera)},
+          {"lidar", ToJson(rig.lidar)},
+          {"camera_from_head", ToJson(rig.camera_from_head)},
+          {"camera_from_lidar", ToJson(rig.camera_from_lidar)},
+          {"robot_from_base", ToJson(rig.robot_from_base)},
+          {"angle_correction", knots}};
+}
+
+std::string DescribeField(double field_rad) {
+  return std::isfinite(field_rad) ? fmt::format("{:.1f}", DegreesFromRadians(field_rad))
+                                  : "beyond the lens";
+}
+
+std::string Describe(const CameraModel& camera) {
+  std::string text;
+  const std::vector<std::string_view> names = camera.ParameterNames();
+  const CameraModel::Parameters values = camera.Values();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}{} {:.6g}", i == 0 ? "" : ", ", names[i],
+                        values[static_cast<Eigen::Index>(i)]);
+  return text;
+}
+
+template <class To, class From>
+std::string Describe(const Rigid<To, From>& transform) {
+  const Eigen::Vector3d t = 1000.0 * transform.translation();
+  const double turn_rad = Eigen::AngleAxisd(transform.rotation()).angle();
+  return fmt::format("{:.1f}, {:.1f}, {:.1f} mm, turned by {:.2f} deg", t.x(), t.y(), t.z(),
+                     DegreesFromRadians(turn_rad));
+}
+
+std::string Describe(const SensorRig& rig) {
+  std::string text;
+  const auto add = [&text](const char* title, const std::string& value) {
+    text += fmt::format("{}{:<19}{}", text.empty() ? "" : "\n", title, value);
+  };
+  add("rig", fmt::format("{}, {}", rig.name, ShortRigId(rig)));
+  add("id", RigId(rig));
+  add("date", rig.date_utc.empty() ? "not stated" : rig.date_utc);
+  add("parent", rig.parent_id.empty() ? "none" : rig.parent_id);
+  add("camera model", fmt::format("{} ({})", rig.camera.Name(), rig.camera.Key()));
+  add("image", fmt::format("{} x {} px", rig.camera.width, rig.camera.height));
+  add("parameters", Describe(rig.camera));
+  add("field of view, deg", fmt::format("{} x {}", DescribeField(HorizontalField(rig.camera)),
+                                        DescribeField(VerticalField(rig.camera))));
+  add("lidar",
+      fmt::format("{} beams every {:.3f} deg, a line every {:.2f} ms, {} to {} m", rig.lidar.beams,
+                  DegreesFromRadians(rig.lidar.angle_step_rad), 1000.0 * rig.lidar.period_s,
+                  rig.lidar.min_range_m, rig.lidar.max_range_m));
+  add("lidar's offsets",
+      fmt::format("range {:.1f} mm, time stamp {:.3f} ms", 1000.0 * rig.lidar.range_offset_m,
+                  1000.0 * rig.lidar.stamp_offset_s));
+  add("camera from head", Describe(rig.camera_from_head));
+  add("camera from lidar", Describe(rig.camera_from_lidar));
+  add("robot from base", Describe(rig.robot_from_base));
+  add("angle correction", rig.angle_correction.knots().empty()
+                              ? "none"
+                              : fmt::format("{} angles", rig.angle_correction.knots().size()));
+  return text;
+}
+
+Result<ExitCode> ShowRig(const RigArguments& arguments) {
+  FORESIGHT_TRY(const SensorRig rig, LoadSensorRig(arguments.file));
+  if (arguments.json)
+    PrintJson(ToJson(rig));
+  else
+    PrintLine(Describe(rig));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddRigCommand(CLI::App& app, Invocation& invocation) {
+  const auto arguments = std::make_shared<RigArguments>();
+  CLI::App* rig = app.add_subcommand("rig", "Calibrations of heads");
+  rig->require_subcommand(1);
+  CLI::App* show = rig->add_subcommand(
+      "show", "Check a rig's file and say its camera model, id, date, parent and main values");
+  show->add_option("file", arguments->file, "The rig (YAML)")->required();
+  show->add_flag("--json", arguments->json, "Print all values as JSON");
+  show->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext&) { return ShowRig(*arguments); };
+  });
+}
+
+}  // namespace foresight

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "ui/viewmodels/compare_view_model.h"
+#include "ui/viewmodels/depth_view_model.h"
+#include "ui/viewmodels/export_view_model.h"
+#include "ui/viewmodels/fit_view_model.h"
+#include "ui/viewmodels/layers_view_model.h"
+#include "ui/viewmodels/session_model.h"
+#include "ui/viewmodels/source_gallery_model.h"
+
+namespace foresight {
+
+/// A document and everything that works on it. The live one and the one for review are two desks
+/// that share nothing but the threads of the task queue.
+struct Desk {
+  Desk(SessionMode mode, TaskQueue* tasks)
+      : session(mode, tasks),
+        depth(&session),
+        compare(&session, &depth),
+        fit(&session),
+        gallery(&session, &fit),
+        exporter(&session) {}
+
+  SessionModel session;
+  DepthViewModel depth;
+  LayersViewModel layers;
+  CompareViewModel compare;
+  FitViewModel fit;
+  SourceGalleryModel gallery;
+  ExportViewModel exporter;
+};
+
+}  // namespace foresight

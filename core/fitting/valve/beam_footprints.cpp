@@ -1,0 +1,130 @@
+#include "core/fitting/valve/beam_footprints.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/fitting/wall.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kTemplateError_m = 0.0045;  // no real wheel is a torus with capsules
+constexpr double kEdgeError_m = 0.00275;
+constexpr double kPulse_m = 0.5;            // surfaces closer than this merge into one return
+constexpr double kFractionError = 0.08;     // of the part of a footprint that lies on the valve
+constexpr double kBrightnessSpread = 0.15;  // of the logarithm, over one valve
+// A spoke is narrower than this neighbourhood, so that some of it ends behind the spoke.
+constexpr double kNeighbourhood_rad = 0.015;
+constexpr double kFarFraction = 0.8;
+constexpr double kWallSigmas = 4.0;
+
+/// Normals of the planes that scan lines lie in: two beams of a line span it.
+std::map<int, Eigen::Vector3d> LineNormals(const RaySet& set) {
+  std::map<int, const RangeRay*> first;
+  std::map<int, Eigen::Vector3d> widest;
+  for (const RangeRay& ray : set.rays) {
+    const auto [entry, is_first] = first.emplace(ray.cell.y(), &ray);
+    if (is_first) continue;
+    const RangeRay& other = *entry->second;
+    const double side = ray.cell.x() > other.cell.x() ? 1.0 : -1.0;
+    const Eigen::Vector3d normal = side * other.direction.cross(ray.direction);
+    Eigen::Vector3d& best = widest.try_emplace(ray.cell.y(), Eigen::Vector3d::Zero()).first->second;
+    if (normal.squaredNorm() > best.squaredNorm()) best = normal;
+  }
+  return widest;
+}
+
+/// Integral of sqrt(1 - x^2) from 0 to x.
+double CircleArea(double x) {
+  x = std::clamp(x, -1.0, 1.0);
+  return 0.5 * (x * std::sqrt(1.0 - x * x) + std::asin(x));
+}
+
+}  // namespace
+
+BeamFootprints::BeamFootprints(const RaySet& rays, const std::optional<Plane>& wall)
+    : rays_(rays), sigma_m_(std::hypot(rays.sigma_m, kTemplateError_m)) {
+  const bool on_lines =
+      rays.footprint_height_rad > 0.0 && !rays.rays.empty() && rays.rays.front().cell.x() >= 0;
+  const std::map<int, Eigen::Vector3d> normals =
+      on_lines ? LineNormals(rays) : std::map<int, Eigen::Vector3d>();
+  Eigen::Vector3d usual = Eigen::Vector3d::Zero();
+  for (const auto& [line, normal] : normals) usual += normal;
+  footprints_.resize(rays.rays.size());
+  for (std::size_t i = 0; i < footprints_.size(); ++i) {
+    const RangeRay& ray = rays.rays[i];
+    if (wall) footprints_[i].wall_m = RangeToPlane(ray, *wall);
+    Eigen::Vector3d normal = usual;
+    if (const auto own = normals.find(ray.cell.y()); own != normals.end()) normal = own->second;
+    if (!(normal.norm() > 0.0)) continue;
+    normal.normalize();
+    footprints_[i].across_line = 0.5 * rays.footprint_height_rad * normal;
+    footprints_[i].along_line = 0.5 * rays.footprint_rad * normal.cross(ray.direction);
+  }
+  if (wall) LookBehind();
+}
+
+// A spoke that is not there would explain every return from a pipe or a body between wheel and wall
+// as a footprint on itself and the wall. What such a body mixes with is not known.
+void BeamFootprints::LookBehind() {
+  const double cosine = std::cos(kNeighbourhood_rad);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < footprints_.size(); ++i) {
+    ranges.clear();
+    for (const RangeRay& other : rays_.rays)
+      if (other.direction.dot(rays_.rays[i].direction) > cosine) ranges.push_back(other.range_m);
+    const auto far = ranges.begin() + static_cast<std::ptrdiff_t>(
+                                          kFarFraction * static_cast<double>(ranges.size() - 1));
+    std::nth_element(ranges.begin(), far, ranges.end());
+    footprints_[i].before_wall = *far > footprints_[i].wall_m - kWallSigmas * sigma_m_;
+  }
+}
+
+double BeamFootprints::HalfWidth(std::size_t i, const Eigen::Vector3d& across) const {
+  const Footprint& footprint = footprints_[i];
+  const double range_m = rays_.rays[i].range_m;
+  if (footprint.across_line.isZero())
+    return std::hypot(0.5 * rays_.footprint_rad * range_m, kEdgeError_m);
+  // As wide as an even footprint of the same variance.
+  const Eigen::Vector2d half(footprint.along_line.dot(across), footprint.across_line.dot(across));
+  return std::hypot(range_m * half.norm(), kEdgeError_m);
+}
+
+double BeamFootprints::Reach(std::size_t i) const {
+  const double widest = rays_.footprint_rad + rays_.footprint_height_rad;
+  return 0.5 * widest * rays_.rays[i].range_m + kEdgeError_m;
+}
+
+ExpectedRange BeamFootprints::Expect(std::size_t i, const ValveIntersection& intersection,
+                                     double brightness, double least_fraction) const {
+  ExpectedRange expected{0.0, intersection.Range(), sigma_m_, intersection.Range(), 0.0};
+  if (intersection.part == ValvePart::kDisc) {
+    expected.fraction = 1.0;
+    return expected;
+  }
+  const double half = HalfWidth(i, intersection.across);
+  const double low = std::max(-intersection.radius_m, intersection.offset_m - half);
+  const double high = std::min(intersection.radius_m, intersection.offset_m + half);
+  if (high > low) {
+    expected.fraction = (high - low) / (2.0 * half);
+    // The mean depth of the covered part of the round front.
+    const double r = intersection.radius_m;
+    const double front = r * r * (CircleArea(high / r) - CircleArea(low / r)) / (high - low);
+    expected.valve_m = expected.range_m = intersection.middle_m - intersection.stretch * front;
+  }
+  expected.fraction = std::max(expected.fraction, least_fraction);
+  const double gap = footprints_[i].before_wall ? footprints_[i].wall_m - expected.range_m : 0.0;
+  if (!(gap > 0.0) || gap > kPulse_m || expected.fraction <= 0.0) return expected;
+  const double light = brightness * expected.fraction;
+  const double beside = (1.0 - expected.fraction) / (light + 1.0 - expected.fraction);
+  expected.gap_m = gap;
+  expected.range_m += beside * gap;
+  const double unsure =
+      std::min(beside, kFractionError) + kBrightnessSpread * beside * (1.0 - beside);
+  expected.sigma_m = std::hypot(sigma_m_, gap * unsure);
+  return expected;
+}
+
+}  // namespace foresight

@@ -1,0 +1,65 @@
+#include "core/fitting/valve/local_search.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace foresight {
+namespace {
+
+constexpr int kRounds = 5;  // each halves the steps
+constexpr int kPasses = 2;
+
+ValveStep FirstSteps() {
+  ValveStep steps;
+  steps << 0.010, 0.010, 0.010, 0.052, 0.052, 0.052, 0.010, 0.003, 0.010, 0.400;
+  return steps;
+}
+
+/// Whether a parameter changes nothing.
+bool Blind(const ValveModel& model, int parameter) {
+  return parameter == kPhase && !model.IsLever() && model.spokes == 0;
+}
+
+/// Where a step may lead: along each parameter and, for a lever, also with its far end held still,
+/// because a step of its pivot alone would turn all of the bar off its returns.
+std::vector<ValveStep> Directions(const ValveModel& model) {
+  const ValveStep steps = FirstSteps();
+  std::vector<ValveStep> directions;
+  for (int p = 0; p < kValveParameters; ++p)
+    if (!Blind(model, p)) directions.push_back(steps[p] * ValveStep::Unit(p));
+  if (!model.IsLever()) return directions;
+  const double length_m = std::max(model.lever_length_m, 0.05);
+  const auto hold_end = [&](int move, int parameter, double change_per_m) {
+    directions.push_back(steps[move] *
+                         (ValveStep::Unit(move) + change_per_m * ValveStep::Unit(parameter)));
+  };
+  hold_end(kMoveX, kRimRadius, -1.0);
+  hold_end(kMoveY, kPhase, -1.0 / length_m);
+  hold_end(kMoveZ, kTiltY, 1.0 / length_m);
+  return directions;
+}
+
+}  // namespace
+
+ValveCandidate LocalSearch(const RayLikelihood& likelihood, const ValveCandidate& start) {
+  ValveCandidate best = start;
+  const std::vector<ValveStep> directions = Directions(start.model);
+  double scale = 1.0;
+  for (int round = 0; round < kRounds; ++round, scale *= 0.5) {
+    for (int pass = 0; pass < kPasses; ++pass) {
+      for (const ValveStep& direction : directions) {
+        for (const double sign : {1.0, -1.0}) {
+          ValveCandidate tried = Retract(best, sign * scale * direction);
+          tried.log_likelihood = likelihood(tried);
+          if (tried.log_likelihood > best.log_likelihood) {
+            best = tried;
+            break;
+          }
+        }
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace foresight

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/io/point_cloud_file.h"
+#include "core/registration/register_scan.h"
+
+namespace foresight {
+
+/// A scan's valid returns in robot, metres, line by line.
+std::vector<CloudPoint> PointsInRobot(const RegisteredScan& cloud, const SensorRig& rig);
+
+/// Writes them with the scan's uuid and time: PCD where the name ends in .pcd, else PLY.
+/// @returns how many points. Fails as WritePly does. O(points).
+Result<std::size_t> ExportCloud(const RegisteredScan& cloud, const SensorRig& rig,
+                                const std::string& scan_uuid, std::int64_t scan_utc_ns,
+                                const std::filesystem::path& path);
+
+}  // namespace foresight

@@ -1,0 +1,64 @@
+#include "core/registration/growing_registration.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "core/base/parallel.h"
+
+namespace foresight {
+
+Result<RegisteredScan> GrowingRegistration::Update(const Scan& scan, const RunContext& context) {
+  if (!registrar_ || scan.uuid != uuid_ || static_cast<int>(scan.lines.size()) < final_lines_) {
+    *this = {};
+    FORESIGHT_CHECK(scan.rig.Check());
+    uuid_ = scan.uuid;
+    registrar_.emplace(scan.rig);
+    scan_.beams = registrar_->beams();
+  }
+  auto grown = Grow(scan, context);
+  if (!grown && grown.error().code != ErrorCode::kTooFewPoints) *this = {};
+  return grown;
+}
+
+Result<RegisteredScan> GrowingRegistration::Grow(const Scan& scan, const RunContext& context) {
+  const auto first = static_cast<std::size_t>(final_lines_);
+  const int lines = static_cast<int>(scan.lines.size()) - final_lines_;
+  for (std::size_t i = first; i < scan.lines.size(); ++i)
+    FORESIGHT_CHECK(registrar_->CheckLine(scan.lines[i]));
+  const std::size_t points = first * static_cast<std::size_t>(scan_.beams);
+  scan_.lines = final_lines_;
+  scan_.points.Truncate(points);
+  scan_.range_m.Truncate(points);
+  scan_.intensity.Truncate(points);
+  scan_.origins.Truncate(first);
+  const LineRegistrar::Rows rows = LineRegistrar::Append(scan_, lines);
+  std::vector<int> returns(static_cast<std::size_t>(lines));
+  const bool finished = ParallelFor(lines, context, [&](int row) {
+    const auto at = static_cast<std::size_t>(row);
+    returns[at] = registrar_->Place(scan.lines[first + at], scan.track, rows, at);
+  });
+  lines_placed_ = lines;
+  if (!finished) return Fail(ErrorCode::kCancelled, "registration was cancelled");
+
+  // The angle of a beam is a fit through the samples around it: it is final when the track reaches
+  // beyond the last one's window.
+  const auto samples = scan.track.samples();
+  const LidarModel& lidar = scan.rig.lidar;
+  const double known_until_s = samples.empty() ? -1e300 : samples.back().time_s;
+  std::int64_t all = final_returns_;
+  for (int row = 0; row < lines; ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    all += returns[at];
+    const double end_s = scan.lines[first + at].time_s + lidar.BeamTime(lidar.beams - 1);
+    const bool next = final_lines_ == static_cast<int>(first) + row;
+    if (!next || end_s + MotorTrack::kWindow_s > known_until_s) continue;
+    ++final_lines_;
+    final_returns_ += returns[at];
+  }
+  if (all == 0)
+    return Fail(ErrorCode::kTooFewPoints,
+                "no return in {} lidar lines has a range and a motor angle", scan_.lines);
+  return scan_;
+}
+
+}  // namespace foresight

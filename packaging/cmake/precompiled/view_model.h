@@ -1,0 +1,5 @@
+#pragma once
+
+#include <QtCore>
+
+#include "packaging/cmake/precompiled/common.h"

@@ -1,0 +1,6 @@
+#pragma once
+
+#include <QtCore>
+#include <QtWidgets>
+
+#include "packaging/cmake/precompiled/common.h"

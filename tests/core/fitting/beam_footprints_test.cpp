@@ -1,0 +1,91 @@
+#include "core/fitting/valve/beam_footprints.h"
+
+#include <gtest/gtest.h>
+
+namespace foresight {
+namespace {
+
+/// Two beams of one scan line from the origin, their footprint 10 mm along the line and 24 mm
+/// across it at 2 m; two more that end on a wall 150 mm behind.
+class BeamFootprintsAtTwoMetres : public ::testing::Test {
+ protected:
+  BeamFootprintsAtTwoMetres() {
+    rays_.footprint_rad = 0.005;
+    rays_.footprint_height_rad = 0.012;
+    for (int beam = 0; beam < 4; ++beam)
+      rays_.rays.push_back({Eigen::Vector3d::Zero(),
+                            Eigen::Vector3d(0.004 * beam, 0.0, 1.0).normalized(),
+                            beam < 2 ? 2.0 : 2.15,
+                            {beam, 0}});
+  }
+
+  /// A tube that the first ray intersects at 2 m.
+  static ValveIntersection Tube(double radius_m, double offset_m, const Eigen::Vector3d& across) {
+    ValveIntersection intersection;
+    intersection.middle_m = 2.0;
+    intersection.radius_m = radius_m;
+    intersection.offset_m = offset_m;
+    intersection.across = across;
+    return intersection;
+  }
+
+  RaySet rays_;
+  const Plane wall_{-Eigen::Vector3d::UnitZ(), -2.15};
+};
+
+TEST_F(BeamFootprintsAtTwoMetres, AreTallerThanWide) {
+  const BeamFootprints footprints(rays_, wall_);
+  EXPECT_NEAR(footprints.HalfWidth(0, Eigen::Vector3d::UnitX()), 0.005, 0.001);
+  EXPECT_NEAR(footprints.HalfWidth(0, Eigen::Vector3d::UnitY()), 0.012, 0.001);
+  EXPECT_NEAR(footprints.WallRange(0), 2.15, 1e-9);
+}
+
+TEST_F(BeamFootprintsAtTwoMetres, OnAThickTubeReadItsFront) {
+  const ExpectedRange expected =
+      BeamFootprints(rays_, wall_).Expect(0, Tube(0.05, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_EQ(expected.fraction, 1.0);
+  EXPECT_NEAR(expected.range_m, 1.95, 0.001);
+}
+
+TEST_F(BeamFootprintsAtTwoMetres, OnAThinTubeReadBetweenItAndTheWall) {
+  const ExpectedRange expected =
+      BeamFootprints(rays_, wall_).Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_NEAR(expected.fraction, 0.5, 0.03);
+  EXPECT_NEAR(expected.range_m, 2.0 + 0.075, 0.010);
+  // Nobody knows exactly how much of the footprint is on it.
+  EXPECT_GT(expected.sigma_m, 1.5 * BeamFootprints(rays_, wall_).Sigma());
+}
+
+TEST_F(BeamFootprintsAtTwoMetres, ReadNearerToTheBrighterSurface) {
+  const BeamFootprints footprints(rays_, wall_);
+  const ValveIntersection tube = Tube(0.006, 0.0, Eigen::Vector3d::UnitY());
+  EXPECT_LT(footprints.Expect(0, tube, 3.0).range_m,
+            footprints.Expect(0, tube, 1.0).range_m - 0.02);
+}
+
+TEST_F(BeamFootprintsAtTwoMetres, DoNotMixWithTheWallWhereABodyIsBeforeIt) {
+  for (RangeRay& ray : rays_.rays)
+    if (ray.range_m > 2.1) ray.range_m = 2.07;
+  const BeamFootprints footprints(rays_, wall_);
+  EXPECT_FALSE(footprints.BeforeWall(0));
+  const ExpectedRange expected =
+      footprints.Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_EQ(expected.gap_m, 0.0);
+  EXPECT_NEAR(expected.range_m, expected.valve_m, 1e-12);
+}
+
+TEST_F(BeamFootprintsAtTwoMetres, BesideATubeHaveNoPartInIt) {
+  const ExpectedRange expected =
+      BeamFootprints(rays_, wall_).Expect(0, Tube(0.01, 0.03, Eigen::Vector3d::UnitX()), 1.0);
+  EXPECT_EQ(expected.fraction, 0.0);
+}
+
+TEST_F(BeamFootprintsAtTwoMetres, DoNotMixWithoutAWall) {
+  const ExpectedRange expected = BeamFootprints(rays_, std::nullopt)
+                                     .Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_EQ(expected.gap_m, 0.0);
+  EXPECT_LT(expected.range_m, 2.0);
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,14 @@
+// PCD clouds, compressed ones too.
+#include <cstdint>
+#include <string_view>
+
+#include "core/io/read_point_cloud.h"
+#include "tests/fuzz/cloud_files.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  using namespace foresight;
+  // LZF expands at most 132 times.
+  RequirePointsOrReason(DecodePcd({reinterpret_cast<const char*>(bytes), size}, "fuzz.pcd"),
+                        132 * size);
+  return 0;
+}

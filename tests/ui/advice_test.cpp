@@ -1,0 +1,46 @@
+#include "ui/viewmodels/advice.h"
+
+#include <gtest/gtest.h>
+
+namespace foresight {
+namespace {
+
+/// A confirmed wheel with an alternative that is 275 nats behind.
+FoundObject ConfirmedValve() {
+  ValveDetection valve;
+  valve.verdict = {VerdictLevel::kConfirmed, 0.997, "All agree.", {}};
+  valve.alternatives = {valve.best};
+  valve.alternatives[0].log_likelihood = valve.best.log_likelihood - 275.0;
+  FoundObject object;
+  object.detection = valve;
+  return object;
+}
+
+TEST(Advice, OnlyALiveCurrentWinningAnswerIsGoodToActOn) {
+  const FoundObject valve = ConfirmedValve();
+  EXPECT_TRUE(AdviceFor(valve, 0, true, SessionMode::kLive).text.startsWith("Good to act on."));
+  EXPECT_FALSE(AdviceFor(valve, 1, true, SessionMode::kLive).text.contains("Good"));
+  EXPECT_FALSE(AdviceFor(valve, 0, false, SessionMode::kLive).text.contains("Good"));
+  EXPECT_FALSE(AdviceFor(valve, 0, true, SessionMode::kReplay).text.contains("Good"));
+  EXPECT_TRUE(AdviceFor(valve, 0, true, SessionMode::kSimulation).text.contains("simulation"));
+}
+
+TEST(Advice, AnAlternativeDoesNotBorrowTheTrustOfTheBestAnswer) {
+  const FoundObject valve = ConfirmedValve();
+  const Advice best = AdviceFor(valve, 0, true, SessionMode::kLive);
+  const Advice other = AdviceFor(valve, 1, true, SessionMode::kLive);
+  EXPECT_EQ(best.badge.toStdString(), "CONFIRMED, over 99 %");
+  EXPECT_EQ(other.badge.toStdString(), "ALTERNATIVE");
+  EXPECT_EQ(other.level, VerdictLevel::kUnsure);
+  EXPECT_TRUE(other.text.startsWith("Do not act"));
+  EXPECT_TRUE(ReasonFor(valve.detection, 1).isEmpty());
+}
+
+TEST(Advice, WhatWasRejectedIsNotAdvised) {
+  FoundObject valve = ConfirmedValve();
+  valve.decision = Decision::kRejected;
+  EXPECT_FALSE(AdviceFor(valve, 0, true, SessionMode::kLive).text.contains("Good"));
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,163 @@
+#include "ui/viewmodels/recording_view_model.h"
+
+#include <gtest/gtest.h>
+
+#include <QFileInfo>
+#include <QTemporaryDir>
+
+#include "tests/ui/synthetic_scan.h"
+#include "tests/ui/wait_for.h"
+
+namespace foresight {
+namespace {
+
+std::shared_ptr<const Scan> SmallScan() {
+  static const auto scan = std::make_shared<const Scan>(
+      WallAndValveScan({.from_rad = -0.02, .to_rad = 0.02, .speed_rad_s = 0.1}));
+  return scan;
+}
+
+FoundObject ValveIn(const Scan& scan) {
+  ValveDetection detection;
+  detection.best.model.rim_radius_m = 0.123;
+  detection.origin.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
+  FoundObject valve;
+  valve.detection = detection;
+  valve.rig = scan.rig;
+  valve.scan_uuid = scan.uuid;
+  return valve;
+}
+
+struct RecordingTest : testing::Test {
+  QTemporaryDir folder;
+  QString path = folder.filePath("m.foresight");
+  TaskQueue tasks;
+  SessionModel session{SessionMode::kSimulation, &tasks};
+  std::unique_ptr<RecordingViewModel> recording = std::make_unique<RecordingViewModel>(&session);
+  std::vector<Notice> notices;
+
+  RecordingTest() {
+    QObject::connect(&session, &SessionModel::noticed,
+                     [this](const Notice& notice) { notices.push_back(notice); });
+  }
+  void Record(const Scan& scan) {
+    const auto sink = recording->Recorder();
+    ASSERT_NE(sink, nullptr);
+    Scan header = scan;
+    header.lines = {};
+    header.frames = {};
+    header.track = {};
+    header.state = ScanState::kRunning;
+    sink->OnScanStarted(header);
+    sink->OnMotorSamples(scan.track.samples());
+    for (const LidarLine& line : scan.lines) sink->OnLine(line);
+    for (const CameraFrame& frame : scan.frames) sink->OnFrame(frame);
+    sink->OnScanEnded(ScanState::kComplete, "");
+    recording->keepScan(std::make_shared<const Scan>(scan));
+  }
+  bool AllWritten() {
+    return WaitFor([&] { return recording->Waiting() == 0 && !recording->Busy(); });
+  }
+};
+
+TEST_F(RecordingTest, AScanAnObjectAndADecisionAreInTheFileWhileItIsStillRecorded) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  session.SetScan(SmallScan());
+  session.AddObject(ValveIn(*SmallScan()));
+  session.Decide(Decision::kAccepted);
+  ASSERT_TRUE(AllWritten());
+  EXPECT_TRUE(session.Objects()[0].kept);
+  const auto file = MissionFile::OpenReadOnly(path.toStdString());
+  ASSERT_TRUE(file) << file.error().message;
+  const auto scans = (*file)->ListScans();
+  ASSERT_TRUE(scans);
+  ASSERT_EQ(scans->size(), 1u);
+  EXPECT_EQ((*scans)[0].lines, static_cast<std::int64_t>(SmallScan()->lines.size()));
+  const auto objects = (*file)->ListDetections();
+  ASSERT_TRUE(objects);
+  ASSERT_EQ(objects->size(), 1u);
+  EXPECT_EQ((*objects)[0].decision, Decision::kAccepted);
+  EXPECT_TRUE(notices.empty());
+}
+
+TEST_F(RecordingTest, TheScansOfTheRunningMissionAreListed) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  ASSERT_TRUE(WaitFor([&] { return recording->Scans().size() == 1; }));
+  EXPECT_EQ(recording->Scans()[0].uuid, SmallScan()->uuid);
+  EXPECT_FALSE(recording->Scans()[0].thumbnail.empty());
+}
+
+TEST_F(RecordingTest, WhatCameBeforeThereWasAFileIsWrittenWhenThereIsOne) {
+  recording->keepScan(SmallScan());
+  session.SetScan(SmallScan());
+  session.AddObject(ValveIn(*SmallScan()));
+  EXPECT_EQ(recording->Waiting(), 2);
+  EXPECT_FALSE(session.Objects()[0].kept);
+  recording->SwitchTo(path);
+  ASSERT_TRUE(AllWritten());
+  EXPECT_TRUE(session.Objects()[0].kept);
+  EXPECT_EQ((*MissionFile::OpenReadOnly(path.toStdString()))->ListScans()->size(), 1u);
+}
+
+TEST_F(RecordingTest, ACopyIsCompleteAndRecordingGoesOnInTheFirstFile) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  const QString copy = folder.filePath("copy.foresight");
+  recording->CopyTo(copy);
+  ASSERT_TRUE(WaitFor([&] { return !recording->Busy() && QFileInfo::exists(copy); }));
+  EXPECT_EQ(recording->Path(), path);
+  Scan second = *SmallScan();
+  second.uuid = NewUuid();
+  Record(second);
+  ASSERT_TRUE(AllWritten());
+  EXPECT_EQ((*MissionFile::OpenReadOnly(copy.toStdString()))->ListScans()->size(), 1u);
+  EXPECT_EQ((*MissionFile::OpenReadOnly(path.toStdString()))->ListScans()->size(), 2u);
+}
+
+TEST_F(RecordingTest, AFileThatNothingWasRecordedIntoIsNotLeftBehind) {
+  ASSERT_TRUE(recording->Begin(path));
+  EXPECT_TRUE(QFileInfo::exists(path));
+  ASSERT_TRUE(AllWritten());
+  recording.reset();
+  EXPECT_FALSE(QFileInfo::exists(path));
+}
+
+TEST_F(RecordingTest, AFileWithAScanIsClosedAsOneFileAndNotLeftBehind) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  recording.reset();
+  EXPECT_TRUE(QFileInfo::exists(path));
+  EXPECT_FALSE(QFileInfo::exists(path + "-wal"));
+  EXPECT_TRUE(RecordingViewModel::LeftBehind(folder.path()).isEmpty());
+}
+
+TEST_F(RecordingTest, WhatIsDecidedJustBeforeTheEndIsWrittenToo) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  session.SetScan(SmallScan());
+  session.AddObject(ValveIn(*SmallScan()));
+  session.Decide(Decision::kAccepted);
+  EXPECT_TRUE(recording->WriteAll());
+  recording.reset();
+  const auto objects = (*MissionFile::OpenReadOnly(path.toStdString()))->ListDetections();
+  ASSERT_TRUE(objects);
+  ASSERT_EQ(objects->size(), 1u);
+  EXPECT_EQ((*objects)[0].decision, Decision::kAccepted);
+}
+
+TEST_F(RecordingTest, AFileThatCannotBeWrittenIsSaidAndNothingIsLost) {
+  EXPECT_FALSE(recording->Begin(folder.filePath("no/such/folder/m.foresight")));
+  ASSERT_FALSE(notices.empty());
+  EXPECT_EQ(notices.back().level, Notice::Level::kError);
+  EXPECT_EQ(recording->Recorder(), nullptr);
+  recording->keepScan(SmallScan());
+  EXPECT_EQ(recording->Waiting(), 1);
+}
+
+}  // namespace
+}  // namespace foresight

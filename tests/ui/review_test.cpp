@@ -1,0 +1,103 @@
+#include "ui/viewmodels/review_view_model.h"
+
+#include <gtest/gtest.h>
+
+#include <QTemporaryDir>
+
+#include "tests/ui/synthetic_scan.h"
+#include "tests/ui/wait_for.h"
+#include "ui/viewmodels/mission_objects.h"
+
+namespace foresight {
+namespace {
+
+struct ReviewTest : testing::Test {
+  QTemporaryDir folder;
+  QString path = folder.filePath("m.foresight");
+  Scan scan = WallAndValveScan({.from_rad = -0.02, .to_rad = 0.02, .speed_rad_s = 0.1});
+  TaskQueue tasks;
+  SessionModel session{SessionMode::kReplay, &tasks};
+  ReviewViewModel review{&session};
+  std::vector<Notice> notices;
+
+  ReviewTest() {
+    QObject::connect(&session, &SessionModel::noticed,
+                     [this](const Notice& notice) { notices.push_back(notice); });
+    const auto file = MissionFile::Create(path.toStdString());
+    EXPECT_TRUE(file);
+    EXPECT_TRUE(AppendScan(file->get(), scan, {}));
+    EXPECT_TRUE(KeepObject(file->get(), Valve(), "operator"));
+    EXPECT_TRUE((*file)->Close());
+  }
+  FoundObject Valve() const {
+    ValveDetection detection;
+    detection.best.model.rim_radius_m = 0.123;
+    detection.origin.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
+    FoundObject valve;
+    valve.detection = detection;
+    valve.rig = scan.rig;
+    valve.scan_uuid = scan.uuid;
+    return valve;
+  }
+  bool Settled() {
+    return WaitFor([&] { return !review.Busy(); });
+  }
+};
+
+TEST_F(ReviewTest, AMissionOpensWithItsScanAndItsObjects) {
+  int opened = 0;
+  QObject::connect(&review, &ReviewViewModel::opened, [&] { ++opened; });
+  review.Open(path);
+  ASSERT_TRUE(Settled());
+  EXPECT_EQ(opened, 1);
+  ASSERT_NE(session.CurrentScan(), nullptr);
+  EXPECT_EQ(session.CurrentScan()->uuid, scan.uuid);
+  ASSERT_EQ(session.Objects().size(), 1u);
+  EXPECT_EQ(std::get<ValveDetection>(session.Objects()[0].detection).best.model.rim_radius_m,
+            0.123);
+  EXPECT_TRUE(session.IsCurrent(session.Objects()[0]));
+  EXPECT_TRUE(session.Objects()[0].kept);
+}
+
+TEST_F(ReviewTest, WhatIsFoundInReviewIsKeptBesideTheMissionWhichStaysAsItIs) {
+  review.Open(path);
+  ASSERT_TRUE(Settled());
+  session.AddObject(Valve());
+  session.Decide(Decision::kRejected);
+  ASSERT_TRUE(Settled());
+  EXPECT_TRUE(session.Objects()[1].kept);
+  EXPECT_EQ((*MissionFile::OpenReadOnly(path.toStdString()))->ListDetections()->size(), 1u);
+  review.close();
+  review.Open(path);
+  ASSERT_TRUE(Settled());
+  ASSERT_EQ(session.Objects().size(), 2u);
+  EXPECT_EQ(session.Objects()[1].decision, Decision::kRejected);
+  EXPECT_TRUE(notices.empty());
+}
+
+TEST_F(ReviewTest, ADecisionOnAnObjectOfTheMissionIsKeptInTheReview) {
+  review.Open(path);
+  ASSERT_TRUE(Settled());
+  session.Decide(Decision::kAccepted);
+  ASSERT_TRUE(Settled());
+  EXPECT_EQ((*MissionFile::OpenReadOnly(path.toStdString()))->ListDetections()->at(0).decision,
+            Decision::kOpen);
+  review.close();
+  review.Open(path);
+  ASSERT_TRUE(Settled());
+  ASSERT_EQ(session.Objects().size(), 1u);
+  EXPECT_EQ(session.Objects()[0].decision, Decision::kAccepted);
+}
+
+TEST_F(ReviewTest, AFileThatIsNoMissionIsReportedAndChangesNothing) {
+  review.Open(path);
+  ASSERT_TRUE(Settled());
+  review.Open(folder.filePath("missing.foresight"));
+  ASSERT_TRUE(Settled());
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(notices[0].level, Notice::Level::kError);
+  EXPECT_EQ(review.Path(), path);
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,63 @@
+#include "ui/panels/log_strip.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+
+#include "ui/panels/command_button.h"
+#include "ui/panels/theme.h"
+
+namespace foresight {
+
+LogStrip::LogStrip(LogModel* log, CommandTable* commands, QWidget* parent)
+    : QFrame(parent),
+      log_(log),
+      icon_(new QLabel),
+      text_(new QLabel),
+      more_(new QLabel),
+      acknowledge_(new QPushButton(tr("Acknowledge"))) {
+  setObjectName(QStringLiteral("notice"));
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
+  more_->setObjectName(QStringLiteral("faint"));
+  acknowledge_->setFocusPolicy(Qt::NoFocus);
+  icon_->setFixedWidth(22);
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(12, 2, 12, 2);
+  layout->setSpacing(10);
+  layout->addWidget(icon_);
+  layout->addWidget(text_, 1);
+  layout->addWidget(more_);
+  layout->addWidget(acknowledge_);
+  BindButton(acknowledge_, commands, "log.acknowledge");
+  setFixedHeight(2 * fontMetrics().lineSpacing() + 8);
+  connect(log_, &LogModel::changed, this, &LogStrip::ShowTop);
+  ShowTop();
+}
+
+QString LogStrip::Text() const {
+  return text_->text();
+}
+
+void LogStrip::ShowTop() {
+  const LogEntry* top = log_->Top();
+  acknowledge_->setVisible(log_->Open() > 0);
+  more_->setText(log_->Open() > 1 ? tr("%1 more").arg(log_->Open() - 1) : QString());
+  if (top == nullptr) {
+    icon_->clear();
+    text_->clear();
+    text_->setToolTip({});
+    return;
+  }
+  const char* icon = top->notice.level == Notice::Level::kError     ? "error"
+                     : top->notice.level == Notice::Level::kWarning ? "warning"
+                                                                    : "info";
+  icon_->setPixmap(Icon(icon).pixmap(18, 18));
+  QString what = top->notice.what.toHtmlEscaped();
+  if (top->count > 1) what += tr(" (%1 times)").arg(top->count);
+  text_->setText(QStringLiteral("<b>%1</b>&nbsp; %2").arg(what, top->notice.next.toHtmlEscaped()));
+  text_->setToolTip(top->notice.what + QLatin1Char('\n') + top->notice.next);
+}
+
+}  // namespace foresight

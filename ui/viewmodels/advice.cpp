@@ -1,0 +1,81 @@
+#include "ui/viewmodels/advice.h"
+
+#include <QCoreApplication>
+
+#include "core/detection/candidates.h"
+#include "core/detection/facts.h"
+
+namespace foresight {
+namespace {
+
+QString Tr(const char* text) {
+  return QCoreApplication::translate("Advice", text);
+}
+
+QString LevelName(VerdictLevel level) {
+  return QString::fromUtf8(ToString(level));
+}
+
+/// The verdict that is about the candidate itself: a terrain has one for each surface.
+const Verdict* OwnVerdict(const Detection& detection, int candidate) {
+  if (const auto* terrain = std::get_if<TerrainDetection>(&detection)) {
+    const auto index = static_cast<std::size_t>(std::max(0, candidate));
+    return index < terrain->surfaces.size() ? &terrain->surfaces[index].verdict : nullptr;
+  }
+  return candidate <= 0 ? &VerdictOf(detection) : nullptr;
+}
+
+QString WhyNotToActOn(bool is_current, SessionMode mode, Decision decision) {
+  if (mode == SessionMode::kReplay)
+    return Tr("Review: do not act on it. The scene may have changed since.");
+  if (decision == Decision::kRejected) return Tr("You rejected it: do not act on it.");
+  if (!is_current) return Tr("From an earlier scan: fit it again in the newest one.");
+  return {};
+}
+
+QString ByLevel(VerdictLevel level, SessionMode mode) {
+  switch (level) {
+    case VerdictLevel::kConfirmed:
+      return mode == SessionMode::kSimulation
+                 ? Tr("Good to act on, in this simulation. Compare the outline with the image.")
+                 : Tr("Good to act on. Compare the outline with the image.");
+    case VerdictLevel::kLikely:
+      return Tr(
+          "Compare the outline with the image and step through the alternatives before "
+          "acting.");
+    case VerdictLevel::kUnsure:
+      break;
+  }
+  return Tr("Do not act on this. Draw the region closer, or scan slower or from nearer.");
+}
+
+}  // namespace
+
+QString ReasonFor(const Detection& detection, int candidate) {
+  const Verdict* own = OwnVerdict(detection, candidate);
+  return own != nullptr ? QString::fromStdString(own->reason) : QString();
+}
+
+Advice AdviceFor(const FoundObject& object, int candidate, bool is_current, SessionMode mode) {
+  Advice advice;
+  const Verdict* own = OwnVerdict(object.detection, candidate);
+  if (own != nullptr) {
+    advice.level = own->level;
+    advice.badge = QStringLiteral("%1, %2").arg(
+        LevelName(own->level), QString::fromStdString(ProbabilityText(own->probability)));
+  } else {
+    advice.level = CandidateLevel(object.detection, candidate);
+    advice.badge = Tr("ALTERNATIVE");
+  }
+  advice.text = WhyNotToActOn(is_current, mode, object.decision);
+  if (!advice.text.isEmpty()) return advice;
+  advice.text =
+      own != nullptr ? ByLevel(own->level, mode)
+      : advice.level == VerdictLevel::kLikely
+          ? Tr("About as likely as the best answer: compare both outlines with the image.")
+          : Tr("Do not act on this alternative: the best answer explains the measurements "
+               "better.");
+  return advice;
+}
+
+}  // namespace foresight

@@ -1,0 +1,110 @@
+#include "ui/viewmodels/mission_objects.h"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "core/detection/detection_json.h"
+
+namespace foresight {
+namespace {
+
+std::int64_t NowUtc_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+/// The id of the scan in the file; 0 where the file does not hold it.
+Result<std::int64_t> ScanIdOf(const MissionFile& file, const std::string& uuid) {
+  FORESIGHT_TRY(const std::vector<ScanSummary> scans, file.ListScans());
+  for (const ScanSummary& scan : scans)
+    if (scan.uuid == uuid) return scan.id;
+  return 0;
+}
+
+}  // namespace
+
+std::string OperatorName() {
+  const passwd* account = getpwuid(getuid());
+  return account != nullptr && account->pw_name != nullptr ? account->pw_name : "operator";
+}
+
+DetectionRecord RecordOf(const FoundObject& object, const std::string& author) {
+  DetectionRecord record;
+  record.uuid = object.uuid;
+  record.scan_uuid = object.scan_uuid;
+  record.kind = KindOf(object.detection);
+  record.utc_ns = NowUtc_ns();
+  record.author = author;
+  record.json = DetectionToJson(object.detection, object.rig.robot_from_base);
+  record.provenance_json = object.provenance_json;
+  return record;
+}
+
+DetectionEvent EventOf(const ObjectEvent& event, const std::string& author) {
+  DetectionEvent kept;
+  kept.utc_ns = NowUtc_ns();
+  kept.author = author;
+  kept.action = event.action;
+  kept.text = event.text.toStdString();
+  return kept;
+}
+
+Result<FoundObject> ObjectOf(const DetectionRecord& record, const SensorRig& rig,
+                             std::int64_t scan_begin_utc_ns) {
+  FoundObject object;
+  FORESIGHT_TRY(object.detection, DetectionFromJson(record.json));
+  object.rig = rig;
+  object.uuid = record.uuid;
+  object.scan_uuid = record.scan_uuid;
+  object.scan_time = QDateTime::fromMSecsSinceEpoch(scan_begin_utc_ns / 1'000'000);
+  // An age that goes on where the mission's clock left it.
+  object.found = std::chrono::steady_clock::now() -
+                 std::chrono::nanoseconds(std::max<std::int64_t>(0, NowUtc_ns() - record.utc_ns));
+  object.name = QString::fromStdString(record.name);
+  object.decision = record.decision;
+  object.provenance_json = record.provenance_json;
+  object.kept = true;
+  return object;
+}
+
+Status KeepObject(MissionFile* file, const FoundObject& object, const std::string& author) {
+  DetectionRecord record = RecordOf(object, author);
+  FORESIGHT_TRY(record.scan_id, ScanIdOf(*file, object.scan_uuid));
+  FORESIGHT_CHECK(file->AddDetection(record));
+  return {};
+}
+
+Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::string& author) {
+  FORESIGHT_TRY(const std::vector<DetectionRecord> records, file->ListDetections());
+  const auto at = std::find_if(records.begin(), records.end(), [&](const DetectionRecord& record) {
+    return record.uuid == event.uuid;
+  });
+  if (at == records.end())
+    return Fail(ErrorCode::kInvalidInput, "mission file {}: no object {}", file->path().string(),
+                event.uuid);
+  return file->AddDetectionEvent(at->id, EventOf(event, author));
+}
+
+Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context) {
+  FORESIGHT_TRY(const std::int64_t there, ScanIdOf(*file, scan.uuid));
+  if (there != 0) return {};
+  FORESIGHT_TRY(const std::int64_t id, file->BeginScan(scan));
+  const Status appended = file->Batch([&]() -> Status {
+    std::size_t done = 0;
+    for (const LidarLine& line : scan.lines) {
+      FORESIGHT_CHECK(file->AppendLine(id, line));
+      context.Report(0.8 * static_cast<double>(done++) / static_cast<double>(scan.lines.size()),
+                     "writing lines");
+    }
+    FORESIGHT_CHECK(file->AppendMotorSamples(id, scan.track.samples()));
+    for (const CameraFrame& frame : scan.frames) FORESIGHT_CHECK(file->AppendFrame(id, frame));
+    return {};
+  });
+  FORESIGHT_CHECK(appended);
+  return file->EndScan(id, scan.state, scan.reason);
+}
+
+}  // namespace foresight

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "core/mission/mission_file.h"
+#include "ui/viewmodels/session_model.h"
+
+namespace foresight {
+
+/// Who works at this computer, for records: the name of the user's account.
+std::string OperatorName();
+
+/// A found object as a mission keeps it. `scan_id` is left for the file to fill in.
+DetectionRecord RecordOf(const FoundObject& object, const std::string& author);
+DetectionEvent EventOf(const ObjectEvent& event, const std::string& author);
+
+/// The reverse, of an object found in a scan that began at `scan_begin_utc_ns` and has this rig.
+Result<FoundObject> ObjectOf(const DetectionRecord& record, const SensorRig& rig,
+                             std::int64_t scan_begin_utc_ns);
+
+/// Writes the record into the file, or the event into the object's record there. A record that is
+/// there already is left as it is.
+Status KeepObject(MissionFile* file, const FoundObject& object, const std::string& author);
+Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::string& author);
+
+/// Writes a whole scan that was kept in memory because its file could not be written.
+Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context);
+
+}  // namespace foresight

@@ -1,0 +1,315 @@
+#include "ui/viewmodels/recording_view_model.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QFileInfo>
+#include <QStandardPaths>
+#include <algorithm>
+
+#include "ui/viewmodels/mission_objects.h"
+
+namespace foresight {
+namespace {
+
+const QString kSuffix = QStringLiteral("foresight");
+
+std::int64_t NowUtc_ns() {
+  return 1'000'000 * QDateTime::currentMSecsSinceEpoch();
+}
+
+QString FreePath(const QString& folder) {
+  const QString base = QDir(folder).filePath(
+      QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd_HH-mm-ss")));
+  QString path = base + QLatin1Char('.') + kSuffix;
+  for (int i = 2; QFileInfo::exists(path); ++i)
+    path = QStringLiteral("%1_%2.%3").arg(base).arg(i).arg(kSuffix);
+  return path;
+}
+
+/// Whether the file holds nothing that anybody would miss.
+bool IsEmpty(const MissionFile& file) {
+  const auto scans = file.ListScans();
+  const auto objects = file.ListDetections();
+  return scans && scans->empty() && objects && objects->empty();
+}
+
+/// Writes into the newest file that knows the scan or the object; kInvalidInput = none does.
+Status InTheFileThatKnowsIt(const std::vector<std::shared_ptr<MissionFile>>& files,
+                            const std::function<Status(MissionFile*)>& write) {
+  Status status;
+  for (const auto& file : files) {
+    status = write(file.get());
+    if (status || status.error().code != ErrorCode::kInvalidInput) return status;
+  }
+  return status;
+}
+
+const char* SeverityOf(Notice::Level level) {
+  switch (level) {
+    case Notice::Level::kInfo:
+      return "info";
+    case Notice::Level::kWarning:
+      return "warning";
+    case Notice::Level::kError:
+      break;
+  }
+  return "error";
+}
+
+}  // namespace
+
+RecordingViewModel::RecordingViewModel(SessionModel* live, QObject* parent)
+    : QObject(parent), session_(live), author_(OperatorName()) {
+  connect(session_, &SessionModel::objectAdded, this, &RecordingViewModel::keepObject);
+  connect(session_, &SessionModel::objectTouched, this, &RecordingViewModel::keepObjectEvent);
+  for (TaskRunner* runner : {&writer_, &reader_, &copier_})
+    connect(runner, &TaskRunner::changed, this, &RecordingViewModel::changed);
+}
+
+RecordingViewModel::~RecordingViewModel() {
+  recorder_.reset();
+  if (!file_) return;
+  list_file_.reset();
+  const bool empty = IsEmpty(*file_);
+  if (const Status closed = file_->Close(); closed && empty) QFile::remove(path_);
+}
+
+QString RecordingViewModel::DefaultFolder() {
+  const QString folder = QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation))
+                             .filePath(QStringLiteral("missions"));
+  QDir().mkpath(folder);
+  return folder;
+}
+
+QStringList RecordingViewModel::LeftBehind(const QString& folder) {
+  QStringList paths;
+  const auto files =
+      QDir(folder).entryInfoList({QStringLiteral("*.") + kSuffix}, QDir::Files, QDir::Time);
+  for (const QFileInfo& file : files) {
+    // Closing a file takes its write-ahead log away.
+    if (!QFileInfo::exists(file.filePath() + QStringLiteral("-wal"))) continue;
+    const auto mission = MissionFile::OpenReadOnly(file.filePath().toStdString());
+    if (mission && !(*mission)->IsBeingRecorded()) paths << file.filePath();
+  }
+  return paths;
+}
+
+Status RecordingViewModel::Open(const QString& path, std::shared_ptr<MissionFile>* file) const {
+  const std::string name = path.toStdString();
+  if (QFileInfo::exists(path)) {
+    FORESIGHT_TRY(*file, MissionFile::Open(name));
+  } else {
+    FORESIGHT_TRY(*file, MissionFile::Create(name));
+  }
+  return {};
+}
+
+int RecordingViewModel::Waiting() const {
+  return static_cast<int>(std::count_if(waiting_.begin(), waiting_.end(), [](const Change& change) {
+    return !std::holds_alternative<EventRecord>(change);
+  }));
+}
+
+bool RecordingViewModel::Begin(const QString& path) {
+  std::shared_ptr<MissionFile> file;
+  if (const Status opened = Open(path, &file); !opened) {
+    Notice notice = NoticeOf(tr("Recording into %1").arg(path), opened.error());
+    notice.next = tr("Nothing is recorded now. Choose another file (Ctrl+Shift+S).");
+    notice.topic = kRecordingTopic;
+    session_->Report(notice);
+    return false;
+  }
+  path_ = path;
+  Use(std::move(file));
+  return true;
+}
+
+bool RecordingViewModel::BeginInFolder(const QString& folder) {
+  return Begin(FreePath(folder));
+}
+
+void RecordingViewModel::SwitchTo(const QString& path) {
+  writer_.Run<std::shared_ptr<MissionFile>>(
+      tr("Opening the mission file"),
+      [this, path](const RunContext&) -> Result<std::shared_ptr<MissionFile>> {
+        std::shared_ptr<MissionFile> file;
+        FORESIGHT_CHECK(Open(path, &file));
+        return file;
+      },
+      [this, path](Result<std::shared_ptr<MissionFile>> file) {
+        if (!file) {
+          Notice notice = NoticeOf(tr("Opening the mission file"), file.error());
+          notice.topic = kRecordingTopic;
+          session_->Report(notice);
+          return;
+        }
+        const auto old = file_;
+        const QString old_path = path_;
+        recorder_.reset();
+        list_file_.reset();
+        path_ = path;
+        Use(std::move(*file));
+        session_->Report({Notice::Level::kInfo, tr("Recording goes on in %1.").arg(path), {}});
+        if (!old) return;
+        if (IsEmpty(*old) && old->Close())
+          QFile::remove(old_path);
+        else
+          earlier_files_.insert(earlier_files_.begin(), old);  // decisions on its objects go there
+      });
+}
+
+void RecordingViewModel::Use(std::shared_ptr<MissionFile> file) {
+  file_ = std::move(file);
+  recorder_ = std::make_shared<ScanRecorder>(file_);
+  failed_ = false;
+  scans_.clear();
+  refreshList();
+  WriteNext();
+  Q_EMIT changed();
+}
+
+void RecordingViewModel::refreshList() {
+  if (!file_) return;
+  struct Listed {
+    std::shared_ptr<MissionFile> file;
+    std::vector<ScanSummary> scans;
+  };
+  reader_.Run<Listed>(
+      tr("Listing the scans"),
+      [file = list_file_, path = path_.toStdString()](const RunContext&) -> Result<Listed> {
+        Listed listed{file, {}};
+        if (!listed.file) {
+          FORESIGHT_TRY(listed.file, MissionFile::OpenReadOnly(path));
+        }
+        FORESIGHT_TRY(listed.scans, listed.file->ListScans());
+        return listed;
+      },
+      [this](Result<Listed> listed) {
+        if (!listed) return;  // the file itself is not in danger; the next change lists again
+        list_file_ = listed->file;
+        scans_ = std::move(listed->scans);
+        Q_EMIT changed();
+      });
+}
+
+void RecordingViewModel::CopyTo(const QString& path) {
+  if (!file_) {
+    session_->Report({Notice::Level::kWarning, tr("There is no mission file to copy."),
+                      tr("Choose a file to record into first (Ctrl+Shift+S).")});
+    return;
+  }
+  copier_.Run<bool>(
+      tr("Copying the mission"),
+      [source = path_.toStdString(), path = path.toStdString()](const RunContext&) -> Result<bool> {
+        FORESIGHT_TRY(const auto file, MissionFile::OpenReadOnly(source));
+        FORESIGHT_CHECK(file->ExportTo(path));
+        return true;
+      },
+      [this, path](const Result<bool>& copied) {
+        session_->Report(
+            copied
+                ? Notice{Notice::Level::kInfo,
+                         tr("Copied the mission to %1; recording goes on in %2.").arg(path, path_),
+                         {}}
+                : NoticeOf(tr("Copying the mission"), copied.error()));
+      });
+}
+
+bool RecordingViewModel::WriteAll(int limit_ms) {
+  QElapsedTimer timer;
+  timer.start();
+  while (file_ && !failed_ && !waiting_.empty() && timer.elapsed() < limit_ms)
+    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents, 20);
+  return waiting_.empty();
+}
+
+void RecordingViewModel::tryAgain() {
+  failed_ = false;
+  WriteNext();
+}
+
+void RecordingViewModel::keepScan(const std::shared_ptr<const Scan>& scan) {
+  Keep(scan);
+}
+
+void RecordingViewModel::keepObject(const FoundObject& object) {
+  Keep(object);
+}
+
+void RecordingViewModel::keepObjectEvent(const ObjectEvent& event) {
+  Keep(event);
+}
+
+void RecordingViewModel::keepNotice(const Notice& notice) {
+  if (notice.topic == kRecordingTopic) return;  // it could not be written
+  Keep(EventRecord{0,
+                   NowUtc_ns(),
+                   "workstation",
+                   SeverityOf(notice.level),
+                   (notice.what + QLatin1Char(' ') + notice.next).trimmed().toStdString(),
+                   {}});
+}
+
+void RecordingViewModel::keepCommand(const QString& id) {
+  Keep(EventRecord{0, NowUtc_ns(), author_, "info", "command " + id.toStdString(), {}});
+}
+
+void RecordingViewModel::Keep(Change change) {
+  waiting_.push_back(std::move(change));
+  failed_ = false;  // there may be room again
+  WriteNext();
+  Q_EMIT changed();
+}
+
+void RecordingViewModel::WriteNext() {
+  if (!file_ || failed_ || writer_.Busy() || waiting_.empty()) return;
+  std::vector<std::shared_ptr<MissionFile>> files = earlier_files_;
+  files.insert(files.begin(), file_);
+  const auto work = [file = file_, files, recorder = recorder_, author = author_,
+                     change = waiting_.front()](const RunContext& context) -> Result<bool> {
+    if (const auto* scan = std::get_if<std::shared_ptr<const Scan>>(&change)) {
+      // kState: this recorder has not had a scan yet; one that was never recorded is appended.
+      const auto written = recorder->WaitUntilWritten();
+      if (!written && written.error().code != ErrorCode::kState)
+        return tl::unexpected(written.error());
+      FORESIGHT_CHECK(AppendScan(file.get(), **scan, context));
+    } else if (const auto* object = std::get_if<FoundObject>(&change)) {
+      FORESIGHT_CHECK(InTheFileThatKnowsIt(
+          files, [&](MissionFile* one) { return KeepObject(one, *object, author); }));
+    } else if (const auto* event = std::get_if<ObjectEvent>(&change)) {
+      FORESIGHT_CHECK(InTheFileThatKnowsIt(
+          files, [&](MissionFile* one) { return KeepObjectEvent(one, *event, author); }));
+    } else {
+      FORESIGHT_CHECK(file->AddEvent(std::get<EventRecord>(change)));
+    }
+    return true;
+  };
+  writer_.Run<bool>(tr("Writing the mission file"), work, [this](const Result<bool>& written) {
+    if (!written && written.error().code == ErrorCode::kInvalidInput) {
+      waiting_.pop_front();  // no file will ever take it
+      session_->Report(NoticeOf(tr("Writing the mission file"), written.error()));
+      WriteNext();
+      return;
+    }
+    if (!written) {
+      failed_ = true;
+      Notice notice = NoticeOf(tr("Writing the mission file"), written.error());
+      notice.next =
+          tr("It stays in memory: make room, or record into another file "
+             "(Ctrl+Shift+S).");
+      notice.topic = kRecordingTopic;
+      session_->Report(notice);
+      return;
+    }
+    const Change done = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (const auto* object = std::get_if<FoundObject>(&done)) session_->MarkKept(object->uuid);
+    if (!std::holds_alternative<EventRecord>(done)) refreshList();
+    if (waiting_.empty()) Q_EMIT allWritten();
+    WriteNext();
+  });
+}
+
+}  // namespace foresight

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <QStringList>
+#include <deque>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "core/mission/mission_file.h"
+#include "hardware/head/scan_recorder.h"
+#include "ui/viewmodels/session_model.h"
+#include "ui/viewmodels/task_runner.h"
+
+namespace foresight {
+
+/// The mission file of the live session. Everything goes into it as it comes: lines while the head
+/// sweeps, objects and decisions as they are made. What cannot be written stays in memory, is said,
+/// and is written as soon as a file takes it.
+class RecordingViewModel : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit RecordingViewModel(SessionModel* live, QObject* parent = nullptr);
+  /// Closes the file; a file that nothing was recorded into is removed. Call WriteAll first.
+  ~RecordingViewModel() override;
+
+  /// Where missions go unless the operator says otherwise; made if it is not there.
+  static QString DefaultFolder();
+  /// Mission files in a folder whose program ended without closing them, newest first.
+  static QStringList LeftBehind(const QString& folder);
+
+  /// Records into this file from now on: a new one, or one that is continued. Takes some
+  /// milliseconds; for the start of the program.
+  bool Begin(const QString& path);
+  /// The same with a new file named after the date.
+  bool BeginInFolder(const QString& folder);
+  /// The same while the program runs: what waits goes into the new file. Not during a sweep.
+  void SwitchTo(const QString& path);
+
+  QString Path() const { return path_; }
+  bool Recording() const { return recorder_ != nullptr; }
+  /// The sink that writes a scan while it arrives; nullptr while there is no file to write.
+  std::shared_ptr<ScanSink> Recorder() const { return recorder_; }
+  /// All scans of the file, oldest first, the running one too.
+  const std::vector<ScanSummary>& Scans() const { return scans_; }
+  /// How many scans, objects and decisions are in memory only.
+  int Waiting() const;
+  bool Busy() const { return writer_.Busy() || reader_.Busy() || copier_.Busy(); }
+
+  /// Before the program ends: runs the event loop until nothing waits. False where something still
+  /// does, because it cannot be written or took longer than `limit_ms`.
+  bool WriteAll(int limit_ms = 20'000);
+
+  /// A complete copy of what is in the file now, in one file; recording goes on where it is.
+  void CopyTo(const QString& path);
+
+ public Q_SLOTS:
+  /// Writes what waits again, after the operator has made room.
+  void tryAgain();
+  void refreshList();
+  /// A scan has ended: makes sure that all of it is on the disk.
+  void keepScan(const std::shared_ptr<const foresight::Scan>& scan);
+  void keepObject(const foresight::FoundObject& object);
+  void keepObjectEvent(const foresight::ObjectEvent& event);
+  /// For the mission's log.
+  void keepNotice(const foresight::Notice& notice);
+  void keepCommand(const QString& id);
+
+ Q_SIGNALS:
+  void changed();
+  void allWritten();  ///< nothing waits any more
+
+ private:
+  using Change = std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, EventRecord>;
+
+  void Keep(Change change);
+  void WriteNext();
+  void Use(std::shared_ptr<MissionFile> file);
+  Status Open(const QString& path, std::shared_ptr<MissionFile>* file) const;
+
+  SessionModel* session_;
+  TaskRunner writer_{session_->Tasks(), TaskPolicy::kNeverCancel};
+  TaskRunner reader_{session_->Tasks()};
+  TaskRunner copier_{session_->Tasks(), TaskPolicy::kQueue};
+  QString path_;
+  std::string author_;
+  std::shared_ptr<MissionFile> file_;
+  /// Those that were recorded into before: what belongs to their scans is still written there.
+  std::vector<std::shared_ptr<MissionFile>> earlier_files_;
+  std::shared_ptr<MissionFile> list_file_;  ///< a connection of its own, for reading beside
+  std::shared_ptr<ScanRecorder> recorder_;
+  std::vector<ScanSummary> scans_;
+  std::deque<Change> waiting_;
+  bool failed_ = false;  ///< the last write failed; what waits is tried again when asked
+};
+
+}  // namespace foresight
