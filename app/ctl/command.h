@@ -28,6 +28,7 @@ void AddRenderCommand(CLI::App& app, Invocation& invocation);
 void AddDemoCommand(CLI::App& app, Invocation& invocation);
 void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 void AddHealthCommand(CLI::App& app, Invocation& invocation);
+void AddMissionCommand(CLI::App& app, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);
 
 /// Creates the folder for results. Fails with kIo.

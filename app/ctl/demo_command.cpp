@@ -5,10 +5,10 @@
 #include "app/common/simulated_bench.h"
 #include "app/ctl/command.h"
 #include "app/ctl/demo_report.h"
-#include "app/ctl/save_detection.h"
 #include "core/depth/depth_method.h"
 #include "core/detection/fit_in_scan.h"
 #include "core/geometry/angles.h"
+#include "core/mission/new_records.h"
 
 namespace foresight {
 namespace {
@@ -51,6 +51,21 @@ Status Process(const World& world, const ValveTruth& truth, DemoOutcome& outcome
   return {};
 }
 
+/// The valve, and the depth map as how it is made again, into the mission.
+Status Keep(const DemoOutcome& outcome, std::int64_t scan_id, MissionFile& mission) {
+  const ConfidenceMaskOptions& mask = outcome.depth.options.mask;
+  FORESIGHT_TRY(const Provenance provenance,
+                ProvenanceOfFit(outcome.scan, FitSource::kRaw, nullptr, mask, FitValveOptions(),
+                                outcome.valve.origin.roi));
+  DetectionRecord valve = NewDetectionRecord(outcome.scan, outcome.valve, provenance);
+  FORESIGHT_TRY(DepthRecord depth,
+                NewDepthRecord(outcome.scan, outcome.depth, outcome.depth.mask, mask));
+  valve.scan_id = depth.scan_id = scan_id;
+  FORESIGHT_CHECK(mission.AddDepth(depth));
+  FORESIGHT_CHECK(mission.AddDetection(valve));
+  return {};
+}
+
 void PrintOutcome(const DemoArguments& arguments, const DemoOutcome& o) {
   const std::string report = (std::filesystem::path(arguments.out) / "report.html").string();
   if (arguments.json) {
@@ -86,7 +101,7 @@ Result<ExitCode> Demo(const DemoArguments& arguments, const RunContext& context)
   FORESIGHT_TRY(outcome.scan, mission->LoadScan(executed.id));
   PrintNote("computing depth and fitting the valve to every source");
   FORESIGHT_CHECK(Process(*bench.world, bench.world->scene().valves.front(), outcome, context));
-  FORESIGHT_CHECK(SaveDetection(*mission, executed.id, outcome.valve, outcome.scan.rig));
+  FORESIGHT_CHECK(Keep(outcome, executed.id, *mission));
   FORESIGHT_CHECK(mission->Close());
   FORESIGHT_CHECK(WriteHtmlReport(ReportOf(outcome), arguments.out));
   PrintOutcome(arguments, outcome);

@@ -7,6 +7,7 @@
 #include "core/depth/imported_samples.h"
 #include "core/geometry/angles.h"
 #include "core/io/png.h"
+#include "core/mission/new_records.h"
 #include "core/registration/register_scan.h"
 
 namespace foresight {
@@ -16,8 +17,21 @@ struct DepthCommandArguments {
   ScanArguments scan;
   DepthArguments depth;
   std::string out = ".";
+  bool save = false;
   bool json = false;
 };
+
+/// How the map is made again, into the mission.
+Status Save(const DepthCommandArguments& arguments, const OpenedScan& opened,
+            const DepthResult& result) {
+  FORESIGHT_TRY(DepthRecord record,
+                NewDepthRecord(opened.scan, result, result.mask, result.options.mask));
+  record.scan_id = opened.id;
+  FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
+                MissionFile::Open(arguments.scan.mission));
+  FORESIGHT_CHECK(mission->AddDepth(record));
+  return mission->Close();
+}
 
 Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const DepthOptions options, DepthOptionsFrom(arguments.depth));
@@ -27,6 +41,7 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
                 ComputeDepthInFrame(registered, opened.scan.rig, opened.frame, options,
                                     context.Part(0.1, 1.0)));
   WarnOfLowDensity(result);
+  if (arguments.save) FORESIGHT_CHECK(Save(arguments, opened, result));
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));
   FORESIGHT_CHECK(WriteChangeChart(result.dense, arguments.out));
@@ -66,6 +81,8 @@ void AddDepthCommand(CLI::App& app, Invocation& invocation) {
   AddScanArguments(*command, arguments->scan);
   AddDepthArguments(*command, arguments->depth);
   command->add_option("-o,--out", arguments->out, "Folder for the results")->capture_default_str();
+  command->add_flag("--save", arguments->save,
+                    "Note in the mission file how the depth map was made, and its checksum");
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) { return Depth(*arguments, context); };

@@ -2,38 +2,19 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/common/option_flags.h"
 #include "core/depth/pipeline.h"
 
 namespace foresight {
-
-/// Flying points by one word: the rules of FlyingPointOptions with what belongs to each.
-enum class FlyingRule { kMax, kMin, kAdaptive, kOff };
 
 /// Command-line options that every command with a depth pipeline has. What is not given is the
 /// method's own.
 struct DepthArguments {
   std::string method = "foresight";
-  double sigma_spatial_px = 0.0;  ///< 0 = from the density
-  std::optional<int> iterations;
-  std::optional<double> radius_in_sigmas;
-  std::optional<UpsampleOptions::Weights> weights;
-
-  std::optional<FlyingRule> flying;
-  std::optional<double> flying_threshold_mm;
-  std::optional<bool> isolated;
-  std::optional<FlippingPointOptions::Test> flipping;
-  std::optional<double> flip_margin_mm;
-  std::optional<double> flip_step_mm;
-  std::optional<FlippingPointOptions::Cells> cells;
-
-  std::optional<ConfidencePasses> confidence_passes;
-  std::optional<UpsampleOptions::Weights> confidence_terms;
-  std::optional<double> threshold;
-  std::optional<ConfidenceMaskOptions::Reference> mask_reference;
+  GivenFlags given;  ///< of DepthOptionTable
 };
 
 void AddDepthArguments(CLI::App& command, DepthArguments& arguments);

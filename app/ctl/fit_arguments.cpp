@@ -1,9 +1,7 @@
 #include "app/ctl/fit_arguments.h"
 
-#include "app/common/seed_option.h"
-#include "core/base/atomic_file.h"
 #include "core/depth/depth_method.h"
-#include "core/detection/detection_json.h"
+#include "core/detection/fit_option_table.h"
 
 namespace foresight {
 namespace {
@@ -78,17 +76,6 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->group(kGroup);
 }
 
-Result<std::shared_ptr<const TerrainDetection>> LastTerrain(const std::string& file) {
-  FORESIGHT_TRY(const std::string text, ReadFile(file));
-  const Result<Detection> detection = DetectionFromJson(text);
-  if (!detection) return Fail(ErrorCode::kBadData, "{}: {}", file, detection.error().message);
-  const auto* terrain = std::get_if<TerrainDetection>(&*detection);
-  if (terrain == nullptr)
-    return Fail(ErrorCode::kBadData, "{}: holds a {}, not a terrain", file,
-                ToString(ObjectKindOf(*detection)));
-  return std::make_shared<const TerrainDetection>(*terrain);
-}
-
 }  // namespace
 
 std::vector<std::string> SourceNames() {
@@ -103,27 +90,13 @@ void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
   AddDepthArguments(command, arguments.depth);
   AddRegionArguments(command, arguments.region);
   AddSourceArguments(command, arguments);
-  AddSeedOption(command, "--seed", arguments.seed, "Seed of the random search")
-      ->capture_default_str();
   command.add_flag("--json", arguments.json, "Print the answer as JSON");
   command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
 }
 
 void AddFitArguments(CLI::App& command, FitArguments& arguments) {
   AddSubjectArguments(command, arguments);
-  if (arguments.kind == ObjectKind::kDrill)
-    command.add_option("--template", arguments.drill_template,
-                       "Template of the drill (YAML); default: the built-in ones");
-  if (arguments.kind == ObjectKind::kTerrain)
-    command
-        .add_option("--block-size", arguments.block_size_mm,
-                    "Length and width of a block's top in millimetres; default: 397,390")
-        ->expected(2)
-        ->delimiter(',');
-  if (arguments.kind == ObjectKind::kTerrain)
-    command.add_option("--last", arguments.last,
-                       "The last accepted answer, as --json wrote it: blocks that moved since are "
-                       "marked");
+  AddOptionFlags(command, FitOptionTable(arguments.kind), arguments.given);
   command.add_flag("--save", arguments.save, "Write the answer into the mission file");
   command.add_option("--gallery", arguments.gallery,
                      "Fit to every source and set the answers side by side in this folder");
@@ -228,16 +201,10 @@ Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
 Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
                                   const Rigid<frame::Robot, frame::Base>& robot_from_base) {
   FitOptions options = FitOptionsFor(arguments.kind, robot_from_base);
-  std::visit([&](auto& o) { o.seed = arguments.seed; }, options);
-  if (auto* drill = std::get_if<FitDrillOptions>(&options); !arguments.drill_template.empty()) {
-    FORESIGHT_TRY(DrillTemplate wanted, LoadDrillTemplate(arguments.drill_template));
-    drill->templates = {std::move(wanted)};
-  }
-  if (const auto& size = arguments.block_size_mm; !size.empty())
-    std::get<FitTerrainOptions>(options).block_size_m = 1e-3 * Eigen::Vector2d(size[0], size[1]);
-  if (!arguments.last.empty()) {
-    FORESIGHT_TRY(std::get<FitTerrainOptions>(options).last, LastTerrain(arguments.last));
-  }
+  FORESIGHT_CHECK(ApplyFlags(FitOptionTable(arguments.kind), arguments.given,
+                             fmt::format("a {}'s fit", ToString(arguments.kind)), options));
+  const Status sound = std::visit([](const auto& held) { return held.Check(); }, options);
+  if (!sound) return tl::unexpected(sound.error());
   return options;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "app/common/option_flags.h"
 #include "app/ctl/depth_files.h"
 #include "app/ctl/open_scan.h"
 #include "core/detection/fit_in_scan.h"
@@ -34,10 +34,7 @@ struct FitArguments {
   std::vector<double> up = {0.0, 0.0, 1.0};
   std::string rig;
 
-  std::string drill_template;
-  std::vector<double> block_size_mm;
-  std::string last;  ///< the JSON of an earlier terrain
-  std::uint64_t seed = 1;
+  GivenFlags given;  ///< of FitOptionTable
 
   bool save = false;
   bool json = false;
@@ -45,8 +42,7 @@ struct FitArguments {
   std::string gallery;
 };
 
-/// Adds what any fit is given: scan, depth map or cloud, region, source, seed, --json and
-/// --picture.
+/// Adds what any fit is given: scan, depth map or cloud, region, source, --json and --picture.
 void AddSubjectArguments(CLI::App& command, FitArguments& arguments);
 
 /// The same, and what belongs to the kind of object in `arguments`.
@@ -59,8 +55,7 @@ Status CheckFitArguments(const FitArguments& arguments);
 Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
                        const Rigid<frame::Robot, frame::Base>& robot_from_base);
 
-/// The fit's options as the command line wants them. Fails as LoadDrillTemplate, ReadFile and
-/// DetectionFromJson do.
+/// The fit's options as the command line wants them. Fails as ApplyFlags does.
 Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
                                   const Rigid<frame::Robot, frame::Base>& robot_from_base);
 

@@ -3,18 +3,28 @@
 #include "app/ctl/command.h"
 #include "app/ctl/fit_gallery.h"
 #include "app/ctl/fit_subject.h"
-#include "app/ctl/save_detection.h"
 #include "core/detection/detection_json.h"
 #include "core/detection/facts.h"
 #include "core/io/png.h"
+#include "core/mission/mission_file.h"
+#include "core/mission/new_records.h"
 
 namespace foresight {
 namespace {
 
-Status Save(const FitArguments& arguments, const FitSubject& subject, const Detection& detection) {
+Status Save(const FitArguments& arguments, const FitSubject& subject, const FitAnswer& answer) {
+  FORESIGHT_TRY(const FitOptions options, FitOptionsFrom(arguments, subject.rig.robot_from_base));
+  FORESIGHT_TRY(const NamedSource source, FitSourceFromName(OriginOf(*answer.detection).source));
+  const DepthResult* depth = answer.depth ? &*answer.depth : nullptr;
+  FORESIGHT_TRY(const Provenance provenance,
+                ProvenanceOfFit(subject.scan->scan, source.source, depth,
+                                depth != nullptr ? depth->options.mask : ConfidenceMaskOptions(),
+                                options, subject.roi));
+  DetectionRecord record = NewDetectionRecord(subject.scan->scan, *answer.detection, provenance);
+  record.scan_id = subject.scan->id;
   FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
                 MissionFile::Open(arguments.scan.mission));
-  FORESIGHT_CHECK(SaveDetection(*mission, subject.scan->id, detection, subject.rig));
+  FORESIGHT_CHECK(mission->AddDetection(record));
   return mission->Close();
 }
 
@@ -55,7 +65,7 @@ Result<ExitCode> Fit(const FitArguments& arguments, const RunContext& context) {
     return ExitCode::kNegative;
   }
   FORESIGHT_TRY(const Detection detection, answer.detection);
-  if (arguments.save) FORESIGHT_CHECK(Save(arguments, subject, detection));
+  if (arguments.save) FORESIGHT_CHECK(Save(arguments, subject, answer));
   if (!arguments.picture.empty())
     FORESIGHT_CHECK(WritePng(arguments.picture, PictureOf(subject, detection)));
   if (arguments.json)

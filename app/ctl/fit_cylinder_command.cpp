@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/common/seed_option.h"
 #include "app/ctl/command.h"
 #include "app/ctl/fit_subject.h"
 #include "core/detection/cylinder_json.h"
@@ -13,6 +14,7 @@ namespace {
 
 struct FitCylinderArguments {
   FitArguments fit;
+  std::uint64_t seed = 1;
   std::vector<double> radius_mm = {10.0, 600.0};
 };
 
@@ -46,7 +48,7 @@ Result<CylinderDetection> FitIn(const FitSubject& subject, const FitCylinderArgu
                                 const RunContext& context) {
   FitCylinderOptions options;
   options.up = subject.rig.robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
-  options.seed = arguments.fit.seed;
+  options.seed = arguments.seed;
   options.min_radius_m = 1e-3 * arguments.radius_mm[0];
   options.max_radius_m = 1e-3 * arguments.radius_mm[1];
   FORESIGHT_CHECK(options.Check());
@@ -91,6 +93,8 @@ void AddFitCylinderCommand(CLI::App& app, Invocation& invocation) {
       ->add_option("--radius-mm", arguments->radius_mm, "Least and largest radius in millimetres")
       ->expected(2)
       ->delimiter(',')
+      ->capture_default_str();
+  AddSeedOption(*command, "--seed", arguments->seed, "Seed of the random search")
       ->capture_default_str();
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) { return Fit(*arguments, context); };

@@ -3,6 +3,7 @@
 
 #include "app/common/run_program.h"
 #include "app/ctl/command.h"
+#include "core/base/version.h"
 
 namespace foresight {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 int Main(int argc, char** argv) {
   CLI::App app{"foresightctl: scan, depth, fits and evaluation without the workstation"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", "foresightctl " FORESIGHT_VERSION);
+  app.set_version_flag("--version", std::string("foresightctl ") + ProgramVersion());
   Invocation invocation;
   AddScanCommand(app, invocation);
   AddDepthCommand(app, invocation);
@@ -24,6 +25,7 @@ int Main(int argc, char** argv) {
   AddDemoCommand(app, invocation);
   AddEmulateCommand(app, invocation);
   AddHealthCommand(app, invocation);
+  AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);
   return RunProgram("foresightctl", app, argc, argv,
                     [&](const RunContext& context) { return invocation(context); });

@@ -9,6 +9,7 @@
 #include "app/common/record_scan.h"
 #include "app/common/run_program.h"
 #include "core/base/atomic_file.h"
+#include "core/base/version.h"
 #include "core/mission/plan_json.h"
 #include "hardware/assembly/real_head.h"
 
@@ -70,7 +71,7 @@ int Main(int argc, char** argv) {
   app.add_option("-o,--out", arguments.out, "Mission file; a scan is added to one that exists")
       ->required();
   app.add_flag("--json", arguments.json, "Print the result as JSON");
-  app.set_version_flag("--version", "foresight-head " FORESIGHT_VERSION);
+  app.set_version_flag("--version", std::string("foresight-head ") + ProgramVersion());
   app.final_callback([&] {
     if (config->empty() && emulate->empty()) throw CLI::RequiredError("--head-config or --emulate");
   });

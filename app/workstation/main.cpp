@@ -10,6 +10,7 @@
 #include "app/workstation/quit_on_signal.h"
 #include "app/workstation/unattended.h"
 #include "core/base/log.h"
+#include "core/base/version.h"
 #include "hardware/assembly/real_head.h"
 #include "hardware/simulated/simulated_head.h"
 #include "ui/panels/theme.h"
@@ -54,7 +55,7 @@ int Parse(int argc, char** argv, Options* options) {
   app.add_flag("--scan", options->unattended.scan, "Start a scan as soon as the head is ready");
   app.add_option("--screenshot", options->unattended.screenshot,
                  "Save an image of the window when all is computed, then quit");
-  app.set_version_flag("--version", FORESIGHT_VERSION);
+  app.set_version_flag("--version", ProgramVersion());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {

@@ -84,10 +84,14 @@ Result<DepthResult> LiveDepth::Update(const RegisteredScan& scan, const RunConte
   FORESIGHT_CHECK(AlignNewLines(scan, context.Part(0.0, 0.05)));
   if (std::holds_alternative<std::monostate>(upsampler_)) {
     filtered_rows_ = aligned_.height;
-    return ComputeDepth(aligned_, frame_.image, options_, context.Part(0.05, 1.0));
+    FORESIGHT_TRY(DepthResult all,
+                  ComputeDepth(aligned_, frame_.image, options_, context.Part(0.05, 1.0)));
+    all.image_seq = frame_.seq;
+    return all;
   }
   DepthResult result;
-  result.method = options_.method;
+  result.options = options_;
+  result.image_seq = frame_.seq;
   result.samples = aligned_;
   FORESIGHT_CHECK(result.samples.Check());
   FORESIGHT_CHECK(RejectOutliers(result.samples, options_, context.Part(0.05, 0.1)));

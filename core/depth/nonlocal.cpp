@@ -124,7 +124,7 @@ Status NonlocalOptions::Check() const {
     return Fail(ErrorCode::kInvalidOptions, "nonlocal: sigma_color {} is not positive",
                 sigma_color);
   if (!positive(nonlocal_fraction))
-    return Fail(ErrorCode::kInvalidOptions, "nonlocal: nonlocal_share {} is not positive",
+    return Fail(ErrorCode::kInvalidOptions, "nonlocal: nonlocal_fraction {} is not positive",
                 nonlocal_fraction);
   FORESIGHT_CHECK(within(window_radius_px, 2, 20, "window_radius_px"));
   FORESIGHT_CHECK(within(patch_radius_px, 0, 10, "patch_radius_px"));

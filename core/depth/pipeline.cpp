@@ -50,7 +50,7 @@ Result<DepthResult> ComputeDepth(AlignedSamples samples, const ColorImage& guide
   FORESIGHT_CHECK(RejectOutliers(samples, options, context));
 
   DepthResult result;
-  result.method = options.method;
+  result.options = options;
   FORESIGHT_TRY(result.dense, Densify(samples, guide, options, context.Part(0.1, 1.0)));
   FORESIGHT_TRY(result.mask, MaskLowConfidence(result.dense, options.mask));
   result.density = LocalDensity(samples);
@@ -64,7 +64,10 @@ Result<DepthResult> ComputeDepthInFrame(const RegisteredScan& scan, const Sensor
                                         const RunContext& context) {
   FORESIGHT_TRY(AlignedSamples samples,
                 AlignToImage(scan, rig, frame.motor_angle_rad, context.Part(0.0, 0.1)));
-  return ComputeDepth(std::move(samples), frame.image, options, context.Part(0.1, 1.0));
+  FORESIGHT_TRY(DepthResult result,
+                ComputeDepth(std::move(samples), frame.image, options, context.Part(0.1, 1.0)));
+  result.image_seq = frame.seq;
+  return result;
 }
 
 }  // namespace foresight

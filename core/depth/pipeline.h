@@ -38,8 +38,9 @@ struct DepthOptions {
 
 /// Everything the pipeline made on the way, so that any stage can be looked at.
 struct DepthResult {
-  DepthMethod method = DepthMethod::kPaper;
-  AlignedSamples samples;  ///< with the reason of each rejection
+  DepthOptions options;         ///< that it was made with
+  std::int64_t image_seq = -1;  ///< CameraFrame::seq of the image; -1 = not an image of a head
+  AlignedSamples samples;       ///< with the reason of each rejection
   DenseDepth dense;
   MaskImage mask;
   double density = 0.0;  ///< LocalDensity of the samples

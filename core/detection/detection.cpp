@@ -7,6 +7,12 @@ const char* ToString(ObjectKind kind) {
   return kKinds[static_cast<std::size_t>(kind)];
 }
 
+Result<ObjectKind> ObjectKindFromString(const std::string& name) {
+  for (const ObjectKind kind : kObjectKinds)
+    if (name == ToString(kind)) return kind;
+  return Fail(ErrorCode::kBadData, "object '{}' is not known", name);
+}
+
 ObjectKind ObjectKindOf(const Detection& detection) {
   return kObjectKinds[detection.index()];
 }

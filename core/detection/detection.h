@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "core/base/result.h"
 #include "core/fitting/drill/drill_detection.h"
 #include "core/fitting/terrain/terrain_detection.h"
 #include "core/fitting/valve/valve_detection.h"
@@ -19,6 +20,8 @@ inline constexpr std::array kObjectKinds = {ObjectKind::kValve, ObjectKind::kDri
                                             ObjectKind::kTerrain};
 /// "valve", "drill", "terrain": the kind in files and on command lines.
 const char* ToString(ObjectKind kind);
+/// The reverse; fails with kBadData.
+Result<ObjectKind> ObjectKindFromString(const std::string& name);
 
 ObjectKind ObjectKindOf(const Detection& detection);
 const char* KindOf(const Detection& detection);

@@ -48,4 +48,21 @@ Result<Detection> DetectionFromJson(std::string_view text) {
   }
 }
 
+std::string RoiToJson(const Roi& roi) {
+  return ToJson(roi).dump();
+}
+
+Result<Roi> RoiFromJson(std::string_view text) {
+  try {
+    Roi roi = RoiFrom(ParseJson(text));
+    const Status sound = CheckRoi(roi);
+    if (!sound) return Fail(ErrorCode::kBadData, "region: {}", sound.error().message);
+    return roi;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    return Fail(ErrorCode::kBadData, "region: {}", failure.what());
+  }
+}
+
 }  // namespace foresight

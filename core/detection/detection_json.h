@@ -17,4 +17,9 @@ std::string DetectionToJson(const Detection& detection,
 /// are not kept: they belong to rays. Fails with kBadData, naming the member at fault.
 Result<Detection> DetectionFromJson(std::string_view text);
 
+/// A region as one line of JSON, as in a detection's `roi`.
+std::string RoiToJson(const Roi& roi);
+/// Bit for bit what was written. Fails with kBadData, and where CheckRoi does.
+Result<Roi> RoiFromJson(std::string_view text);
+
 }  // namespace foresight

@@ -99,8 +99,8 @@ Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const R
   FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
   FORESIGHT_TRY(Detection detection, FitInRays(rays, options, context));
   OriginOf(detection).roi = roi;
-  OriginOf(detection).source =
-      NameOf({source, scan.depth != nullptr ? scan.depth->method : DepthMethod::kForesight});
+  OriginOf(detection).source = NameOf(
+      {source, scan.depth != nullptr ? scan.depth->options.method : DepthMethod::kForesight});
   return detection;
 }
 

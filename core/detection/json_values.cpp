@@ -33,6 +33,11 @@ Rigid<To, frame::Object> FrameFrom(const Json& value) {
   if (!(position.array().abs() <= kFarthest_m).all())
     throw std::invalid_argument(fmt::format("position_m ({}, {}, {}) is not within {} m",
                                             position.x(), position.y(), position.z(), kFarthest_m));
+  // What a program wrote has length 1 to the last digits and stays as it is, bit for bit; what
+  // somebody typed is brought to length 1.
+  constexpr double kRounding = 1e-15;
+  if (std::abs(rotation.squaredNorm() - 1.0) <= kRounding)
+    return Rigid<To, frame::Object>::FromUnit(rotation, position);
   return {rotation, position};
 }
 
@@ -40,29 +45,6 @@ VerdictLevel LevelFrom(const std::string& name) {
   const Result<VerdictLevel> level = VerdictLevelFromString(name);
   if (!level) throw std::invalid_argument(level.error().message);
   return *level;
-}
-
-Json RoiToJson(const Roi& roi) {
-  if (const auto* box = std::get_if<BoxRoi>(&roi))
-    return {{"base_from_box", ToJson(box->base_from_box)}, {"size_m", ToJson(box->size_m)}};
-  const auto& image = std::get<ImageRoi>(roi);
-  Json polygon = Json::array();
-  for (const Eigen::Vector2d& corner : image.polygon) polygon.push_back(ToJson(corner));
-  return {{"motor_rad", image.motor_rad}, {"polygon_px", polygon}};
-}
-
-Roi RoiFrom(const Json& value) {
-  if (value.contains("base_from_box"))
-    return BoxRoi{PoseFrom(value.at("base_from_box")), Vector3From(value.at("size_m"))};
-  ImageRoi roi;
-  roi.motor_rad = NumberFrom(value.at("motor_rad"));
-  for (const Json& corner : ListIn(value, "polygon_px", kMostCorners)) {
-    roi.polygon.push_back(Vector2From(corner));
-    if (!(roi.polygon.back().array().abs() <= kFarthest_px).all())
-      throw std::invalid_argument(fmt::format("a corner of polygon_px is at ({}, {})",
-                                              roi.polygon.back().x(), roi.polygon.back().y()));
-  }
-  return roi;
 }
 
 }  // namespace
@@ -170,8 +152,31 @@ const Json& AlternativesIn(const Json& object) {
   return ListIn(object, key, kMostAlternatives);
 }
 
+Json ToJson(const Roi& roi) {
+  if (const auto* box = std::get_if<BoxRoi>(&roi))
+    return {{"base_from_box", ToJson(box->base_from_box)}, {"size_m", ToJson(box->size_m)}};
+  const auto& image = std::get<ImageRoi>(roi);
+  Json polygon = Json::array();
+  for (const Eigen::Vector2d& corner : image.polygon) polygon.push_back(ToJson(corner));
+  return {{"motor_rad", image.motor_rad}, {"polygon_px", polygon}};
+}
+
+Roi RoiFrom(const Json& value) {
+  if (value.contains("base_from_box"))
+    return BoxRoi{PoseFrom(value.at("base_from_box")), Vector3From(value.at("size_m"))};
+  ImageRoi roi;
+  roi.motor_rad = NumberFrom(value.at("motor_rad"));
+  for (const Json& corner : ListIn(value, "polygon_px", kMostCorners)) {
+    roi.polygon.push_back(Vector2From(corner));
+    if (!(roi.polygon.back().array().abs() <= kFarthest_px).all())
+      throw std::invalid_argument(fmt::format("a corner of polygon_px is at ({}, {})",
+                                              roi.polygon.back().x(), roi.polygon.back().y()));
+  }
+  return roi;
+}
+
 void AddOrigin(const FitOrigin& origin, Json& object) {
-  object["roi"] = RoiToJson(origin.roi);
+  object["roi"] = ToJson(origin.roi);
   object["source"] = origin.source;
   object["seconds"] = origin.seconds;
 }

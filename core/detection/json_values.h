@@ -48,6 +48,10 @@ Verdict VerdictFrom(const Json& object);
 /// The array `alternatives`, or `rivals` as earlier programs called it.
 const Json& AlternativesIn(const Json& object);
 
+/// A region: corners in pixels at a motor angle, or a box in base.
+Json ToJson(const Roi& roi);
+Roi RoiFrom(const Json& value);
+
 /// `roi`, `source`, `seconds`.
 void AddOrigin(const FitOrigin& origin, Json& object);
 FitOrigin OriginFrom(const Json& object);

@@ -1,11 +1,11 @@
 #include "core/io/point_cloud_file.h"
 
 #include <bit>
-#include <chrono>
 #include <string>
 
 #include "core/base/atomic_file.h"
 #include "core/base/printable.h"
+#include "core/base/utc_text.h"
 
 namespace foresight {
 namespace {
@@ -27,18 +27,6 @@ void AppendCommonFields(std::string& bytes, const CloudPoint& point) {
 }
 
 constexpr std::size_t kMaxBytesPerPoint = 28;
-
-/// "2026-11-22T13:06:33.250Z"
-std::string UtcText(std::int64_t utc_ns) {
-  using namespace std::chrono;
-  const sys_time<nanoseconds> time{nanoseconds(utc_ns)};
-  const auto day = floor<days>(time);
-  const year_month_day date(day);
-  const hh_mm_ss clock(floor<milliseconds>(time - day));
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", int{date.year()},
-                     unsigned{date.month()}, unsigned{date.day()}, clock.hours().count(),
-                     clock.minutes().count(), clock.seconds().count(), clock.subseconds().count());
-}
 
 /// One line a fact, each after `mark`: how the format begins a comment.
 std::string Comments(const char* mark, const CloudOrigin& origin) {

@@ -36,6 +36,7 @@ struct DrillTemplate {
   Eigen::Vector3d bit_direction = Eigen::Vector3d::UnitX();
   Rigid<frame::Object, frame::Object> object_from_grasp;
   Eigen::Vector3d trigger_m = Eigen::Vector3d::Zero();
+  std::string yaml;  ///< the text that it was read from
 
   /// Fails with kInvalidOptions, naming the part or member at fault.
   Status Check() const;

@@ -109,6 +109,7 @@ Result<DrillTemplate> DrillTemplateFromYaml(const std::string& yaml, const std::
     drill = TemplateFrom(map);
     map.Finish();
   }));
+  drill.yaml = yaml;
   return drill;
 }
 

@@ -78,6 +78,7 @@ bool IsVtk(const std::string& target) {
 const std::vector<std::string> kCoreOrder = {"base",
                                              "geometry",
                                              "io",
+                                             "options",
                                              "sensor",
                                              "objects",
                                              "simulation",

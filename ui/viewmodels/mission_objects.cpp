@@ -1,20 +1,11 @@
 #include "ui/viewmodels/mission_objects.h"
 
-#include <pwd.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "core/detection/detection_json.h"
 
 namespace foresight {
 namespace {
-
-std::int64_t NowUtc_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 /// The id of the scan in the file; 0 where the file does not hold it.
 Result<std::int64_t> ScanIdOf(const MissionFile& file, const std::string& uuid) {
@@ -25,11 +16,6 @@ Result<std::int64_t> ScanIdOf(const MissionFile& file, const std::string& uuid) 
 }
 
 }  // namespace
-
-std::string OperatorName() {
-  const passwd* account = getpwuid(getuid());
-  return account != nullptr && account->pw_name != nullptr ? account->pw_name : "operator";
-}
 
 DetectionRecord RecordOf(const FoundObject& object, const std::string& author) {
   DetectionRecord record;

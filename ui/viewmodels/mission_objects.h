@@ -3,12 +3,10 @@
 #include <vector>
 
 #include "core/mission/mission_file.h"
+#include "core/mission/new_records.h"
 #include "ui/viewmodels/session_model.h"
 
 namespace foresight {
-
-/// Who works at this computer, for records: the name of the user's account.
-std::string OperatorName();
 
 /// A found object as a mission keeps it. `scan_id` is left for the file to fill in.
 DetectionRecord RecordOf(const FoundObject& object, const std::string& author);

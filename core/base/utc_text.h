@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace foresight {
+
+/// "2026-11-22T13:06:33.250Z" of nanoseconds since 1970.
+std::string UtcText(std::int64_t utc_ns);
+
+}  // namespace foresight

@@ -1,0 +1,9 @@
+#include "core/base/version.h"
+
+namespace foresight {
+
+const char* ProgramVersion() {
+  return FORESIGHT_VERSION;
+}
+
+}  // namespace foresight

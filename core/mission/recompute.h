@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/mission/mission_file.h"
+#include "core/mission/provenance.h"
+
+namespace foresight {
+
+/// What came out when a record was made again.
+struct Recomputed {
+  enum class Outcome {
+    kSame,        ///< to the last bit
+    kDifferent,   ///< `differences` says where
+    kNotPossible  ///< `differences` says why: no provenance, no such scan, the fit failed, ...
+  };
+  Outcome outcome = Outcome::kSame;
+  /// "pose.position_m.0: was 1.2, is 1.3"; at most kMostDifferences.
+  std::vector<std::string> differences;
+  static constexpr std::size_t kMostDifferences = 20;
+};
+/// "same", "different", "not possible".
+const char* ToString(Recomputed::Outcome outcome);
+
+/// Makes what a mission keeps again, from the scan and the record's own provenance, by the
+/// functions that every program calls. Scan and depth map of the last record are kept: records of
+/// one scan that follow each other cost its loading once. `seconds` are not compared.
+class Recomputer {
+ public:
+  /// @param scans the mission that holds the scans; it must outlive this
+  explicit Recomputer(const MissionFile& scans) : scans_(scans) {}
+
+  /// Fails with kCancelled, and where the scans cannot be read.
+  Result<Recomputed> RemakeDetection(const DetectionRecord& record, const RunContext& context);
+  Result<Recomputed> RemakeDepth(const DepthRecord& record, const RunContext& context);
+
+ private:
+  /// A scan with all that was made of it; empty `uuid` = none.
+  struct Opened {
+    std::string uuid;
+    Scan scan;
+    RegisteredScan cloud;
+    std::int64_t depth_image = -1;
+    std::string depth_options;
+    DepthResult depth;
+  };
+
+  /// Fails with kInvalidInput where the mission does not hold the scan.
+  Status OpenScan(const std::string& uuid, const RunContext& context);
+  /// Fails with kInvalidInput where the rig or the image is another one.
+  Status Prepare(const Provenance& provenance, const RunContext& context);
+
+  const MissionFile& scans_;
+  Opened opened_;
+};
+
+}  // namespace foresight
