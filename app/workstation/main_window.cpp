@@ -25,6 +25,7 @@
 #include "ui/panels/log_strip.h"
 #include "ui/panels/mission_panel.h"
 #include "ui/panels/objects_panel.h"
+#include "ui/panels/options_panel.h"
 #include "ui/panels/source_gallery.h"
 #include "ui/panels/task_strip.h"
 #include "ui/views/cloud_pane.h"
@@ -35,7 +36,7 @@ namespace foresight {
 namespace {
 
 /// Counts up when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 2;
+constexpr int kLayoutVersion = 3;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
 constexpr QSize kUsualSize(1600, 1000);
@@ -173,6 +174,15 @@ void MainWindow::AddWindowCommands() {
                 .tip = tr("Put every pane back to its place"),
                 .keys = QStringLiteral("Ctrl+Shift+L"),
                 .run = [this] { ResetLayout(); }});
+  commands.Add({.id = "view.options",
+                .menu = "view",
+                .text = tr("Options"),
+                .tip = tr("All options of the depth map and of the fit"),
+                .keys = QStringLiteral("O"),
+                .run = [this] {
+                  if (options_dock_->isClosed()) options_dock_->toggleView(true);
+                  options_dock_->setAsCurrentTab();
+                }});
   commands.Add({.id = "help.shortcuts",
                 .menu = "help",
                 .icon = "help",
@@ -247,16 +257,20 @@ void MainWindow::BuildDocks() {
   const auto objects = [commands](Desk* desk) {
     return new ObjectsPanel(&desk->session, &desk->fit, commands);
   };
+  const auto options = [](Desk* desk) { return new OptionsPanel(&desk->depth, &desk->fit); };
   mission_ = new MissionPanel(&bench_->recording, &bench_->reviewer, commands);
   gallery_ = new SourceGallery;
 
   auto* centre = docks_->addDockWidget(ads::CenterDockWidgetArea,
                                        Dock("cloud", tr("3D cloud"), Stack(cloud_, MakeCloudPane)));
   auto* left = docks_->addDockWidget(
-      ads::LeftDockWidgetArea,
-      Dock("head", tr("Head"), new HeadPanel(&bench_->head, commands)));
-  docks_->addDockWidget(ads::RightDockWidgetArea,
-                        Dock("objects", tr("Objects"), Stack(objects(&bench_->live), objects)));
+      ads::LeftDockWidgetArea, Dock("head", tr("Head"), new HeadPanel(&bench_->head, commands)));
+  auto* right =
+      docks_->addDockWidget(ads::RightDockWidgetArea,
+                            Dock("objects", tr("Objects"), Stack(objects(&bench_->live), objects)));
+  options_dock_ = Dock("options", tr("Options"), Stack(options(&bench_->live), options));
+  docks_->addDockWidgetTabToArea(options_dock_, right);
+  right->setCurrentIndex(0);
   auto* top = docks_->addDockWidget(
       ads::TopDockWidgetArea, Dock("picture", tr("Image"), Stack(image_, MakeImagePane)), centre);
   docks_->addDockWidget(

@@ -18,6 +18,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
   connect(&head, &HeadViewModel::stopReleased, this, [this] { log.close(kStopTopic); });
   connect(&head, &HeadViewModel::scanStarted, &recording, &RecordingViewModel::refreshList);
   connect(&head, &HeadViewModel::scanEnded, &recording, &RecordingViewModel::keepScan);
+  connect(&live.depth, &DepthViewModel::computed, &recording, &RecordingViewModel::keepDepth);
   connect(&recording, &RecordingViewModel::allWritten, this,
           [this] { log.close(kRecordingTopic); });
   for (SessionModel* session : {&live.session, &review.session})

@@ -31,9 +31,10 @@ struct UpsampleOptions {
 
 /// A dense depth map with what is known about its trustworthiness.
 struct DenseDepth {
-  DepthImage depth_m;           ///< metres along z; NaN where no sample supports the pixel
-  FloatImage confidence;        ///< C of Eq. (9); 0 where there is no depth
-  /// False: the method knows none, and `confidence` is the lidar's coverage, 1 or 0 (LidarCoverage).
+  DepthImage depth_m;     ///< metres along z; NaN where no sample supports the pixel
+  FloatImage confidence;  ///< C of Eq. (9); 0 where there is no depth
+  /// False: the method knows none, and `confidence` is the lidar's coverage, 1 or 0
+  /// (LidarCoverage).
   bool has_confidence = true;
   float max_confidence = 0.0f;  ///< the largest in the image
   /// What a pixel amid samples at the image's density that all agree would have; 1 where the
@@ -60,6 +61,7 @@ struct ConfidenceMaskOptions {
   double threshold = 0.35;  ///< of the reference, Section IV-C.2
   Reference reference = Reference::kLargest;
 
+  bool operator==(const ConfidenceMaskOptions&) const = default;
   Status Check() const;
 };
 

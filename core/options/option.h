@@ -30,11 +30,11 @@ using OptionValue =
 
 /// What every surface needs to know of an option: the command line, records, and the panels.
 struct OptionInfo {
-  std::string key;         ///< in JSON and records: the member, "flying.threshold_m"
+  std::string key = "";    ///< in JSON and records: the member, "flying.threshold_m"
   std::string flag = "";   ///< on the command line: "--flying-threshold-mm"; empty = not there
   std::string group = "";  ///< heading on panels
-  std::string title;       ///< on panels
-  std::string help;        ///< one sentence or less, for command line and panels
+  std::string title = "";  ///< on panels
+  std::string help = "";   ///< one sentence or less, for command line and panels
   OptionType type = OptionType::kNumber;
   std::string unit = "";      ///< that people type: "mm", "deg", "px"; empty = none
   double units_per_si = 1.0;  ///< what people type, for one of the value

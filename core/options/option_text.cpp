@@ -12,20 +12,21 @@ namespace {
 constexpr double kNoLow = std::numeric_limits<double>::lowest();
 constexpr double kNoHigh = std::numeric_limits<double>::max();
 
+template <class T>
+bool Parse(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
 /// The shortest text that is typed for a number: reading it gives the number again.
 std::string NumberText(const OptionInfo& info, double value) {
   const double typed = value * info.units_per_si;
   for (int digits = 6; digits < 17; ++digits) {
     const std::string text = fmt::format("{:.{}g}", typed, digits);
-    if (std::stod(text) / info.units_per_si == value) return text;
+    double read = 0.0;
+    if (Parse(text, read) && read / info.units_per_si == value) return text;
   }
   return fmt::format("{:.17g}", typed);
-}
-
-template <class T>
-bool Parse(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
 }
 
 Result<OptionValue> Refuse(const OptionInfo& info, const std::string& text) {

@@ -16,8 +16,9 @@ void Workstation::SetUpTestSuite() {
 void Workstation::TearDown() {
   if (HasFailure())
     QGuiApplication::primaryScreen()->grabWindow(0).save(
-        QStringLiteral("failed_%1.png")
-            .arg(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        QStringLiteral("%1/failed_%2.png")
+            .arg(QCoreApplication::applicationDirPath(),
+                 testing::UnitTest::GetInstance()->current_test_info()->name()));
 }
 
 }  // namespace foresight

@@ -5,8 +5,8 @@
 
 #include "hardware/api/health_watch.h"
 #include "hardware/head/scan_recorder.h"
-#include "tests/core/io/temporary_folder.h"
 #include "tests/hardware/tiny_head.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

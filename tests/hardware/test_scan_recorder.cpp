@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "hardware/head/scan_recorder.h"
-#include "tests/core/io/temporary_folder.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/hardware/tiny_head.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

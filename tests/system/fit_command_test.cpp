@@ -122,6 +122,49 @@ TEST_F(FitOfAScan, AnAnswerThatIsSavedStaysInTheMission) {
   EXPECT_TRUE(DetectionFromJson(detections->front().json));
 }
 
+TEST_F(FitOfAScan, WhatIsSavedIsMadeAgainWithoutADifferenceAndAChangeOfItIsNamed) {
+  const std::string copy = *folder_ / "again.foresight";
+  std::filesystem::copy_file(mission_, copy);
+  const auto recheck = [&] { return Run({"mission", "check", "--recompute", "--json", copy}); };
+  EXPECT_LE(
+      Run({"fit", "valve", copy, "--roi", kRegion, "--source", "paper", "--sigma-spatial", "9.3",
+           "--threshold", "0.4", "--seed", "18446744073709551615", "--max-spokes", "5", "--save"})
+          .exit_code,
+      1)
+      << "an UNSURE answer is kept too";
+  EXPECT_EQ(
+      Run({"depth", copy, "--save", "--flying", "adaptive", "--out", *folder_ / "d"}).exit_code, 0);
+  const ProgramResult same = recheck();
+  EXPECT_EQ(same.exit_code, 0) << same.output << same.errors;
+  const auto records = nlohmann::json::parse(same.output).at("recomputed");
+  ASSERT_EQ(records.size(), 2u);
+  for (const auto& record : records) EXPECT_EQ(record.at("outcome"), "same") << record;
+
+  {
+    const auto mission = MissionFile::Open(copy).value();
+    DetectionRecord other = mission->ListDetections()->front();
+    other.uuid = "other";
+    const std::size_t at = other.provenance_json.find("\"max_spokes\":5");
+    ASSERT_NE(at, std::string::npos);
+    other.provenance_json.replace(at, 14, "\"max_spokes\":2");
+    ASSERT_TRUE(mission->AddDetection(other));
+  }
+  const ProgramResult different = recheck();
+  EXPECT_EQ(different.exit_code, 1) << different.errors;
+  EXPECT_EQ(nlohmann::json::parse(different.output).at("different"), 1);
+}
+
+TEST_F(FitOfAScan, TheMissionListsItsScans) {
+  const ProgramResult list = Run({"mission", "list", "--json", mission_});
+  ASSERT_EQ(list.exit_code, 0) << list.errors;
+  const auto scans = nlohmann::json::parse(list.output).at("scans");
+  ASSERT_EQ(scans.size(), 1u);
+  EXPECT_EQ(scans[0].at("state"), "complete");
+  EXPECT_NEAR(scans[0].at("to_deg").get<double>(), 15.0, 1e-9);
+  EXPECT_EQ(Run({"mission", "list", *folder_ / "none.foresight"}).exit_code, 3);
+  EXPECT_EQ(Run({"mission", "check", mission_}).exit_code, 0);
+}
+
 TEST_F(FitOfAScan, ADepthMapIsFittedWithItsCamera) {
   const std::string out = Rendered();
   const std::vector<std::string> fit = {"fit",    "valve",           "--depth", out + "/depth.pfm",

@@ -151,6 +151,9 @@ QWidget* ObjectsPanel::BuildFitRow(CommandTable* commands) {
   source_->addItem(tr("to depth map"));
   source_->setItemData(1, tr("The masked depth, and the lidar's points behind it"),
                        Qt::ToolTipRole);
+  source_->addItem(tr("to depth map alone"));
+  source_->setItemData(2, tr("The masked depth, without the lidar's points behind it"),
+                       Qt::ToolTipRole);
   source_->setToolTip(tr("Which measurements the template is fitted to"));
   fit_button_ = new QPushButton(Icon("fit"), {});
   layout->addWidget(shape_, 0, 0);
@@ -164,7 +167,7 @@ QWidget* ObjectsPanel::BuildFitRow(CommandTable* commands) {
     box->setMinimumContentsLength(4);
   }
   connect(source_, QOverload<int>::of(&QComboBox::activated), this,
-          [this](int index) { fit_->SetSource(index == 0 ? FitSource::kRaw : FitSource::kDepth); });
+          [this](int index) { fit_->SetSource(static_cast<FitSource>(index)); });
   return row;
 }
 

@@ -1,5 +1,6 @@
 #include "ui/viewmodels/depth_view_model.h"
 
+#include "core/depth/depth_option_table.h"
 #include "ui/viewmodels/depth_task.h"
 
 namespace foresight {
@@ -24,6 +25,12 @@ bool HasPasses(const DepthOptions& options) {
   return false;
 }
 
+/// Everything that a map depends on; the mask is made afterwards.
+std::string MapOptions(DepthOptions options) {
+  options.mask = {};
+  return DepthOptionsToJson(options);
+}
+
 }  // namespace
 
 DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
@@ -34,7 +41,6 @@ DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
 void DepthViewModel::setThreshold(double threshold) {
   if (threshold == options_.mask.threshold) return;
   options_.mask.threshold = threshold;
-  thresholds_[options_.method] = threshold;
   Q_EMIT thresholdChanged(threshold);
   UpdateMask();
 }
@@ -44,20 +50,45 @@ void DepthViewModel::UpdateMask() {
   auto mask = MaskLowConfidence(session_->Depth()->dense, options_.mask);
   if (!mask)
     session_->Report(NoticeOf(tr("Masking"), mask.error()));
-  else if (*mask != *session_->Mask())
-    session_->SetMask(std::make_shared<const MaskImage>(std::move(*mask)));
+  else if (*mask != *session_->Mask() || options_.mask != session_->MaskOptions())
+    session_->SetMask(std::make_shared<const MaskImage>(std::move(*mask)), options_.mask);
 }
 
 void DepthViewModel::setMethod(DepthMethod method) {
   if (method == options_.method) return;
-  const bool keeps_passes = options_.upsample.keep_iterations;
-  options_ = DefaultsOf(method);
-  KeepPasses(keeps_passes, options_);
-  if (const auto used = thresholds_.find(method); used != thresholds_.end())
-    options_.mask.threshold = used->second;
-  Q_EMIT methodChanged();
-  Q_EMIT thresholdChanged(options_.mask.threshold);
+  used_[options_.method] = options_;
+  const auto used = used_.find(method);
+  Use(used == used_.end() ? DefaultsOf(method) : used->second);
   compute();
+}
+
+void DepthViewModel::Use(const DepthOptions& options) {
+  const bool keeps_passes = options_.upsample.keep_iterations;
+  const bool other_method = options.method != options_.method;
+  options_ = options;
+  KeepPasses(keeps_passes, options_);
+  if (other_method) Q_EMIT methodChanged();
+  Q_EMIT optionsChanged();
+  Q_EMIT thresholdChanged(options_.mask.threshold);
+}
+
+Status DepthViewModel::SetOption(const std::string& key, const OptionValue& value) {
+  const Option<DepthOptions>* option = FindOption(DepthOptionTable(), key);
+  FORESIGHT_EXPECTS(option != nullptr, "the table of options has the key");
+  DepthOptions wanted = options_;
+  FORESIGHT_CHECK(foresight::SetOption(*option, wanted, value));
+  FORESIGHT_CHECK(wanted.Check());
+  const bool same_map = MapOptions(wanted) == MapOptions(options_);
+  Use(wanted);
+  same_map ? UpdateMask() : compute();
+  return {};
+}
+
+void DepthViewModel::resetOptions() {
+  const DepthOptions usual = DefaultsOf(options_.method);
+  const bool same_map = MapOptions(usual) == MapOptions(options_);
+  Use(usual);
+  same_map ? UpdateMask() : compute();
 }
 
 void DepthViewModel::setKeepIterations(bool keep) {
@@ -115,16 +146,19 @@ void DepthViewModel::Accept(const DepthOptions& used, Result<DepthResult> depth)
   shown_ = used;
   session_->SetDepth(std::make_shared<const DepthResult>(std::move(*depth)));
   UpdateMask();  // the threshold may have moved while the depth was being computed
+  Q_EMIT computed();
 }
 
 void DepthViewModel::ReturnToShown() {
-  if (!session_->Depth() || options_.method == shown_.method) return;
+  if (!session_->Depth() || MapOptions(options_) == MapOptions(shown_)) return;
   // The old depth stays on the screen: what is chosen must name it.
-  options_ = shown_;
-  if (const auto last = thresholds_.find(options_.method); last != thresholds_.end())
-    options_.mask.threshold = last->second;
-  Q_EMIT methodChanged();
-  Q_EMIT thresholdChanged(options_.mask.threshold);
+  DepthOptions last = shown_;
+  const auto used = used_.find(shown_.method);
+  if (shown_.method == options_.method)
+    last.mask = options_.mask;
+  else if (used != used_.end())
+    last.mask = used->second.mask;
+  Use(last);
   UpdateMask();
 }
 

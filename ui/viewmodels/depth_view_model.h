@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/depth/depth_method.h"
+#include "core/options/option.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
@@ -29,19 +30,27 @@ class DepthViewModel : public QObject {
   TaskRunner* Runner() { return &runner_; }
   /// How often the depth was computed; a mask alone does not count.
   int ComputedCount() const { return computed_; }
+  /// An option of DepthOptionTable by its key: computes again, or only the mask where nothing else
+  /// depends on it. Fails with kInvalidOptions, and leaves everything as it is.
+  Status SetOption(const std::string& key, const OptionValue& value);
 
  public Q_SLOTS:
   /// In [0, 1], of the largest confidence in the image.
   void setThreshold(double threshold);
-  /// Computes again with the defaults of the method and the threshold last used with it.
+  /// Computes again with the options last used with the method, its defaults at first.
   void setMethod(foresight::DepthMethod method);
   /// Keeps every pass of the filter from now on: one map each. Computes again when the depth on the
   /// screen has none.
   void setKeepIterations(bool keep);
+  /// The method's defaults again.
+  void resetOptions();
   /// Computes the depth of the current image again.
   void compute();
 
  Q_SIGNALS:
+  /// A depth map has been made; the session shows it.
+  void computed();
+  void optionsChanged();
   void thresholdChanged(double threshold);
   void methodChanged();
 
@@ -49,12 +58,13 @@ class DepthViewModel : public QObject {
   void ComputeOn(const std::shared_ptr<const Scan>& scan, int image);
   void Accept(const DepthOptions& used, Result<DepthResult> depth);
   void ReturnToShown();
+  void Use(const DepthOptions& options);
   void UpdateMask();
 
   SessionModel* session_;
   DepthOptions options_ = DefaultsOf(DepthMethods().front().method);
   DepthOptions shown_ = options_;
-  std::map<DepthMethod, double> thresholds_;  ///< last used with each method
+  std::map<DepthMethod, DepthOptions> used_;  ///< with the methods that are not chosen now
   TaskRunner runner_{session_->Tasks()};
   int computed_ = 0;
 };

@@ -1,5 +1,8 @@
 #include "ui/viewmodels/fit_view_model.h"
 
+#include "core/detection/fit_option_table.h"
+#include "core/mission/provenance.h"
+
 namespace foresight {
 
 Result<ImageRoi> RegionThrough(RegionShape shape, double motor_rad,
@@ -99,7 +102,40 @@ QString FitViewModel::Doing() const {
 }
 
 FitOptions FitViewModel::OptionsFor(ObjectKind kind) const {
-  FitOptions options = FitOptionsFor(kind, session_->CurrentScan()->rig.robot_from_base);
+  FitOptions options = UsualOptionsFor(kind);
+  const auto chosen = chosen_.find(kind);
+  if (chosen == chosen_.end()) return options;
+  for (const Option<FitOptions>& option : FitOptionTable(kind))
+    if (const auto value = chosen->second.find(option.info.key); value != chosen->second.end()) {
+      const Status set = foresight::SetOption(option, options, value->second);
+      FORESIGHT_EXPECTS(set.has_value(), "an option was tried when it was chosen");
+    }
+  return options;
+}
+
+Status FitViewModel::SetOption(const std::string& key, const OptionValue& value) {
+  const Option<FitOptions>* option = FindOption(FitOptionTable(kind_), key);
+  FORESIGHT_EXPECTS(option != nullptr, "the table of options has the key");
+  FitOptions wanted = OptionsFor(kind_);
+  FORESIGHT_CHECK(foresight::SetOption(*option, wanted, value));
+  FORESIGHT_CHECK(std::visit([](const auto& held) { return held.Check(); }, wanted));
+  if (option->get(UsualOptionsFor(kind_)) == value)
+    chosen_[kind_].erase(key);
+  else
+    chosen_[kind_][key] = value;
+  Q_EMIT changed();
+  return {};
+}
+
+void FitViewModel::resetOptions() {
+  chosen_.erase(kind_);
+  Q_EMIT changed();
+}
+
+FitOptions FitViewModel::UsualOptionsFor(ObjectKind kind) const {
+  const auto& scan = session_->CurrentScan();
+  const SensorRig& rig = scan ? scan->rig : session_->Rig();
+  FitOptions options = FitOptionsFor(kind, rig.robot_from_base);
   auto* terrain = std::get_if<FitTerrainOptions>(&options);
   if (terrain == nullptr) return options;
   for (const FoundObject& object : session_->Objects()) {
@@ -121,25 +157,28 @@ void FitViewModel::fit() {
   const FitOptions options = OptionsFor(kind_);
   const auto work = [scan = session_->CurrentScan(), cloud = session_->Cloud(),
                      depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Region(),
-                     source = source_, options](const RunContext& context) -> Result<Detection> {
+                     mask_options = session_->MaskOptions(), source = source_,
+                     options](const RunContext& context) -> Result<Found> {
     const ProcessedScan processed{scan->rig, *cloud, depth.get(), mask.get()};
-    return FitInScan(processed, source, roi, options, context);
+    FORESIGHT_TRY(Detection detection, FitInScan(processed, source, roi, options, context));
+    FORESIGHT_TRY(const Provenance provenance,
+                  ProvenanceOfFit(*scan, source, depth.get(), mask_options, options, roi));
+    return Found{std::move(detection), ProvenanceToJson(provenance)};
   };
-  runner_.Run<Detection>(Doing(), work,
-                         [this, scan = session_->CurrentScan()](const Result<Detection>& found) {
-                           Accept(scan, found);
-                         });
+  runner_.Run<Found>(
+      Doing(), work,
+      [this, scan = session_->CurrentScan()](const Result<Found>& found) { Accept(scan, found); });
 }
 
-void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan,
-                          const Result<Detection>& detection) {
-  if (!detection) {
-    session_->Report(NoticeOf(Doing(), detection.error()));
+void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan, const Result<Found>& found) {
+  if (!found) {
+    session_->Report(NoticeOf(Doing(), found.error()));
     return;
   }
   if (scan != session_->CurrentScan()) return;
   FoundObject object;
-  object.detection = *detection;
+  object.detection = found->detection;
+  object.provenance_json = found->provenance_json;
   object.rig = scan->rig;
   object.scan_uuid = scan->uuid;
   object.scan_time = session_->ScanTime();

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <QObject>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "core/detection/fit_in_scan.h"
+#include "core/options/option.h"
 #include "ui/viewmodels/box_region.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
@@ -42,10 +44,14 @@ class FitViewModel : public QObject {
   void SetSource(FitSource source);
   bool CanFit() const;
   TaskRunner* Runner() { return &runner_; }
-  /// The programs' defaults; a terrain is also compared with the last one of an earlier scan that
-  /// the operator accepted.
-  /// There is a current scan.
+  /// The programs' defaults for the head's mounting, and what the operator chose; a terrain is also
+  /// compared with the last one of an earlier scan that the operator accepted.
   FitOptions OptionsFor(ObjectKind kind) const;
+  /// The same without what the operator chose.
+  FitOptions UsualOptionsFor(ObjectKind kind) const;
+  /// An option of FitOptionTable by its key, for every next fit of `Kind`. Fails with
+  /// kInvalidOptions or kBadData, and leaves everything as it is.
+  Status SetOption(const std::string& key, const OptionValue& value);
 
   /// Drawing a region also fits an object of this kind into it.
   void SetTool(ObjectKind kind, bool on);
@@ -61,19 +67,28 @@ class FitViewModel : public QObject {
   void setRegionTool(bool on);
   void leaveTools();
   void fit();
+  /// The usual options of `Kind` again.
+  void resetOptions();
 
  Q_SIGNALS:
   void changed();
 
  private:
   QString Doing() const;
-  void Accept(const std::shared_ptr<const Scan>& scan, const Result<Detection>& detection);
+  /// What was found, with all that is needed to find it again.
+  struct Found {
+    Detection detection;
+    std::string provenance_json;
+  };
+  void Accept(const std::shared_ptr<const Scan>& scan, const Result<Found>& found);
 
   SessionModel* session_;
   TaskRunner runner_{session_->Tasks()};
   FitSource source_ = FitSource::kRaw;
   RegionShape shape_ = RegionShape::kRectangle;
   ObjectKind kind_ = ObjectKind::kValve;
+  /// What the operator chose, by the option's key.
+  std::map<ObjectKind, std::map<std::string, OptionValue>> chosen_;
   bool object_tool_ = false;
   bool region_tool_ = false;
 };

@@ -74,6 +74,16 @@ Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::s
   return file->AddDetectionEvent(at->id, EventOf(event, author));
 }
 
+Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth) {
+  FORESIGHT_TRY(DepthRecord record, NewDepthRecord(scan, depth, depth.mask, depth.options.mask));
+  FORESIGHT_TRY(record.scan_id, ScanIdOf(*file, scan.uuid));
+  if (record.scan_id == 0)
+    return Fail(ErrorCode::kInvalidInput, "mission file {}: no scan {}", file->path().string(),
+                scan.uuid);
+  FORESIGHT_CHECK(file->AddDepth(record));
+  return {};
+}
+
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context) {
   FORESIGHT_TRY(const std::int64_t there, ScanIdOf(*file, scan.uuid));
   if (there != 0) return {};

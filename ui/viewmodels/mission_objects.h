@@ -21,6 +21,9 @@ Result<FoundObject> ObjectOf(const DetectionRecord& record, const SensorRig& rig
 Status KeepObject(MissionFile* file, const FoundObject& object, const std::string& author);
 Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::string& author);
 
+/// Notes how a depth map of the scan is made again, with its checksum.
+Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth);
+
 /// Writes a whole scan that was kept in memory because its file could not be written.
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context);
 

@@ -15,10 +15,6 @@ namespace {
 
 const QString kSuffix = QStringLiteral("foresight");
 
-std::int64_t NowUtc_ns() {
-  return 1'000'000 * QDateTime::currentMSecsSinceEpoch();
-}
-
 QString FreePath(const QString& folder) {
   const QString base = QDir(folder).filePath(
       QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd_HH-mm-ss")));
@@ -108,7 +104,8 @@ Status RecordingViewModel::Open(const QString& path, std::shared_ptr<MissionFile
 
 int RecordingViewModel::Waiting() const {
   return static_cast<int>(std::count_if(waiting_.begin(), waiting_.end(), [](const Change& change) {
-    return !std::holds_alternative<EventRecord>(change);
+    return !std::holds_alternative<EventRecord>(change) &&
+           !std::holds_alternative<MadeDepth>(change);
   }));
 }
 
@@ -242,6 +239,11 @@ void RecordingViewModel::keepObjectEvent(const ObjectEvent& event) {
   Keep(event);
 }
 
+void RecordingViewModel::keepDepth() {
+  if (session_->CurrentScan() && session_->Depth())
+    Keep(MadeDepth{session_->CurrentScan(), session_->Depth()});
+}
+
 void RecordingViewModel::keepNotice(const Notice& notice) {
   if (notice.topic == kRecordingTopic) return;  // it could not be written
   Keep(EventRecord{0,
@@ -281,6 +283,9 @@ void RecordingViewModel::WriteNext() {
     } else if (const auto* event = std::get_if<ObjectEvent>(&change)) {
       FORESIGHT_CHECK(InTheFileThatKnowsIt(
           files, [&](MissionFile* one) { return KeepObjectEvent(one, *event, author); }));
+    } else if (const auto* made = std::get_if<MadeDepth>(&change)) {
+      FORESIGHT_CHECK(InTheFileThatKnowsIt(
+          files, [&](MissionFile* one) { return KeepDepth(one, *made->scan, *made->depth); }));
     } else {
       FORESIGHT_CHECK(file->AddEvent(std::get<EventRecord>(change)));
     }
@@ -306,7 +311,8 @@ void RecordingViewModel::WriteNext() {
     const Change done = std::move(waiting_.front());
     waiting_.pop_front();
     if (const auto* object = std::get_if<FoundObject>(&done)) session_->MarkKept(object->uuid);
-    if (!std::holds_alternative<EventRecord>(done)) refreshList();
+    if (!std::holds_alternative<EventRecord>(done) && !std::holds_alternative<MadeDepth>(done))
+      refreshList();
     if (waiting_.empty()) Q_EMIT allWritten();
     WriteNext();
   });

@@ -64,6 +64,8 @@ class RecordingViewModel : public QObject {
   void keepScan(const std::shared_ptr<const foresight::Scan>& scan);
   void keepObject(const foresight::FoundObject& object);
   void keepObjectEvent(const foresight::ObjectEvent& event);
+  /// Notes how the session's depth map is made again.
+  void keepDepth();
   /// For the mission's log.
   void keepNotice(const foresight::Notice& notice);
   void keepCommand(const QString& id);
@@ -73,7 +75,13 @@ class RecordingViewModel : public QObject {
   void allWritten();  ///< nothing waits any more
 
  private:
-  using Change = std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, EventRecord>;
+  /// A depth map that was made of a recorded scan.
+  struct MadeDepth {
+    std::shared_ptr<const Scan> scan;
+    std::shared_ptr<const DepthResult> depth;
+  };
+  using Change =
+      std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, MadeDepth, EventRecord>;
 
   void Keep(Change change);
   void WriteNext();

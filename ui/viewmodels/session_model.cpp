@@ -80,11 +80,14 @@ void SessionModel::SetCloud(std::shared_ptr<const RegisteredScan> cloud, const S
 void SessionModel::SetDepth(std::shared_ptr<const DepthResult> depth) {
   depth_ = std::move(depth);
   mask_ = depth_ ? std::make_shared<const MaskImage>(depth_->mask) : nullptr;
+  if (depth_) mask_options_ = depth_->options.mask;
   Q_EMIT depthChanged();
 }
 
-void SessionModel::SetMask(std::shared_ptr<const MaskImage> mask) {
+void SessionModel::SetMask(std::shared_ptr<const MaskImage> mask,
+                           const ConfidenceMaskOptions& options) {
   mask_ = std::move(mask);
+  mask_options_ = options;
   Q_EMIT maskChanged();
 }
 

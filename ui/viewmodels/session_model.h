@@ -86,7 +86,9 @@ class SessionModel : public QObject {
 
   void SetDepth(std::shared_ptr<const DepthResult> depth);
   const std::shared_ptr<const DepthResult>& Depth() const { return depth_; }
-  void SetMask(std::shared_ptr<const MaskImage> mask);
+  /// A mask of the depth map, and what made it.
+  void SetMask(std::shared_ptr<const MaskImage> mask, const ConfidenceMaskOptions& options);
+  const ConfidenceMaskOptions& MaskOptions() const { return mask_options_; }
   const std::shared_ptr<const MaskImage>& Mask() const { return mask_; }
 
   /// The region the operator drew; can be undone.
@@ -158,6 +160,7 @@ class SessionModel : public QObject {
   SensorRig rig_;
   std::shared_ptr<const DepthResult> depth_;
   std::shared_ptr<const MaskImage> mask_;
+  ConfidenceMaskOptions mask_options_;
   std::optional<Roi> roi_;
   std::vector<FoundObject> objects_;
   int selected_object_ = -1;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/csv_samples.h"
-#include "tests/core/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

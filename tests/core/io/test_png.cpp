@@ -6,7 +6,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
 #include "core/io/png.h"
-#include "tests/core/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

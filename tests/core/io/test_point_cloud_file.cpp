@@ -8,7 +8,7 @@
 #include "core/base/atomic_file.h"
 #include "core/io/point_cloud_file.h"
 #include "core/io/read_point_cloud.h"
-#include "tests/core/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

@@ -5,8 +5,8 @@
 #include "core/mission/migrations.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/mission_schema.h"
-#include "tests/core/io/temporary_folder.h"
 #include "tests/core/mission/sample_scan.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "core/base/atomic_file.h"
 #include "core/mission/mission_file.h"
-#include "tests/core/io/temporary_folder.h"
 #include "tests/core/mission/sample_scan.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

@@ -7,8 +7,8 @@
 #include "core/mission/mission_file.h"
 #include "core/mission/row_checksum.h"
 #include "core/mission/sqlite.h"
-#include "tests/core/io/temporary_folder.h"
 #include "tests/core/mission/sample_scan.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "core/base/atomic_file.h"
 #include "core/mission/mission_file.h"
-#include "tests/core/io/temporary_folder.h"
 #include "tests/core/mission/other_process.h"
 #include "tests/core/mission/sample_scan.h"
+#include "tests/support/temporary_folder.h"
 
 // One writer records, others read: in the same process and in another one.
 

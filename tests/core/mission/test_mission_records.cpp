@@ -6,8 +6,8 @@
 #include "core/mission/mission_file.h"
 #include "core/mission/provenance.h"
 #include "core/sensor/rig_id.h"
-#include "tests/core/io/temporary_folder.h"
 #include "tests/core/mission/sample_scan.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {
@@ -238,25 +238,6 @@ TEST_F(MissionRecords, WhereTheMissionsFolderDoesNotTakeAFileTheGivenOneDoes) {
   EXPECT_EQ(MissionFile::ReviewPathOf(nowhere, folder_.path()).value(),
             folder_ / "m.review.foresight");
   EXPECT_THAT(MissionFile::ReviewPathOf(nowhere).error().message, HasSubstr("give a folder"));
-}
-
-TEST(Provenance, SurvivesTheRoundTrip) {
-  const Provenance provenance{"0.1.0",
-                              "abc",
-                              3,
-                              "foresight-alone",
-                              R"({"sigma_px":0.1})",
-                              18446744073709551615u,
-                              R"({"polygon_px":[[1,2]]})"};
-  EXPECT_EQ(ProvenanceFromJson(ProvenanceToJson(provenance), "x").value(), provenance);
-  EXPECT_EQ(ProvenanceFromJson(ProvenanceToJson({}), "x").value(), Provenance());
-}
-
-TEST(Provenance, AnErrorNamesTheMember) {
-  EXPECT_THAT(ProvenanceFromJson(R"({"program_version":"1"})", "m: detection 1").error().message,
-              testing::AllOf(HasSubstr("m: detection 1: provenance"), HasSubstr("rig_id")));
-  EXPECT_FALSE(ProvenanceFromJson("", "x"));
-  EXPECT_FALSE(ProvenanceFromJson(R"([1])", "x"));
 }
 
 TEST(RigId, NamesARigByWhatItSays) {
