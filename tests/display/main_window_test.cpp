@@ -304,6 +304,28 @@ TEST_F(Workstation, AStopIsShownUntilItIsReleasedAndScanWaits) {
   EXPECT_TRUE(bench.commands.Get("head.scan").Allowed());
 }
 
+TEST_F(Workstation, AMessageThatACommandCanActOnHasAButtonForIt) {
+  Workbench& bench = running->bench();
+  const QTemporaryDir folder;
+  const QString left = folder.filePath("left.foresight");
+  ASSERT_TRUE(WaitFor([&] { return bench.recording.Waiting() == 0 && bench.Idle(); }));
+  const QString before = bench.recording.Path();
+  ASSERT_TRUE(QFile::copy(before, left) && QFile::copy(before + "-wal", left + "-wal"));
+  auto* action = running->window().Log()->findChild<QPushButton*>("noticeAction");
+  ASSERT_NE(action, nullptr);
+  EXPECT_FALSE(action->isVisible());
+  bench.recording.OfferInterrupted(folder.path());
+  running->Settle();
+  ASSERT_TRUE(action->isVisible() && action->isEnabled());
+  Click(action);
+  EXPECT_TRUE(WaitFor([&] { return bench.recording.Path() == left; }));
+  running->Settle();
+  EXPECT_FALSE(action->isVisible());
+  bench.recording.SwitchTo(before);
+  EXPECT_TRUE(WaitFor([&] { return bench.recording.Path() == before && bench.Idle(); }));
+  bench.log.acknowledgeAll();
+}
+
 TEST_F(Workstation, AMessageMovesNothing) {
   const QPoint before = running->window().Image()->mapToGlobal({0, 0});
   running->bench().log.add({Notice::Level::kError, "made for this test", "nothing to do", {}});
