@@ -65,7 +65,10 @@ class FakeHead : public SensorHead {
     status_.state = HeadState::kReady;
   }
 
-  void DeliverFrame(const CameraFrame& frame) { sink_->OnFrame(frame); }
+  void DeliverFrame(const CameraFrame& frame) {
+    sink_->OnFrame(frame);
+    ++status_.frames;
+  }
   /// Ends the scan; the function that is returned still sends one line of it.
   std::function<void(std::size_t)> FinishButStillSend(const Scan& scan, ScanState state) {
     const auto sink = sink_;

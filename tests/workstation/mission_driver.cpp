@@ -20,7 +20,7 @@
 #include "app/workstation/workbench.h"
 #include "core/simulation/scene.h"
 #include "hardware/simulated/simulated_head.h"
-#include "tests/crash/scan_digest.h"
+#include "tests/workstation/scan_digest.h"
 
 namespace foresight {
 namespace {
@@ -112,7 +112,10 @@ class Script {
     if (said_.insert(line).second) Say(line);
   }
   void SayWhatIsKept() {
-    if (bench_->head.Scanning() && !bench_->recording.Busy()) bench_->recording.refreshList();
+    if (bench_->head.Scanning()) {
+      bench_->head.Poll();  // more often than by itself: more is said of the sweep
+      if (!bench_->recording.Busy()) bench_->recording.refreshList();
+    }
     for (const ScanSummary& summary : bench_->recording.Scans()) SayScan(summary);
     const bool nothing_waits = bench_->recording.Waiting() == 0 && !bench_->recording.Busy();
     for (const FoundObject& object : bench_->live.session.Objects()) {
