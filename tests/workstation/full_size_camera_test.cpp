@@ -11,8 +11,8 @@
 namespace foresight {
 namespace {
 
-/// The default camera, 1288 x 964, over the wire, in a sweep of 6 s with an image in its middle. On
-/// two cores the emulator has one to render it.
+/// The default camera, 1288 x 964, over the wire, in a sweep of 6 s with an image after 1.5 s: a
+/// machine that has other things to do as well takes three times as long for it as a quiet one.
 TEST(FullSizeCamera, ItsImageAndItsDepthAreShownWhileTheFirstSweepGoesOn) {
   if (kSanitized) GTEST_SKIP() << "an image takes longer than a sweep";
   EmulationArguments arguments;
@@ -31,14 +31,17 @@ TEST(FullSizeCamera, ItsImageAndItsDepthAreShownWhileTheFirstSweepGoesOn) {
   });
   bench.head.home();
   ASSERT_TRUE(WaitFor([&] { return bench.head.CanScan(); }, 30'000));
+  PlanFields plan;
+  plan.from_deg = -15.0;
+  plan.to_deg = 45.0;
+  bench.head.SetPlan(plan);
   bench.head.scan();
   ASSERT_TRUE(WaitFor([&] { return bench.live.session.CurrentScan() != nullptr; }, 60'000));
   const int lines = static_cast<int>(bench.live.session.CurrentScan()->lines.size());
   std::printf("of %d lines: image shown at line %d, live depth at line %d\n", lines, lines_at_image,
               lines_at_depth);
-  EXPECT_GE(lines_at_image, lines / 2 - 5) << "it is taken in the middle";
-  // A third of a second before the end, for a machine that is busy with other things too.
-  EXPECT_LE(lines_at_image, lines - 13);
+  EXPECT_GE(lines_at_image, lines / 4 - 5) << "it is not taken before";
+  EXPECT_LE(lines_at_image, lines - 40) << "a second before the end";
   EXPECT_GT(lines_at_depth, 0);
   EXPECT_LT(lines_at_depth, lines);
 }

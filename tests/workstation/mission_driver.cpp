@@ -52,7 +52,7 @@ class Script {
     PlanFields plan;
     plan.from_deg = -12.0;
     plan.to_deg = 12.0;
-    plan.speed_deg_s = 6.0;
+    plan.speed_deg_s = 4.0;
     bench_->head.SetPlan(plan);
     bench_->head.home();
     QObject::connect(&timer_, &QTimer::timeout, [this] { Step(); });
