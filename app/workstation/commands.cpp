@@ -257,6 +257,18 @@ void AddCommands(Workbench* bench) {
   AddFitCommands(bench);
   AddEditCommands(bench);
   AddViewCommands(bench);
+  bench->commands.Add({.id = "recording.continue",
+                       .menu = "file",
+                       .text = Tr("Go on in the interrupted mission"),
+                       .tip = Tr("Record into the mission that the program was recording when it "
+                                 "ended unexpectedly"),
+                       .run = [bench] { bench->recording.continueInterrupted(); },
+                       .why_not = [bench]() -> QString {
+                         if (bench->recording.Interrupted().isEmpty())
+                           return Tr("No mission was interrupted.");
+                         return bench->head.Scanning() ? Tr("A scan is running; wait for its end.")
+                                                       : QString();
+                       }});
   bench->commands.Add({.id = "recording.retry",
                        .menu = "file",
                        .text = Tr("Write the mission again"),

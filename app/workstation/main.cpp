@@ -19,6 +19,9 @@
 namespace foresight {
 namespace {
 
+/// Where the mission lies that was recorded last, also one outside of the default folder.
+const QString kLastMission = QStringLiteral("recording/file");
+
 struct Options {
   std::string scene;             ///< empty: the valve scene that comes with the program
   EmulationArguments emulation;  ///< its scene, rig and seed; rig and seed are the simulation's too
@@ -87,21 +90,6 @@ Result<Head> MakeEmulatedHead(const EmulationArguments& arguments) {
   return head;
 }
 
-/// Missions of programs that ended without closing them: nothing is lost, and that is said.
-void OfferLeftBehind(Workbench* bench) {
-  const QStringList left = RecordingViewModel::LeftBehind(RecordingViewModel::DefaultFolder());
-  if (left.isEmpty()) return;
-  bench->log.add(
-      {Notice::Level::kWarning,
-       QCoreApplication::translate("Main",
-                                   "The program ended unexpectedly the last time; its "
-                                   "mission was kept: %1.")
-           .arg(left.first()),
-       QCoreApplication::translate("Main",
-                                   "Look at it with Open for review (Ctrl+O), or go on in it "
-                                   "with Record into another file (Ctrl+Shift+S).")});
-}
-
 /// In this process, without drivers.
 Result<Head> MakeHeadOnScene(const Options& options) {
   SimulatedHeadOptions simulation;
@@ -142,13 +130,21 @@ int Run(int argc, char** argv) {
   const SessionMode mode = head->mode;
   Workbench bench(std::move(head->head), mode);
   const QuitOnSignal quit_on_signal([&bench] { bench.head.StopForGood(); });
-  OfferLeftBehind(&bench);
+  QSettings settings;
+  bench.recording.OfferInterrupted(RecordingViewModel::DefaultFolder(),
+                                   settings.value(kLastMission).toString());
   if (!options.mission.empty())
     bench.recording.Begin(QString::fromStdString(options.mission));
   else
     bench.recording.BeginInFolder(RecordingViewModel::DefaultFolder());
+  const auto remember = [&] {
+    if (settings.value(kLastMission) == bench.recording.Path()) return;
+    settings.setValue(kLastMission, bench.recording.Path());
+    settings.sync();  // the program may be killed at any moment
+  };
+  remember();
+  QObject::connect(&bench.recording, &RecordingViewModel::changed, &bench, remember);
   MainWindow window(&bench);
-  QSettings settings;
   const bool attended = options.unattended.screenshot.empty();
   window.show();
   if (attended) window.RestoreLayout(settings);  // every image shows the same layout

@@ -21,6 +21,8 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
   connect(&live.depth, &DepthViewModel::computed, &recording, &RecordingViewModel::keepDepth);
   connect(&recording, &RecordingViewModel::allWritten, this,
           [this] { log.close(kRecordingTopic); });
+  connect(&recording, &RecordingViewModel::interruptedTaken, this,
+          [this] { log.close(kInterruptedTopic); });
   for (SessionModel* session : {&live.session, &review.session})
     connect(session, &SessionModel::noticed, &log, &LogModel::add);
   connect(&log, &LogModel::added, &recording, &RecordingViewModel::keepNotice);

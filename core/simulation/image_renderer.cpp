@@ -14,14 +14,14 @@ constexpr float kShadowGap_m = 2e-4f;  ///< a surface does not shade itself
 /// Light 1 gives a surface 2 m away the light 1.
 constexpr float kLightDistance2_m2 = 4.0f;
 
-/// Spreads the moments of the exposure over the pixels without a visible pattern.
-int MomentOf(int x, int y, int sample, int samples) {
+/// Spreads the moments of the exposure over the pixels without a visible pattern: that of a pixel's
+/// first sub-ray.
+int FirstMomentOf(int x, int y) {
   std::uint32_t h =
       static_cast<std::uint32_t>(x) * 0x9e3779b1u ^ static_cast<std::uint32_t>(y) * 0x85ebca77u;
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
   h ^= h >> 13;
-  const int moments = ImageRenderer::kMoments;
-  return (static_cast<int>(h % moments) + sample * moments / samples) % moments;
+  return static_cast<int>(h % ImageRenderer::kMoments);
 }
 
 }  // namespace
@@ -38,6 +38,7 @@ struct ImageRenderer::Samples {
   std::vector<float> shadow_lengths;
   std::vector<std::size_t> shadow_owner;
   std::vector<std::uint8_t> occluded;
+  SurfaceColor::Neighbourhood near;
 
   Eigen::Vector3f Point(std::size_t i) const {
     return rays[i].origin + hits[i].distance_m * rays[i].direction;
@@ -45,7 +46,11 @@ struct ImageRenderer::Samples {
 };
 
 ImageRenderer::ImageRenderer(const RayCaster& caster, const CameraModel& camera, int samples_side)
-    : caster_(caster), camera_(camera), color_(caster.scene()), samples_side_(samples_side) {}
+    : caster_(caster),
+      camera_(camera),
+      rays_(camera),
+      color_(caster.scene()),
+      samples_side_(samples_side) {}
 
 void ImageRenderer::AimRow(const CameraMotion& motion, int y, Samples& samples) const {
   const int per_pixel = samples_side_ * samples_side_;
@@ -56,15 +61,21 @@ void ImageRenderer::AimRow(const CameraMotion& motion, int y, Samples& samples) 
     origins[i] = motion[i].translation().cast<float>();
   }
   const auto count = static_cast<std::size_t>(camera_.width * per_pixel);
+  samples.pixel.clear();
+  samples.rays.clear();
   samples.pixel.reserve(count);
   samples.rays.reserve(count);
+  std::vector<Eigen::Vector2d> offsets;
+  for (int s = 0; s < per_pixel; ++s)
+    offsets.emplace_back((s % samples_side_ + 0.5) / samples_side_ - 0.5,
+                         (s / samples_side_ + 0.5) / samples_side_ - 0.5);
   for (int x = 0; x < camera_.width; ++x) {
+    const int first_moment = FirstMomentOf(x, y);
     for (int s = 0; s < per_pixel; ++s) {
-      const Eigen::Vector2d in_pixel(s % samples_side_, s / samples_side_);
-      const Eigen::Vector2d offset = (in_pixel.array() + 0.5) / samples_side_ - 0.5;
-      const auto ray = camera_.Unproject(Eigen::Vector2d(x, y) + offset);
+      const auto ray = rays_.At(Eigen::Vector2d(x, y) + offsets[static_cast<std::size_t>(s)]);
       if (!ray) continue;
-      const auto moment = static_cast<std::size_t>(MomentOf(x, y, s, per_pixel));
+      const auto moment =
+          static_cast<std::size_t>((first_moment + s * kMoments / per_pixel) % kMoments);
       samples.pixel.push_back(x);
       samples.rays.push_back({origins[moment], rotations[moment] * ray->cast<float>()});
     }
@@ -86,7 +97,7 @@ void ImageRenderer::ShadeAmbient(Samples& samples) const {
       continue;
     }
     const Material& material = caster_.scene().meshes[static_cast<std::size_t>(hit.mesh)].material;
-    samples.albedo[i] = color_.At(hit.mesh, samples.Point(i), hit.normal);
+    samples.albedo[i] = color_.At(hit.mesh, samples.Point(i), hit.normal, &samples.near);
     // More light comes from above than from below, so that shadowed sides still show their shape.
     const float from_everywhere = ambient * (0.8f + 0.2f * hit.normal.z());
     samples.light[i] =
@@ -133,7 +144,8 @@ void ImageRenderer::AddLight(const Light& light, Samples& samples) const {
 void ImageRenderer::RenderRow(const CameraMotion& motion, int y,
                               std::span<Eigen::Vector3f> light) const {
   FORESIGHT_EXPECTS(static_cast<int>(light.size()) == camera_.width, "light for every pixel");
-  Samples samples;
+  // Half a megabyte, which would be asked of the system anew for each row.
+  static thread_local Samples samples;
   AimRow(motion, y, samples);
   ShadeAmbient(samples);
   for (const Light& lamp : caster_.scene().lights) AddLight(lamp, samples);

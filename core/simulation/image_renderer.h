@@ -8,6 +8,7 @@
 
 #include "core/geometry/rigid.h"
 #include "core/sensor/camera_model.h"
+#include "core/simulation/pixel_rays.h"
 #include "core/simulation/ray_caster.h"
 #include "core/simulation/surface_color.h"
 
@@ -39,6 +40,7 @@ class ImageRenderer {
 
   const RayCaster& caster_;
   CameraModel camera_;
+  PixelRays rays_;
   SurfaceColor color_;
   int samples_side_;
 };

@@ -1,6 +1,7 @@
 #include "core/simulation/image_sensor.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/base/contract.h"
@@ -8,12 +9,41 @@
 
 namespace foresight {
 
+ToneCurve::ToneCurve(double gamma) {
+  const auto number_of = [gamma](double level) {
+    return std::lround(255.0 * std::pow(level, 1.0 / gamma));
+  };
+  for (int number = 0; number < 256; ++number) {
+    // Doubles from 0 to 1 are in the order of their bits.
+    auto low = std::bit_cast<std::uint64_t>(0.0), high = std::bit_cast<std::uint64_t>(1.0);
+    while (low < high) {
+      const std::uint64_t middle = low + (high - low) / 2;
+      if (number_of(std::bit_cast<double>(middle)) >= number)
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    first_level_[static_cast<std::size_t>(number)] = std::bit_cast<double>(low);
+  }
+  first_level_[256] = 2.0;
+  for (int cell = 0; cell <= kCells; ++cell)
+    number_at_[static_cast<std::size_t>(cell)] =
+        static_cast<std::uint8_t>(number_of(static_cast<double>(cell) / kCells));
+}
+
+std::uint8_t ToneCurve::operator()(double level) const {
+  std::size_t number = number_at_[static_cast<std::size_t>(level * kCells)];
+  while (level >= first_level_[number + 1]) ++number;
+  return static_cast<std::uint8_t>(number);
+}
+
 ImageSensor::ImageSensor(const CameraModel& camera, const CameraNoise& noise, std::uint64_t seed)
     : camera_(camera),
       noise_(noise),
       seed_(seed),
       corner_px_(std::hypot(std::max(camera.cx, camera.width - 1.0 - camera.cx),
-                            std::max(camera.cy, camera.height - 1.0 - camera.cy))) {}
+                            std::max(camera.cy, camera.height - 1.0 - camera.cy))),
+      tone_(noise.gamma) {}
 
 void ImageSensor::ExposeRow(std::int64_t seq, int y, double exposure_s, double gain_db,
                             std::span<const Eigen::Vector3f> light, std::span<Rgb8> pixels) const {
@@ -30,13 +60,13 @@ void ImageSensor::ExposeRow(std::int64_t seq, int y, double exposure_s, double g
       electrons +=
           random.Normal() * std::sqrt(electrons + noise_.read_noise_e * noise_.read_noise_e);
     electrons = std::clamp(electrons, 0.0, noise_.full_well_e);
-    const double level = std::min(1.0, electrons * number_per_electron);
-    return static_cast<std::uint8_t>(std::lround(255.0 * std::pow(level, 1.0 / noise_.gamma)));
+    return tone_(std::min(1.0, electrons * number_per_electron));
   };
   for (std::size_t x = 0; x < pixels.size(); ++x) {
     double sensitivity = 1.0;
     if (noise_.enabled) {
-      const double radius = std::hypot(static_cast<double>(x) - camera_.cx, y - camera_.cy);
+      const double right = static_cast<double>(x) - camera_.cx, down = y - camera_.cy;
+      const double radius = std::sqrt(right * right + down * down);
       const double to_corner = corner_px_ > 0.0 ? radius / corner_px_ : 0.0;
       sensitivity = (1.0 - noise_.vignetting * to_corner * to_corner) *
                     std::max(0.0, 1.0 + noise_.pixel_gain_spread * gains.Normal());

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kPacket = 8;
+constexpr std::size_t kPacket = 16;
 
 struct DeviceRelease {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -57,8 +57,8 @@ SceneHit HitOf(float distance, unsigned mesh, Eigen::Vector3f normal,
   return {distance, static_cast<int>(mesh), normal};
 }
 
-/// Works for RTCRay8 and, through its `ray` member, RTCRayHit8.
-void SetRay(RTCRay8& packet, std::size_t lane, const SceneRay& ray, float distance) {
+/// Works for RTCRay16 and, through its `ray` member, RTCRayHit16.
+void SetRay(RTCRay16& packet, std::size_t lane, const SceneRay& ray, float distance) {
   packet.org_x[lane] = ray.origin.x();
   packet.org_y[lane] = ray.origin.y();
   packet.org_z[lane] = ray.origin.z();
@@ -110,6 +110,8 @@ RayCaster::RayCaster(std::shared_ptr<const Scene> scene) : impl_(std::make_uniqu
   RTCScene embree_scene = impl_->embree_scene.get();
   // Without it single rays slip through the edges between triangles: black specks in the image.
   rtcSetSceneFlags(embree_scene, RTC_SCENE_FLAG_ROBUST);
+  // Scenes are small: the time that a better tree takes comes back with the first image.
+  rtcSetSceneBuildQuality(embree_scene, RTC_BUILD_QUALITY_HIGH);
   for (std::size_t i = 0; i < impl_->scene->meshes.size(); ++i)
     if (!impl_->scene->meshes[i].triangles.empty())
       AttachMesh(impl_->device.get(), embree_scene, impl_->scene->meshes[i],
@@ -140,15 +142,15 @@ void RayCaster::Cast(std::span<const SceneRay> rays, std::span<SceneHit> hits) c
   RTCIntersectContext context = CoherentContext();
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
-    alignas(32) int valid[kPacket];
-    RTCRayHit8 packet;
+    alignas(64) int valid[kPacket];
+    RTCRayHit16 packet;
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       valid[lane] = lane < count ? -1 : 0;
       SetRay(packet.ray, lane, rays[first + std::min(lane, count - 1)], kInfinity);
       packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect8(valid, impl_->embree_scene.get(), &context, &packet);
+    rtcIntersect16(valid, impl_->embree_scene.get(), &context, &packet);
     for (std::size_t lane = 0; lane < count; ++lane)
       hits[first + lane] =
           HitOf(packet.ray.tfar[lane], packet.hit.geomID[lane],
@@ -172,14 +174,14 @@ void RayCaster::Occluded(std::span<const SceneRay> rays, std::span<const float> 
   RTCIntersectContext context = CoherentContext();
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
-    alignas(32) int valid[kPacket];
-    RTCRay8 packet;
+    alignas(64) int valid[kPacket];
+    RTCRay16 packet;
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       const std::size_t i = first + std::min(lane, count - 1);
       valid[lane] = lane < count ? -1 : 0;
       SetRay(packet, lane, rays[i], distances_m[i]);
     }
-    rtcOccluded8(valid, impl_->embree_scene.get(), &context, &packet);
+    rtcOccluded16(valid, impl_->embree_scene.get(), &context, &packet);
     for (std::size_t lane = 0; lane < count; ++lane)
       occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
   }

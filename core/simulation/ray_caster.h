@@ -31,11 +31,11 @@ class RayCaster {
 
   const Scene& scene() const;
   SceneHit Cast(const SceneRay& ray) const;
-  /// Packets of eight: several times faster for rays that lie close together. Sizes are equal.
+  /// Packets of sixteen: several times faster for rays that lie close together. Sizes are equal.
   void Cast(std::span<const SceneRay> rays, std::span<SceneHit> hits) const;
   /// Whether anything lies within `distance_m` along the ray.
   bool Occluded(const SceneRay& ray, float distance_m) const;
-  /// Same in packets of eight; 1 = occluded. Sizes are equal.
+  /// Same in packets of sixteen; 1 = occluded. Sizes are equal.
   void Occluded(std::span<const SceneRay> rays, std::span<const float> distances_m,
                 std::span<std::uint8_t> occluded) const;
 

@@ -1,5 +1,6 @@
 #include "core/simulation/surface_color.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -20,8 +21,14 @@ float CellValue(int x, int y, int z) {
   return static_cast<float>((h ^ (h >> 15)) >> 8) * 0x1.0p-24f;
 }
 
-/// Smooth noise between the values of the eight cells around a point.
-float ValueNoise(const Eigen::Vector3f& p) {
+/// std::lerp for numbers of one sign and t in [0, 1], in every bit, without its branches.
+float Between(float a, float b, float t) {
+  const float mixed = a + t * (b - a);
+  return b > a ? std::min(mixed, b) : std::max(mixed, b);
+}
+
+/// Smooth noise between the values of the eight corners of the lattice's cell around a point.
+float ValueNoise(const Eigen::Vector3f& p, SurfaceColor::Neighbourhood::Cell* cell) {
   const int x = static_cast<int>(std::floor(p.x()));
   const int y = static_cast<int>(std::floor(p.y()));
   const int z = static_cast<int>(std::floor(p.z()));
@@ -29,11 +36,20 @@ float ValueNoise(const Eigen::Vector3f& p) {
                           p.z() - static_cast<float>(z));
   const Eigen::Vector3f s =
       f.cwiseProduct(f).cwiseProduct(Eigen::Vector3f::Constant(3.0f) - 2.0f * f);
-  const auto along_x = [&](int dy, int dz) {
-    return std::lerp(CellValue(x, y + dy, z + dz), CellValue(x + 1, y + dy, z + dz), s.x());
+  const std::array<int, 3>& at = cell->corner;
+  if (!cell->filled || at[0] != x || at[1] != y || at[2] != z) {
+    cell->filled = true;
+    cell->corner = {x, y, z};
+    for (int corner = 0; corner < 8; ++corner)
+      cell->values[static_cast<std::size_t>(corner)] =
+          CellValue(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2));
+  }
+  const auto along_x = [&](std::size_t dy, std::size_t dz) {
+    const std::size_t first = 2 * dy + 4 * dz;
+    return Between(cell->values[first], cell->values[first + 1], s.x());
   };
-  return std::lerp(std::lerp(along_x(0, 0), along_x(1, 0), s.y()),
-                   std::lerp(along_x(0, 1), along_x(1, 1), s.y()), s.z());
+  return Between(Between(along_x(0, 0), along_x(1, 0), s.y()),
+                 Between(along_x(0, 1), along_x(1, 1), s.y()), s.z());
 }
 
 /// The two coordinates of a point on the side of a box that its normal comes nearest to.
@@ -79,14 +95,15 @@ SurfaceColor::SurfaceColor(const Scene& scene) {
 }
 
 Eigen::Vector3f SurfaceColor::At(int mesh, const Eigen::Vector3f& point,
-                                 const Eigen::Vector3f& normal) const {
+                                 const Eigen::Vector3f& normal, Neighbourhood* near) const {
   const Paint& paint = paints_[static_cast<std::size_t>(mesh)];
   if (paint.pattern == Material::Pattern::kPlain) return paint.color;
   // Half a millimetre off the lattice: faces on a cell's border would flicker between both colours.
   const Eigen::Vector3f p = paint.per_metre * (paint.object_from_robot * (point - paint.origin) +
                                                Eigen::Vector3f::Constant(0.0005f));
   if (paint.pattern == Material::Pattern::kNoise) {
-    const float noise = 0.6f * ValueNoise(p) + 0.4f * ValueNoise(4.1f * p);
+    const float noise =
+        0.6f * ValueNoise(p, &near->octaves[0]) + 0.4f * ValueNoise(4.1f * p, &near->octaves[1]);
     return paint.color + noise * (paint.color2 - paint.color);
   }
   const Eigen::Vector2f uv = OnFace(p, paint.object_from_robot * normal);

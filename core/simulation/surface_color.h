@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "core/simulation/scene.h"
@@ -12,8 +13,20 @@ class SurfaceColor {
  public:
   explicit SurfaceColor(const Scene& scene);
 
-  /// Linear reflectance at a point of a mesh; point and normal in robot.
-  Eigen::Vector3f At(int mesh, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+  /// What points that lie close together share: cells of the noise lattice. One for each thread.
+  struct Neighbourhood {
+    struct Cell {
+      std::array<int, 3> corner = {};
+      std::array<float, 8> values = {};
+      bool filled = false;
+    };
+    std::array<Cell, 2> octaves;
+  };
+
+  /// Linear reflectance at a point of a mesh; point and normal in robot. The answer does not depend
+  /// on the neighbourhood, only its cost does.
+  Eigen::Vector3f At(int mesh, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                     Neighbourhood* near) const;
 
  private:
   struct Paint {

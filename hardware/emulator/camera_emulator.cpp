@@ -221,8 +221,6 @@ void CameraEmulator::Work(const std::stop_token& stop) {
 void CameraEmulator::Deliver(const Job& job, const std::stop_token& stop) {
   RunContext context;
   context.stop = stop;
-  // One core belongs to the lidar.
-  context.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
   const CameraExposure& exposure = job.exposure;
   const double end_s = exposure.start_s + exposure.exposure_s;
   clock_->WaitUntil(end_s + kReadout_s + job.late_s);

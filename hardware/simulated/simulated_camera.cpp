@@ -76,8 +76,6 @@ CameraFrame SimulatedCamera::Render(const Exposure& exposure, const RunContext& 
 void SimulatedCamera::Work(const std::stop_token& stop) {
   RunContext context;
   context.stop = stop;
-  // One core belongs to the lidar.
-  context.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
   for (;;) {
     Exposure exposure;
     {

@@ -269,6 +269,13 @@ TEST(IncludeRules, ViewModelsHaveNoWidgets) {
   });
 }
 
+TEST(IncludeRules, SharedWidgetsKnowNothingOfOurs) {
+  ExpectNoBreach([](const Include& include) -> std::string {
+    if (!StartsWith(include.file, "ui/widgets/") || !IsOurs(include.target)) return "";
+    return StartsWith(include.target, "ui/widgets/") ? "" : "views and panels use it";
+  });
+}
+
 TEST(IncludeRules, PanelsKnowNeitherVtkNorAlgorithms) {
   ExpectNoBreach([](const Include& include) -> std::string {
     if (!StartsWith(include.file, "ui/panels/")) return "";

@@ -14,6 +14,7 @@
 
 #include "core/detection/candidates.h"
 #include "tests/display/mouse.h"
+#include "tests/display/paint_counter.h"
 #include "tests/display/workstation_fixture.h"
 #include "ui/panels/detection_card.h"
 #include "ui/panels/head_panel.h"
@@ -31,6 +32,26 @@ QImage DepthMapPixels() {
   const QRect map(canvas->WidgetFromPixel({0, 0}),
                   canvas->WidgetFromPixel({image.width() - 1.0, image.height() - 1.0}));
   return Workstation::DepthPixels().copy(map.normalized());
+}
+
+/// Where the scene's valve is, with one alternative; it was not fitted.
+FoundObject FourSpokeValve() {
+  const SessionModel& session = Workstation::running->bench().live.session;
+  ValveDetection valve;
+  valve.best.model.spokes = 4;
+  valve.best.base_from_object =
+      session.Rig().robot_from_base.Inverse() *
+      Rigid<frame::Robot, frame::Object>(Eigen::Quaterniond::Identity(),
+                                         Workstation::running->ValveInRobot());
+  valve.alternatives = {valve.best};
+  valve.alternatives[0].model.rim_radius_m *= 1.5;
+  valve.alternatives[0].log_likelihood = -12.0;
+  valve.verdict = {VerdictLevel::kConfirmed, 0.97, "made for this test", {}};
+  FoundObject object;
+  object.detection = valve;
+  object.rig = session.Rig();
+  object.scan_uuid = session.CurrentScan()->uuid;
+  return object;
 }
 
 TEST_F(Workstation, TheDepthMapIsMostlyColouredAfterAScan) {
@@ -104,20 +125,7 @@ TEST_F(Workstation, DraggingARegionOverTheValveInTheImageFindsItAndDrawsItInEver
 TEST_F(Workstation, NShowsTheNextAnswerOnTheCardAndInTheImage) {
   SessionModel& session = running->bench().live.session;
   running->bench().live.fit.leaveTools();
-  FoundObject object;
-  ValveDetection valve;
-  valve.best.model.spokes = 4;
-  valve.best.base_from_object =
-      session.Rig().robot_from_base.Inverse() *
-      Rigid<frame::Robot, frame::Object>(Eigen::Quaterniond::Identity(), running->ValveInRobot());
-  valve.alternatives = {valve.best};
-  valve.alternatives[0].model.rim_radius_m *= 1.5;
-  valve.alternatives[0].log_likelihood = -12.0;
-  valve.verdict = {VerdictLevel::kConfirmed, 0.97, "made for this test", {}};
-  object.detection = valve;
-  object.rig = session.Rig();
-  object.scan_uuid = session.CurrentScan()->uuid;
-  session.AddObject(object);
+  session.AddObject(FourSpokeValve());
   running->Settle();
   const QImage best = ImagePixels();
   auto* answer = running->window().findChild<DetectionCard*>()->findChild<QLabel*>("answer");
@@ -296,6 +304,28 @@ TEST_F(Workstation, AStopIsShownUntilItIsReleasedAndScanWaits) {
   EXPECT_TRUE(bench.commands.Get("head.scan").Allowed());
 }
 
+TEST_F(Workstation, AMessageThatACommandCanActOnHasAButtonForIt) {
+  Workbench& bench = running->bench();
+  const QTemporaryDir folder;
+  const QString left = folder.filePath("left.foresight");
+  ASSERT_TRUE(WaitFor([&] { return bench.recording.Waiting() == 0 && bench.Idle(); }));
+  const QString before = bench.recording.Path();
+  ASSERT_TRUE(QFile::copy(before, left) && QFile::copy(before + "-wal", left + "-wal"));
+  auto* action = running->window().Log()->findChild<QPushButton*>("noticeAction");
+  ASSERT_NE(action, nullptr);
+  EXPECT_FALSE(action->isVisible());
+  bench.recording.OfferInterrupted(folder.path());
+  running->Settle();
+  ASSERT_TRUE(action->isVisible() && action->isEnabled());
+  Click(action);
+  EXPECT_TRUE(WaitFor([&] { return bench.recording.Path() == left; }));
+  running->Settle();
+  EXPECT_FALSE(action->isVisible());
+  bench.recording.SwitchTo(before);
+  EXPECT_TRUE(WaitFor([&] { return bench.recording.Path() == before && bench.Idle(); }));
+  bench.log.acknowledgeAll();
+}
+
 TEST_F(Workstation, AMessageMovesNothing) {
   const QPoint before = running->window().Image()->mapToGlobal({0, 0});
   running->bench().log.add({Notice::Level::kError, "made for this test", "nothing to do", {}});
@@ -347,20 +377,30 @@ TEST_F(Workstation, TheWindowFitsAScreenOf960By540) {
 
 TEST_F(Workstation, WithNothingMovingNothingIsDrawn) {
   Workbench& bench = running->bench();
+  bench.log.acknowledgeAll();  // or information of the tests before goes away meanwhile
   ASSERT_TRUE(WaitFor([&] { return bench.Idle(); }));
   running->Settle();
-  struct PaintCounter : QObject {
-    int paints = 0;
-    bool eventFilter(QObject*, QEvent* event) override {
-      if (event->type() == QEvent::Paint) ++paints;
-      return false;
-    }
-  } counter;
-  qApp->installEventFilter(&counter);
+  const PaintCounter counter;
   for (int poll = 0; poll < 20; ++poll) bench.head.Poll();
   running->Settle();
-  qApp->removeEventFilter(&counter);
-  EXPECT_LE(counter.paints, 4) << "an age may have changed, and nothing else";
+  EXPECT_LE(counter.Paints(), 4) << "an age may have changed, and nothing else, but drawn were\n"
+                                 << counter.Widgets();
+}
+
+TEST_F(Workstation, AnAgeThatGrowsIsDrawnAlone) {
+  Workbench& bench = running->bench();
+  bench.live.session.AddObject(FourSpokeValve());
+  ASSERT_TRUE(WaitFor([&] { return bench.Idle(); }));
+  bench.log.acknowledgeAll();
+  running->Settle();
+  FoundObject older = *bench.live.session.Selected();
+  older.found -= std::chrono::hours(26);
+  const PaintCounter counter;
+  running->window().findChild<DetectionCard*>()->ShowAge(older);
+  running->window().Image()->SetCaption(QStringLiteral("Image at 0.0°, scanned 26 h 3 min ago"));
+  running->Settle();
+  EXPECT_GE(counter.Paints(), 2);
+  EXPECT_LE(counter.Paints(), 4) << counter.Widgets();
 }
 
 TEST_F(Workstation, TheGuiThreadNeverStallsForLongDuringAScan) {

@@ -46,6 +46,13 @@ class FakeHead : public SensorHead {
 
   /// Plays a finished scan into the sink, up to its `lines`-th line.
   void Deliver(const Scan& scan, std::size_t lines) {
+    Begin(scan);
+    sink_->OnMotorSamples(scan.track.samples());
+    for (std::size_t i = 0; i < lines; ++i) DeliverLine(scan.lines[i]);
+    status_.expected_lines = static_cast<int>(scan.lines.size());
+  }
+  /// The start of a scan that comes piece by piece.
+  void Begin(const Scan& scan) {
     Scan header = scan;
     header.lines.clear();
     header.frames.clear();
@@ -53,11 +60,13 @@ class FakeHead : public SensorHead {
     header.state = ScanState::kRunning;
     sink_->OnScanStarted(header);
     delivered_ = true;
-    sink_->OnMotorSamples(scan.track.samples());
-    for (std::size_t i = 0; i < lines; ++i) sink_->OnLine(scan.lines[i]);
-    status_.lines = static_cast<int>(lines);
-    status_.expected_lines = static_cast<int>(scan.lines.size());
+    status_.lines = status_.frames = 0;
   }
+  void DeliverLine(const LidarLine& line) {
+    sink_->OnLine(line);
+    ++status_.lines;
+  }
+  void DeliverMotor(const MotorSample& sample) { sink_->OnMotorSamples({&sample, 1}); }
   void Finish(const Scan& scan, ScanState state) {
     for (const CameraFrame& frame : scan.frames) sink_->OnFrame(frame);
     sink_->OnScanEnded(state, "");
@@ -65,7 +74,10 @@ class FakeHead : public SensorHead {
     status_.state = HeadState::kReady;
   }
 
-  void DeliverFrame(const CameraFrame& frame) { sink_->OnFrame(frame); }
+  void DeliverFrame(const CameraFrame& frame) {
+    sink_->OnFrame(frame);
+    ++status_.frames;
+  }
   /// Ends the scan; the function that is returned still sends one line of it.
   std::function<void(std::size_t)> FinishButStillSend(const Scan& scan, ScanState state) {
     const auto sink = sink_;

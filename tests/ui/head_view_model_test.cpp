@@ -222,5 +222,22 @@ TEST_F(HeadTest, StopReachesTheMotorInEveryState) {
   EXPECT_TRUE(head->Stopped());
 }
 
+TEST_F(HeadTest, AnImageIsHandedOnAtTheNextPoll) {
+  const Scan scan = WallAndValveScan(
+      {.from_rad = -0.02, .to_rad = 0.02, .speed_rad_s = 0.1, .image_angles_rad = {0.0}});
+  std::size_t images = 0;
+  QObject::connect(&model, &HeadViewModel::scanGrew,
+                   [&](const std::shared_ptr<const Scan>& grown) { images = grown->frames.size(); });
+  model.scan();
+  head->Deliver(scan, 3);
+  // Whatever the count of polls until the next look at the lines is.
+  for (int polls_before = 0; polls_before < 3; ++polls_before) {
+    model.Poll();
+    head->DeliverFrame(scan.frames.at(0));
+    model.Poll();
+    EXPECT_EQ(images, static_cast<std::size_t>(polls_before + 1));
+  }
+}
+
 }  // namespace
 }  // namespace foresight

@@ -150,6 +150,65 @@ TEST_F(RecordingTest, WhatIsDecidedJustBeforeTheEndIsWrittenToo) {
   EXPECT_EQ((*objects)[0].decision, Decision::kAccepted);
 }
 
+/// A mission as a program leaves it that is killed: with its write-ahead log, written by nobody.
+void LeaveBehind(const QString& path, const QString& from) {
+  QFile::copy(from, path);
+  QFile::copy(from + "-wal", path + "-wal");
+}
+
+TEST_F(RecordingTest, AnInterruptedMissionIsOfferedAndOneCommandGoesOnInIt) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  const QString left = folder.filePath("left.foresight");
+  LeaveBehind(left, path);
+  recording = std::make_unique<RecordingViewModel>(&session);
+  recording->OfferInterrupted(folder.path());
+  EXPECT_EQ(recording->Interrupted(), left);
+  ASSERT_FALSE(notices.empty());
+  EXPECT_EQ(notices.back().command, "recording.continue");
+  const QString fresh = folder.filePath("fresh.foresight");
+  ASSERT_TRUE(recording->Begin(fresh));
+  recording->continueInterrupted();
+  ASSERT_TRUE(WaitFor([&] { return recording->Path() == left && recording->Scans().size() == 1; }));
+  EXPECT_TRUE(recording->Interrupted().isEmpty());
+  EXPECT_FALSE(QFileInfo::exists(fresh)) << "nothing was recorded into it";
+}
+
+TEST_F(RecordingTest, AnInterruptedMissionInAnotherFolderIsOfferedToo) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  QTemporaryDir elsewhere;
+  const QString left = elsewhere.filePath("left.foresight");
+  LeaveBehind(left, path);
+  recording->OfferInterrupted(QTemporaryDir().path(), left);
+  EXPECT_EQ(recording->Interrupted(), left);
+}
+
+TEST_F(RecordingTest, AnOfferStandsAtTheNextStartAgainAndAfterLooking) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  const QString left = folder.filePath("left.foresight");
+  LeaveBehind(left, path);
+  recording->OfferInterrupted(folder.path());
+  { const auto looked_at = MissionFile::OpenReadOnly(left.toStdString()); }
+  EXPECT_EQ(RecordingViewModel::LeftBehind(folder.path()), QStringList{left});
+}
+
+TEST_F(RecordingTest, AMissionThatIsRecordedIntoIsNotOffered) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  const QString left = folder.filePath("left.foresight");
+  LeaveBehind(left, path);
+  recording = std::make_unique<RecordingViewModel>(&session);
+  recording->OfferInterrupted(folder.path());
+  ASSERT_TRUE(recording->Begin(left));
+  EXPECT_TRUE(recording->Interrupted().isEmpty());
+}
+
 TEST_F(RecordingTest, AFileThatCannotBeWrittenIsSaidAndNothingIsLost) {
   EXPECT_FALSE(recording->Begin(folder.filePath("no/such/folder/m.foresight")));
   ASSERT_FALSE(notices.empty());

@@ -11,6 +11,7 @@
 #include "ui/panels/theme.h"
 #include "ui/viewmodels/advice.h"
 #include "ui/viewmodels/age_text.h"
+#include "ui/widgets/quiet_label.h"
 
 namespace foresight {
 namespace {
@@ -44,6 +45,12 @@ QLabel* Wrapped(const char* object_name = "") {
   return label;
 }
 
+QLabel* Faint(const QString& text = {}) {
+  auto* label = new QLabel(text);
+  label->setObjectName(QStringLiteral("faint"));
+  return label;
+}
+
 }  // namespace
 
 DetectionCard::DetectionCard(QWidget* parent)
@@ -52,13 +59,15 @@ DetectionCard::DetectionCard(QWidget* parent)
       reason_(Wrapped()),
       advice_(Wrapped("faint")),
       answer_(Wrapped("answer")),
-      facts_(new QFormLayout) {
+      facts_(new QFormLayout),
+      age_(new QuietLabel(QuietLabel::Ground::kCard)) {
   setObjectName(QStringLiteral("card"));
   stale_->setText(tr("From an earlier scan: not drawn"));
   answer_->setAccessibleName(tr("Answer"));
   facts_->setVerticalSpacing(6);
   facts_->setHorizontalSpacing(12);
   facts_->setContentsMargins(0, 0, 0, 0);
+  facts_->addRow(Faint(tr("Found")), age_);
   auto* layout = new QVBoxLayout(this);
   layout->setSpacing(10);
   layout->addWidget(BuildBadge(), 0, Qt::AlignLeft);
@@ -107,10 +116,9 @@ QWidget* DetectionCard::BuildSteps() {
 
 void DetectionCard::ShowRows(const QVector<std::pair<QString, QString>>& rows) {
   while (rows_.size() < rows.size()) {
-    auto* title = new QLabel;
-    title->setObjectName(QStringLiteral("faint"));
-    auto* value = Wrapped();
-    facts_->addRow(title, value);
+    QLabel* title = Faint();
+    QLabel* value = Wrapped();
+    facts_->insertRow(rows_.size(), title, value);
     rows_ << std::pair(title, value);
   }
   for (int i = 0; i < rows_.size(); ++i) {
@@ -124,7 +132,6 @@ void DetectionCard::ShowRows(const QVector<std::pair<QString, QString>>& rows) {
     value->setText(rows[i].second);
     value->setMinimumHeight(value->heightForWidth(std::max(value->width(), kNarrowValue_px)));
   }
-  age_ = rows_[rows.size() - 1].second;
 }
 
 void DetectionCard::Show(const FoundObject& object, int candidate, bool is_current,
@@ -154,8 +161,7 @@ void DetectionCard::Show(const FoundObject& object, int candidate, bool is_curre
                              : QString());
   rows << std::pair(tr("Fitted to"), QString::fromStdString(SourceTitle(OriginOf(found).source)))
        << std::pair(tr("Scan"), object.scan_time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")))
-       << std::pair(tr("Kept"), object.kept ? tr("in the mission") : tr("not written yet"))
-       << std::pair(tr("Found"), QString());
+       << std::pair(tr("Kept"), object.kept ? tr("in the mission") : tr("not written yet"));
   ShowRows(rows);
   ShowAge(object);
 }
@@ -170,9 +176,7 @@ QString DetectionCard::AdviceText() const {
 
 void DetectionCard::ShowAge(const FoundObject& object) {
   const auto age = std::chrono::steady_clock::now() - object.found;
-  const QString text =
-      tr("%1 ago").arg(AgeText(std::chrono::duration_cast<std::chrono::seconds>(age)));
-  if (age_->text() != text) age_->setText(text);
+  age_->SetText(tr("%1 ago").arg(AgeText(std::chrono::duration_cast<std::chrono::seconds>(age))));
 }
 
 }  // namespace foresight

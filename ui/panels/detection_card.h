@@ -12,6 +12,8 @@ class QToolButton;
 
 namespace foresight {
 
+class QuietLabel;
+
 /// Everything an operator needs to judge one found object: verdict, reason, what to do, and the
 /// candidate's pose in the robot's frame. Millimetres and degrees. All of it is about the answer
 /// that is drawn.
@@ -46,7 +48,7 @@ class DetectionCard : public QFrame {
   QFormLayout* facts_;
   /// Title and value; kept from one answer to the next, so that nothing flickers.
   QVector<std::pair<QLabel*, QLabel*>> rows_;
-  QLabel* age_ = nullptr;
+  QuietLabel* age_;
 };
 
 }  // namespace foresight

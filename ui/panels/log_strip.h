@@ -12,7 +12,8 @@ class QToolButton;
 namespace foresight {
 
 /// One line under the head's strip, always there and always as high, so that nothing below it
-/// moves: the weightiest message that is not acknowledged, and how many more there are.
+/// moves: the weightiest message that is not acknowledged, a button that does what it advises where
+/// a command can, and how many more there are.
 class LogStrip : public QFrame {
   Q_OBJECT
 
@@ -23,11 +24,14 @@ class LogStrip : public QFrame {
 
  private:
   void ShowTop();
+  void ShowAction(const LogEntry* top);
 
   LogModel* log_;
+  CommandTable* commands_;
   QLabel* icon_;
   QLabel* text_;
   QLabel* more_;
+  QPushButton* action_;
   QPushButton* acknowledge_;
 };
 

@@ -41,7 +41,7 @@ QToolTip { border: 1px solid #596270; padding: 4px; }
 QToolBar { border: none; spacing: 2px; padding: 2px 6px; }
 QToolBar QToolButton { padding: 3px 6px; }
 QLabel#emptyState { color: #a4acb6; background: #16191d; font-size: 12pt; padding: 24px; }
-QLabel#caption, QLabel#faint { color: #a4acb6; }
+QLabel#faint { color: #a4acb6; }
 QLabel#fault { color: #f0a35e; }
 QLabel#cornerTag { color: #e8ebef; background: rgba(20, 22, 26, 215); border-radius: 4px;
   padding: 3px 8px; }

@@ -226,7 +226,9 @@ void HeadViewModel::PollHealth() {
 }
 
 void HeadViewModel::PollScan() {
-  const bool look = ++polls_ % kPollsPerLook == 0 && status_.lines != lines_shown_;
+  // An image is shown as soon as it is there; lines may wait for the next look.
+  const bool new_image = status_.frames != frames_shown_;
+  const bool look = new_image || (++polls_ % kPollsPerLook == 0 && status_.lines != lines_shown_);
   if (Sweeps() && !look) return;
   const auto scan = live_->Snapshot();
   if (!scan) {
@@ -246,6 +248,7 @@ void HeadViewModel::PollScan() {
     Q_EMIT scanEnded(scan);
   } else if (look) {
     lines_shown_ = status_.lines;
+    frames_shown_ = status_.frames;
     Q_EMIT scanGrew(scan);
   }
 }
@@ -273,7 +276,7 @@ void HeadViewModel::scan() {
   }
   live_ = std::move(live);
   ended_.reset();
-  polls_ = polls_without_scan_ = lines_shown_ = 0;
+  polls_ = polls_without_scan_ = lines_shown_ = frames_shown_ = 0;
   Q_EMIT scanStarted();
   Poll();
   Q_EMIT statusChanged();

@@ -142,6 +142,7 @@ class HeadViewModel : public QObject {
   int polls_ = 0;
   int polls_without_scan_ = 0;
   int lines_shown_ = 0;
+  int frames_shown_ = 0;
   bool stop_latched_ = false;
   /// The scan that ended last: a line that was still on its way is shown too.
   std::shared_ptr<ScanAssembler> ended_;

@@ -66,9 +66,12 @@ void LogModel::close(const QString& topic) {
 }
 
 void LogModel::ExpireInformation() {
-  for (LogEntry& entry : entries_)
-    if (entry.notice.level == Notice::Level::kInfo) entry.acknowledged = true;
-  Q_EMIT changed();
+  bool any = false;
+  for (LogEntry& entry : entries_) {
+    if (entry.acknowledged || entry.notice.level != Notice::Level::kInfo) continue;
+    any = entry.acknowledged = true;
+  }
+  if (any) Q_EMIT changed();
 }
 
 }  // namespace foresight

@@ -16,14 +16,18 @@ struct Notice {
   QString next;
   /// What it is about, where a later event can end that ("scan", "recording"); may be empty.
   QString topic = {};
+  /// Id of the command that does what `next` says (CommandTable); may be empty.
+  QString command = {};
 
   bool operator==(const Notice&) const = default;
 };
 
-/// Topics: the last scan, the operator's stop, the mission file that is written.
+/// Topics: the last scan, the operator's stop, the mission file that is written, the one that the
+/// program left behind when it was killed.
 inline const QString kScanTopic = QStringLiteral("scan");
 inline const QString kStopTopic = QStringLiteral("stop");
 inline const QString kRecordingTopic = QStringLiteral("recording");
+inline const QString kInterruptedTopic = QStringLiteral("interrupted");
 
 /// The notice for a failed step; `doing` starts the sentence, e.g. "Fitting the valve".
 Notice NoticeOf(const QString& doing, const Error& error);

@@ -24,6 +24,14 @@ QString FreePath(const QString& folder) {
   return path;
 }
 
+/// Whether a program ended without closing the file.
+bool WasLeftBehind(const QString& path) {
+  // Closing a file takes its write-ahead log away.
+  if (!QFileInfo::exists(path + QStringLiteral("-wal"))) return false;
+  const auto mission = MissionFile::OpenReadOnly(path.toStdString());
+  return mission && !(*mission)->IsBeingRecorded();
+}
+
 /// Whether the file holds nothing that anybody would miss.
 bool IsEmpty(const MissionFile& file) {
   const auto scans = file.ListScans();
@@ -83,13 +91,26 @@ QStringList RecordingViewModel::LeftBehind(const QString& folder) {
   QStringList paths;
   const auto files =
       QDir(folder).entryInfoList({QStringLiteral("*.") + kSuffix}, QDir::Files, QDir::Time);
-  for (const QFileInfo& file : files) {
-    // Closing a file takes its write-ahead log away.
-    if (!QFileInfo::exists(file.filePath() + QStringLiteral("-wal"))) continue;
-    const auto mission = MissionFile::OpenReadOnly(file.filePath().toStdString());
-    if (mission && !(*mission)->IsBeingRecorded()) paths << file.filePath();
-  }
+  for (const QFileInfo& file : files)
+    if (WasLeftBehind(file.filePath())) paths << file.filePath();
   return paths;
+}
+
+void RecordingViewModel::OfferInterrupted(const QString& folder, const QString& last_path) {
+  QStringList left = LeftBehind(folder);
+  if (!last_path.isEmpty() && WasLeftBehind(last_path)) left.prepend(last_path);
+  if (left.isEmpty()) return;
+  interrupted_ = left.first();
+  session_->Report({Notice::Level::kWarning,
+                    tr("The program ended unexpectedly the last time; its mission was kept: %1.")
+                        .arg(interrupted_),
+                    tr("Go on recording in it, or look at it with Open for review (Ctrl+O)."),
+                    kInterruptedTopic, QStringLiteral("recording.continue")});
+  Q_EMIT changed();
+}
+
+void RecordingViewModel::continueInterrupted() {
+  if (!interrupted_.isEmpty()) SwitchTo(interrupted_);
 }
 
 Status RecordingViewModel::Open(const QString& path, std::shared_ptr<MissionFile>* file) const {
@@ -161,6 +182,10 @@ void RecordingViewModel::Use(std::shared_ptr<MissionFile> file) {
   file_ = std::move(file);
   recorder_ = std::make_shared<ScanRecorder>(file_);
   failed_ = false;
+  if (path_ == interrupted_) {
+    interrupted_.clear();
+    Q_EMIT interruptedTaken();
+  }
   scans_.clear();
   refreshList();
   WriteNext();

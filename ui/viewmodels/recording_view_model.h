@@ -39,6 +39,12 @@ class RecordingViewModel : public QObject {
   /// The same while the program runs: what waits goes into the new file. Not during a sweep.
   void SwitchTo(const QString& path);
 
+  /// Says that a program left a mission in `folder`, or the one at `last_path`, without closing it,
+  /// and offers to go on in it. Call it before Begin.
+  void OfferInterrupted(const QString& folder, const QString& last_path = {});
+  /// The mission that is offered; empty = none.
+  QString Interrupted() const { return interrupted_; }
+
   QString Path() const { return path_; }
   bool Recording() const { return recorder_ != nullptr; }
   /// The sink that writes a scan while it arrives; nullptr while there is no file to write.
@@ -59,6 +65,8 @@ class RecordingViewModel : public QObject {
  public Q_SLOTS:
   /// Writes what waits again, after the operator has made room.
   void tryAgain();
+  /// Records into the interrupted mission from now on. Not during a sweep.
+  void continueInterrupted();
   void refreshList();
   /// A scan has ended: makes sure that all of it is on the disk.
   void keepScan(const std::shared_ptr<const foresight::Scan>& scan);
@@ -73,6 +81,7 @@ class RecordingViewModel : public QObject {
  Q_SIGNALS:
   void changed();
   void allWritten();  ///< nothing waits any more
+  void interruptedTaken();  ///< the interrupted mission is no longer offered
 
  private:
   /// A depth map that was made of a recorded scan.
@@ -93,6 +102,7 @@ class RecordingViewModel : public QObject {
   TaskRunner reader_{session_->Tasks()};
   TaskRunner copier_{session_->Tasks(), TaskPolicy::kQueue};
   QString path_;
+  QString interrupted_;
   std::string author_;
   std::shared_ptr<MissionFile> file_;
   /// Those that were recorded into before: what belongs to their scans is still written there.

@@ -87,7 +87,7 @@ void ImagePane::ShowAge() {
   const QString caption = tr("Image at %1°, scanned %2 ago")
                               .arg(ShownAngle(*capture), 0, 'f', 1)
                               .arg(AgeText(std::chrono::seconds(age_s)));
-  if (caption != Caption()) SetCaption(caption);
+  SetCaption(caption);
 }
 
 void ImagePane::ShowSamples() {

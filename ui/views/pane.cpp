@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "ui/views/color_bar.h"
+#include "ui/widgets/quiet_label.h"
 
 namespace foresight {
 namespace {
@@ -20,8 +21,7 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
   hint_->setObjectName(QStringLiteral("emptyState"));
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);
-  caption_ = new QLabel;
-  caption_->setObjectName(QStringLiteral("caption"));
+  caption_ = new QuietLabel(QuietLabel::Ground::kWindow);
 
   controls_ = new QHBoxLayout;
   controls_->setContentsMargins(8, 4, 8, 4);
@@ -47,8 +47,7 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  caption_->setMinimumHeight(kControlHeight_px);
-  caption_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  caption_->setFixedHeight(kControlHeight_px);
   controls_->addWidget(caption_, 1);
   layout->addLayout(controls_);
   layout->addWidget(holder, 1);
@@ -68,11 +67,11 @@ void Pane::SetHint(const QString& hint) {
 }
 
 QString Pane::Caption() const {
-  return caption_->text();
+  return caption_->Text();
 }
 
 void Pane::SetCaption(const QString& caption, const QString& details) {
-  caption_->setText(caption);
+  caption_->SetText(caption);
   caption_->setToolTip(details.isEmpty() ? caption : details);
 }
 

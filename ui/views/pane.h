@@ -9,6 +9,7 @@ class QVBoxLayout;
 namespace foresight {
 
 class ColorBar;
+class QuietLabel;
 
 /// The frame that all three panes share: a row of controls, a canvas with a colour bar, a hint in
 /// their place while there is nothing to show, and a line of caption that says what is seen and how
@@ -35,7 +36,7 @@ class Pane : public QWidget {
  private:
   QWidget* canvas_;
   QLabel* hint_;
-  QLabel* caption_;
+  QuietLabel* caption_;
   QHBoxLayout* controls_;
   ColorBar* colors_;
   QVBoxLayout* footer_;
