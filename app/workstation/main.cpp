@@ -10,6 +10,7 @@
 #include "app/workstation/quit_on_signal.h"
 #include "app/workstation/unattended.h"
 #include "core/base/log.h"
+#include "core/base/operator_text.h"
 #include "core/base/version.h"
 #include "hardware/assembly/real_head.h"
 #include "hardware/simulated/simulated_head.h"
@@ -122,6 +123,9 @@ int Run(int argc, char** argv) {
   QApplication::setOrganizationName(QStringLiteral("foresight"));
   QApplication::setApplicationName(QStringLiteral("workstation"));
   ApplyTheme(&application);
+  SetTranslator([](const char* english) {
+    return QCoreApplication::translate("Core", english).toStdString();
+  });
   auto head = MakeHead(options);
   if (!head) {
     LogError("{}", head.error().message);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/operator_text.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -26,21 +27,32 @@ const TerrainSurface* Chosen(const TerrainDetection& terrain, int candidate) {
 }
 
 std::string Describe(const ValveModel& model) {
-  if (model.IsLever()) return fmt::format("lever, {:.0f} mm long", 1000.0 * model.lever_length_m);
+  if (model.IsLever()) return OperatorText("lever, {:.0f} mm long", 1000.0 * model.lever_length_m);
   const double across_mm = 2000.0 * model.rim_radius_m;
-  if (model.spokes == 0) return fmt::format("disc, {:.0f} mm across", across_mm);
-  return fmt::format("{} spokes, rim {:.0f} mm across", model.spokes, across_mm);
+  if (model.spokes == 0) return OperatorText("disc, {:.0f} mm across", across_mm);
+  return OperatorText("{} spokes, rim {:.0f} mm across", model.spokes, across_mm);
 }
 
 std::string Describe(const DrillModel& model) {
-  return fmt::format("{}, scale {:.2f}", model.template_name, model.scale);
+  return OperatorText("{}, scale {:.2f}", model.template_name, model.scale);
+}
+
+std::string KindText(TerrainSurface::Kind kind) {
+  switch (kind) {
+    case TerrainSurface::Kind::kBlock:
+      return OperatorText("block");
+    case TerrainSurface::Kind::kGround:
+      return OperatorText("ground");
+    case TerrainSurface::Kind::kUnknown:
+      break;
+  }
+  return OperatorText("unknown surface");
 }
 
 std::string Describe(const TerrainSurface& surface) {
-  constexpr const char* kKinds[] = {"block", "ground", "unknown surface"};
-  return fmt::format("{}, {:.0f} x {:.0f} mm, slope {:.0f} deg",
-                     kKinds[static_cast<std::size_t>(surface.kind)], 1000.0 * surface.size_m.x(),
-                     1000.0 * surface.size_m.y(), DegreesFromRadians(surface.toehold.slope_rad));
+  return OperatorText("{}, {:.0f} x {:.0f} mm, slope {:.0f} deg", KindText(surface.kind),
+                      1000.0 * surface.size_m.x(), 1000.0 * surface.size_m.y(),
+                      DegreesFromRadians(surface.toehold.slope_rad));
 }
 
 template <class Found>
@@ -49,8 +61,8 @@ std::string TextOf(const Found& found, int candidate) {
   if (candidate <= 0 || found.alternatives.empty()) return Describe(chosen.model);
   const double nats = found.best.log_likelihood - chosen.log_likelihood;
   const int count = static_cast<int>(found.alternatives.size());
-  return fmt::format("alternative {} of {}: {}, {}", std::min(candidate, count), count,
-                     Describe(chosen.model), MarginInWords(nats));
+  return OperatorText("alternative {} of {}: {}, {}", std::min(candidate, count), count,
+                      Describe(chosen.model), MarginInWords(nats));
 }
 
 template <class Found>
@@ -65,10 +77,10 @@ std::optional<double> MarginOf(const TerrainDetection&, int) {
 
 std::string TextOf(const TerrainDetection& terrain, int candidate) {
   const TerrainSurface* surface = Chosen(terrain, candidate);
-  if (surface == nullptr) return "no surface";
+  if (surface == nullptr) return OperatorText("no surface");
   const int count = static_cast<int>(terrain.surfaces.size());
-  return fmt::format("surface {} of {}: {}", std::clamp(candidate, 0, count - 1) + 1, count,
-                     Describe(*surface));
+  return OperatorText("surface {} of {}: {}", std::clamp(candidate, 0, count - 1) + 1, count,
+                      Describe(*surface));
 }
 
 template <class Found>
@@ -83,12 +95,12 @@ Rigid<frame::Base, frame::Object> PoseOf(const TerrainDetection& terrain, int ca
 
 }  // namespace
 
-const char* MarginInWords(double nats) {
-  if (!(nats >= 0.0)) return "not comparable";
-  if (nats < kComparable_nats) return "about as likely";
-  if (nats < 10.0) return "a little less likely";
-  if (nats < 50.0) return "clearly less likely";
-  return "far less likely";
+std::string MarginInWords(double nats) {
+  if (!(nats >= 0.0)) return OperatorText("not comparable");
+  if (nats < kComparable_nats) return OperatorText("about as likely");
+  if (nats < 10.0) return OperatorText("a little less likely");
+  if (nats < 50.0) return OperatorText("clearly less likely");
+  return OperatorText("far less likely");
 }
 
 std::optional<double> MarginBehindBest(const Detection& detection, int candidate) {

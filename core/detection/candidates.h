@@ -19,7 +19,7 @@ Rigid<frame::Base, frame::Object> CandidatePose(const Detection& detection, int 
 /// answer and for a terrain, whose surfaces are no alternatives to each other.
 std::optional<double> MarginBehindBest(const Detection& detection, int candidate);
 /// "about as likely", "a little less likely", "clearly less likely", "far less likely".
-const char* MarginInWords(double nats);
+std::string MarginInWords(double nats);
 
 /// What an operator may make of it: an alternative is LIKELY at most, and that only where it is
 /// about as likely as the best answer; one that is clearly behind is UNSURE, whatever the best one

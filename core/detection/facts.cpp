@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/operator_text.h"
 #include "core/depth/depth_method.h"
 #include "core/detection/candidates.h"
 #include "core/detection/fit_in_scan.h"
@@ -16,7 +17,8 @@ namespace {
 using RobotFromBase = Rigid<frame::Robot, frame::Base>;
 
 std::string Number(double value, int digits, const char* unit) {
-  return std::isfinite(value) ? fmt::format("{:.{}f} {}", value, digits, unit) : "not known";
+  return std::isfinite(value) ? fmt::format("{:.{}f} {}", value, digits, unit)
+                              : OperatorText("not known");
 }
 
 std::string Millimetres(double metres, int digits = 0) {
@@ -28,33 +30,33 @@ std::string Degrees(double radians) {
 }
 
 std::string Place(const Eigen::Vector3d& in_robot) {
-  return fmt::format("x {:.0f}, y {:.0f}, z {:.0f} mm", 1000.0 * in_robot.x(),
-                     1000.0 * in_robot.y(), 1000.0 * in_robot.z());
+  return OperatorText("x {:.0f}, y {:.0f}, z {:.0f} mm", 1000.0 * in_robot.x(),
+                      1000.0 * in_robot.y(), 1000.0 * in_robot.z());
 }
 
 /// A direction of the robot's frame as an operator points: how far left of forward, how far up.
 std::string Direction(const Eigen::Vector3d& in_robot) {
   const double left_deg = DegreesFromRadians(std::atan2(in_robot.y(), in_robot.x()));
   const double up_deg = DegreesFromRadians(std::asin(std::clamp(in_robot.z(), -1.0, 1.0)));
-  return fmt::format("{:.1f} deg {} of forward, {:.1f} deg {}", std::abs(left_deg),
-                     left_deg < 0.0 ? "right" : "left", std::abs(up_deg),
-                     up_deg < 0.0 ? "down" : "up");
+  return OperatorText("{:.1f} deg {} of forward, {:.1f} deg {}", std::abs(left_deg),
+                      OperatorText(left_deg < 0.0 ? "right" : "left"), std::abs(up_deg),
+                      OperatorText(up_deg < 0.0 ? "down" : "up"));
 }
 
 /// `sigma` is that of the best answer, and says nothing of another one.
 std::string WithSigma(const std::string& text, const std::string& sigma, int candidate = 0) {
-  return candidate > 0 ? text : fmt::format("{} (sigma {})", text, sigma);
+  return candidate > 0 ? text : OperatorText("{} (sigma {})", text, sigma);
 }
 
 std::string SigmaOfPlace(const Eigen::Vector3d& sigma_m) {
-  return fmt::format("{:.1f}, {:.1f}, {:.1f} mm along its axes", 1000.0 * sigma_m.x(),
-                     1000.0 * sigma_m.y(), 1000.0 * sigma_m.z());
+  return OperatorText("{:.1f}, {:.1f}, {:.1f} mm along its axes", 1000.0 * sigma_m.x(),
+                      1000.0 * sigma_m.y(), 1000.0 * sigma_m.z());
 }
 
 template <class Evidence>
 std::string Support(const Evidence& evidence) {
-  return fmt::format("{} of {} rays hit, {:.0f} % agree, RMS {}", evidence.hits, evidence.rays,
-                     100.0 * evidence.inlier_ratio, Millimetres(evidence.rms_m, 1));
+  return OperatorText("{} of {} rays hit, {:.0f} % agree, RMS {}", evidence.hits, evidence.rays,
+                      100.0 * evidence.inlier_ratio, Millimetres(evidence.rms_m, 1));
 }
 
 void AddFacts(const ValveDetection& valve, int candidate, const RobotFromBase& robot_from_base,
@@ -62,16 +64,17 @@ void AddFacts(const ValveDetection& valve, int candidate, const RobotFromBase& r
   const auto pose = robot_from_base * CandidatePose(valve, candidate);
   const bool lever = valve.best.model.IsLever();
   facts.push_back(
-      {lever ? "Pivot" : "Centre",
+      {lever ? OperatorText("Pivot") : OperatorText("Centre"),
        WithSigma(Place(pose.translation()), SigmaOfPlace(valve.sigma_position_m), candidate)});
-  facts.push_back({"Axis (z)", WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
-                                         Degrees(valve.sigma_axis_rad), candidate)});
-  facts.push_back({lever ? "Lever (x)" : "Spoke (x)",
+  facts.push_back(
+      {OperatorText("Axis (z)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
+                                           Degrees(valve.sigma_axis_rad), candidate)});
+  facts.push_back({lever ? OperatorText("Lever (x)") : OperatorText("Spoke (x)"),
                    valve.phase_observable
                        ? WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
                                    Degrees(valve.sigma_phase_rad), candidate)
-                       : "angle not observable"});
-  if (candidate <= 0) facts.push_back({"Support", Support(valve.evidence)});
+                       : OperatorText("angle not observable")});
+  if (candidate <= 0) facts.push_back({OperatorText("Support"), Support(valve.evidence)});
 }
 
 void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& robot_from_base,
@@ -84,18 +87,21 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
                                                     1]
                                       .model
                                 : drill.best.model;
-  facts.push_back({"Foot", WithSigma(Place(pose.translation()),
-                                     SigmaOfPlace(drill.sigma_position_m), candidate)});
-  facts.push_back({"Bit points (x)", WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
-                                               Degrees(drill.sigma_yaw_rad), candidate)});
-  facts.push_back({"Body (z)", WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
-                                         Degrees(drill.sigma_axis_rad), candidate)});
-  facts.push_back({"Grasp", Place((pose * model.object_from_grasp).translation())});
-  facts.push_back({"Trigger", Place(pose * model.trigger_m)});
-  facts.push_back({"Bit tip", Place(pose * model.bit_tip_m)});
+  facts.push_back(
+      {OperatorText("Foot"),
+       WithSigma(Place(pose.translation()), SigmaOfPlace(drill.sigma_position_m), candidate)});
+  facts.push_back(
+      {OperatorText("Bit points (x)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
+                                                 Degrees(drill.sigma_yaw_rad), candidate)});
+  facts.push_back(
+      {OperatorText("Body (z)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
+                                           Degrees(drill.sigma_axis_rad), candidate)});
+  facts.push_back({OperatorText("Grasp"), Place((pose * model.object_from_grasp).translation())});
+  facts.push_back({OperatorText("Trigger"), Place(pose * model.trigger_m)});
+  facts.push_back({OperatorText("Bit tip"), Place(pose * model.bit_tip_m)});
   if (candidate > 0) return;
-  facts.push_back({"Turned round", MarginInWords(drill.evidence.flip_margin_nats)});
-  facts.push_back({"Support", Support(drill.evidence)});
+  facts.push_back({OperatorText("Turned round"), MarginInWords(drill.evidence.flip_margin_nats)});
+  facts.push_back({OperatorText("Support"), Support(drill.evidence)});
 }
 
 void AddFacts(const TerrainDetection& terrain, int candidate, const RobotFromBase& robot_from_base,
@@ -106,42 +112,48 @@ void AddFacts(const TerrainDetection& terrain, int candidate, const RobotFromBas
   const TerrainSurface& surface = terrain.surfaces[index];
   const Toehold& toehold = surface.toehold;
   const auto pose = robot_from_base * surface.base_from_object;
-  facts.push_back({"Middle", WithSigma(Place(pose.translation()),
-                                       Millimetres(toehold.sigma_height_m, 1) + " in height")});
-  facts.push_back({"Normal (z)", WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
-                                           Degrees(toehold.sigma_tilt_rad))});
-  facts.push_back({"Long side (x)", Direction(pose.Rotate(Eigen::Vector3d::UnitX()))});
-  facts.push_back({"Toehold", toehold.size_m.minCoeff() > 0.0
-                                  ? fmt::format("{:.0f} x {:.0f} mm", 1000.0 * toehold.size_m.x(),
-                                                1000.0 * toehold.size_m.y())
-                                  : "none"});
-  facts.push_back({"Step", Millimetres(toehold.step_m)});
+  facts.push_back(
+      {OperatorText("Middle"),
+       WithSigma(Place(pose.translation()),
+                 OperatorText("{} in height", Millimetres(toehold.sigma_height_m, 1)))});
+  facts.push_back(
+      {OperatorText("Normal (z)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
+                                             Degrees(toehold.sigma_tilt_rad))});
+  facts.push_back(
+      {OperatorText("Long side (x)"), Direction(pose.Rotate(Eigen::Vector3d::UnitX()))});
+  facts.push_back({OperatorText("Toehold"),
+                   toehold.size_m.minCoeff() > 0.0
+                       ? OperatorText("{:.0f} x {:.0f} mm", 1000.0 * toehold.size_m.x(),
+                                      1000.0 * toehold.size_m.y())
+                       : OperatorText("none")});
+  facts.push_back({OperatorText("Step"), Millimetres(toehold.step_m)});
   if (std::isfinite(surface.shift_m))
-    facts.push_back(
-        {"Moved", fmt::format("{} and {} since the accepted scan", Millimetres(surface.shift_m),
-                              Degrees(surface.turn_rad))});
-  facts.push_back({"Support", fmt::format("{} points, {:.0f} % covered, {} of 4 edges, RMS {}",
-                                          surface.evidence.points, 100.0 * surface.evidence.cover,
-                                          surface.evidence.confirmed_edges,
-                                          Millimetres(surface.evidence.rms_m, 1))});
+    facts.push_back({OperatorText("Moved"),
+                     OperatorText("{} and {} since the accepted scan", Millimetres(surface.shift_m),
+                                  Degrees(surface.turn_rad))});
+  facts.push_back(
+      {OperatorText("Support"),
+       OperatorText("{} points, {:.0f} % covered, {} of 4 edges, RMS {}", surface.evidence.points,
+                    100.0 * surface.evidence.cover, surface.evidence.confirmed_edges,
+                    Millimetres(surface.evidence.rms_m, 1))});
 }
 
 }  // namespace
 
 std::vector<Fact> FactsOf(const Detection& detection, int candidate,
                           const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  std::vector<Fact> facts = {{"Answer", CandidateText(detection, candidate)}};
+  std::vector<Fact> facts = {{OperatorText("Answer"), CandidateText(detection, candidate)}};
   std::visit([&](const auto& found) { AddFacts(found, candidate, robot_from_base, facts); },
              detection);
   return facts;
 }
 
 std::string SourceTitle(const std::string& source) {
-  if (source == "raw") return "lidar returns";
+  if (source == "raw") return OperatorText("lidar returns");
   for (const DepthMethodInfo& method : DepthMethods()) {
-    if (source == method.name) return fmt::format("depth map, {}", method.title);
+    if (source == method.name) return OperatorText("depth map, {}", method.title);
     if (source == NameOf({FitSource::kDepthAlone, method.method}))
-      return fmt::format("depth map alone, {}", method.title);
+      return OperatorText("depth map alone, {}", method.title);
   }
   return source;
 }

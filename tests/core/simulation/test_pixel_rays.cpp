@@ -28,7 +28,11 @@ TEST(PixelRays, OfAnotherLensAreThoseOfTheCameraToo) {
 TEST(PixelRays, BesideTheImageAreThoseOfTheCameraToo) {
   const CameraModel camera = DefaultSensorRig().camera;
   const PixelRays rays(camera);
-  EXPECT_EQ(*rays.At({-2000.0, -900.0}), *camera.Unproject({-2000.0, -900.0}));
+  const auto beside = rays.At({-20.0, -9.0}), exact = camera.Unproject({-20.0, -9.0});
+  ASSERT_TRUE(beside && exact);
+  EXPECT_EQ(*beside, *exact);
+  ASSERT_FALSE(camera.Unproject({-20000.0, -9000.0})) << "no ray falls there";
+  EXPECT_FALSE(rays.At({-20000.0, -9000.0}));
 }
 
 }  // namespace
