@@ -101,8 +101,9 @@ Status Run(const std::filesystem::path& folder, int lines) {
   head->Begin(sweep.Header());
 
   int cloud_lines = 0;
-  QObject::connect(&bench.live.session, &SessionModel::cloudChanged,
-                   [&] { cloud_lines = bench.live.session.Cloud()->lines; });
+  QObject::connect(&bench.live.session, &SessionModel::cloudChanged, [&] {
+    if (const auto& cloud = bench.live.session.Cloud()) cloud_lines = cloud->lines;
+  });
 
   ChartSeries mean{"mean of 25 looks", {}}, worst{"worst of 25", {}};
   std::string csv = "lines,mean_ms,worst_ms\n";
@@ -130,6 +131,9 @@ Status Run(const std::filesystem::path& folder, int lines) {
     csv += fmt::format("{},{:.3f},{:.3f}\n", seq, sum_ms / kLooksPerPoint, worst_ms);
     sum_ms = worst_ms = 0.0;
   }
+  head->EndScan("all lines have come");
+  bench.head.Poll();
+  WaitFor([&] { return bench.recording.Waiting() == 0 && !bench.recording.Busy(); });
   fmt::print("{}", csv);
   FORESIGHT_CHECK(WriteFileAtomically(folder / "scan-growth.csv", csv));
   return WriteFileAtomically(folder / "scan-growth.svg",

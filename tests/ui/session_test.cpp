@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
 #include "tests/ui/fake_head.h"
 #include "tests/ui/synthetic_scan.h"
@@ -160,6 +162,23 @@ struct ScanFlowTest : SessionTest {
   HeadViewModel head{fake};
   ScanFlow flow{&head, &session};
 };
+
+TEST(SessionMemory, TheCloudBeforeIsGivenBackByAnotherThread) {
+  TaskQueue tasks;
+  SessionModel session(SessionMode::kSimulation, &tasks);
+  std::atomic<bool> freed = false;
+  std::thread::id freed_by;
+  auto before =
+      std::shared_ptr<const RegisteredScan>(new RegisteredScan, [&](const RegisteredScan* cloud) {
+        freed_by = std::this_thread::get_id();
+        delete cloud;
+        freed = true;
+      });
+  session.SetCloud(std::move(before), {});
+  session.SetCloud(std::make_shared<const RegisteredScan>(), {});
+  ASSERT_TRUE(WaitFor([&] { return freed.load(); }));
+  EXPECT_NE(freed_by, std::this_thread::get_id());
+}
 
 TEST_F(ScanFlowTest, TheCloudGrowsWhileTheHeadSweeps) {
   head.scan();

@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QEventLoop>
+#include <QTimer>
 #include <functional>
 
 namespace foresight {
@@ -11,9 +12,13 @@ namespace foresight {
 inline bool WaitFor(const std::function<bool()>& condition, int limit_ms = 20'000) {
   QElapsedTimer timer;
   timer.start();
+  // With a time limit of its own processEvents never sleeps, and takes a core from what is waited
+  // for.
+  QTimer wake;
+  wake.start(20);
   while (!condition()) {
     if (timer.elapsed() > limit_ms) return false;
-    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents, 20);
+    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents);
   }
   return true;
 }

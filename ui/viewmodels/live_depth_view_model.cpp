@@ -40,6 +40,7 @@ void LiveDepthViewModel::Grow() {
       [this, live = live_, lines = session_->Cloud()->lines](Result<DepthResult> depth) {
         // Too few points yet, or the scan has ended meanwhile.
         if (!depth || live != live_) return;
+        if (session_->Tasks() != nullptr) session_->Tasks()->Discard(std::move(depth_));
         depth_ = std::make_shared<const DepthResult>(std::move(*depth));
         lines_ = lines;
         Q_EMIT changed();

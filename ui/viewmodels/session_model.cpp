@@ -72,6 +72,7 @@ const CameraFrame* SessionModel::CurrentImage() const {
 }
 
 void SessionModel::SetCloud(std::shared_ptr<const RegisteredScan> cloud, const SensorRig& rig) {
+  if (tasks_ != nullptr) tasks_->Discard(std::move(cloud_));
   cloud_ = std::move(cloud);
   rig_ = rig;
   Q_EMIT cloudChanged();

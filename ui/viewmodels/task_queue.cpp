@@ -47,6 +47,10 @@ bool TaskQueue::Idle() const {
                       [](const TaskRunner* runner) { return runner->Busy(); });
 }
 
+void TaskQueue::Discard(std::shared_ptr<const void> value) {
+  if (value) Enqueue([value = std::move(value)]() mutable { value.reset(); });
+}
+
 void TaskQueue::cancel(quint64 id) {
   for (TaskRunner* runner : runners_) runner->CancelTask(id);
 }

@@ -37,6 +37,9 @@ class TaskQueue : public QObject {
   /// What runs and what waits, oldest first.
   QVector<TaskInfo> Tasks() const;
   bool Idle() const;
+  /// Lets go of a large value on one of the threads: to give a scan's memory back takes
+  /// milliseconds that the window has other use for.
+  void Discard(std::shared_ptr<const void> value);
 
  public Q_SLOTS:
   /// Asks one task to stop; one that cannot be cancelled goes on.
