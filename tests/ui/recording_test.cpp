@@ -175,6 +175,27 @@ TEST_F(RecordingTest, AnInterruptedMissionIsOfferedAndOneCommandGoesOnInIt) {
   EXPECT_FALSE(QFileInfo::exists(fresh)) << "nothing was recorded into it";
 }
 
+TEST_F(RecordingTest, GoesBackToAFileOfTheSameSitting) {
+  const QString second = folder.filePath("second.foresight");
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  recording->SwitchTo(second);
+  ASSERT_TRUE(WaitFor([&] { return recording->Path() == second && !recording->Busy(); }));
+  notices.clear();
+  recording->SwitchTo(path);
+  EXPECT_TRUE(WaitFor([&] { return recording->Path() == path && !recording->Busy(); }, 2000));
+  recording->SwitchTo(path);
+  ASSERT_TRUE(AllWritten());
+  for (const Notice& notice : notices)
+    EXPECT_EQ(notice.level, Notice::Level::kInfo) << notice.what.toStdString();
+  Scan more = *SmallScan();
+  more.uuid = NewUuid();
+  Record(more);
+  ASSERT_TRUE(AllWritten());
+  EXPECT_EQ((*MissionFile::OpenReadOnly(path.toStdString()))->ListScans()->size(), 2u);
+}
+
 TEST_F(RecordingTest, AnInterruptedMissionInAnotherFolderIsOfferedToo) {
   ASSERT_TRUE(recording->Begin(path));
   Record(*SmallScan());

@@ -24,6 +24,10 @@ QString FreePath(const QString& folder) {
   return path;
 }
 
+bool IsSameFile(const QString& a, const QString& b) {
+  return QFileInfo(a).absoluteFilePath() == QFileInfo(b).absoluteFilePath();
+}
+
 /// Whether a program ended without closing the file.
 bool WasLeftBehind(const QString& path) {
   // Closing a file takes its write-ahead log away.
@@ -149,11 +153,19 @@ bool RecordingViewModel::BeginInFolder(const QString& folder) {
 }
 
 void RecordingViewModel::SwitchTo(const QString& path) {
+  // What was recorded into before in this sitting is still open: a file has one writer.
+  const auto earlier =
+      std::find_if(earlier_files_.begin(), earlier_files_.end(), [&](const auto& file) {
+        return IsSameFile(QString::fromStdString(file->path().string()), path);
+      });
+  const auto open_already = file_ && IsSameFile(path_, path)  ? file_
+                            : earlier != earlier_files_.end() ? *earlier
+                                                              : nullptr;
   writer_.Run<std::shared_ptr<MissionFile>>(
       tr("Opening the mission file"),
-      [this, path](const RunContext&) -> Result<std::shared_ptr<MissionFile>> {
-        std::shared_ptr<MissionFile> file;
-        FORESIGHT_CHECK(Open(path, &file));
+      [this, path, open_already](const RunContext&) -> Result<std::shared_ptr<MissionFile>> {
+        std::shared_ptr<MissionFile> file = open_already;
+        if (!file) FORESIGHT_CHECK(Open(path, &file));
         return file;
       },
       [this, path](Result<std::shared_ptr<MissionFile>> file) {
@@ -163,7 +175,8 @@ void RecordingViewModel::SwitchTo(const QString& path) {
           session_->Report(notice);
           return;
         }
-        const auto old = file_;
+        std::erase(earlier_files_, *file);
+        const auto old = file_ == *file ? nullptr : file_;
         const QString old_path = path_;
         recorder_.reset();
         list_file_.reset();
