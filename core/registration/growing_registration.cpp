@@ -1,7 +1,6 @@
 #include "core/registration/growing_registration.h"
 
-#include <algorithm>
-#include <atomic>
+#include <numeric>
 
 #include "core/base/parallel.h"
 
@@ -20,11 +19,28 @@ Result<RegisteredScan> GrowingRegistration::Update(const Scan& scan, const RunCo
   return grown;
 }
 
+int GrowingRegistration::NewFinalLines(const Scan& scan) const {
+  // The angle of a beam is a fit through the samples around it: it is final when the track reaches
+  // beyond the last one's window.
+  const auto samples = scan.track.samples();
+  const LidarModel& lidar = scan.rig.lidar;
+  const double known_until_s = samples.empty() ? -1e300 : samples.back().time_s;
+  auto next = static_cast<std::size_t>(final_lines_);
+  while (next < scan.lines.size() &&
+         scan.lines[next].time_s + lidar.BeamTime(lidar.beams - 1) + MotorTrack::kWindow_s <=
+             known_until_s)
+    ++next;
+  return static_cast<int>(next) - final_lines_;
+}
+
 Result<RegisteredScan> GrowingRegistration::Grow(const Scan& scan, const RunContext& context) {
   const auto first = static_cast<std::size_t>(final_lines_);
-  const int lines = static_cast<int>(scan.lines.size()) - final_lines_;
   for (std::size_t i = first; i < scan.lines.size(); ++i)
     FORESIGHT_CHECK(registrar_->CheckLine(scan.lines[i]));
+  const int final_lines = NewFinalLines(scan);
+  const int lines = scan.state == ScanState::kRunning
+                        ? final_lines
+                        : static_cast<int>(scan.lines.size()) - final_lines_;
   const std::size_t points = first * static_cast<std::size_t>(scan_.beams);
   scan_.lines = final_lines_;
   scan_.points.Truncate(points);
@@ -40,21 +56,11 @@ Result<RegisteredScan> GrowingRegistration::Grow(const Scan& scan, const RunCont
   lines_placed_ = lines;
   if (!finished) return Fail(ErrorCode::kCancelled, "registration was cancelled");
 
-  // The angle of a beam is a fit through the samples around it: it is final when the track reaches
-  // beyond the last one's window.
-  const auto samples = scan.track.samples();
-  const LidarModel& lidar = scan.rig.lidar;
-  const double known_until_s = samples.empty() ? -1e300 : samples.back().time_s;
-  std::int64_t all = final_returns_;
-  for (int row = 0; row < lines; ++row) {
-    const auto at = static_cast<std::size_t>(row);
-    all += returns[at];
-    const double end_s = scan.lines[first + at].time_s + lidar.BeamTime(lidar.beams - 1);
-    const bool next = final_lines_ == static_cast<int>(first) + row;
-    if (!next || end_s + MotorTrack::kWindow_s > known_until_s) continue;
-    ++final_lines_;
-    final_returns_ += returns[at];
-  }
+  final_lines_ += final_lines;
+  const auto new_final = returns.begin() + final_lines;
+  const std::int64_t all =
+      final_returns_ + std::accumulate(returns.begin(), returns.end(), std::int64_t{0});
+  final_returns_ += std::accumulate(returns.begin(), new_final, std::int64_t{0});
   if (all == 0)
     return Fail(ErrorCode::kTooFewPoints,
                 "no return in {} lidar lines has a range and a motor angle", scan_.lines);

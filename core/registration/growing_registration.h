@@ -8,20 +8,23 @@
 namespace foresight {
 
 /// The registration of a scan that grows: each update places what is new, so that its cost is that
-/// of the new lines and not of the scan. The result equals RegisterScan's of the same scan in every
-/// bit. One thread; results are snapshots that never change.
+/// of the new lines and not of the scan. While the scan runs, a line waits until the motor's track
+/// says where its beams stood, some 20 ms: so what was handed out never changes, and all results
+/// share their points. The result equals RegisterScan's of the same lines in every bit; of a scan
+/// that has ended, that is all of them. One thread; results are snapshots that never change.
 class GrowingRegistration {
  public:
   /// Takes the scan as it is now: one with the uuid of the last update has grown at its ends, any
-  /// other one begins anew. A line near the end of the track is placed again when more of the track
-  /// is known. Fails as RegisterScan does, and the next update begins anew then.
+  /// other one begins anew. Fails as RegisterScan does, and the next update begins anew then.
   Result<RegisteredScan> Update(const Scan& scan, const RunContext& context);
 
-  /// Lines that the last update placed, new ones and those placed again.
+  /// Lines that the last update placed.
   int lines_placed() const { return lines_placed_; }
 
  private:
   Result<RegisteredScan> Grow(const Scan& scan, const RunContext& context);
+  /// Lines behind the final ones whose angles no later sample of the track changes.
+  int NewFinalLines(const Scan& scan) const;
 
   std::string uuid_;
   std::optional<LineRegistrar> registrar_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <set>
 
 #include "tests/support/swept_plane.h"
 
@@ -31,6 +32,7 @@ void ExpectSame(const RegisteredScan& grown, const RegisteredScan& whole) {
 /// The scan when its `lines`-th line had come and the track was known for `ahead_s` beyond it.
 Scan PartOf(const Scan& scan, std::size_t lines, double ahead_s) {
   Scan part = scan;
+  part.state = ScanState::kComplete;
   part.lines.Truncate(lines);
   part.track = {};
   for (const MotorSample& sample : scan.track.samples())
@@ -79,6 +81,40 @@ TEST(GrowingRegistration, EarlierResultsStayAsTheyWere) {
   const RegisteredScan before = growing.Update(part, {}).value();
   ASSERT_TRUE(growing.Update(scan, {}));
   ExpectSame(before, RegisterScan(part, {}).value());
+}
+
+TEST(GrowingRegistration, WhileTheScanRunsALineWaitsUntilItsAnglesAreKnown) {
+  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  scan.uuid = "a";
+  GrowingRegistration growing;
+  for (const std::size_t lines : {5u, 12u, 20u}) {
+    Scan part = PartOf(scan, lines, 0.0);
+    part.state = ScanState::kRunning;
+    const RegisteredScan grown = growing.Update(part, {}).value();
+    ASSERT_LT(grown.lines, static_cast<int>(lines));
+    ASSERT_GE(grown.lines, static_cast<int>(lines) - 3);
+    Scan placed = PartOf(scan, lines, 1.0);
+    placed.lines.Truncate(static_cast<std::size_t>(grown.lines));
+    ExpectSame(grown, RegisterScan(placed, {}).value());
+  }
+  scan.state = ScanState::kComplete;
+  ExpectSame(growing.Update(scan, {}).value(), RegisterScan(scan, {}).value());
+}
+
+TEST(GrowingRegistration, PointsAreNotCopiedAtEachUpdate) {
+  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  scan.uuid = "a";
+  GrowingRegistration growing;
+  std::vector<RegisteredScan> kept;
+  std::set<const void*> places;
+  for (std::size_t lines = 3; lines <= scan.lines.size(); ++lines) {
+    Scan part = PartOf(scan, lines, 0.01);
+    part.state = ScanState::kRunning;
+    kept.push_back(growing.Update(part, {}).value());
+    places.insert(kept.back().points.data());
+  }
+  ASSERT_GT(kept.size(), 12u);
+  EXPECT_LE(places.size(), 6u) << "room grows by doubling";
 }
 
 TEST(GrowingRegistration, AnotherScanBeginsAnew) {
