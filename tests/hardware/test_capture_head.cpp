@@ -331,12 +331,15 @@ TEST(CaptureHead, SnapshotsMayBeTakenWhileTheScanArrives) {
   ASSERT_TRUE(tiny.Home());
   ASSERT_TRUE(tiny.head->StartScan(TinyPlan(), tiny.sinks));
   std::size_t last = 0;
+  int snapshots = 0;
   while (tiny.head->Status().state != HeadState::kReady) {
     const auto snapshot = tiny.assembler->Snapshot();
     if (!snapshot) continue;
     EXPECT_GE(snapshot->lines.size(), last);
     last = snapshot->lines.size();
+    ++snapshots;
   }
+  EXPECT_GT(snapshots, 1) << "none was taken while the scan arrived";
   EXPECT_GE(tiny.assembler->Snapshot()->lines.size(), 40u);
 }
 
