@@ -20,7 +20,7 @@ void PrintScan(const std::string& mission_file, const ScanSummary& scan,
                {"planned_lines", planned_lines},
                {"frames", scan.images},
                {"seconds", executed.seconds},
-               {"cpu_share", executed.cpu_fraction}});
+               {"cpu_ratio", executed.cpu_fraction}});
   else
     PrintLine(fmt::format("{}: scan {} {}, {} lines, {} images{}{}", mission_file, scan.id,
                           ToString(scan.state), scan.lines, scan.images,

@@ -17,7 +17,7 @@ constexpr std::array<DepthMethodInfo, 5> kMethods = {{
     {DepthMethod::kTgv, "tgv", "Total generalized variation (Ferstl 2013)",
      "Planes that break at edges of the image, fitted to the raw samples; fills every pixel."},
     {DepthMethod::kNonlocal, "nonlocal", "Nonlocal means (Park 2011)",
-     "Least squares that ties pixels with similar surroundings, on the raw samples; fills every "
+     "Least squares that ties pixels with similar neighbourhoods, on the raw samples; fills every "
      "pixel."},
 }};
 

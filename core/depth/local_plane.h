@@ -6,7 +6,7 @@ namespace foresight {
 
 /// Foresight's own upsampling: where Eq. (8) averages depths, this fits a plane to the inverse
 /// depths over the rays (exact for planes in space, whatever the lens), guided by CIELAB colour.
-/// First each sample finds the plane of its own surroundings, from several slopes; a pixel then
+/// First each sample finds the plane of its own neighbourhood, from several slopes; a pixel then
 /// starts from the plane of the best supported sample near it in place and colour. Defaults were
 /// chosen on seven Middlebury scenes; docs/evaluation.md.
 struct LocalPlaneOptions {

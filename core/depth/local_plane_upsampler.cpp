@@ -173,7 +173,7 @@ PlaneFilter LocalPlaneUpsampler::FilterOf(const Cached& cached) const {
   return filter;
 }
 
-/// From level planes to those of each sample's surroundings.
+/// From level planes to those of each sample's neighbourhood.
 Status LocalPlaneUpsampler::FindPlanes(const Cached* before, const SampleChange& change,
                                        Cached& now, const RunContext& context) const {
   const SparseDepthMap& map = now.samples.map;

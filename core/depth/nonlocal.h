@@ -21,7 +21,7 @@ struct NonlocalOptions {
 
 /// The depth d that minimises
 ///   sum_samples (d - R)^2 + lambda / (8 + similar_pixels) sum_pq w_pq (d_p - d_q)^2,
-/// pq over the 8 neighbours of each pixel and over the pixels nearby whose surroundings look most
+/// pq over the 8 neighbours of each pixel and over the pixels nearby whose neighbourhoods look most
 /// like its own; w_pq = exp(-|I_p - I_q|^2 / (2 sigma^2)) of the colours of neighbours, and
 /// nonlocal_fraction times that of the patches of similar pixels. Conjugate gradients from a smooth
 /// fill. Every pixel gets a depth, however far from a sample; the method does not know how good it

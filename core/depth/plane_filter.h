@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-/// A sample as the plane filter sees it, with the plane of inverse depth through its surroundings:
+/// A sample as the plane filter sees it, with the plane of inverse depth through its neighbourhood:
 ///   rho(x, y) = inverse_depth + slope_x (x - this->x) + slope_y (y - this->y)
 /// over the coordinates x, y of the rays: X/Z and Y/Z, or pixels in a pinhole's image.
 struct SamplePlane {
@@ -52,7 +52,7 @@ struct PlaneFilter {
 };
 
 /// Images as wide as the filter's; row r is the image's row top + r. Where no sample has weight, or
-/// the plane lies behind infinity, the depth is NaN and all else 0.
+/// the inverse depth is not positive, the depth is NaN and all else 0.
 struct PlaneFilterOutput {
   DepthImage& depth_m;  ///< 1 / a
   FloatImage& sum_gkh;  ///< of the last pass
@@ -70,8 +70,8 @@ void FilterPlaneRows(const PlaneFilter& filter, int top, int bottom,
 /// Finds the planes of the samples of the rows top <= y < bottom: the filter at each sample's own
 /// pixel, from each candidate; the one with the largest sum of G K H wins (the first of equals).
 /// Writes inverse_depth, the slopes and support = sum(G K H) / sum(G K), both of the last pass.
-/// Where a plane lies behind infinity the sample stays level. `filter.planes` need only hold x, y
-/// and unit; `planes` may be the same samples' planes. O(samples * samples in Omega * passes).
+/// Where the inverse depth is not positive the sample stays level. `filter.planes` need only hold
+/// x, y and unit; `planes` may be the same samples' planes. O(samples * samples in Omega * passes).
 void FitSamplePlanes(const PlaneFilter& filter, std::span<const SlopeCandidates> candidates,
                      int top, int bottom, std::span<SamplePlane> planes);
 

@@ -106,8 +106,8 @@ HWY_INLINE Vector AtPixels(PlaneFilterScratch& scratch, int x, const Plane& plan
   return hn::MulAdd(plane.b, px, hn::MulAdd(plane.c, py, plane.a));
 }
 
-/// Depth at the tile's pixels, NaN where the plane is behind infinity or not supported, or a pixel
-/// has no ray.
+/// Depth at the tile's pixels, NaN where the inverse depth is not positive or not supported, or a
+/// pixel has no ray.
 HWY_INLINE Vector DepthOf(PlaneFilterScratch& scratch, int x, const Plane& plane, Vector sum_gk,
                           const TileOrigin& origin) {
   const Floats f;

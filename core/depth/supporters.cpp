@@ -38,7 +38,7 @@ HWY_INLINE void AddSupporter(const SupportModel& model, int dy, std::size_t samp
     const auto predicted =
         hn::MulAdd(hn::LoadU(f, slope_y + at), y,
                    hn::MulAdd(hn::LoadU(f, slope_x + at), x, hn::LoadU(f, at_origin + at)));
-    // |R - 1 / rho| <= agreement, times rho; false for a NaN and behind infinity.
+    // |R - 1 / rho| <= agreement, times rho; false for a NaN and for rho <= 0.
     const auto agrees =
         hn::Le(hn::Abs(hn::MulSub(depth_m, predicted, one)), hn::Mul(agreement, predicted));
     const auto before = hn::LoadU(f, nearest + at);

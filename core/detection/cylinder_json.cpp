@@ -10,7 +10,7 @@ namespace {
 Json EvidenceJson(const CylinderEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
-          {"inlier_share", evidence.inlier_ratio},
+          {"inlier_ratio", evidence.inlier_ratio},
           {"see_through", evidence.see_through},
           {"residual_mad_m", evidence.residual_mad_m},
           {"range_sigma_m", evidence.range_sigma_m},

@@ -50,15 +50,15 @@ Json CandidateJson(const DrillCandidate& drill,
 Json EvidenceJson(const DrillEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
-          {"inlier_share", evidence.inlier_ratio},
+          {"inlier_ratio", evidence.inlier_ratio},
           {"see_through", evidence.see_through},
           {"rms_m", evidence.rms_m},
           {"yaw_margin_nats", evidence.yaw_margin_nats},
           {"flip_margin_nats", evidence.flip_margin_nats},
           {"head_nats", evidence.head_nats},
           {"gain_nats", evidence.gain_nats},
-          {"rival_margin_nats", evidence.alternative_margin_nats},
-          {"best_rival", evidence.best_alternative}};
+          {"alternative_margin_nats", evidence.alternative_margin_nats},
+          {"best_alternative", evidence.best_alternative}};
 }
 
 DrillModel ModelFrom(const Json& value) {
@@ -89,15 +89,16 @@ DrillEvidence EvidenceFrom(const Json& value) {
   DrillEvidence evidence;
   evidence.rays = CountIn(value, "rays");
   evidence.hits = CountIn(value, "hits");
-  evidence.inlier_ratio = NumberFrom(value.at("inlier_share"));
+  evidence.inlier_ratio = NumberFrom(Renamed(value, "inlier_ratio", "inlier_share"));
   evidence.see_through = NumberFrom(value.at("see_through"));
   evidence.rms_m = NumberFrom(value.at("rms_m"));
   evidence.yaw_margin_nats = NumberFrom(value.at("yaw_margin_nats"));
   evidence.flip_margin_nats = NumberFrom(value.at("flip_margin_nats"));
   evidence.head_nats = NumberFrom(value.at("head_nats"));
   evidence.gain_nats = NumberFrom(value.at("gain_nats"));
-  evidence.alternative_margin_nats = NumberFrom(value.at("rival_margin_nats"));
-  evidence.best_alternative = value.at("best_rival");
+  evidence.alternative_margin_nats =
+      NumberFrom(Renamed(value, "alternative_margin_nats", "rival_margin_nats"));
+  evidence.best_alternative = Renamed(value, "best_alternative", "best_rival");
   return evidence;
 }
 

@@ -147,6 +147,10 @@ Verdict VerdictFrom(const Json& object) {
   return verdict;
 }
 
+const Json& Renamed(const Json& object, const char* name, const char* old_name) {
+  return object.at(object.contains(old_name) ? old_name : name);
+}
+
 const Json& AlternativesIn(const Json& object) {
   const char* key = object.contains("rivals") ? "rivals" : "alternatives";
   return ListIn(object, key, kMostAlternatives);

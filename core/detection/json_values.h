@@ -45,6 +45,8 @@ PoseCovariance CovarianceFrom(const Json& object);
 void AddVerdict(const Verdict& verdict, Json& object);
 Verdict VerdictFrom(const Json& object);
 
+/// The member `name`, or `old_name` as earlier programs called it.
+const Json& Renamed(const Json& object, const char* name, const char* old_name);
 /// The array `alternatives`, or `rivals` as earlier programs called it.
 const Json& AlternativesIn(const Json& object);
 

@@ -31,7 +31,7 @@ Json CandidateJson(const ValveCandidate& valve,
 Json EvidenceJson(const ValveEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
-          {"inlier_share", evidence.inlier_ratio},
+          {"inlier_ratio", evidence.inlier_ratio},
           {"see_through", evidence.see_through},
           {"blocked_gaps", evidence.blocked_gaps},
           {"rms_m", evidence.rms_m},
@@ -74,7 +74,7 @@ ValveEvidence EvidenceFrom(const Json& value) {
   ValveEvidence evidence;
   evidence.rays = CountIn(value, "rays");
   evidence.hits = CountIn(value, "hits");
-  evidence.inlier_ratio = NumberFrom(value.at("inlier_share"));
+  evidence.inlier_ratio = NumberFrom(Renamed(value, "inlier_ratio", "inlier_share"));
   evidence.see_through = NumberFrom(value.at("see_through"));
   evidence.blocked_gaps = NumberFrom(value.at("blocked_gaps"));
   evidence.rms_m = NumberFrom(value.at("rms_m"));

@@ -128,7 +128,7 @@ Status VerdictFitOptions::Check() const {
   if (features.empty())
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: there are no features", object);
   if (!(negative_fraction > 0.0 && negative_fraction < 1.0))
-    return Fail(ErrorCode::kInvalidOptions, "verdict of {}: negative_share {} is not in (0, 1)",
+    return Fail(ErrorCode::kInvalidOptions, "verdict of {}: negative_fraction {} is not in (0, 1)",
                 object, negative_fraction);
   if (!(ridge >= 0.0) || folds < 2)
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: ridge {} or folds {} is not usable",

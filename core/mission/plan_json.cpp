@@ -18,7 +18,7 @@ std::string PlanToJson(const ScanPlan& plan) {
                         {"image_angles_rad", plan.image_angles_rad},
                         {"exposure_s", plan.exposure_s},
                         {"gain_db", plan.gain_db},
-                        {"picture_mode", ToString(plan.image_mode)},
+                        {"image_mode", ToString(plan.image_mode)},
                         {"max_blur_px", plan.max_blur_px},
                         {"passes", plan.passes}}
       .dump();
@@ -35,8 +35,10 @@ Result<ScanPlan> PlanFromJson(const std::string& json, const std::string& source
     value.at("exposure_s").get_to(plan.exposure_s);
     value.at("gain_db").get_to(plan.gain_db);
     // Plans that were written before these existed are executed as they were.
-    if (value.contains("picture_mode")) {
-      const auto mode = ImageModeFromString(value["picture_mode"].get<std::string>());
+    // "picture_mode" is what earlier programs wrote.
+    const char* mode_key = value.contains("picture_mode") ? "picture_mode" : "image_mode";
+    if (value.contains(mode_key)) {
+      const auto mode = ImageModeFromString(value[mode_key].get<std::string>());
       if (!mode)
         return Fail(ErrorCode::kBadData, "{}: scan plan: {}", source, mode.error().message);
       plan.image_mode = *mode;

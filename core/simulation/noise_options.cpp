@@ -41,7 +41,7 @@ Status LidarNoise::Check() const {
   FORESIGHT_CHECK(RaysPerSide("lidar footprint_side", footprint_side));
   FORESIGHT_CHECK(NotNegative("lidar pulse_length_m", pulse_length_m));
   FORESIGHT_CHECK(Positive("lidar dropout_power", dropout_power));
-  return CheckFraction("lidar spurious_share", spurious_fraction);
+  return CheckFraction("lidar spurious_fraction", spurious_fraction);
 }
 
 Status CameraNoise::Check() const {

@@ -110,6 +110,13 @@ bool CameraEmulator::GoneAt(double time_s) const {
   return time_s < injections_.gone_until_s;
 }
 
+bool CameraEmulator::LosesAt(double time_s) {
+  if (!GoneAt(time_s)) return false;
+  const std::lock_guard lock(mutex_);
+  ++counts_.fault_effects;
+  return true;
+}
+
 bool CameraEmulator::Current(int acquisition) const {
   const std::lock_guard lock(mutex_);
   return acquisition == acquisition_;
@@ -125,7 +132,7 @@ void CameraEmulator::Serve(const std::stop_token& stop) {
         control_.Receive(buffer, std::chrono::microseconds(static_cast<int>(1e6 * wait_s)), &wake_);
     if (stop.stop_requested()) return;
     const double now_s = clock_->Now();
-    if (datagram && !GoneAt(now_s))
+    if (datagram && !LosesAt(now_s))
       HandleRequest(std::span(buffer).first(datagram->size), datagram->from);
     device_.PassTime(now_s);
     FinishAcquisition();
@@ -170,12 +177,15 @@ void CameraEmulator::Trigger(double now_s) {
   if (ignored || injections_.ignored_triggers > 0) {
     if (!ignored) --injections_.ignored_triggers;
     ++counts_.ignored_triggers;
+    ++counts_.fault_effects;
     return;
   }
   if (injections_.slow_frames > 0) {
     --injections_.slow_frames;
     job.late_s = injections_.slow_s;
   }
+  const bool wrong_stamp = faults_.clock_ppm != 0.0 || faults_.clock_start_s != 0.0;
+  if (job.late_s > 0.0 || wrong_stamp) ++counts_.fault_effects;
   taken_.push_back({job.seq, now_s + 0.5 * job.exposure.exposure_s, job.exposure.exposure_s,
                     job.exposure.gain_db, job.exposure.format});
   jobs_.push_back(job);
@@ -245,6 +255,7 @@ void CameraEmulator::Deliver(const Job& job, const std::stop_token& stop) {
   SendFrame(*frame, exposure.stream, stop);
   const std::lock_guard lock(mutex_);
   ++counts_.frames;
+  if (faults_.first_block != 1) ++counts_.fault_effects;
 }
 
 void CameraEmulator::SendFrame(const GvspFrame& frame, const CameraStreamSetup& setup,
@@ -265,7 +276,7 @@ void CameraEmulator::SendFrame(const GvspFrame& frame, const CameraStreamSetup& 
 
 void CameraEmulator::SendPacket(const GvspFrame& frame, std::uint32_t number, const UdpPeer& to,
                                 std::int64_t round) {
-  if (GoneAt(clock_->Now())) return;
+  if (LosesAt(clock_->Now())) return;
   {
     const std::lock_guard lock(mutex_);
     ++counts_.packets;
@@ -274,6 +285,7 @@ void CameraEmulator::SendPacket(const GvspFrame& frame, std::uint32_t number, co
                        static_cast<std::uint64_t>(frame.block) << 24U | number;
     if (Random(faults_.seed, which).Uniform() < injections_.loss_ratio) {
       ++counts_.lost_packets;
+      ++counts_.fault_effects;
       return;
     }
   }

@@ -72,6 +72,7 @@ class CameraEmulator {
     std::int64_t packets = 0;  ///< with the lost ones
     std::int64_t lost_packets = 0;
     std::int64_t resent_packets = 0;
+    std::int64_t fault_effects = 0;  ///< how often a fault changed what the client got
   };
   Counts counts() const;
 
@@ -113,6 +114,8 @@ class CameraEmulator {
 
   // Of both:
   bool GoneAt(double time_s) const;
+  /// Whether what is asked or sent now is lost because the camera is gone.
+  bool LosesAt(double time_s);
   /// `round` counts how often this packet has been sent before.
   void SendPacket(const GvspFrame& frame, std::uint32_t number, const UdpPeer& to,
                   std::int64_t round);

@@ -9,9 +9,9 @@ namespace foresight {
 Status CameraFaults::Check() const {
   using Named = std::pair<const char*, double>;
   for (const auto& [name, fraction] :
-       std::array<Named, 3>{{{"packet_loss_share", packet_loss_ratio},
-                             {"ignored_trigger_share", ignored_trigger_fraction},
-                             {"slow_frame_share", slow_frame_fraction}}})
+       std::array<Named, 3>{{{"packet_loss_ratio", packet_loss_ratio},
+                             {"ignored_trigger_ratio", ignored_trigger_fraction},
+                             {"slow_frame_ratio", slow_frame_fraction}}})
     if (!(fraction >= 0.0 && fraction <= 1.0))
       return Fail(ErrorCode::kInvalidOptions, "{} must be from 0 to 1, is {}", name, fraction);
   for (const auto& [name, value] : std::array<Named, 4>{{{"slow_s", slow_s},

@@ -36,6 +36,16 @@ double NotNegative(YamlMap& map, const std::string& key, double fallback) {
   return value;
 }
 
+/// The ratio `what`_ratio, or `what`_share as earlier plans called it.
+double Ratio(YamlMap& map, const std::string& what, double fallback) {
+  const std::string key = what + "_ratio", old_key = what + "_share";
+  if (!map.Has(old_key)) return map.Number(key, fallback);
+  if (map.Has(key))
+    map.Fault(map.Node(old_key),
+              fmt::format("'{}' is the old name of '{}': give one of them", old_key, key));
+  return map.Number(old_key, fallback);
+}
+
 std::uint32_t Counter(YamlMap& map, const std::string& key, std::uint32_t fallback,
                       std::uint32_t last) {
   const double value = map.Number(key, fallback);
@@ -47,9 +57,9 @@ std::uint32_t Counter(YamlMap& map, const std::string& key, std::uint32_t fallba
 LidarFaults ReadLidar(YamlMap map, std::uint64_t seed) {
   LidarFaults faults;
   faults.seed = seed;
-  faults.corrupt_fraction = map.Number("corrupt_share", faults.corrupt_fraction);
-  faults.reset_fraction = map.Number("reset_share", faults.reset_fraction);
-  faults.stall_fraction = map.Number("stall_share", faults.stall_fraction);
+  faults.corrupt_fraction = Ratio(map, "corrupt", faults.corrupt_fraction);
+  faults.reset_fraction = Ratio(map, "reset", faults.reset_fraction);
+  faults.stall_fraction = Ratio(map, "stall", faults.stall_fraction);
   faults.stall_s = NotNegative(map, "stall_s", faults.stall_s);
   faults.fragment_bytes = map.Integer("fragment_bytes", faults.fragment_bytes);
   faults.boot_delay_s = NotNegative(map, "boot_delay_s", faults.boot_delay_s);
@@ -72,10 +82,9 @@ LidarFaults ReadLidar(YamlMap map, std::uint64_t seed) {
 CameraFaults ReadCamera(YamlMap map, std::uint64_t seed) {
   CameraFaults faults;
   faults.seed = seed;
-  faults.packet_loss_ratio = map.Number("packet_loss_share", faults.packet_loss_ratio);
-  faults.ignored_trigger_fraction =
-      map.Number("ignored_trigger_share", faults.ignored_trigger_fraction);
-  faults.slow_frame_fraction = map.Number("slow_frame_share", faults.slow_frame_fraction);
+  faults.packet_loss_ratio = Ratio(map, "packet_loss", faults.packet_loss_ratio);
+  faults.ignored_trigger_fraction = Ratio(map, "ignored_trigger", faults.ignored_trigger_fraction);
+  faults.slow_frame_fraction = Ratio(map, "slow_frame", faults.slow_frame_fraction);
   faults.slow_s = NotNegative(map, "slow_s", faults.slow_s);
   faults.vanish_after_s = NotNegative(map, "vanish_after_s", faults.vanish_after_s);
   faults.vanish_s = NotNegative(map, "vanish_s", faults.vanish_s);

@@ -53,6 +53,8 @@ class EmulatedDrive {
   void SetEncoderOffset(double offset_rad) { encoder_offset_rad_ = offset_rad; }
   /// Bits 10, 12 and 13 stay as they are until then.
   void HoldStatusUntil(double time_s) { stale_until_s_ = time_s; }
+  /// They are held and should be others.
+  bool StatusIsStale() const { return time_s_ < stale_until_s_ && mode_bits_ != ModeBits(time_s_); }
 
  private:
   enum class HomingPhase { kIdle, kToSwitch, kOffSwitch, kOntoEdge, kBraking, kDone, kFailed };

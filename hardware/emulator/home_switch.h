@@ -21,6 +21,8 @@ class HomeSwitch {
   void Break() { broken_ = true; }
   void Repair() { broken_ = false; }
   bool on() const { return on_ && !broken_; }
+  /// It is off although it should be on.
+  bool hidden() const { return on_ && broken_; }
 
  private:
   void DrawNextEdge();

@@ -8,9 +8,9 @@ namespace foresight {
 
 Status LidarFaults::Check() const {
   const std::array<std::pair<const char*, double>, 3> fractions{
-      {{"corrupt_share", corrupt_fraction},
-       {"reset_share", reset_fraction},
-       {"stall_share", stall_fraction}}};
+      {{"corrupt_ratio", corrupt_fraction},
+       {"reset_ratio", reset_fraction},
+       {"stall_ratio", stall_fraction}}};
   for (const auto& [name, fraction] : fractions)
     if (!(fraction >= 0.0 && fraction <= 1.0))
       return Fail(ErrorCode::kInvalidOptions, "{} must be from 0 to 1, is {}", name, fraction);

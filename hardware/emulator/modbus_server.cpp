@@ -53,12 +53,15 @@ ModbusServer::~ModbusServer() {
   }
 }
 
-void ModbusServer::ResetConnections() {
+int ModbusServer::ResetConnections() {
   const std::lock_guard lock(mutex_);
+  int ended = 0;
   for (Client& client : clients_) {
+    ended += client.finished ? 0 : 1;
     client.thread.request_stop();
     client.wake.Raise();
   }
+  return ended;
 }
 
 void ModbusServer::AcceptClients(const std::stop_token& stop) {
@@ -88,8 +91,11 @@ void ModbusServer::Serve(Client& client, const std::stop_token& stop) {
         client.socket.Reset();
         break;
       }
-      if (silent_) received.clear();
-      if (silent_) continue;
+      if (silent_) {
+        received.clear();
+        if (*count > 0) ++lost_requests_;
+        continue;
+      }
       received.insert(received.end(), buffer.begin(),
                       buffer.begin() + static_cast<std::ptrdiff_t>(*count));
       if (!AnswerAll(client, received)) break;

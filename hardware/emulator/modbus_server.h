@@ -39,8 +39,9 @@ class ModbusServer {
   const TcpAddress& address() const { return address_; }
   /// A silent server takes connections and requests, and loses the requests.
   void SetSilent(bool silent) { silent_ = silent; }
-  /// Ends all connections as a crash would.
-  void ResetConnections();
+  int lost_requests() const { return lost_requests_; }
+  /// Ends all connections as a crash would; says how many.
+  int ResetConnections();
 
  private:
   struct Client {
@@ -61,6 +62,7 @@ class ModbusServer {
   RegisterDevice& device_;
   RegisterDevice::ClientId clients_so_far_ = 0;
   std::atomic<bool> silent_{false};
+  std::atomic<int> lost_requests_{0};
   WakeUp wake_;
   std::mutex mutex_;
   std::list<Client> clients_;

@@ -67,7 +67,25 @@ void MotorEmulator::Work(const std::stop_token& stop) {
     const double now_s = clock_->Now();
     RunFaults(now_s);
     drive_.Run(now_s);
+    CountEffects(now_s);
   }
+}
+
+bool MotorEmulator::Runs(MotorFault::Kind kind) const {
+  return std::any_of(running_.begin(), running_.end(),
+                     [kind](const Running& fault) { return fault.kind == kind; });
+}
+
+/// Of faults that act while they last.
+void MotorEmulator::CountEffects(double time_s) {
+  const bool held = Runs(MotorFault::Kind::kBlockedShaft) && drive_.axis().Demanding(time_s);
+  const bool hidden = drive_.home_switch().hidden();
+  fault_effects_ += (held ? 1 : 0) + (hidden ? 1 : 0) + (drive_.StatusIsStale() ? 1 : 0);
+}
+
+int MotorEmulator::fault_effects() const {
+  const std::lock_guard lock(mutex_);
+  return fault_effects_ + server_->lost_requests();
 }
 
 std::optional<std::vector<std::uint16_t>> MotorEmulator::Read(ClientId client, std::uint16_t first,
@@ -76,6 +94,7 @@ std::optional<std::vector<std::uint16_t>> MotorEmulator::Read(ClientId client, s
   const double now_s = clock_->Now();
   drive_.Run(now_s);
   if (client == commander_) drive_.FeedWatchdog(now_s);
+  if (Holds<TxImage>(first, count) && Runs(MotorFault::Kind::kEncoderOffset)) ++fault_effects_;
   if (Holds<TxImage>(first, count))
     return Part(drive_.Image(now_s).Encode(options_.drive.word_order), first - TxImage::kFirst,
                 count);
@@ -148,7 +167,8 @@ void MotorEmulator::Begin(const MotorFault& fault, double time_s) {
     case MotorFault::Kind::kStaleStatus:
       return drive_.HoldStatusUntil(end_s);
     case MotorFault::Kind::kTcpReset:
-      return server_->ResetConnections();
+      fault_effects_ += server_->ResetConnections();
+      return;
     case MotorFault::Kind::kEncoderOffset:
       return drive_.SetEncoderOffset(MotorFault::kEncoderOffset_rad);
   }

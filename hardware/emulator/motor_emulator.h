@@ -40,6 +40,9 @@ class MotorEmulator final : private RegisterDevice {
   /// Ends all running faults.
   void ClearFaults();
 
+  /// How often a fault changed what the shaft did or what a client read.
+  int fault_effects() const;
+
   /// The shaft's true angle where the drive counts 0.
   double zero_rad() const;
   /// What a host would read now; does not feed the watchdog.
@@ -60,6 +63,8 @@ class MotorEmulator final : private RegisterDevice {
 
   void Work(const std::stop_token& stop);
   void RunFaults(double time_s);
+  void CountEffects(double time_s);
+  bool Runs(MotorFault::Kind kind) const;
   void Begin(const MotorFault& fault, double time_s);
   void End(MotorFault::Kind kind, double time_s);
 
@@ -73,6 +78,7 @@ class MotorEmulator final : private RegisterDevice {
   ClientId commander_ = 0;           ///< wrote last; 0 = nobody
   std::vector<MotorFault> planned_;  ///< latest first
   std::vector<Running> running_;
+  int fault_effects_ = 0;
 
   std::unique_ptr<ModbusServer> server_;
   std::jthread thread_;  ///< last: starts when everything else is there

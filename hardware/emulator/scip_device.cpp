@@ -60,6 +60,11 @@ std::uint32_t ScipDevice::ClockAt(double time_s) const {
   return static_cast<std::uint32_t>(std::llround(std::floor(ms)) + clock_start_ms_) & 0xFFFFFF;
 }
 
+std::uint32_t ScipDevice::HealthyClockAt(double time_s) const {
+  return static_cast<std::uint32_t>(std::llround(std::floor(1e3 * (time_s - power_on_s_)))) &
+         0xFFFFFF;
+}
+
 void ScipDevice::BeginConnection() {
   mode_ = Mode::kIdle;
   quits_ = 0;

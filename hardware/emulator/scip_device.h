@@ -49,6 +49,10 @@ class ScipDevice {
   void LoseBeams(int beams) { faults_.missing_beams = beams; }
   /// Milliseconds, 24 bits.
   std::uint32_t ClockAt(double time_s) const;
+  /// The same without faults.
+  std::uint32_t HealthyClockAt(double time_s) const;
+  /// Whether it refuses to work.
+  bool Hindered(double now_s) const { return Hindrance(now_s).has_value(); }
 
  private:
   enum class Mode { kIdle, kLaserOn, kTime, kStreaming };

@@ -191,8 +191,10 @@ bool ScipEmulator::FollowInjections(TcpSocket& client) {
   if (std::exchange(injections_.abnormal, false)) {
     device_.BeginConnection();  // ends the stream
     device_.EnterAbnormalState();
+    ++counts_.fault_effects;
   }
   if (!std::exchange(injections_.reset, false)) return true;
+  ++counts_.fault_effects;
   client.Reset();
   return false;
 }
@@ -203,15 +205,25 @@ Status ScipEmulator::HandleRequest(TcpSocket& client, std::string_view bytes) {
     const double now_s = clock_->Now();
     {
       const std::lock_guard lock(mutex_);
-      if (now_s < injections_.silent_until_s) continue;
+      if (now_s < injections_.silent_until_s) {
+        ++counts_.fault_effects;
+        continue;
+      }
     }
+    if (device_.Hindered(now_s)) CountEffect();
     const bool streaming = device_.Streaming();
     const std::string reply =
         device_.Answer(*request, now_s, [this] { return MeasureTurn(LastTurn()); });
     if (device_.Streaming() && !streaming) next_turn_ = NextTurn();
+    if (reply.empty()) CountEffect();
     FORESIGHT_CHECK(Send(client, reply));
   }
   return {};
+}
+
+void ScipEmulator::CountEffect() {
+  const std::lock_guard lock(mutex_);
+  ++counts_.fault_effects;
 }
 
 /// The faults that the plan holds for a turn become injections.
@@ -241,14 +253,20 @@ Status ScipEmulator::SendDueLine(TcpSocket& client) {
       ++counts_.skipped;
       return {};
     }
-    if (now_s < std::max(injections_.stalled_until_s, injections_.silent_until_s)) return {};
+    if (now_s < std::max(injections_.stalled_until_s, injections_.silent_until_s)) {
+      ++counts_.fault_effects;
+      return {};
+    }
     ++counts_.scans;
     const bool lacks_beams = injections_.short_scans > 0;
     if (lacks_beams) --injections_.short_scans;
     device_.LoseBeams(lacks_beams ? injections_.missing_beams : faults_.missing_beams);
+    const bool wrong_stamp = device_.ClockAt(now_s) != device_.HealthyClockAt(now_s);
+    if (lacks_beams || faults_.missing_beams > 0 || wrong_stamp) ++counts_.fault_effects;
     if (injections_.corrupt_scans > 0) {
       --injections_.corrupt_scans;
       ++counts_.corrupted;
+      ++counts_.fault_effects;
       corrupt = true;
     }
   }
@@ -260,6 +278,7 @@ Status ScipEmulator::SendDueLine(TcpSocket& client) {
 Status ScipEmulator::Send(TcpSocket& client, std::string_view bytes) {
   const auto piece = faults_.fragment_bytes > 0 ? static_cast<std::size_t>(faults_.fragment_bytes)
                                                 : std::max<std::size_t>(1, bytes.size());
+  if (piece < bytes.size()) CountEffect();
   for (std::size_t at = 0; at < bytes.size(); at += piece)
     FORESIGHT_CHECK(client.Send(bytes.substr(at, piece), kSendTimeout));
   return {};

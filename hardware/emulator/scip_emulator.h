@@ -61,6 +61,7 @@ class ScipEmulator {
     int corrupted = 0;
     int skipped = 0;  ///< not sent because this process came too late
     int reboots = 0;
+    int fault_effects = 0;  ///< how often a fault changed what the client got
   };
   Counts counts() const;
 
@@ -87,6 +88,7 @@ class ScipEmulator {
   Status HandleRequest(TcpSocket& client, std::string_view bytes);
   Status SendDueLine(TcpSocket& client);
   Status Send(TcpSocket& client, std::string_view bytes);
+  void CountEffect();
   bool FollowInjections(TcpSocket& client);
   void ApplyFaultsOfTurn(std::int64_t turn);
   void EndReboot(TcpSocket& client);

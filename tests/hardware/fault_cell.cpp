@@ -20,6 +20,8 @@ EmulatedDevicesOptions SmallDevices(const DeviceFaults& faults) {
   EmulatedDevicesOptions options;
   options.true_rig = TinyRig();
   options.faults = faults;
+  if (options.faults.camera.seed == CameraFaults().seed)
+    options.faults.camera.seed = kLossyCameraSeed;
   return options;
 }
 
@@ -42,7 +44,7 @@ class Cell {
                HastyConfig) {}
 
   FaultOutcome Run() {
-    MeetTheFault();
+    ExecuteWithFault();
     JudgeOutcome();
     Recover();
     return std::move(outcome_);
@@ -50,7 +52,7 @@ class Cell {
 
   /// What the emulators are set up with may last for ever, so nothing is over afterwards.
   FaultOutcome RunWithoutRecovery(bool harmless) {
-    MeetTheFault();
+    ExecuteWithFault();
     JudgeOutcome();
     if (harmless && outcome_.summary != "scan complete")
       Violation("harmless, but: " + outcome_.summary);
@@ -83,12 +85,40 @@ class Cell {
   }
 
   void BeginFault() {
+    effects_before_ = Effects();
     beside_ = fault_.begin(*bench_.devices);
     over_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                   std::chrono::duration<double>(fault_.lasts_s));
   }
 
-  void MeetTheFault() {
+  /// How often a fault of the device changed something.
+  std::int64_t Effects() const {
+    if (fault_.device == "lidar") return bench_.devices->lidar().counts().fault_effects;
+    if (fault_.device == "motor") return bench_.devices->motor().fault_effects();
+    return bench_.devices->camera().counts().fault_effects;
+  }
+
+  /// The head is told to home although it is disconnected or in fault, and to scan if it can.
+  void HomeAndScan() {
+    if (!bench_.head->Home()) return Violation("the head refused to home");
+    WaitFor([this] { return State() == HeadState::kHoming; }, 1.0);
+    if (!WaitFor([this] { return Idle(); })) return Violation("homing never ended");
+    if (State() == HeadState::kReady) Scan();
+  }
+
+  /// Something else has happened before: the head is in fault.
+  void GoIntoFault() {
+    if (!bench_.Home()) return Violation("no homing before the fault");
+    bench_.devices->motor().Inject({MotorFault::Kind::kTcpReset, 0.0, 0.0});
+    if (!bench_.WaitFor(HeadState::kFault)) Violation("a broken connection was not noticed");
+  }
+
+  void ExecuteWithFault() {
+    if (phase_ == HeadPhase::kDisconnected || phase_ == HeadPhase::kFault) {
+      if (phase_ == HeadPhase::kFault) GoIntoFault();
+      BeginFault();
+      return HomeAndScan();
+    }
     if (phase_ == HeadPhase::kConnecting || phase_ == HeadPhase::kHoming) {
       if (!bench_.head->Home()) return Violation("the head refused to home");
       if (phase_ == HeadPhase::kHoming)
@@ -131,6 +161,9 @@ class Cell {
     const HeadStatus status = bench_.head->Status();
     if (!WaitFor([this] { return !bench_.devices->MotorTurns(); }, kRest_s))
       Violation("the motor still turns");
+    outcome_.effects = Effects() - effects_before_;
+    if (outcome_.effects == 0 && std::ranges::count(fault_.unmet, phase_) == 0)
+      Violation("the fault had no effect");
     if (assembler_) JudgeScan(*assembler_->Snapshot());
     if (status.state == HeadState::kFault) {
       if (status.message.find('\n') != std::string::npos || status.message.empty())
@@ -199,6 +232,7 @@ class Cell {
   std::string refused_;
   std::jthread beside_;  ///< of the fault
   Clock::time_point over_at_ = Clock::now();
+  std::int64_t effects_before_ = 0;
   FaultOutcome outcome_;
 };
 
@@ -206,6 +240,8 @@ class Cell {
 
 const char* ToString(HeadPhase phase) {
   switch (phase) {
+    case HeadPhase::kDisconnected:
+      return "disconnected";
     case HeadPhase::kConnecting:
       return "connecting";
     case HeadPhase::kHoming:
@@ -216,6 +252,8 @@ const char* ToString(HeadPhase phase) {
       return "sweeping";
     case HeadPhase::kStopping:
       return "stopping";
+    case HeadPhase::kFault:
+      return "fault";
   }
   return "unknown";
 }
@@ -226,7 +264,7 @@ FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase) {
 
 FaultOutcome RunPlannedFault(const PlannedFault& fault) {
   const HeadFault nothing_more{
-      fault.device, fault.name, [](EmulatedDevices&) { return std::jthread(); }, 0.0, {}};
+      fault.device, fault.name, [](EmulatedDevices&) { return std::jthread(); }, 0.0, {}, {}};
   return Cell(nothing_more, HeadPhase::kConnecting, fault.plan).RunWithoutRecovery(fault.harmless);
 }
 

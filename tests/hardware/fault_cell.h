@@ -10,6 +10,15 @@
 
 namespace foresight {
 
+/// What the head is doing when the fault begins.
+enum class HeadPhase { kDisconnected, kConnecting, kHoming, kReady, kSweeping, kStopping, kFault };
+inline constexpr int kHeadPhases = 7;
+const char* ToString(HeadPhase phase);
+
+/// An image of this small camera has four packets: of a loss of 5 % most seeds lose none. With this
+/// one the first data packets of the first two images are lost, and come when asked for again.
+inline constexpr std::uint64_t kLossyCameraSeed = 2234;
+
 /// Something that goes wrong with one device while a head runs.
 struct HeadFault {
   std::string device;  ///< "lidar", "motor" or "camera"
@@ -18,12 +27,8 @@ struct HeadFault {
   std::function<std::jthread(EmulatedDevices&)> begin;
   double lasts_s = 0.0;                        ///< then it is over by itself
   std::function<void(EmulatedDevices&)> heal;  ///< what an operator would do; may be empty
+  std::vector<HeadPhase> unmet;                ///< phases in which it may pass without an effect
 };
-
-/// What the head is doing when the fault begins.
-enum class HeadPhase { kConnecting, kHoming, kReady, kSweeping, kStopping };
-inline constexpr int kHeadPhases = 5;
-const char* ToString(HeadPhase phase);
 
 /// Every fault that the emulators can show on request (head_faults.cpp).
 const std::vector<HeadFault>& HeadFaults();
@@ -46,13 +51,14 @@ std::vector<std::string> FaultPlanMembers();
 /// How a head came through a fault.
 struct FaultOutcome {
   std::string summary;                  ///< for the table: what the operator gets
+  std::int64_t effects = 0;             ///< how often the fault changed what a device did or said
   std::vector<std::string> violations;  ///< of what must hold whatever happens; empty = well
 };
 
 /// Executes a small scan with the real drivers on emulated devices, lets the fault begin in
-/// `phase`, and looks whether the motor ends at rest, the scan is kept and marked, a fault is told
-/// in one sentence that names its device, and the same head executes a complete scan once the fault
-/// is over. Takes some ten seconds, most of them waiting.
+/// `phase`, and looks whether the fault had an effect, the motor ends at rest, the scan is kept and
+/// marked, a fault is told in one sentence that names its device, and the same head executes a
+/// complete scan once the fault is over. Takes some ten seconds, most of them waiting.
 FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase);
 /// The same with a fault from power-on and without what comes after: homes, executes, and looks.
 FaultOutcome RunPlannedFault(const PlannedFault& fault);

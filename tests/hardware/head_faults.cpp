@@ -7,27 +7,33 @@ namespace {
 
 HeadFault Of(const std::string& device, const std::string& name,
              const std::function<void(EmulatedDevices&)>& begin, double lasts_s,
-             const std::function<void(EmulatedDevices&)>& heal = {}) {
-  return {device, name,
+             const std::function<void(EmulatedDevices&)>& heal, std::vector<HeadPhase> unmet) {
+  return {device,
+          name,
           [begin](EmulatedDevices& devices) {
             begin(devices);
             return std::jthread();
           },
-          lasts_s, heal};
+          lasts_s,
+          heal,
+          std::move(unmet)};
 }
 
+using Phase = HeadPhase;
+
+/// When the head stops, the last lines and the image have just come.
 HeadFault OfLidar(const std::string& name, const std::function<void(ScipEmulator&)>& begin,
-                  double lasts_s) {
+                  double lasts_s, std::vector<HeadPhase> unmet = {Phase::kStopping}) {
   return Of(
       "lidar", name, [begin](EmulatedDevices& devices) { begin(devices.lidar()); }, lasts_s,
-      [](EmulatedDevices& devices) { devices.lidar().ClearFaults(); });
+      [](EmulatedDevices& devices) { devices.lidar().ClearFaults(); }, std::move(unmet));
 }
 
 HeadFault OfCamera(const std::string& name, const std::function<void(CameraEmulator&)>& begin,
                    double lasts_s) {
   return Of(
       "camera", name, [begin](EmulatedDevices& devices) { begin(devices.camera()); }, lasts_s,
-      [](EmulatedDevices& devices) { devices.camera().ClearFaults(); });
+      [](EmulatedDevices& devices) { devices.camera().ClearFaults(); }, {Phase::kStopping});
 }
 
 /// Long enough to be met in every state; the switch is only looked at while homing.
@@ -47,6 +53,24 @@ double DurationOf(MotorFault::Kind kind) {
   return 0.0;
 }
 
+/// Where nothing is there that the fault could change.
+std::vector<HeadPhase> UnmetBy(MotorFault::Kind kind) {
+  switch (kind) {
+    case MotorFault::Kind::kBlockedShaft:
+      return {Phase::kReady};  // nothing turns for its second
+    case MotorFault::Kind::kStaleStatus:
+      return {Phase::kSweeping};  // the bits stay as they are while the shaft turns
+    case MotorFault::Kind::kTcpReset:
+      return {Phase::kDisconnected, Phase::kConnecting, Phase::kFault};  // no connection to break
+    case MotorFault::Kind::kLostHomeSwitch:
+      return {Phase::kStopping};
+    case MotorFault::Kind::kDeadLink:
+    case MotorFault::Kind::kEncoderOffset:
+      break;
+  }
+  return {};
+}
+
 HeadFault OfMotor(MotorFault::Kind kind) {
   const double lasts_s = DurationOf(kind);
   return Of(
@@ -54,10 +78,16 @@ HeadFault OfMotor(MotorFault::Kind kind) {
       [kind, lasts_s](EmulatedDevices& devices) {
         devices.motor().Inject({kind, 0.0, lasts_s});
       },
-      lasts_s, [](EmulatedDevices& devices) { devices.motor().ClearFaults(); });
+      lasts_s, [](EmulatedDevices& devices) { devices.motor().ClearFaults(); }, UnmetBy(kind));
 }
 
 constexpr double kStays_s = 3.0;
+
+std::vector<HeadPhase> AllPhases() {
+  std::vector<HeadPhase> phases;
+  for (int i = 0; i < kHeadPhases; ++i) phases.push_back(static_cast<HeadPhase>(i));
+  return phases;
+}
 
 /// Somebody else connects to the lidar, which serves one client, and stays for a while if it can.
 HeadFault SecondClientOfTheLidar() {
@@ -69,7 +99,8 @@ HeadFault SecondClientOfTheLidar() {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     });
   };
-  return {"lidar", "second client", begin, kStays_s, {}};
+  // A client that is refused is not seen by the emulator; one that comes first makes the head wait.
+  return {"lidar", "second client", begin, kStays_s, {}, AllPhases()};
 }
 
 }  // namespace
@@ -79,14 +110,15 @@ const std::vector<HeadFault>& HeadFaults() {
     std::vector<HeadFault> faults = {
         OfLidar(
             "corrupt sums", [](auto& lidar) { lidar.InjectCorruptScans(5); }, 0.0),
-        OfLidar(
-            "short stall", [](auto& lidar) { lidar.InjectStall(0.5); }, 0.5),
+        OfLidar("short stall", [](auto& lidar) { lidar.InjectStall(0.5); }, 0.5,
+                {Phase::kDisconnected, Phase::kConnecting, Phase::kHoming, Phase::kReady,
+                 Phase::kStopping, Phase::kFault}),  // over before a line is due
         OfLidar(
             "long stall", [](auto& lidar) { lidar.InjectStall(4.0); }, 4.0),
         OfLidar(
             "silence", [](auto& lidar) { lidar.InjectSilence(4.0); }, 4.0),
-        OfLidar(
-            "reset", [](auto& lidar) { lidar.InjectReset(); }, 0.0),
+        OfLidar("reset", [](auto& lidar) { lidar.InjectReset(); }, 0.0,
+                {Phase::kDisconnected, Phase::kConnecting}),  // no connection to break
         OfLidar(
             "abnormal state", [](auto& lidar) { lidar.InjectAbnormalState(); }, 0.0),
         OfLidar(

@@ -141,7 +141,7 @@ TEST_F(ScipEmulatorTest, BadFaultsAreRefused) {
   ScipEmulatorOptions options;
   options.faults.corrupt_fraction = 1.5;
   EXPECT_EQ(ScipEmulator::Start(world_, clock_, shaft_, options).error().message,
-            "corrupt_share must be from 0 to 1, is 1.5");
+            "corrupt_ratio must be from 0 to 1, is 1.5");
 }
 
 TEST_F(ScipEmulatorTest, TheSameSeedDamagesTheSameTurns) {

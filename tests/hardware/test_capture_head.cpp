@@ -329,14 +329,23 @@ TEST(CaptureHead, AScanAcceptedJustBeforeTheDestructorStillEnds) {
 TEST(CaptureHead, SnapshotsMayBeTakenWhileTheScanArrives) {
   TinyHead tiny;
   ASSERT_TRUE(tiny.Home());
+  // The head waits at the scan's tenth line until a snapshot has been taken.
+  std::atomic<bool> taken = false;
+  tiny.watch->action = [&taken] {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!taken && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  };
   ASSERT_TRUE(tiny.head->StartScan(TinyPlan(), tiny.sinks));
-  std::size_t last = 0;
+  std::size_t least = 1000, last = 0;
   while (tiny.head->Status().state != HeadState::kReady) {
     const auto snapshot = tiny.assembler->Snapshot();
     if (!snapshot) continue;
     EXPECT_GE(snapshot->lines.size(), last);
     last = snapshot->lines.size();
+    least = std::min(least, snapshot->lines.size());
+    taken = true;
   }
+  EXPECT_LE(least, 10u) << "none was taken while the scan arrived";
   EXPECT_GE(tiny.assembler->Snapshot()->lines.size(), 40u);
 }
 

@@ -409,7 +409,7 @@ Result<std::vector<Reader>> AllReaders(const std::string& folder, const std::str
         return std::vector<std::string>{"verdict",      "fit", "valve", path,
                                         "--population", "x",   "-o",    out + "/o"};
       });
-  add("faults", "nasty.yaml", true, kCorpus + "site_faults/all.yaml",
+  add("faults", "nasty.yaml", true, kCorpus + "device_faults/all.yaml",
       WrongYaml("foresight_faults: 1\n"), [room](const std::string& path, const std::string&) {
         return std::vector<std::string>{"emulate",   room,   "--faults", path,
                                         "--seconds", "0.05", "--json"};

@@ -128,7 +128,7 @@ inline PlaneFit FitPlaneByTheBook(const PlaneProblem& problem, const PlaneRefere
 }
 
 /// FitSamplePlanes for one of samples.samples: what each candidate arrives at. `depth_m` is at the
-/// sample's own place, NaN where the plane lies behind infinity there.
+/// sample's own place, NaN where the inverse depth is not positive there.
 inline std::array<PlaneFit, SlopeCandidates::kCount> FitCandidatesByTheBook(
     const PlaneProblem& problem, const PlaneReferenceOptions& options,
     const SlopeCandidates& candidates, std::size_t sample) {

@@ -36,7 +36,7 @@ TEST(EmulateCommand, EndsByItselfWhenAsked) {
 TEST(EmulateCommand, RefusesBadAddressesAndFaultPlans) {
   const TemporaryFolder folder;
   const std::string faults = folder / "faults.yaml";
-  std::ofstream(faults) << "foresight_faults: 1\nlidar: {stall_share: 2}\n";
+  std::ofstream(faults) << "foresight_faults: 1\nlidar: {stall_ratio: 2}\n";
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--lidar", "127.0.0.1:x"}).exit_code, 2);
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--lidar", "8.8.8.8:1"}).exit_code, 3);
   const ProgramResult bad = RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--faults", faults});

@@ -220,7 +220,7 @@ TEST_F(FitOfAScan, APoleInACloudOfFourFloatsAPointIsACylinder) {
   EXPECT_TRUE(answer["probability"].is_null());
   EXPECT_NEAR(answer["radius_m"].get<double>(), kRadius_m, 0.008);
   EXPECT_GT(answer["robot_from_object"]["z_axis"][2].get<double>(), 0.99);
-  EXPECT_GT(answer["evidence"]["inlier_share"].get<double>(), 0.9);
+  EXPECT_GT(answer["evidence"]["inlier_ratio"].get<double>(), 0.9);
   EXPECT_TRUE(ReadPng(image));
   const ProgramResult beside = Run({"fit", "cylinder", "--cloud", file, "--viewpoint", "0,0,0",
                                     "--box", "2,3,0,0.3,0.3,0.3", "--json"});

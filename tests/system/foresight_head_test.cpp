@@ -79,8 +79,8 @@ TEST_F(ForesightHead, NeedsLessThanThreeFifthsOfACore) {
       {"--head-config", config_, "--scan", Plan(-20, 20, 10), "--out", mission_, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const auto json = nlohmann::json::parse(result.output);
-  RecordProperty("cpu_share", json["cpu_share"].dump());
-  EXPECT_LT(json["cpu_share"].get<double>(), 0.6) << "over " << json["seconds"] << " s";
+  RecordProperty("cpu_ratio", json["cpu_ratio"].dump());
+  EXPECT_LT(json["cpu_ratio"].get<double>(), 0.6) << "over " << json["seconds"] << " s";
 }
 
 TEST_F(ForesightHead, ATerminatedSweepIsKeptAndMarkedAndTheMotorStops) {
@@ -144,7 +144,7 @@ TEST_F(ForesightHead, AMonitorDoesNotKeepTheMotorOfAKilledHeadTurning) {
 
 TEST_F(ForesightHead, FarFewerLinesThanPlannedAreInterruptedWithTheCounts) {
   const std::string faults = folder_ / "faults.yaml";
-  ASSERT_TRUE(WriteFileAtomically(faults, "foresight_faults: 1\nlidar: {corrupt_share: 0.5}\n"));
+  ASSERT_TRUE(WriteFileAtomically(faults, "foresight_faults: 1\nlidar: {corrupt_ratio: 0.5}\n"));
   const ProgramResult result = RunProgram(
       FORESIGHT_HEAD,
       {"--emulate", kRoom, "--faults", faults, "--scan", Plan(-5, 5, 10), "--out", mission_});

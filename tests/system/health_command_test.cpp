@@ -46,7 +46,7 @@ TEST(HealthCommand, AsJsonEachLineIsAnObject) {
 TEST(HealthCommand, ADamagedLineIsADegradedLidar) {
   const TemporaryFolder folder;
   const std::string faults = folder / "faults.yaml";
-  std::ofstream(faults) << "foresight_faults: 1\nlidar: {corrupt_share: 0.2}\n";
+  std::ofstream(faults) << "foresight_faults: 1\nlidar: {corrupt_ratio: 0.2}\n";
   const ProgramResult result = RunProgram(
       FORESIGHTCTL, {"health", "--emulate", kRoom, "--faults", faults, "--seconds", "2"});
   EXPECT_EQ(result.exit_code, 1) << result.output << result.errors;

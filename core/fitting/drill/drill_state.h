@@ -21,7 +21,7 @@ enum DrillParameter {
   kDrillBit,
   kDrillHeadUp,  ///< DrillProportions: drills of one kind are not alike
   kDrillHeadForward,
-  kDrillFoot,  ///< foot_share - 1
+  kDrillFoot,  ///< size of the foot to that of the template - 1
   kDrillParameters
 };
 using DrillStep = Eigen::Matrix<double, kDrillParameters, 1>;

@@ -243,9 +243,17 @@ void SetSigmas(const DrillInformation& information, const DrillState& drill,
 }
 
 std::vector<std::string> DrillFeatureNames() {
-  return {"log_yaw_margin", "log_head",      "log_rival_margin", "rival_margin_per_hit",
-          "gain_per_hit",   "inlier_share",  "see_through",      "log_hits",
-          "log_sigma_yaw",  "abs_log_scale", "body_tilt_rad"};
+  return {"log_yaw_margin",
+          "log_head",
+          "log_alternative_margin",
+          "alternative_margin_per_hit",
+          "gain_per_hit",
+          "inlier_ratio",
+          "see_through",
+          "log_hits",
+          "log_sigma_yaw",
+          "abs_log_scale",
+          "body_tilt_rad"};
 }
 
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,

@@ -152,7 +152,7 @@ int Misplacement(const RaySet& rays, const ValveCandidate& valve) {
 }
 
 std::vector<std::string> ValveFeatureNames() {
-  return {"log_margin",     "gain_per_hit", "log_hits",      "inlier_share",   "see_through",
+  return {"log_margin",     "gain_per_hit", "log_hits",      "inlier_ratio",   "see_through",
           "blocked_gaps",   "arc_coverage", "weakest_spoke", "log_sigma_axis", "log_sigma_pos",
           "log_sigma_turn", "log_size",     "disc",          "lever"};
 }

@@ -113,6 +113,34 @@ TEST(DetectionJson, AlternativesThatWereCalledRivalsAreRead) {
   EXPECT_FALSE(DetectionFromJson(old.dump()));
 }
 
+TEST(DetectionJson, EvidenceUnderItsOldNamesIsRead) {
+  const auto with_old_names = [](const std::string& text) {
+    nlohmann::json json = nlohmann::json::parse(text);
+    nlohmann::json& evidence = json["evidence"];
+    for (const auto& [name, old_name] : {std::pair("inlier_ratio", "inlier_share"),
+                                         std::pair("alternative_margin_nats", "rival_margin_nats"),
+                                         std::pair("best_alternative", "best_rival")}) {
+      if (!evidence.contains(name)) continue;
+      evidence[old_name] = evidence[name];
+      evidence.erase(name);
+    }
+    return json.dump();
+  };
+  DrillDetection drill = SampleDrill();
+  drill.evidence.inlier_ratio = 0.9;
+  drill.evidence.alternative_margin_nats = 12.0;
+  const std::string drill_text = DetectionToJson(drill, {});
+  EXPECT_NE(with_old_names(drill_text), nlohmann::json::parse(drill_text).dump());
+  EXPECT_EQ(DetectionToJson(DetectionFromJson(with_old_names(drill_text)).value(), {}), drill_text);
+  const std::string valve_text = DetectionToJson(Sample(), {});
+  EXPECT_NE(with_old_names(valve_text), nlohmann::json::parse(valve_text).dump());
+  EXPECT_EQ(DetectionToJson(DetectionFromJson(with_old_names(valve_text)).value(), {}), valve_text);
+  // Neither name: no detection.
+  nlohmann::json neither = nlohmann::json::parse(valve_text);
+  neither["evidence"].erase("inlier_ratio");
+  EXPECT_FALSE(DetectionFromJson(neither.dump()));
+}
+
 TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
   TerrainDetection sample;
   TerrainSurface block;

@@ -119,9 +119,11 @@ TEST(FitValve, RaysThatEndAnywhereAreNoValve) {
     Random random(seed);
     for (RangeRay& ray : rays.rays) ray.range_m = random.Uniform(0.8, 2.0);
     const auto found = FitValve(rays, {}, {});
-    if (found) {
-      EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->verdict.reason;
-    }
+    ASSERT_FALSE(found) << found->verdict.reason;
+    EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
+    EXPECT_NE(found.error().message.find("nothing in the region looks like a wheel"),
+              std::string::npos)
+        << found.error().message;
   }
 }
 
@@ -139,11 +141,10 @@ TEST(FitValve, AFlatWallIsNoValve) {
     view.object = ValveView::Object::kNothing;
     view.pipe = false;
     const auto found = FitValve(MakeValveScene(view).rays, {}, {});
-    if (found) {
-      EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << seed;
-    } else {
-      EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << seed;
-    }
+    ASSERT_FALSE(found) << seed;
+    EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
+    EXPECT_NE(found.error().message.find("stand in front of the wall"), std::string::npos)
+        << found.error().message;
   }
 }
 
@@ -153,9 +154,8 @@ TEST(FitValve, APipeAlongAWallIsNotConfirmed) {
     view.object = ValveView::Object::kNothing;
     view.pipe = true;
     const auto found = FitValve(MakeValveScene(view).rays, {}, {});
-    if (found) {
-      EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->verdict.reason;
-    }
+    ASSERT_TRUE(found) << "seed " << seed << ": " << found.error().message;
+    EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->verdict.reason;
   }
 }
 
@@ -175,7 +175,9 @@ TEST(FitValve, AnEmptyRegionOrNaNsTellWhatToDo) {
 TEST(FitValve, ManyTimesTheSamePointIsNoValve) {
   RaySet rays;
   rays.rays.assign(500, {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 1.0});
-  EXPECT_FALSE(FitValve(rays, {}, {}));
+  const auto found = FitValve(rays, {}, {});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
 }
 
 TEST(FitValve, IsTheSameOnAnyNumberOfThreads) {

@@ -110,15 +110,19 @@ TEST(Png, ADamagedByteIsAnErrorOrChangesNothing) {
   const ColorImage image = RandomColors(20, 20, 3);
   const std::string bytes = EncodePng(image).value();
   Random random(3);
+  int errors = 0;
   for (int i = 0; i < 300; ++i) {
     std::string damaged = bytes;
     damaged[static_cast<std::size_t>(random.Index(static_cast<int>(bytes.size())))] ^=
         static_cast<char>(1 + random.Index(255));
     const auto read = DecodePng(damaged, "memory");
-    if (read) {
-      EXPECT_EQ(*read, image);
+    if (!read) {
+      ++errors;
+      continue;
     }
+    EXPECT_EQ(*read, image);
   }
+  EXPECT_GT(errors, 100) << "CRCs cover nearly all of the file";
 }
 
 TEST(Png, AHugeImageIsRefusedBeforeItsMemoryIsTaken) {

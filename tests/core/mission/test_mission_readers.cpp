@@ -201,7 +201,8 @@ TEST_F(MissionReaders, TheMainFileAloneDoesNotPassForAClosedOne) {
   ASSERT_TRUE(recorder->ExportTo(folder_ / "export.foresight"));
   ASSERT_EQ(copier.Run(), 0);
   const auto alone = MissionFile::OpenReadOnly(folder_ / "alone.foresight");
-  EXPECT_TRUE(!alone || !(*alone)->WasClosedProperly());
+  ASSERT_FALSE(alone) << "all is in the log that was not copied";
+  EXPECT_THAT(alone.error().message, HasSubstr("is not a mission file"));
   EXPECT_TRUE(MissionFile::OpenReadOnly(folder_ / "export.foresight").value()->WasClosedProperly());
   EXPECT_FALSE(MissionFile::OpenReadOnly(path_).value()->WasClosedProperly());
 }

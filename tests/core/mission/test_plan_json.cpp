@@ -17,6 +17,14 @@ TEST(PlanJson, EveryMemberSurvivesTheRoundTrip) {
   EXPECT_EQ(PlanFromJson(PlanToJson(plan), "plan.json").value(), plan);
 }
 
+TEST(PlanJson, AnImageModeThatWasCalledPictureModeIsRead) {
+  ScanPlan plan;
+  plan.image_mode = ScanPlan::ImageMode::kStopAndShoot;
+  std::string json = PlanToJson(plan);
+  json.replace(json.find("image_mode"), 10, "picture_mode");
+  EXPECT_EQ(PlanFromJson(json, "old.json").value(), plan);
+}
+
 TEST(PlanJson, APlanOfAnEarlierVersionIsOnePassOnTheFly) {
   const auto plan = PlanFromJson(
       R"({"from_rad": -0.5, "to_rad": 0.5, "speed_rad_s": 0.17, "image_angles_rad": [0],

@@ -96,6 +96,7 @@ Lens RandomLens(Random& random, int model) {
 
 TEST(CameraModel, InvertsLensesOfAnyParameters) {
   Random random(4);
+  int pixels = 0, directions = 0;
   for (int i = 0; i < 400; ++i) {
     const CameraModel camera{.width = 100,
                              .height = 100,
@@ -109,12 +110,14 @@ TEST(CameraModel, InvertsLensesOfAnyParameters) {
     for (int j = 0; j < 100; ++j) {
       const Eigen::Vector2d pixel(random.Uniform(-50, 150), random.Uniform(-50, 150));
       if (const auto ray = camera.Unproject(pixel)) {
+        ++pixels;
         const auto back = camera.Project(*ray);
         ASSERT_TRUE(back);
         ASSERT_LT((*back - pixel).norm(), 1e-9);
       }
       const Eigen::Vector3d direction = RandomDirection(random);
       if (const auto seen = camera.Project(direction); seen && seen->norm() < 1e4) {
+        ++directions;
         const auto ray = camera.Unproject(*seen);
         ASSERT_TRUE(ray) << direction.transpose();
         // Pixels may say little of the angle near a lens's end; they never name another one.
@@ -124,6 +127,9 @@ TEST(CameraModel, InvertsLensesOfAnyParameters) {
       }
     }
   }
+  // Of 40000 each; a lens that shows nothing would pass.
+  EXPECT_GT(pixels, 10000);
+  EXPECT_GT(directions, 10000);
 }
 
 /// The derivative of `function` at 0 from four values, error of order step^4.

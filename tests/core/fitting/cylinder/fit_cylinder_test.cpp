@@ -168,7 +168,7 @@ TEST(FitCylinder, AWallAndABoxAreNotLikely) {
   box.wall_m = 4.0;
   for (const View& view : {wall, box}) {
     const auto found = Fit(RaysOf(view));
-    if (!found) continue;
+    ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found->level, VerdictLevel::kUnsure) << found->model.radius_m;
     EXPECT_FALSE(found->reason.empty());
   }

@@ -83,10 +83,8 @@ TEST(FitDrill, PointsInOneVerticalLineSayNothingOfTheYaw) {
   for (int i = 0; i < 100; ++i)
     rays.rays.push_back({Eigen::Vector3d::Zero(), options.up, 0.5 + 0.003 * i});
   const auto found = FitDrill(rays, options, {});
-  if (found)
-    EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure);
-  else
-    EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure);
 }
 
 TEST(FitDrill, GivesTheSameAnswerTwice) {
@@ -180,7 +178,7 @@ TEST(FitDrill, DistractorsAreNotConfirmed) {
     DrillView view;
     view.object = object;
     const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
-    if (!found) continue;
+    ASSERT_TRUE(found) << static_cast<int>(object) << ": " << found.error().message;
     EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << static_cast<int>(object);
     if (object == Object::kBox) {
       EXPECT_LT(found->evidence.alternative_margin_nats, 0.0) << "a box explains a box better";
@@ -224,19 +222,23 @@ TEST(FitDrill, ADrillWhoseEndIsOutsideOfTheRegionIsNotConfirmed) {
 TEST(FitDrill, AWallPatchIsNotADrill) {
   DrillView view;
   view.object = DrillView::Object::kNothing;
-  const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
-  EXPECT_TRUE(!found || found->verdict.level == VerdictLevel::kUnsure);
-  view.table = false;
-  const auto wall_alone = FitDrill(MakeDrillRays(view).rays, {}, {});
-  EXPECT_TRUE(!wall_alone || wall_alone->verdict.level == VerdictLevel::kUnsure);
+  for (const bool table : {true, false}) {
+    view.table = table;
+    const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
+    ASSERT_FALSE(found) << table;
+    EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
+  }
 }
 
-TEST(FitDrill, WithoutATableNothingIsConfirmed) {
-  DrillView view;
-  view.table = false;
-  view.wall_m = 0.0;
-  const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
-  EXPECT_TRUE(!found || found->verdict.level != VerdictLevel::kConfirmed);
+TEST(FitDrill, WithoutATableNothingStandsOnOne) {
+  for (const double wall_m : {0.0, 0.2, 0.5}) {
+    DrillView view;
+    view.table = false;
+    view.wall_m = wall_m;
+    const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
+    ASSERT_FALSE(found) << "wall " << wall_m;
+    EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
+  }
 }
 
 TEST(FitDrill, BadInputIsAnError) {
@@ -255,11 +257,12 @@ TEST(FitDrill, BadInputIsAnError) {
   EXPECT_EQ(FitDrill(noiseless, {}, {}).error().code, ErrorCode::kInvalidInput);
 }
 
-TEST(FitDrill, UpsideDownNothingIsConfirmed) {
+TEST(FitDrill, UpsideDownNothingStandsOnATable) {
   FitDrillOptions options;
   options.up = Eigen::Vector3d::UnitY();
   const auto found = FitDrill(UsualScene().rays, options, {});
-  EXPECT_TRUE(!found || found->verdict.level != VerdictLevel::kConfirmed);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
 }
 
 TEST(FitDrill, ASecondThoughtStopsIt) {
