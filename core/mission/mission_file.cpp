@@ -460,6 +460,24 @@ Result<std::int64_t> MissionFile::BeginScan(const Scan& header) {
   return id;
 }
 
+Status MissionFile::ContinueScan(std::int64_t scan_id) {
+  const std::lock_guard lock(impl_->mutex);
+  FORESIGHT_CHECK(impl_->CheckWritable());
+  if (impl_->running_scan != 0)
+    return Fail(ErrorCode::kState, "{}: scan {} is still being recorded", impl_->file,
+                impl_->running_scan);
+  FORESIGHT_TRY(const MotorTrack track, LoadTrack(scan_id));
+  FORESIGHT_TRY(const ScanSummary kept, Summary(scan_id));
+  FORESIGHT_TRY(const std::optional<std::int64_t> last_seq, impl_->Rows().LastLine(scan_id));
+  FORESIGHT_CHECK(impl_->Write([&] { return impl_->Rows().ReopenScan(scan_id); }));
+  impl_->running_scan = scan_id;
+  impl_->wants_thumbnail = kept.images == 0;
+  impl_->last_seq = last_seq;
+  impl_->last_sample_s.reset();
+  if (!track.samples().empty()) impl_->last_sample_s = track.samples().back().time_s;
+  return {};
+}
+
 Status MissionFile::AppendLine(std::int64_t scan_id, const LidarLine& line) {
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckRunning(scan_id));

@@ -66,6 +66,9 @@ class MissionFile {
   /// Begins a scan with everything of `header` but its lines, track and frames; returns its id. One
   /// scan runs at a time.
   Result<std::int64_t> BeginScan(const Scan& header);
+  /// Takes up a scan that has ended, so that what is missing behind its last line, sample and image
+  /// can be appended. It runs again, until EndScan.
+  Status ContinueScan(std::int64_t scan_id);
   /// Lines come in the order of their seq.
   Status AppendLine(std::int64_t scan_id, const LidarLine& line);
   /// Samples that are not later than the last one are dropped, as MotorTrack::Add does.

@@ -222,11 +222,32 @@ Status ScanRows::EndScan(std::int64_t scan_id, ScanState state, const std::strin
   FORESIGHT_TRY(row.lines, CountLines(scan_id));
   FORESIGHT_TRY(row.frames, CountFrames(scan_id));
   FORESIGHT_TRY(row.motor_batches, Query("SELECT count(*) FROM motor WHERE scan_id = ?", scan_id));
+  return Update(row, scan_id);
+}
+
+Status ScanRows::ReopenScan(std::int64_t scan_id) {
+  FORESIGHT_TRY(ScanRow row, ReadScanRow(scan_id));
+  row.state = ScanState::kRunning;
+  row.reason.clear();
+  row.lines = row.frames = row.motor_batches = -1;  // as of any scan that runs
+  return Update(row, scan_id);
+}
+
+Result<std::optional<std::int64_t>> ScanRows::LastLine(std::int64_t scan_id) const {
+  FORESIGHT_TRY(
+      SqliteStatement select,
+      database_.Prepare("SELECT seq FROM line WHERE scan_id = ? ORDER BY seq DESC LIMIT 1"));
+  select.Bind(scan_id);
+  FORESIGHT_TRY(const bool any, select.Step());
+  return any ? std::optional(select.Integer(0)) : std::nullopt;
+}
+
+Status ScanRows::Update(const ScanRow& row, std::int64_t scan_id) {
   FORESIGHT_TRY(SqliteStatement update,
                 database_.Prepare("UPDATE scan SET state = ?, reason = ?, lines = ?, frames = ?, "
                                   "motor_batches = ?, crc32 = ? WHERE id = ?"));
-  return update.BindText(ToString(state))
-      .BindText(reason)
+  return update.BindText(ToString(row.state))
+      .BindText(row.reason)
       .Bind(row.lines)
       .Bind(row.frames)
       .Bind(row.motor_batches)
@@ -270,8 +291,9 @@ Result<std::int64_t> ScanRows::CountFrames(std::int64_t scan_id) const {
 }
 
 Result<double> ScanRows::FirstLineTime(std::int64_t scan_id) const {
-  FORESIGHT_TRY(SqliteStatement first, database_.Prepare("SELECT time_s FROM line WHERE scan_id = ? "
-                                                         "ORDER BY seq LIMIT 1"));
+  FORESIGHT_TRY(SqliteStatement first,
+                database_.Prepare("SELECT time_s FROM line WHERE scan_id = ? "
+                                  "ORDER BY seq LIMIT 1"));
   first.Bind(scan_id);
   FORESIGHT_TRY(const bool row, first.Step());
   return row ? first.Number(0) : 0.0;

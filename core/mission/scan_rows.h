@@ -44,6 +44,10 @@ class ScanRows {
   Status InsertThumbnail(std::int64_t scan_id, const std::string& png);
   /// Counts what the scan has and closes its row.
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
+  /// The reverse: the scan runs again.
+  Status ReopenScan(std::int64_t scan_id);
+  /// The seq of the last line; none = there is no line.
+  Result<std::optional<std::int64_t>> LastLine(std::int64_t scan_id) const;
 
   Result<std::vector<ScanRow>> ReadScanRows() const;
   /// Fails with kInvalidInput when there is no such scan.
@@ -68,6 +72,7 @@ class ScanRows {
 
  private:
   Result<std::vector<ScanRow>> ReadScanRows(std::optional<std::int64_t> id) const;
+  Status Update(const ScanRow& row, std::int64_t scan_id);
   Result<std::int64_t> CalibrationId(const std::string& rig_yaml);
   Result<SensorRig> ReadRig(std::int64_t calibration_id) const;
   Result<std::vector<CameraFrame>> ReadFrames(const ScanRow& scan) const;

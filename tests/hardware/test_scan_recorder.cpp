@@ -9,6 +9,7 @@
 #include "hardware/head/scan_recorder.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/hardware/tiny_head.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -98,24 +99,6 @@ TEST(ScanRecorder, ClosedDuringAScanItLeavesAnInterruptedOne) {
   EXPECT_EQ(summary.state, ScanState::kInterrupted);
   EXPECT_EQ(summary.lines, 1);
 }
-
-/// Files of this process cannot grow beyond a size while it lives.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 TEST(ScanRecorder, ADiskThatFillsUpEndsTheSweepAndSaysHowManyLinesWereKept) {
   const TemporaryFolder folder;

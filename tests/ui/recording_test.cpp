@@ -4,7 +4,9 @@
 
 #include <QFileInfo>
 #include <QTemporaryDir>
+#include <filesystem>
 
+#include "tests/support/file_size_limit.h"
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
 
@@ -100,6 +102,40 @@ TEST_F(RecordingTest, WhatCameBeforeThereWasAFileIsWrittenWhenThereIsOne) {
   ASSERT_TRUE(AllWritten());
   EXPECT_TRUE(session.Objects()[0].kept);
   EXPECT_EQ((*MissionFile::OpenReadOnly(path.toStdString()))->ListScans()->size(), 1u);
+}
+
+TEST_F(RecordingTest, AScanThatTheDiskDidNotTakeIsWrittenWholeWhenThereIsRoomAgain) {
+  ASSERT_TRUE(recording->Begin(path));
+  {
+    const FileSizeLimit limit(std::filesystem::file_size((path + "-wal").toStdString()) + 20'000);
+    recording->keepScan(SmallScan());
+    ASSERT_TRUE(WaitFor([&] { return !notices.empty() && !recording->Busy(); }));
+  }
+  EXPECT_EQ(recording->Waiting(), 1);
+  recording->tryAgain();
+  ASSERT_TRUE(AllWritten());
+  const auto file = MissionFile::OpenReadOnly(path.toStdString()).value();
+  const Scan kept = file->LoadScan(file->ListScans()->at(0).id).value();
+  EXPECT_EQ(kept.state, SmallScan()->state);
+  EXPECT_EQ(kept.lines, SmallScan()->lines);
+  EXPECT_EQ(kept.frames, SmallScan()->frames);
+  Record(WallAndValveScan({.from_rad = -0.02, .to_rad = 0.02, .speed_rad_s = 0.1}));
+  EXPECT_TRUE(AllWritten());
+}
+
+TEST_F(RecordingTest, LinesThatComeAfterTheEndAreKeptToo) {
+  ASSERT_TRUE(recording->Begin(path));
+  Scan early = *SmallScan();
+  early.state = ScanState::kComplete;
+  early.lines.Truncate(early.lines.size() - 2);
+  Record(early);
+  ASSERT_TRUE(AllWritten());
+  Scan late = *SmallScan();
+  late.state = ScanState::kComplete;
+  recording->keepScan(std::make_shared<const Scan>(late));
+  ASSERT_TRUE(AllWritten());
+  const auto file = MissionFile::OpenReadOnly(path.toStdString()).value();
+  EXPECT_EQ(file->LoadScan(file->ListScans()->at(0).id)->lines, late.lines);
 }
 
 TEST_F(RecordingTest, ACopyIsCompleteAndRecordingGoesOnInTheFirstFile) {

@@ -85,21 +85,32 @@ Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth) 
 }
 
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context) {
-  FORESIGHT_TRY(const std::int64_t there, ScanIdOf(*file, scan.uuid));
-  if (there != 0) return {};
-  FORESIGHT_TRY(const std::int64_t id, file->BeginScan(scan));
+  std::size_t lines = 0, images = 0;  // that the file has
+  FORESIGHT_TRY(std::int64_t id, ScanIdOf(*file, scan.uuid));
+  if (id == 0) {
+    FORESIGHT_TRY(id, file->BeginScan(scan));
+  } else {
+    FORESIGHT_TRY(const ScanSummary kept, file->Summary(id));
+    lines = static_cast<std::size_t>(kept.lines);
+    images = static_cast<std::size_t>(kept.images);
+    if (lines >= scan.lines.size() && images >= scan.frames.size()) return {};
+    FORESIGHT_CHECK(file->ContinueScan(id));
+  }
   const Status appended = file->Batch([&]() -> Status {
-    std::size_t done = 0;
-    for (const LidarLine& line : scan.lines) {
-      FORESIGHT_CHECK(file->AppendLine(id, line));
-      context.Report(0.8 * static_cast<double>(done++) / static_cast<double>(scan.lines.size()),
-                     "writing lines");
+    const double all = static_cast<double>(scan.lines.size());
+    for (; lines < scan.lines.size(); ++lines) {
+      FORESIGHT_CHECK(file->AppendLine(id, scan.lines[lines]));
+      context.Report(0.8 * static_cast<double>(lines) / all, "writing lines");
     }
     FORESIGHT_CHECK(file->AppendMotorSamples(id, scan.track.samples()));
-    for (const CameraFrame& frame : scan.frames) FORESIGHT_CHECK(file->AppendFrame(id, frame));
+    for (; images < scan.frames.size(); ++images)
+      FORESIGHT_CHECK(file->AppendFrame(id, scan.frames[images]));
     return {};
   });
-  FORESIGHT_CHECK(appended);
+  if (!appended) {  // the next scan must find the file free; the rest comes when it is tried again
+    (void)file->EndScan(id, ScanState::kInterrupted, appended.error().message);
+    return appended;
+  }
   return file->EndScan(id, scan.state, scan.reason);
 }
 

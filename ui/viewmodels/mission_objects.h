@@ -24,7 +24,9 @@ Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::s
 /// Notes how a depth map of the scan is made again, with its checksum.
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth);
 
-/// Writes a whole scan that was kept in memory because its file could not be written.
+/// Writes what the file does not have of a scan that has ended: all of it where its file could not be
+/// written, the end where the disk was full, lines that came late. What was written before a
+/// failure is kept, and the next try goes on there.
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context);
 
 }  // namespace foresight

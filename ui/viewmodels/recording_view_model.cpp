@@ -310,10 +310,8 @@ void RecordingViewModel::WriteNext() {
   const auto work = [file = file_, files, recorder = recorder_, author = author_,
                      change = waiting_.front()](const RunContext& context) -> Result<bool> {
     if (const auto* scan = std::get_if<std::shared_ptr<const Scan>>(&change)) {
-      // kState: this recorder has not had a scan yet; one that was never recorded is appended.
-      const auto written = recorder->WaitUntilWritten();
-      if (!written && written.error().code != ErrorCode::kState)
-        return tl::unexpected(written.error());
+      // What the recorder could not write is appended; if it still cannot be, that is said.
+      (void)recorder->WaitUntilWritten();
       FORESIGHT_CHECK(AppendScan(file.get(), **scan, context));
     } else if (const auto* object = std::get_if<FoundObject>(&change)) {
       FORESIGHT_CHECK(InTheFileThatKnowsIt(

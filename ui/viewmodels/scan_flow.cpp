@@ -22,7 +22,9 @@ void ScanFlow::Grow(const std::shared_ptr<const Scan>& scan) {
   if (runner_.Busy()) return;  // the next look shows more
   runner_.Run<RegisteredScan>(
       tr("Placing points"),
-      [scan, points = points_](const RunContext& context) { return points->Update(*scan, context); },
+      [scan, points = points_](const RunContext& context) {
+        return points->Update(*scan, context);
+      },
       [this, scan](Result<RegisteredScan> cloud) {
         // Too few points yet, or the whole scan has come meanwhile.
         if (!cloud || !head_->Scanning()) return;

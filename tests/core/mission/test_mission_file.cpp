@@ -29,6 +29,30 @@ TEST(MissionFile, AScanComesBackBitForBit) {
   EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), scan));
 }
 
+TEST(MissionFile, AScanThatEndedTooEarlyIsContinuedToTheWhole) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = mission->BeginScan(scan).value();
+  const auto samples = scan.track.samples();
+  ASSERT_TRUE(mission->AppendMotorSamples(id, samples.first(40)));
+  for (std::size_t i = 0; i < 9; ++i) ASSERT_TRUE(mission->AppendLine(id, scan.lines[i]));
+  ASSERT_TRUE(mission->AppendFrame(id, scan.frames[0]));
+  ASSERT_TRUE(mission->EndScan(id, ScanState::kInterrupted, "the disk is full"));
+
+  ASSERT_TRUE(mission->ContinueScan(id));
+  EXPECT_EQ(mission->BeginScan(SampleScan(2)).error().code, ErrorCode::kState);
+  EXPECT_FALSE(mission->AppendLine(id, scan.lines[8])) << "it is there";
+  for (std::size_t i = 9; i < scan.lines.size(); ++i)
+    ASSERT_TRUE(mission->AppendLine(id, scan.lines[i]));
+  ASSERT_TRUE(mission->AppendMotorSamples(id, samples));
+  ASSERT_TRUE(mission->AppendFrame(id, scan.frames[1]));
+  ASSERT_TRUE(mission->EndScan(id, scan.state, scan.reason));
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), scan));
+  EXPECT_TRUE(mission->Verify({}));
+  EXPECT_FALSE(mission->ContinueScan(id + 1));
+}
+
 /// Rewrites the plan of the only scan, with the checksum that goes with it.
 void RewritePlan(const std::filesystem::path& path, const std::string& plan_json) {
   SqliteDatabase database = SqliteDatabase::Open(path, SqliteDatabase::Mode::kReadWrite).value();
