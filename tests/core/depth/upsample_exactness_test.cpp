@@ -116,6 +116,7 @@ TEST_P(UpsampleExactness, ReportsTheIterationsAsTheyWere) {
       if (t > 0)
         change += std::abs(static_cast<double>(depth_m - fast->iterations[t - 1].values()[i]));
     }
+    ASSERT_GT(pixels, 0.0) << "no pixel has a depth";
     // A micrometre: the sum is over depths that were rounded to 0.1 micrometres.
     if (t > 0) {
       EXPECT_NEAR(fast->mean_change_m[t - 1], change / pixels, 1e-6);

@@ -94,28 +94,35 @@ TEST(ValveTracer, IntersectsALeverWhereSphereTracingDoes) {
 
 TEST(ValveTracer, KnowsHowFarARayPassesBy) {
   Random random(8);
+  int near = 0;
   for (int i = 0; i < 1000; ++i) {
     const Case c = MakeCase(random, 4);
     const RangeRay ray = RandomRay(random, c.eye);
     const Traced traced = SphereTrace(c.valve.model, ray);
     const ValveIntersection intersection = ValveTracer(c.valve, ValveParts::kAll).Intersect(ray);
     if (traced.hit || intersection.Clearance() < 0.0) continue;
-    if (traced.closest_m < 0.03) {  // beyond, no footprint reaches
-      EXPECT_NEAR(intersection.Clearance(), traced.closest_m, 0.002);
-    }
+    if (traced.closest_m > 0.03) continue;  // beyond, no footprint reaches
+    ++near;
+    EXPECT_NEAR(intersection.Clearance(), traced.closest_m, 0.002);
   }
+  EXPECT_GT(near, 100);
 }
 
 TEST(ValveTracer, NeverSkipsARayThatIntersectsTheValve) {
   Random random(9);
+  int intersecting = 0, skipped = 0;
   for (int i = 0; i < 1000; ++i) {
     const Case c = MakeCase(random, 3);
     const RangeRay ray = RandomRay(random, c.eye);
     const ValveTracer tracer(c.valve, ValveParts::kAll);
-    if (tracer.Intersect(ray).Clearance() < 0.01) {
-      EXPECT_TRUE(tracer.Near(ray, 0.01));
-    }
+    const bool near = tracer.Near(ray, 0.01);
+    skipped += near ? 0 : 1;
+    if (tracer.Intersect(ray).Clearance() > 0.01) continue;
+    ++intersecting;
+    EXPECT_TRUE(near);
   }
+  EXPECT_GT(intersecting, 100);
+  EXPECT_GT(skipped, 100) << "who skips no ray skips none that intersects";
 }
 
 }  // namespace
