@@ -74,6 +74,7 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
     connect(&desk->gallery, &SourceGalleryModel::finished, this, [this, desk] {
       gallery_->Show(desk->gallery.Answers());
       gallery_dock_->toggleView(true);
+      docks_->setSplitterSizes(gallery_dock_->dockAreaWidget(), {380, 230, 390});
     });
   connect(bench_, &Workbench::shownChanged, this, &MainWindow::ShowDocument);
   connect(&bench_->reviewer, &ReviewViewModel::changed, this, &MainWindow::ShowDocument);

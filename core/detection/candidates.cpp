@@ -10,8 +10,6 @@
 namespace foresight {
 namespace {
 
-constexpr double kComparable_nats = 3.0;  ///< a ratio of 1 : 20
-
 /// The candidate of a detection that has one best answer and alternatives.
 template <class Found>
 const auto& Chosen(const Found& found, int candidate) {
@@ -96,11 +94,7 @@ Rigid<frame::Base, frame::Object> PoseOf(const TerrainDetection& terrain, int ca
 }  // namespace
 
 std::string MarginInWords(double nats) {
-  if (!(nats >= 0.0)) return OperatorText("not comparable");
-  if (nats < kComparable_nats) return OperatorText("about as likely");
-  if (nats < 10.0) return OperatorText("a little less likely");
-  if (nats < 50.0) return OperatorText("clearly less likely");
-  return OperatorText("far less likely");
+  return OperatorText(MarginWords(nats));
 }
 
 std::optional<double> MarginBehindBest(const Detection& detection, int candidate) {

@@ -18,7 +18,7 @@ Rigid<frame::Base, frame::Object> CandidatePose(const Detection& detection, int 
 /// By how much an alternative is less likely than the best answer, in nats; nullopt for the best
 /// answer and for a terrain, whose surfaces are no alternatives to each other.
 std::optional<double> MarginBehindBest(const Detection& detection, int candidate);
-/// "about as likely", "a little less likely", "clearly less likely", "far less likely".
+/// MarginWords in the operator's language.
 std::string MarginInWords(double nats);
 
 /// What an operator may make of it: an alternative is LIKELY at most, and that only where it is

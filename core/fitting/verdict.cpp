@@ -35,4 +35,13 @@ VerdictLevel LevelFor(double probability, bool objected) {
                                                          : VerdictLevel::kLikely;
 }
 
+const char* MarginWords(double nats) {
+  if (std::isnan(nats)) return "not comparable";
+  if (nats < 0.0) return "more likely";
+  if (nats < kComparable_nats) return "about as likely";
+  if (nats < 10.0) return "a little less likely";
+  if (nats < 50.0) return "clearly less likely";
+  return "far less likely";
+}
+
 }  // namespace foresight

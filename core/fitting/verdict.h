@@ -31,6 +31,12 @@ struct Verdict {
 /// "97 %", rounded down: nothing is ever certain. "over 99 %" from there on, "under 1 %" below.
 std::string ProbabilityText(double probability);
 
+/// By how much another answer is behind, in words: "about as likely" below kComparable_nats (1 :
+/// 20), "a little less likely" below 10, "clearly less likely" below 50, "far less likely"; "more
+/// likely" where it is ahead, and "not comparable" for NaN.
+const char* MarginWords(double nats);
+inline constexpr double kComparable_nats = 3.0;
+
 /// The level that a probability earns; CONFIRMED only where no hard gate objects.
 VerdictLevel LevelFor(double probability, bool objected);
 

@@ -130,9 +130,9 @@ std::string WeakestPoint(const DrillDetection& detection) {
     return fmt::format("its direction is known to {:.0f} deg only",
                        DegreesFromRadians(detection.sigma_yaw_rad));
   if (evidence.yaw_margin_nats < 5.0 * kMinYawMargin_nats)
-    return fmt::format("its direction leads by {:.0f} nats only", evidence.yaw_margin_nats);
-  return fmt::format("it leads a {} by {:.0f} nats only", evidence.best_alternative,
-                     evidence.alternative_margin_nats);
+    return fmt::format("another direction is {}", MarginWords(evidence.yaw_margin_nats));
+  return fmt::format("a {} in its place is {}", evidence.best_alternative,
+                     MarginWords(evidence.alternative_margin_nats));
 }
 
 double Squared(double value) {

@@ -97,8 +97,8 @@ std::string WeakestPoint(const ValveDetection& detection) {
   if (detection.sigma_axis_rad > 0.04)
     return fmt::format("the axis is known to {:.1f} deg only",
                        DegreesFromRadians(detection.sigma_axis_rad));
-  return fmt::format("{} leads by {:.0f} nats only", NameOf(detection.best.model),
-                     evidence.margin_nats);
+  return fmt::format("{}, but the next answer is {}", NameOf(detection.best.model),
+                     MarginWords(evidence.margin_nats));
 }
 
 }  // namespace
