@@ -36,7 +36,7 @@ MissionPanel::MissionPanel(RecordingViewModel* recording, ReviewViewModel* revie
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(pages_);
-  pages_->addWidget(BuildLivePage(commands));
+  pages_->addWidget(BuildLivePage());
   pages_->addWidget(BuildReviewPage(commands));
   connect(recording_, &RecordingViewModel::changed, this, &MissionPanel::ShowRecording);
   connect(review_, &ReviewViewModel::changed, this, &MissionPanel::ShowReview);
@@ -44,7 +44,7 @@ MissionPanel::MissionPanel(RecordingViewModel* recording, ReviewViewModel* revie
   ShowReview();
 }
 
-QWidget* MissionPanel::BuildLivePage(CommandTable*) {
+QWidget* MissionPanel::BuildLivePage() {
   recorded_path_ = Line("faint");
   waiting_ = Line("");
   recorded_ = new ScanList;

@@ -26,7 +26,7 @@ class MissionPanel : public QWidget {
   ScanList* Reviewed() { return reviewed_; }
 
  private:
-  QWidget* BuildLivePage(CommandTable* commands);
+  QWidget* BuildLivePage();
   QWidget* BuildReviewPage(CommandTable* commands);
   void ShowRecording();
   void ShowReview();

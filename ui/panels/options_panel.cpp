@@ -48,7 +48,7 @@ OptionsForm::OptionsForm(OptionsModel* model, QWidget* parent)
   title_->setWordWrap(true);
   reset_->setToolTip(tr("Take back every change of these options"));
   connect(reset_, &QPushButton::clicked, model, &OptionsModel::Reset);
-  connect(model, &OptionsModel::changed, this, &OptionsForm::ShowRows);
+  connect(model, &OptionsModel::changed, this, &OptionsForm::ShowRowsInSight);
   auto* head = new QHBoxLayout;
   head->addWidget(title_, 1);
   head->addWidget(reset_);
@@ -58,10 +58,20 @@ OptionsForm::OptionsForm(OptionsModel* model, QWidget* parent)
   ShowRows();
 }
 
+void OptionsForm::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ShowRows();
+}
+
+void OptionsForm::ShowRowsInSight() {
+  if (isVisible()) ShowRows();
+}
+
 void OptionsForm::ShowRows() {
-  title_->setText(model_->Title());
-  reset_->setEnabled(model_->AnyChanged());
   const std::vector<OptionRow> rows = ByGroup(model_->Rows());
+  title_->setText(model_->Title());
+  reset_->setEnabled(
+      std::any_of(rows.begin(), rows.end(), [](const OptionRow& row) { return row.Changed(); }));
   const auto same = [](const OptionRow& row, const OptionField* field) {
     return row.info.key == field->Key();
   };

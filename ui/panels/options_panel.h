@@ -23,7 +23,12 @@ class OptionsForm : public QWidget {
   /// The field of an option; nullptr where it does nothing now.
   OptionField* Field(const std::string& key) const;
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
+  /// A fit's options say that they changed with each look at a growing scan.
+  void ShowRowsInSight();
   void ShowRows();
   void Build(const std::vector<OptionRow>& rows);
 

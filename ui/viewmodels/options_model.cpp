@@ -26,7 +26,6 @@ bool OptionsModel::AnyChanged() const {
 
 DepthOptionsModel::DepthOptionsModel(DepthViewModel* depth, QObject* parent)
     : OptionsModel(parent), depth_(depth) {
-  connect(depth, &DepthViewModel::methodChanged, this, &OptionsModel::changed);
   connect(depth, &DepthViewModel::optionsChanged, this, &OptionsModel::changed);
   connect(depth, &DepthViewModel::thresholdChanged, this, &OptionsModel::changed);
 }
