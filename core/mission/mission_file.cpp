@@ -202,9 +202,10 @@ struct MissionFile::Impl {
   }
 
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason) {
-    FORESIGHT_CHECK(Write([&] { return Rows().EndScan(scan_id, state, reason); }));
+    // A scan of which the end could not be written does not block the next one: it reads as
+    // interrupted, and can be continued.
     running_scan = 0;
-    return {};
+    return Write([&] { return Rows().EndScan(scan_id, state, reason); });
   }
 
   /// Runs `body(format)` on one moment of the file.
@@ -271,14 +272,22 @@ struct MissionFile::Impl {
   Status FindScan(Record& record, const char* what) {
     if (record.scan_id == 0 && record.scan_uuid.empty())
       return Fail(ErrorCode::kInvalidInput, "{}: a {} must name its scan", file, what);
-    FORESIGHT_TRY(const std::vector<ScanRow> rows, Rows().ReadScanRows());
-    for (const ScanRow& row : rows) {
-      if (record.scan_id != 0 ? row.id != record.scan_id : row.uuid != record.scan_uuid) continue;
-      if (!record.scan_uuid.empty() && record.scan_uuid != row.uuid)
-        return Fail(ErrorCode::kInvalidInput, "{}: scan {} is {}, not {}", file, row.id, row.uuid,
-                    record.scan_uuid);
-      record.scan_id = row.id;
-      record.scan_uuid = row.uuid;
+    FORESIGHT_TRY(
+        SqliteStatement select,
+        database->Prepare(record.scan_id != 0 ? "SELECT id, uuid FROM scan WHERE id = ?"
+                                              : "SELECT id, uuid FROM scan WHERE uuid = ?"));
+    if (record.scan_id != 0)
+      select.Bind(record.scan_id);
+    else
+      select.BindText(record.scan_uuid);
+    FORESIGHT_TRY(const bool found, select.Step());
+    if (found) {
+      const std::string uuid = select.Text(1);
+      if (!record.scan_uuid.empty() && record.scan_uuid != uuid)
+        return Fail(ErrorCode::kInvalidInput, "{}: scan {} is {}, not {}", file, record.scan_id,
+                    uuid, record.scan_uuid);
+      record.scan_id = select.Integer(0);
+      record.scan_uuid = uuid;
       return {};
     }
     if (review && record.scan_id == 0) return {};
@@ -559,6 +568,23 @@ Result<ScanSummary> MissionFile::Summary(std::int64_t id) const {
   return impl_->Read([&](int format) -> Result<ScanSummary> {
     FORESIGHT_TRY(std::vector<ScanSummary> scans, impl_->Summaries(id, format, recorded));
     return std::move(scans.front());
+  });
+}
+
+Result<std::optional<std::int64_t>> MissionFile::FindScan(const std::string& uuid) const {
+  return impl_->Read([&](int) { return impl_->IdOfUuid("scan", uuid); });
+}
+
+Result<std::optional<std::int64_t>> MissionFile::FindDetection(const std::string& uuid) const {
+  using Found = Result<std::optional<std::int64_t>>;
+  return impl_->Read([&](int format) -> Found {
+    if (format > 1) return impl_->IdOfUuid("detection", uuid);
+    // Format 1 has no uuid in its rows: what stands for it is made when they are read.
+    FORESIGHT_TRY(const std::vector<DetectionRecord> records,
+                  ReadDetections(*impl_->database, format, std::nullopt, impl_->file));
+    for (const DetectionRecord& record : records)
+      if (record.uuid == uuid) return record.id;
+    return std::nullopt;
   });
 }
 

@@ -74,6 +74,8 @@ class MissionFile {
   /// Samples that are not later than the last one are dropped, as MotorTrack::Add does.
   Status AppendMotorSamples(std::int64_t scan_id, std::span<const MotorSample> samples);
   Status AppendFrame(std::int64_t scan_id, const CameraFrame& frame);
+  /// Where the end cannot be written (a full disk) the scan has ended all the same: another can
+  /// begin, and this one can be continued.
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
   /// Runs `body`, whose appends reach the disk together when it returns: ten times as many lines a
   /// second. What was appended before a failure is kept.
@@ -83,6 +85,9 @@ class MissionFile {
 
   Result<std::vector<ScanSummary>> ListScans() const;
   Result<ScanSummary> Summary(std::int64_t id) const;
+  /// The id of the scan or detection with this uuid; nullopt where the file has none.
+  Result<std::optional<std::int64_t>> FindScan(const std::string& uuid) const;
+  Result<std::optional<std::int64_t>> FindDetection(const std::string& uuid) const;
   /// Everything of a scan but its lines, track and frames.
   Result<Scan> LoadHeader(std::int64_t id) const;
   /// The whole scan: lines, track, frames and plan bit for bit, the rig as SensorRigToYaml keeps

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "core/mission/row_checksum.h"
 
@@ -73,6 +74,19 @@ void BindScan(SqliteStatement& statement, std::int64_t scan_id) {
     statement.Bind(scan_id);
 }
 
+/// What `read` makes of each row of a statement.
+template <class Read>
+auto ReadRows(SqliteStatement& select, const Read& read)
+    -> Result<std::vector<typename std::invoke_result_t<Read>::value_type>> {
+  std::vector<typename std::invoke_result_t<Read>::value_type> values;
+  for (;;) {
+    FORESIGHT_TRY(const bool more, select.Step());
+    if (!more) return values;
+    FORESIGHT_TRY(auto value, read());
+    values.push_back(std::move(value));
+  }
+}
+
 Result<std::int64_t> NextId(const SqliteDatabase& database, const char* table) {
   return database.Integer(fmt::format("SELECT coalesce(max(id), 0) + 1 FROM {}", table).c_str());
 }
@@ -90,10 +104,7 @@ Result<std::vector<DetectionRecord>> ReadDetections1(const SqliteDatabase& datab
                                  "s.uuid FROM detection d LEFT JOIN scan s ON s.id = d.scan_id "
                                  "WHERE ? < 0 OR d.scan_id = ? ORDER BY d.id"));
   select.Bind(scan_id.value_or(-1)).Bind(scan_id.value_or(-1));
-  std::vector<DetectionRecord> detections;
-  for (;;) {
-    FORESIGHT_TRY(const bool more, select.Step());
-    if (!more) return detections;
+  return ReadRows(select, [&]() -> Result<DetectionRecord> {
     DetectionRecord detection;
     detection.id = select.Integer(0);
     detection.scan_id = select.Integer(1);
@@ -105,8 +116,8 @@ Result<std::vector<DetectionRecord>> ReadDetections1(const SqliteDatabase& datab
                   detection.id);
     detection.scan_uuid = select.Text(6);
     detection.uuid = UuidOfFormat1(detection);
-    detections.push_back(std::move(detection));
-  }
+    return detection;
+  });
 }
 
 void Apply(const DetectionEvent& event, DetectionRecord& detection) {
@@ -194,10 +205,7 @@ Result<std::vector<DetectionRecord>> ReadDetections(const SqliteDatabase& databa
                                  "provenance_json, crc32 FROM detection WHERE ? < 0 OR scan_id = ? "
                                  "ORDER BY id"));
   select.Bind(scan_id.value_or(-1)).Bind(scan_id.value_or(-1));
-  std::vector<DetectionRecord> detections;
-  for (;;) {
-    FORESIGHT_TRY(const bool more, select.Step());
-    if (!more) return detections;
+  return ReadRows(select, [&]() -> Result<DetectionRecord> {
     DetectionRecord detection;
     detection.id = select.Integer(0);
     detection.uuid = select.Text(1);
@@ -213,8 +221,8 @@ Result<std::vector<DetectionRecord>> ReadDetections(const SqliteDatabase& databa
                   detection.id);
     if (const auto found = events.find(detection.id); found != events.end())
       for (const DetectionEvent& event : found->second) Apply(event, detection);
-    detections.push_back(std::move(detection));
-  }
+    return detection;
+  });
 }
 
 Result<std::map<std::int64_t, std::int64_t>> CountObjects(const SqliteDatabase& database,
@@ -308,10 +316,7 @@ Result<std::vector<DepthRecord>> ReadDepths(const SqliteDatabase& database,
                                  "author, provenance_json, digest, statistics_json, crc32 FROM "
                                  "depth WHERE ? < 0 OR scan_id = ? ORDER BY id"));
   select.Bind(scan_id.value_or(-1)).Bind(scan_id.value_or(-1));
-  std::vector<DepthRecord> depths;
-  for (;;) {
-    FORESIGHT_TRY(const bool more, select.Step());
-    if (!more) return depths;
+  return ReadRows(select, [&]() -> Result<DepthRecord> {
     DepthRecord depth;
     depth.id = select.Integer(0);
     depth.uuid = select.Text(1);
@@ -327,8 +332,8 @@ Result<std::vector<DepthRecord>> ReadDepths(const SqliteDatabase& database,
     if (select.Integer(10) != Checksum(depth, statistics))
       return Fail(ErrorCode::kBadData, "{} is damaged (checksum)", where);
     FORESIGHT_TRY(depth.statistics, StatisticsFromJson(statistics, where));
-    depths.push_back(std::move(depth));
-  }
+    return depth;
+  });
 }
 
 Result<std::int64_t> InsertEvent(SqliteDatabase& database, EventRecord event) {
@@ -353,16 +358,13 @@ Result<std::vector<EventRecord>> ReadEvents(const SqliteDatabase& database,
   FORESIGHT_TRY(SqliteStatement select,
                 database.Prepare("SELECT id, utc_ns, source, severity, text, json, crc32 FROM "
                                  "event ORDER BY id"));
-  std::vector<EventRecord> events;
-  for (;;) {
-    FORESIGHT_TRY(const bool more, select.Step());
-    if (!more) return events;
-    const EventRecord event{select.Integer(0), select.Integer(1), select.Text(2),
-                            select.Text(3),    select.Text(4),    select.Text(5)};
+  return ReadRows(select, [&]() -> Result<EventRecord> {
+    EventRecord event{select.Integer(0), select.Integer(1), select.Text(2),
+                      select.Text(3),    select.Text(4),    select.Text(5)};
     if (select.Integer(6) != Checksum(event))
       return Fail(ErrorCode::kBadData, "{}: event {} is damaged (checksum)", file, event.id);
-    events.push_back(event);
-  }
+    return event;
+  });
 }
 
 }  // namespace foresight

@@ -50,6 +50,7 @@ Json AsJson(const CameraHealth& camera) {
 Json AsJson(const MotorHealth& motor) {
   return {{"connected", motor.connected},
           {"poll_rate_hz", Known(motor.poll_rate_hz)},
+          {"polls", motor.polls},
           {"round_trip_median_s", Known(motor.round_trip_median_s)},
           {"round_trip_max_s", Known(motor.round_trip_max_s)},
           {"reconnects", motor.reconnects},

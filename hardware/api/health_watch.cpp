@@ -67,7 +67,7 @@ DeviceDiagnosis DiagnoseMotor(const MotorHealth& now, const MotorHealth& before,
   if (now.round_trip_median_s > limits.motor_round_trip_s)
     findings.Add(fmt::format("answers slowly: {:.0f} ms", 1e3 * now.round_trip_median_s));
   const std::int64_t slow = now.slow_polls - before.slow_polls;
-  if (static_cast<double>(slow) > limits.slow_polls * HealthWatch::kMemory_s * now.poll_rate_hz)
+  if (static_cast<double>(slow) > limits.slow_polls * static_cast<double>(now.polls - before.polls))
     findings.AddCount(slow, "slow polls: {}");
   return findings.Diagnosis();
 }

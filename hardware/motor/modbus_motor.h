@@ -75,6 +75,7 @@ class ModbusMotor final : public Motor {
   void FinishTask();
   void StopAfter(const std::string& message);
   void LoseLink(const std::string& message);
+  double PollRate_hz() const;
   void Rest(const std::stop_token& stop, WallClock::time_point until);
 
   // All below: with the mutex held.
@@ -93,6 +94,7 @@ class ModbusMotor final : public Motor {
   ModbusLink link_;
   std::optional<Task> task_;
   WallClock::time_point next_poll_;
+  WallClock::time_point last_active_;  ///< when the motor last turned or had something to do
   std::chrono::milliseconds backoff_{0};
   int connections_ = 0;
 

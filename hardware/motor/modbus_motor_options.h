@@ -25,7 +25,7 @@ struct ModbusMotorOptions {
   double homing_edge_rad_s = 0.017453292519943295;  ///< 1 deg/s, onto its edge
   double homing_timeout_s = 60.0;
 
-  double poll_rate_hz = 240.0;
+  double poll_rate_hz = 240.0;  ///< while something is asked of the motor or it turns; else 20
   std::chrono::milliseconds response_timeout{200};
   /// Samples whose round trip took longer (and thrice the usual) are left out of the track.
   double slow_round_trip_s = 0.002;

@@ -16,6 +16,10 @@ namespace {
 constexpr double kStopTimeout_s = 3.0;
 constexpr std::chrono::milliseconds kFirstBackoff{50};
 constexpr std::chrono::milliseconds kLongestBackoff{2000};
+/// How often a motor is looked at that stands still and of which nothing is asked, and for how long
+/// it must have stood.
+constexpr double kIdlePollRate_hz = 20.0;
+constexpr std::chrono::seconds kIdleAfter{1};
 /// No head turns so far: a count like this is one with its words swapped.
 constexpr int kMostTurns = 20;
 
@@ -35,7 +39,7 @@ void ModbusMotor::Work(const std::stop_token& stop) {
     }
     next_poll_ =
         std::max(next_poll_ + std::chrono::duration_cast<WallClock::duration>(
-                                  std::chrono::duration<double>(1.0 / options_.poll_rate_hz)),
+                                  std::chrono::duration<double>(1.0 / PollRate_hz())),
                  WallClock::now());
     Rest(stop, next_poll_);
   }
@@ -48,6 +52,11 @@ void ModbusMotor::Rest(const std::stop_token& stop, WallClock::time_point until)
   wake_.wait_until(lock, stop, until, [this] {
     return connected_ ? stop_requested_ || (posted_ && !task_) : connect_now_;
   });
+}
+
+double ModbusMotor::PollRate_hz() const {
+  const bool idle = WallClock::now() - last_active_ > kIdleAfter;
+  return idle ? std::min(kIdlePollRate_hz, options_.poll_rate_hz) : options_.poll_rate_hz;
 }
 
 void ModbusMotor::KeepConnected(const std::stop_token& stop) {
@@ -120,6 +129,7 @@ void ModbusMotor::Poll() {
   if (!read)
     return link_.IsOpen() ? StopAfter(read.error().message) : LoseLink(read.error().message);
   const TxImage drive = TxImage::Decode(registers, options_.word_order);
+  if (task_ || drive.velocity != 0) last_active_ = WallClock::now();
   Keep(drive, sent_s, answered_s);
   WatchForFault(drive);
   Continue(drive);
@@ -130,6 +140,7 @@ void ModbusMotor::Poll() {
 void ModbusMotor::Keep(const TxImage& drive, double sent_s, double answered_s) {
   const std::lock_guard lock(mutex_);
   const MotorSample sample{0.5 * (sent_s + answered_s), (drive.position + 0.5) * count_rad_};
+  ++health_.polls;
   const double longest_s = std::max(options_.slow_round_trip_s, 3.0 * round_trips_.Median_s());
   round_trips_.Add(sent_s, answered_s);
   if (drive.error_code != 0) health_.last_error = drive.error_code;

@@ -23,10 +23,17 @@ void RoundTrips::Describe(MotorHealth& health) const {
   health.round_trip_median_s = Median_s();
   health.round_trip_max_s = *std::max_element(
       duration_s_.begin(), duration_s_.begin() + static_cast<std::ptrdiff_t>(size()));
+  // An idle motor is polled less often: the rate is that of the last second.
   const double newest_s = sent_s_[(count_ - 1) % kKept];
-  const double oldest_s = sent_s_[(count_ - size()) % kKept];
-  if (newest_s > oldest_s)
-    health.poll_rate_hz = static_cast<double>(size() - 1) / (newest_s - oldest_s);
+  std::size_t polls = 0;
+  double oldest_s = newest_s;
+  while (polls + 1 < size()) {
+    const double sent_s = sent_s_[(count_ - 2 - polls) % kKept];
+    if (newest_s - sent_s > 1.0) break;
+    oldest_s = sent_s;
+    ++polls;
+  }
+  if (polls > 0) health.poll_rate_hz = static_cast<double>(polls) / (newest_s - oldest_s);
 }
 
 }  // namespace foresight

@@ -78,6 +78,17 @@ TEST(HeadHealth, TheNumbersReadAsWords) {
   EXPECT_EQ(Describe(health.motor), "240 polls/s, round trip 0.03 ms");
 }
 
+TEST(HealthWatch, CallsAMotorDegradedWhenMoreThanAFiftiethOfItsPollsIsSlow) {
+  HeadHealth before = WellHead(), now = WellHead();
+  before.motor.polls = 1000;
+  now.motor.polls = 1200;
+  now.motor.poll_rate_hz = 20.0;  // idle again: what counts are the polls that there were
+  now.motor.slow_polls = 4;
+  EXPECT_EQ(Diagnose(now, before).motor.condition, DeviceCondition::kWell);
+  now.motor.slow_polls = 5;
+  EXPECT_EQ(Diagnose(now, before).motor.problem, "slow polls: 5");
+}
+
 TEST(HeadHealth, AsJsonItIsOneLineWithNullForTheUnknown) {
   const std::string text = ToJson(WellHead());
   EXPECT_EQ(text.find('\n'), std::string::npos);

@@ -234,9 +234,9 @@ INSTANTIATE_TEST_SUITE_P(Speeds, MotorTrackOverTheWire, testing::Values(10.0, 30
                            return fmt::format("{:.0f}DegreesASecond", speed.param);
                          });
 
-TEST(ModbusMotor, PollsAtItsRate) {
+TEST(ModbusMotor, PollsAMotorThatTurnsAtItsRate) {
   const MotorBench bench;
-  ASSERT_TRUE(bench.motor->Connect());
+  ASSERT_TRUE(bench.Sweep());
   std::size_t samples = 0;
   ASSERT_TRUE(bench.WaitFor([&] { return (samples += bench.motor->TakeTrack().size()) >= 120; }));
   const MotorHealth health = bench.motor->Health();
@@ -246,6 +246,18 @@ TEST(ModbusMotor, PollsAtItsRate) {
   EXPECT_GT(health.poll_rate_hz, 120.0);
   EXPECT_LE(health.round_trip_median_s, health.round_trip_max_s);
   EXPECT_EQ(health.reconnects, 0);
+}
+
+TEST(ModbusMotor, PollsAMotorThatStandsStillTwentyTimesASecondAndObeysAtOnce) {
+  const MotorBench bench;
+  ASSERT_TRUE(bench.Home());
+  // A second of rest, and another one of which the rate is that.
+  ASSERT_TRUE(bench.WaitFor([&] { return bench.motor->Health().poll_rate_hz < 25.0; }));
+  EXPECT_GT(bench.motor->Health().poll_rate_hz, 5.0);
+  bench.motor->TakeTrack();
+  ASSERT_TRUE(bench.Go(20.0, 20.0));
+  ASSERT_TRUE(bench.WaitForShaft([](double deg) { return deg > 3.0; }));
+  EXPECT_GT(bench.motor->TakeTrack().size(), 20u) << "the track begins with the move";
 }
 
 TEST(ModbusMotor, KeepsABoundedTrack) {

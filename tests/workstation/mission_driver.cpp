@@ -1,7 +1,7 @@
-// mission_driver MISSION [OTHER]: the workstation without its window, on a fast simulated head with
-// a small camera. Twice it scans, fits the valve and accepts it; in between it opens the mission
-// OTHER for review and rejects an object there. Standard output says what the window would show as
-// kept, a line each, only after the program itself shows it so:
+// mission_driver [--window] MISSION [OTHER]: the workstation, with or without its window, on a fast
+// simulated head with a small camera. Twice it scans, fits the valve and accepts it; in between it
+// opens the mission OTHER for review and rejects an object there. Standard output says what the
+// window would show as kept, a line each, only after the program itself shows it so:
 //   lines SCAN COUNT DIGEST       so many lines of a running scan are in the file
 //   scan SCAN DIGEST              the whole scan is
 //   object OBJECT                 and so on
@@ -9,7 +9,7 @@
 //   rejected OBJECT               in the file beside OTHER
 //   end
 // "go-on" in place of OTHER: only goes on in the mission that was interrupted, with one command.
-#include <QCoreApplication>
+#include <QApplication>
 #include <QFileInfo>
 #include <QStandardPaths>
 #include <QTimer>
@@ -17,10 +17,12 @@
 #include <map>
 #include <set>
 
-#include "app/workstation/workbench.h"
+#include "app/workstation/main_window.h"
 #include "core/simulation/scene.h"
 #include "hardware/simulated/simulated_head.h"
 #include "tests/workstation/scan_digest.h"
+#include "ui/panels/theme.h"
+#include "ui/views/vtk_setup.h"
 
 namespace foresight {
 namespace {
@@ -178,10 +180,22 @@ int GoOn(Workbench* bench, const QString& mission) {
   return bench->commands.Run("recording.continue") ? QCoreApplication::exec() : 5;
 }
 
-int Run(int argc, char** argv) {
-  QCoreApplication application(argc, argv);
+/// The command line without the program's name.
+struct Arguments {
+  bool window = false;
+  QString mission, other;
+
+  Arguments(int argc, char** argv) {
+    QStringList words;
+    for (int i = 1; i < argc; ++i) words.append(QString::fromLocal8Bit(argv[i]));
+    window = words.removeAll(QStringLiteral("--window")) > 0;
+    mission = words.value(0);
+    other = words.value(1);
+  }
+};
+
+int Drive(const Arguments& arguments) {
   QStandardPaths::setTestModeEnabled(true);
-  const QStringList arguments = QCoreApplication::arguments();
   const std::string file = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
   const Scene scene = LoadScene(file).value();
   SimulatedHeadOptions options;
@@ -189,11 +203,27 @@ int Run(int argc, char** argv) {
   options.true_rig = options.believed_rig = SmallCameraRig();
   Workbench bench(std::shared_ptr<SensorHead>(MakeSimulatedHead(file, options).value()),
                   SessionMode::kSimulation);
-  const QString mission = arguments.value(1), other = arguments.value(2);
-  if (other == QLatin1String("go-on")) return GoOn(&bench, mission);
-  if (!bench.recording.Begin(mission)) return 2;
-  const Script script(&bench, scene, other);
+  std::unique_ptr<MainWindow> window;
+  if (arguments.window) {
+    window = std::make_unique<MainWindow>(&bench);
+    window->show();
+  }
+  if (arguments.other == QLatin1String("go-on")) return GoOn(&bench, arguments.mission);
+  if (!bench.recording.Begin(arguments.mission)) return 2;
+  const Script script(&bench, scene, arguments.other);
   return QCoreApplication::exec();
+}
+
+int Run(int argc, char** argv) {
+  const Arguments arguments(argc, argv);
+  if (!arguments.window) {
+    const QCoreApplication application(argc, argv);
+    return Drive(arguments);
+  }
+  SetUpVtk();  // before the QApplication
+  QApplication application(argc, argv);
+  ApplyTheme(&application);
+  return Drive(arguments);
 }
 
 }  // namespace

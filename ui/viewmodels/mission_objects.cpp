@@ -5,17 +5,6 @@
 #include "core/detection/detection_json.h"
 
 namespace foresight {
-namespace {
-
-/// The id of the scan in the file; 0 where the file does not hold it.
-Result<std::int64_t> ScanIdOf(const MissionFile& file, const std::string& uuid) {
-  FORESIGHT_TRY(const std::vector<ScanSummary> scans, file.ListScans());
-  for (const ScanSummary& scan : scans)
-    if (scan.uuid == uuid) return scan.id;
-  return 0;
-}
-
-}  // namespace
 
 DetectionRecord RecordOf(const FoundObject& object, const std::string& author) {
   DetectionRecord record;
@@ -58,36 +47,36 @@ Result<FoundObject> ObjectOf(const DetectionRecord& record, const SensorRig& rig
 
 Status KeepObject(MissionFile* file, const FoundObject& object, const std::string& author) {
   DetectionRecord record = RecordOf(object, author);
-  FORESIGHT_TRY(record.scan_id, ScanIdOf(*file, object.scan_uuid));
+  FORESIGHT_TRY(const auto scan_id, file->FindScan(object.scan_uuid));
+  record.scan_id = scan_id.value_or(0);
   FORESIGHT_CHECK(file->AddDetection(record));
   return {};
 }
 
 Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::string& author) {
-  FORESIGHT_TRY(const std::vector<DetectionRecord> records, file->ListDetections());
-  const auto at = std::find_if(records.begin(), records.end(), [&](const DetectionRecord& record) {
-    return record.uuid == event.uuid;
-  });
-  if (at == records.end())
+  FORESIGHT_TRY(const auto id, file->FindDetection(event.uuid));
+  if (!id)
     return Fail(ErrorCode::kInvalidInput, "mission file {}: no object {}", file->path().string(),
                 event.uuid);
-  return file->AddDetectionEvent(at->id, EventOf(event, author));
+  return file->AddDetectionEvent(*id, EventOf(event, author));
 }
 
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth) {
   FORESIGHT_TRY(DepthRecord record, NewDepthRecord(scan, depth, depth.mask, depth.options.mask));
-  FORESIGHT_TRY(record.scan_id, ScanIdOf(*file, scan.uuid));
-  if (record.scan_id == 0)
+  FORESIGHT_TRY(const auto scan_id, file->FindScan(scan.uuid));
+  if (!scan_id)
     return Fail(ErrorCode::kInvalidInput, "mission file {}: no scan {}", file->path().string(),
                 scan.uuid);
+  record.scan_id = *scan_id;
   FORESIGHT_CHECK(file->AddDepth(record));
   return {};
 }
 
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context) {
   std::size_t lines = 0, images = 0;  // that the file has
-  FORESIGHT_TRY(std::int64_t id, ScanIdOf(*file, scan.uuid));
-  if (id == 0) {
+  FORESIGHT_TRY(const auto known, file->FindScan(scan.uuid));
+  std::int64_t id = known.value_or(0);
+  if (!known) {
     FORESIGHT_TRY(id, file->BeginScan(scan));
   } else {
     FORESIGHT_TRY(const ScanSummary kept, file->Summary(id));
@@ -108,7 +97,10 @@ Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context
     return {};
   });
   if (!appended) {  // the next scan must find the file free; the rest comes when it is tried again
-    (void)file->EndScan(id, ScanState::kInterrupted, appended.error().message);
+    if (const Status ended = file->EndScan(id, ScanState::kInterrupted, appended.error().message);
+        !ended)
+      return Fail(appended.error().code, "{}; and the scan could not be ended in the file: {}",
+                  appended.error().message, ended.error().message);
     return appended;
   }
   return file->EndScan(id, scan.state, scan.reason);

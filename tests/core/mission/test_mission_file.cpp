@@ -8,6 +8,7 @@
 #include "core/mission/row_checksum.h"
 #include "core/mission/sqlite.h"
 #include "tests/core/mission/sample_scan.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -51,6 +52,35 @@ TEST(MissionFile, AScanThatEndedTooEarlyIsContinuedToTheWhole) {
   EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), scan));
   EXPECT_TRUE(mission->Verify({}));
   EXPECT_FALSE(mission->ContinueScan(id + 1));
+}
+
+TEST(MissionFile, AScanOfWhichTheEndCannotBeWrittenBlocksNoOtherAndIsContinued) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = mission->BeginScan(scan).value();
+  ASSERT_TRUE(mission->AppendLine(id, scan.lines[0]));
+  {
+    const FileSizeLimit disk_full(1);
+    EXPECT_EQ(mission->EndScan(id, ScanState::kComplete, "").error().code, ErrorCode::kIo);
+  }
+  EXPECT_EQ(mission->Summary(id).value().state, ScanState::kInterrupted);
+  const std::int64_t next = mission->BeginScan(SampleScan(2)).value();
+  ASSERT_TRUE(mission->EndScan(next, ScanState::kComplete, ""));
+
+  ASSERT_TRUE(mission->ContinueScan(id));
+  ASSERT_TRUE(mission->EndScan(id, ScanState::kComplete, ""));
+  EXPECT_EQ(mission->Summary(id).value().state, ScanState::kComplete);
+  EXPECT_TRUE(mission->Verify({}));
+}
+
+TEST(MissionFile, AScanIsFoundByItsUuid) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  Record(*mission, SampleScan(1));
+  const std::int64_t id = Record(*mission, SampleScan(2));
+  EXPECT_EQ(mission->FindScan(SampleScan(2).uuid).value(), id);
+  EXPECT_EQ(mission->FindScan("another").value(), std::nullopt);
 }
 
 /// Rewrites the plan of the only scan, with the checksum that goes with it.

@@ -45,6 +45,12 @@ class MissionRecords : public testing::Test {
   std::int64_t scan_id_ = 0;
 };
 
+TEST_F(MissionRecords, ADetectionIsFoundByItsUuid) {
+  const std::int64_t id = mission_->AddDetection(Valve("one")).value();
+  EXPECT_EQ(mission_->FindDetection("one").value(), id);
+  EXPECT_EQ(mission_->FindDetection("two").value(), std::nullopt);
+}
+
 TEST_F(MissionRecords, ADetectionComesBackOpenAndUnnamed) {
   DetectionRecord valve = Valve("a");
   valve.id = mission_->AddDetection(valve).value();
