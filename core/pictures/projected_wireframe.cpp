@@ -9,8 +9,8 @@ namespace {
 constexpr double kLongestSegment_m = 0.01;
 
 /// Appends the pieces of one polyline that the camera can see.
-void AppendProjected(const std::vector<Eigen::Vector3d>& line_in_camera,
-                     const CameraModel& camera, PixelLines* out) {
+void AppendProjected(const std::vector<Eigen::Vector3d>& line_in_camera, const CameraModel& camera,
+                     PixelLines* out) {
   std::vector<Eigen::Vector2d> piece;
   const auto close_piece = [&] {
     if (piece.size() > 1) out->push_back(piece);

@@ -16,8 +16,8 @@ class ScanAssembler final : public ScanSink {
   void OnFrame(const CameraFrame& frame) override;
   void OnScanEnded(ScanState state, const std::string& reason) override;
 
-  /// What has arrived so far; never changes afterwards. nullptr before the first scan. Costs the same
-  /// however much has arrived.
+  /// What has arrived so far; never changes afterwards. nullptr before the first scan. Costs the
+  /// same however much has arrived.
   std::shared_ptr<const Scan> Snapshot() const;
 
  private:

@@ -37,10 +37,9 @@ void ModbusMotor::Work(const std::stop_token& stop) {
     } catch (const std::exception& error) {
       StopAfter(error.what());
     }
-    next_poll_ =
-        std::max(next_poll_ + std::chrono::duration_cast<WallClock::duration>(
-                                  std::chrono::duration<double>(1.0 / PollRate_hz())),
-                 WallClock::now());
+    next_poll_ = std::max(next_poll_ + std::chrono::duration_cast<WallClock::duration>(
+                                           std::chrono::duration<double>(1.0 / PollRate_hz())),
+                          WallClock::now());
     Rest(stop, next_poll_);
   }
   if (link_.IsOpen()) Write({{RxImage::kControl, {cia402::control::kQuickStop}}});

@@ -25,8 +25,8 @@ struct HeadTest : testing::Test {
 };
 
 TEST_F(HeadTest, SaysWhichRigIsInForceAndItsCameraModel) {
-  EXPECT_EQ(model.RigText().toStdString(), "Rig default, " + ShortRigId(DefaultSensorRig()) +
-                                               "\nCamera model: fisheye with k");
+  EXPECT_EQ(model.RigText().toStdString(),
+            "Rig default, " + ShortRigId(DefaultSensorRig()) + "\nCamera model: fisheye with k");
 }
 
 TEST_F(HeadTest, PredictionFollowsTheSpeed) {
@@ -226,8 +226,9 @@ TEST_F(HeadTest, AnImageIsHandedOnAtTheNextPoll) {
   const Scan scan = WallAndValveScan(
       {.from_rad = -0.02, .to_rad = 0.02, .speed_rad_s = 0.1, .image_angles_rad = {0.0}});
   std::size_t images = 0;
-  QObject::connect(&model, &HeadViewModel::scanGrew,
-                   [&](const std::shared_ptr<const Scan>& grown) { images = grown->frames.size(); });
+  QObject::connect(&model, &HeadViewModel::scanGrew, [&](const std::shared_ptr<const Scan>& grown) {
+    images = grown->frames.size();
+  });
   model.scan();
   head->Deliver(scan, 3);
   // Whatever the count of polls until the next look at the lines is.

@@ -22,9 +22,9 @@ struct DepthReadout {
   double confidence = 0.0;  ///< of the largest in the map
   bool relative = true;     ///< false for a method whose confidence is absolute: its largest is 1
   bool has_confidence = true;  ///< else `confidence` means nothing
-  bool masked = false;      ///< has a depth that is not to be trusted
-  bool sparse = false;      ///< of a map below the density floor, where no depth is to be trusted
-  QString reason;           ///< why it is masked or empty, in words; else empty
+  bool masked = false;         ///< has a depth that is not to be trusted
+  bool sparse = false;  ///< of a map below the density floor, where no depth is to be trusted
+  QString reason;       ///< why it is masked or empty, in words; else empty
 };
 
 /// Radius of the window that a pixel's depth is made from; 0 for methods that know none.

@@ -24,8 +24,8 @@ Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::s
 /// Notes how a depth map of the scan is made again, with its checksum.
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth);
 
-/// Writes what the file does not have of a scan that has ended: all of it where its file could not be
-/// written, the end where the disk was full, lines that came late. What was written before a
+/// Writes what the file does not have of a scan that has ended: all of it where its file could not
+/// be written, the end where the disk was full, lines that came late. What was written before a
 /// failure is kept, and the next try goes on there.
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context);
 

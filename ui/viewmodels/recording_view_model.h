@@ -80,7 +80,7 @@ class RecordingViewModel : public QObject {
 
  Q_SIGNALS:
   void changed();
-  void allWritten();  ///< nothing waits any more
+  void allWritten();        ///< nothing waits any more
   void interruptedTaken();  ///< the interrupted mission is no longer offered
 
  private:

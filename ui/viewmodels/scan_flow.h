@@ -24,7 +24,8 @@ class ScanFlow : public QObject {
 
   HeadViewModel* head_;
   SessionModel* session_;
-  std::shared_ptr<GrowingRegistration> points_;  ///< of the running scan; one task at a time uses it
+  std::shared_ptr<GrowingRegistration>
+      points_;  ///< of the running scan; one task at a time uses it
   TaskRunner runner_{session_->Tasks()};
 };
 

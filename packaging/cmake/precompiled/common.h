@@ -1,5 +1,5 @@
-// What most files include anyway, parsed once for all of them. Only for the compiler: every file still
-// includes what it uses, and builds without this.
+// What most files include anyway, parsed once for all of them. Only for the compiler: every file
+// still includes what it uses, and builds without this.
 #pragma once
 
 #include <fmt/format.h>
