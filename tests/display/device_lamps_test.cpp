@@ -4,6 +4,7 @@
 #include <QHelpEvent>
 #include <QLabel>
 
+#include "tests/display/paint_counter.h"
 #include "tests/ui/fake_head.h"
 #include "ui/panels/device_lamps.h"
 #include "ui/panels/head_device_rows.h"
@@ -61,6 +62,21 @@ TEST_F(DeviceLampsOnScreen, SayInWordsWhichDeviceIsMissing) {
   EXPECT_EQ(Words(), (std::vector<std::string>{"Lidar", "Camera: missing", "Motor"}));
   const QString why = lamps.findChildren<QLabel*>(QStringLiteral("deviceLamp"))[1]->toolTip();
   EXPECT_TRUE(why.contains(QStringLiteral("does not answer"))) << why.toStdString();
+}
+
+TEST_F(DeviceLampsOnScreen, NumbersThatChangeAllTheTimeDrawNothing) {
+  HeadDeviceRows rows(&model);
+  rows.show();
+  QCoreApplication::processEvents();
+  const PaintCounter counter;
+  for (int poll = 0; poll < 5; ++poll) {
+    HeadHealth health = AllWell();
+    health.motor.round_trip_median_s = 1e-4 * poll;  // as a drive's does from poll to poll
+    head->SetHealth(health);
+    model.Poll();
+    QCoreApplication::processEvents();
+  }
+  EXPECT_EQ(counter.Paints(), 0) << counter.Widgets();
 }
 
 TEST_F(DeviceLampsOnScreen, ALampIsBrightEnoughToBeSeen) {

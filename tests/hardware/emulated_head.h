@@ -8,6 +8,7 @@
 #include "hardware/emulator/emulated_devices.h"
 #include "tests/hardware/tiny_head.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/small_camera.h"
 
 namespace foresight {
 
@@ -19,10 +20,7 @@ inline EmulatedDevicesOptions RealTimeDevices() {
   options.world.lidar.footprint_side = 1;
   options.true_rig.lidar.beams = 271;
   options.true_rig.lidar.angle_step_rad *= 4.0;
-  CameraModel& camera = options.true_rig.camera;
-  camera.width /= 4;
-  camera.height /= 4;
-  for (double* length_px : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *length_px /= 4.0;
+  options.true_rig.camera = SmallCameraRig().camera;
   return options;
 }
 

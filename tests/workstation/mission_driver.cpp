@@ -20,6 +20,7 @@
 #include "app/workstation/main_window.h"
 #include "core/simulation/scene.h"
 #include "hardware/simulated/simulated_head.h"
+#include "tests/support/small_camera.h"
 #include "tests/workstation/scan_digest.h"
 #include "ui/panels/theme.h"
 #include "ui/views/vtk_setup.h"
@@ -28,18 +29,6 @@ namespace foresight {
 namespace {
 
 constexpr int kStep_ms = 5;
-
-SensorRig SmallCameraRig() {
-  SensorRig rig = DefaultSensorRig();
-  CameraModel& camera = rig.camera;
-  camera.width /= 4;
-  camera.height /= 4;
-  camera.fx /= 4;
-  camera.fy /= 4;
-  camera.cx = 0.25 * (camera.cx + 0.5) - 0.5;
-  camera.cy = 0.25 * (camera.cy + 0.5) - 0.5;
-  return rig;
-}
 
 void Say(const std::string& line) {
   std::printf("%s\n", line.c_str());

@@ -39,7 +39,7 @@ DeviceLamps::DeviceLamps(HeadViewModel* head, QWidget* parent) : QWidget(parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
   for (Lamp& lamp : lamps_) {
-    lamp = {new QLabel, new QLabel};
+    lamp = {new QLabel, new QLabel, {}};
     lamp.sign->setObjectName(QStringLiteral("deviceLamp"));
     layout->addWidget(lamp.sign);
     layout->addWidget(lamp.name);
@@ -50,14 +50,13 @@ DeviceLamps::DeviceLamps(HeadViewModel* head, QWidget* parent) : QWidget(parent)
 }
 
 void DeviceLamps::Show() {
-  const QVector<DeviceRow> devices = head_->Devices();
-  if (devices == shown_) return;
-  shown_ = devices;
+  const QVector<DeviceRow>& devices = head_->Devices();
   for (int i = 0; i < devices.size(); ++i) {
     const DeviceRow& device = devices[i];
-    const Lamp& lamp = lamps_[static_cast<std::size_t>(i)];
+    Lamp& lamp = lamps_[static_cast<std::size_t>(i)];
     const QString words = tr("%1: %2").arg(device.name, device.state);
-    lamp.sign->setPixmap(LampPixmap(device.lamp));
+    if (lamp.shown != device.lamp) lamp.sign->setPixmap(LampPixmap(device.lamp));
+    lamp.shown = device.lamp;
     lamp.name->setText(NeedsWords(device.lamp) ? words : device.name);
     const QString all = device.detail.isEmpty() ? words : words + QChar('\n') + device.detail;
     lamp.sign->setToolTip(all);

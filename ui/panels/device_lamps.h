@@ -2,6 +2,7 @@
 
 #include <QWidget>
 #include <array>
+#include <optional>
 
 #include "ui/viewmodels/head_view_model.h"
 
@@ -24,12 +25,12 @@ class DeviceLamps : public QWidget {
   struct Lamp {
     QLabel* sign;
     QLabel* name;
+    std::optional<DeviceRow::Lamp> shown;
   };
   void Show();
 
   HeadViewModel* head_;
   std::array<Lamp, 3> lamps_;
-  QVector<DeviceRow> shown_;
 };
 
 }  // namespace foresight

@@ -14,7 +14,7 @@ HeadDeviceRows::HeadDeviceRows(HeadViewModel* head, QWidget* parent)
   grid->setColumnStretch(1, 1);
   int at = 0;
   for (Row& row : rows_) {
-    row = {new QLabel, new QLabel, new QLabel};
+    row = {new QLabel, new QLabel, new QLabel, {}};
     row.detail->setWordWrap(true);
     grid->addWidget(row.lamp, at, 0, Qt::AlignTop);
     grid->addWidget(row.title, at, 1);
@@ -32,12 +32,11 @@ bool HeadDeviceRows::event(QEvent* event) {
 }
 
 void HeadDeviceRows::Show() {
-  const QVector<DeviceRow> devices = head_->Devices();
-  if (devices == shown_) return;
-  shown_ = devices;
+  const QVector<DeviceRow>& devices = head_->Devices();
   for (int i = 0; i < devices.size(); ++i) {
-    const Row& row = rows_[static_cast<std::size_t>(i)];
-    row.lamp->setPixmap(LampPixmap(devices[i].lamp));
+    Row& row = rows_[static_cast<std::size_t>(i)];
+    if (row.shown != devices[i].lamp) row.lamp->setPixmap(LampPixmap(devices[i].lamp));
+    row.shown = devices[i].lamp;
     row.title->setText(tr("%1: %2").arg(devices[i].name, devices[i].state));
     row.detail->setText(devices[i].detail);
     row.detail->setVisible(!devices[i].detail.isEmpty());

@@ -2,6 +2,7 @@
 
 #include <QWidget>
 #include <array>
+#include <optional>
 
 #include "ui/viewmodels/head_view_model.h"
 
@@ -25,12 +26,12 @@ class HeadDeviceRows : public QWidget {
     QLabel* lamp;
     QLabel* title;
     QLabel* detail;
+    std::optional<DeviceRow::Lamp> shown;
   };
   void Show();
 
   HeadViewModel* head_;
   std::array<Row, 3> rows_;
-  QVector<DeviceRow> shown_;
 };
 
 }  // namespace foresight

@@ -13,6 +13,7 @@ namespace foresight {
 namespace {
 
 constexpr int kPollInterval_ms = 100;
+constexpr int kDetailsPeriod_ms = 1000;
 constexpr int kPollsPerLook = 3;  ///< a running scan is looked at about three times a second
 /// A head that neither sweeps nor has begun the scan after so many polls has lost it.
 constexpr int kPollsUntilLost = 30;
@@ -89,6 +90,7 @@ HeadViewModel::HeadViewModel(std::shared_ptr<SensorHead> head, QObject* parent)
     : QObject(parent), head_(std::move(head)), status_(head_->Status()) {
   since_start_.start();
   PollHealth();
+  ShowDevices();
   connect(&timer_, &QTimer::timeout, this, &HeadViewModel::Poll);
   timer_.start(kPollInterval_ms);
 }
@@ -138,7 +140,21 @@ double HeadViewModel::ScanProgress() const {
   return std::clamp(static_cast<double>(status_.lines) / status_.expected_lines, 0.0, 1.0);
 }
 
-QVector<DeviceRow> HeadViewModel::Devices() const {
+/// Numbers that change all the time are shown once a second: each change draws the window.
+void HeadViewModel::ShowDevices() {
+  const QVector<DeviceRow> now = DescribeDevices();
+  const bool only_details = std::equal(now.begin(), now.end(), devices_.begin(), devices_.end(),
+                                       [](const DeviceRow& a, const DeviceRow& b) {
+                                         return a.name == b.name && a.lamp == b.lamp &&
+                                                a.state == b.state &&
+                                                a.detail.isEmpty() == b.detail.isEmpty();
+                                       });
+  if (only_details && details_shown_.elapsed() < kDetailsPeriod_ms) return;
+  devices_ = now;
+  details_shown_.start();
+}
+
+QVector<DeviceRow> HeadViewModel::DescribeDevices() const {
   const QStringList names = {tr("Lidar"), tr("Camera"), tr("Motor")};
   QVector<DeviceRow> rows;
   if (status_.state == HeadState::kDisconnected) {
@@ -209,14 +225,15 @@ bool HeadViewModel::Sweeps() const {
 void HeadViewModel::Poll() {
   head_->OperatorSeen();  // a window that hangs does not say so, and the head stops its motor
   const HeadStatus before = status_;
-  const QVector<DeviceRow> devices_before = Devices();
+  const QVector<DeviceRow> devices_before = devices_;
   const bool scanned = Scanning();
   status_ = head_->Status();
   PollHealth();
+  ShowDevices();
   if (live_) PollScan();
   if (ended_) PollLateLines();
   // A signal for nothing would draw the window again, ten times a second.
-  if (!LooksSame(before, status_) || scanned != Scanning() || devices_before != Devices())
+  if (!LooksSame(before, status_) || scanned != Scanning() || devices_before != devices_)
     Q_EMIT statusChanged();
 }
 

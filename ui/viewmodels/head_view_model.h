@@ -72,7 +72,7 @@ class HeadViewModel : public QObject {
   double ScanProgress() const;
 
   /// Lidar, camera and motor; trouble of the last ten seconds still shows.
-  QVector<DeviceRow> Devices() const;
+  const QVector<DeviceRow>& Devices() const { return devices_; }
 
   /// The rig in force: its name, short id and camera model.
   QString RigText() const;
@@ -129,12 +129,16 @@ class HeadViewModel : public QObject {
   void PollScan();
   void PollLateLines();
   void PollHealth();
+  void ShowDevices();
+  QVector<DeviceRow> DescribeDevices() const;
   bool Sweeps() const;
 
   std::shared_ptr<SensorHead> head_;
   HeadStatus status_;
   HealthWatch health_watch_;
   HeadDiagnosis diagnosis_;
+  QVector<DeviceRow> devices_;
+  QElapsedTimer details_shown_;  ///< since the numbers of devices_ were taken
   QElapsedTimer since_start_;
   PlanFields plan_;
   std::function<std::shared_ptr<ScanSink>()> recorder_source_;

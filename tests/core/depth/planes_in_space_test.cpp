@@ -3,20 +3,11 @@
 
 #include "core/base/random.h"
 #include "core/depth/local_plane.h"
-#include "core/sensor/sensor_rig.h"
 #include "tests/support/sample_grids.h"
+#include "tests/support/small_camera.h"
 
 namespace foresight {
 namespace {
-
-/// The head's camera with a quarter of its pixels: the same lens, more curvature a pixel.
-CameraModel SmallFisheye() {
-  CameraModel camera = DefaultSensorRig().camera;
-  camera.width /= 4;
-  camera.height /= 4;
-  for (double* parameter : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *parameter /= 4.0;
-  return camera;
-}
 
 /// A slanted wall: inverse depth 0.5 + 0.08 X/Z - 0.06 Y/Z, per metre.
 double WallAt(const CameraModel& camera, int u, int v) {
@@ -53,7 +44,7 @@ double LargestError(const AlignedSamples& samples, int border, const Truth& trut
 }
 
 TEST(PlanesInSpace, AreExactThroughTheFisheyeLens) {
-  const CameraModel camera = SmallFisheye();
+  const CameraModel camera = SmallCameraRig().camera;
   AlignedSamples samples = SeenBy(camera);
   const auto truth = [&](int u, int v) { return WallAt(camera, u, v); };
   const double over_rays = LargestError(samples, 36, truth);
