@@ -1,6 +1,7 @@
 #include "hardware/emulator/motor_emulator.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "core/base/contract.h"
 #include "core/base/log.h"
@@ -10,6 +11,9 @@ namespace {
 
 using cia402::RxImage;
 using cia402::TxImage;
+
+/// Between two looks at a drive of which nothing is asked.
+constexpr std::chrono::milliseconds kRest{20};
 
 /// Whether registers `first` to `first + count - 1` lie in an image.
 template <class Image>
@@ -58,16 +62,25 @@ MotorEmulator::~MotorEmulator() {
   shaft_->Stop(clock_->Now(), options_.drive.quick_stop_rad_s2);
 }
 
+void MotorEmulator::Wake() {
+  awake_ = true;
+  wake_.notify_all();
+}
+
 void MotorEmulator::Work(const std::stop_token& stop) {
   double wake_s = clock_->Now();
   while (!stop.stop_requested()) {
     wake_s = std::max(wake_s + EmulatedDrive::kCycle_s, clock_->Now());
     clock_->WaitUntil(wake_s);
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     const double now_s = clock_->Now();
     RunFaults(now_s);
     drive_.Run(now_s);
     CountEffects(now_s);
+    // At rest the cycles are run later, all at once; what arrives ends the rest.
+    if (!running_.empty() || drive_.axis().Demanding(now_s)) continue;
+    awake_ = false;
+    wake_.wait_for(lock, stop, kRest, [this] { return awake_; });
   }
 }
 
@@ -113,6 +126,7 @@ bool MotorEmulator::Write(ClientId client, std::uint16_t first,
   std::copy(values.begin(), values.end(), registers.begin() + (first - RxImage::kFirst));
   commander_ = client;
   drive_.Write(now_s, RxImage::Decode(registers, options_.drive.word_order));
+  Wake();
   return true;
 }
 
@@ -131,6 +145,7 @@ void MotorEmulator::Inject(const MotorFault& fault) {
   const double now_s = clock_->Now();
   drive_.Run(now_s);
   Begin(fault, now_s);
+  Wake();
 }
 
 void MotorEmulator::ClearFaults() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -62,6 +63,7 @@ class MotorEmulator final : private RegisterDevice {
   bool Write(ClientId client, std::uint16_t first, std::span<const std::uint16_t> values) override;
 
   void Work(const std::stop_token& stop);
+  void Wake();  ///< with the mutex held
   void RunFaults(double time_s);
   void CountEffects(double time_s);
   bool Runs(MotorFault::Kind kind) const;
@@ -79,6 +81,8 @@ class MotorEmulator final : private RegisterDevice {
   std::vector<MotorFault> planned_;  ///< latest first
   std::vector<Running> running_;
   int fault_effects_ = 0;
+  bool awake_ = false;
+  std::condition_variable_any wake_;
 
   std::unique_ptr<ModbusServer> server_;
   std::jthread thread_;  ///< last: starts when everything else is there

@@ -38,7 +38,9 @@ void HeadDeviceRows::Show() {
     if (row.shown != devices[i].lamp) row.lamp->setPixmap(LampPixmap(devices[i].lamp));
     row.shown = devices[i].lamp;
     row.title->setText(tr("%1: %2").arg(devices[i].name, devices[i].state));
-    row.detail->setText(devices[i].detail);
+    // Out of sight it would change once a second for nobody.
+    if (!row.detail->isVisible() || !row.detail->visibleRegion().isEmpty())
+      row.detail->setText(devices[i].detail);
     row.detail->setVisible(!devices[i].detail.isEmpty());
   }
 }
