@@ -19,6 +19,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
   connect(&head, &HeadViewModel::scanStarted, &recording, &RecordingViewModel::refreshList);
   connect(&head, &HeadViewModel::scanEnded, &recording, &RecordingViewModel::keepScan);
   connect(&live.depth, &DepthViewModel::computed, &recording, &RecordingViewModel::keepDepth);
+  connect(&live.depth, &DepthViewModel::computed, &tasks, &TaskQueue::GiveMemoryBack);
   connect(&recording, &RecordingViewModel::allWritten, this,
           [this] { log.close(kRecordingTopic); });
   connect(&recording, &RecordingViewModel::interruptedTaken, this,

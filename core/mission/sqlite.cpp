@@ -31,7 +31,7 @@ tl::unexpected<Error> SqliteFailure(sqlite3* connection, int code, const std::st
     case SQLITE_READONLY:
       return Fail(ErrorCode::kIo, "{}: is write-protected", file);
     case SQLITE_FULL:
-      return Fail(ErrorCode::kIo, "{}: the disk is full", file);
+      return Fail(ErrorCode::kIo, "{}: the disk is full (make room there)", file);
     case SQLITE_IOERR: {
       const int system = connection != nullptr ? sqlite3_system_errno(connection) : 0;
       if (system == 0) return Fail(ErrorCode::kIo, "{}: {}", file, detail);

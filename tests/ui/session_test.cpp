@@ -58,6 +58,20 @@ TEST_F(SessionTest, AScanBecomesDepthByItself) {
   EXPECT_TRUE(notices.empty());
 }
 
+TEST_F(SessionTest, OnlyACompleteScanIsAskedForItsImage) {
+  Scan scan = *SharedScan();
+  scan.frames.clear();
+  scan.state = ScanState::kInterrupted;
+  session.SetScan(std::make_shared<const Scan>(scan));
+  ASSERT_TRUE(WaitFor([&] { return !depth.Runner()->Busy(); }));
+  EXPECT_TRUE(notices.empty()) << "why the scan was interrupted is what matters";
+  scan.uuid = "another";
+  scan.state = ScanState::kComplete;
+  session.SetScan(std::make_shared<const Scan>(scan));
+  ASSERT_TRUE(WaitFor([&] { return !notices.empty(); }));
+  EXPECT_EQ(notices[0].what, QStringLiteral("The scan holds no image, so there is no depth."));
+}
+
 TEST_F(SessionTest, ThresholdChangesTheMaskWithoutComputingDepthAgain) {
   ASSERT_TRUE(ComputeDepthOf(SharedScan()));
   const auto before = session.Depth();

@@ -32,7 +32,7 @@ class KilledMission : public testing::Test {
  private:
   std::vector<std::string> DriverArguments(std::vector<std::string> arguments) const;
   void WaitForTheMoment(std::uint64_t seed, const RunningProgram& driver) const;
-  void ExpectOneCommandToGoOn(const std::filesystem::path& mission) const;
+  void ExpectOneCommandToGoOn(const std::filesystem::path& mission, bool mission_ended) const;
   void CheckMission(const std::filesystem::path& path, const Acknowledged& kept);
   void CheckReview(const std::filesystem::path& reviewed, const Acknowledged& kept) const;
 

@@ -123,8 +123,11 @@ void DepthViewModel::compute() {
 
 void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan, int image) {
   if (image < 0) {
-    session_->Report({Notice::Level::kWarning, tr("The scan holds no image, so there is no depth."),
-                      tr("Scan again with an image angle within the scope.")});
+    // Why an interrupted scan has none has been said, with what to do.
+    if (scan->state == ScanState::kComplete)
+      session_->Report({Notice::Level::kWarning,
+                        tr("The scan holds no image, so there is no depth."),
+                        tr("Scan again with an image angle within the scope."), kScanTopic});
     return;
   }
   runner_.Run<DepthResult>(tr("Computing depth"),

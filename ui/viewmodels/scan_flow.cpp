@@ -41,8 +41,9 @@ void ScanFlow::End(const std::shared_ptr<const Scan>& scan) {
                       tr("The scan was %1%2.")
                           .arg(QString::fromUtf8(ToString(scan->state)),
                                reason.isEmpty() ? QString() : QStringLiteral(": ") + reason),
-                      scan->lines.empty() ? tr("Nothing was measured; scan again.")
-                                          : tr("What was measured until then is shown."),
+                      scan->lines.empty()
+                          ? tr("Nothing was measured. Scan again when the cause is gone.")
+                          : tr("What was measured until then is shown."),
                       kScanTopic});
   }
   if (scan->lines.empty())

@@ -1,5 +1,6 @@
 #include "ui/viewmodels/task_queue.h"
 
+#include <malloc.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -49,6 +50,10 @@ bool TaskQueue::Idle() const {
 
 void TaskQueue::Discard(std::shared_ptr<const void> value) {
   if (value) Enqueue([value = std::move(value)]() mutable { value.reset(); });
+}
+
+void TaskQueue::GiveMemoryBack() {
+  Enqueue([] { malloc_trim(0); });
 }
 
 void TaskQueue::cancel(quint64 id) {

@@ -229,8 +229,10 @@ void DepthPane::ShowColors() {
 }
 
 void DepthPane::ShowState() {
-  SetHint(depth_->Runner()->Busy() ? tr("Computing depth …")
-                                   : tr("The depth map appears here after a scan"));
+  const auto& scan = session_->CurrentScan();
+  SetHint(depth_->Runner()->Busy()       ? tr("Computing depth …")
+          : scan && scan->frames.empty() ? tr("This scan holds no image, so there is no depth")
+                                         : tr("The depth map appears here after a scan"));
   const bool compares = session_->Depth() && compare_->With() != CompareViewModel::Kind::kNothing;
   const auto title = [](DepthMethod method) { return QString::fromUtf8(InfoOf(method).title); };
   QStringList left;

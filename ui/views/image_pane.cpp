@@ -33,6 +33,7 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* 
     SetHint(session_->Mode() == SessionMode::kReplay
                 ? tr("Open a mission for review (Ctrl+O), or choose one of its scans")
             : session_->ExpectsScan() ? tr("Scanning: the image appears when it is taken")
+            : session_->CurrentScan() ? tr("This scan holds no image")
                                       : tr("No scan yet: press Scan (Space)"));
   };
   show_hint();
