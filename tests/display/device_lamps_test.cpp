@@ -8,6 +8,8 @@
 #include "tests/ui/fake_head.h"
 #include "ui/panels/device_lamps.h"
 #include "ui/panels/head_device_rows.h"
+#include "ui/panels/head_strip.h"
+#include "ui/widgets/quiet_label.h"
 
 namespace foresight {
 namespace {
@@ -77,6 +79,26 @@ TEST_F(DeviceLampsOnScreen, NumbersThatChangeAllTheTimeDrawNothing) {
     QCoreApplication::processEvents();
   }
   EXPECT_EQ(counter.Paints(), 0) << counter.Widgets();
+}
+
+TEST_F(DeviceLampsOnScreen, ALongMessageOfTheHeadMakesTheStripNoHigher) {
+  CommandTable commands;
+  for (const char* id : {"view.live", "head.release", "head.stop"})
+    commands.Add({.id = id, .text = QString::fromLatin1(id), .run = [] {}});
+  HeadStrip strip(&model, &commands);
+  strip.resize(1100, strip.sizeHint().height());
+  strip.show();
+  QCoreApplication::processEvents();
+  const int before = strip.sizeHint().height();
+  head->SetFault(
+      "motor 10.0.0.2:502: connection lost (Connection reset by peer); the motor was told to stop. "
+      "See that it stands, check the device's power and cable, then home the head");
+  model.Poll();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(strip.sizeHint().height(), before) << "the panes below would move";
+  const auto* message = strip.findChild<QuietLabel*>();
+  ASSERT_TRUE(message->isVisible());
+  EXPECT_TRUE(message->toolTip().contains(QStringLiteral("then home the head")));
 }
 
 TEST_F(DeviceLampsOnScreen, ALampIsBrightEnoughToBeSeen) {

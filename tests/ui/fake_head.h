@@ -86,6 +86,10 @@ class FakeHead : public SensorHead {
   }
 
   void SetState(HeadState state) { status_.state = state; }
+  void SetFault(const std::string& message) {
+    status_.state = HeadState::kFault;
+    status_.message = message;
+  }
   void SetHealth(const HeadHealth& health) { status_.health = health; }
   const ScanPlan& LastPlan() const { return plan_; }
   bool Stopped() const { return stopped_; }

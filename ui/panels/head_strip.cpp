@@ -10,6 +10,7 @@
 #include "ui/panels/device_lamps.h"
 #include "ui/panels/priority_row.h"
 #include "ui/panels/theme.h"
+#include "ui/widgets/quiet_label.h"
 
 namespace foresight {
 namespace {
@@ -63,10 +64,8 @@ HeadStrip::HeadStrip(HeadViewModel* head, CommandTable* commands, QWidget* paren
   sweep_->setFixedSize(100, 10);
   row_->Add(sweep_, 6);
   row_->Add(new DeviceLamps(head_), 3);
-  message_ = new QLabel;
-  message_->setMinimumWidth(120);
-  message_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  message_->setWordWrap(true);
+  // One line: a strip that grows would move the panes under the operator's mouse.
+  message_ = new QuietLabel(QuietLabel::Ground::kStrip);
   row_->Add(message_, 8, 1);
   release_ = new QPushButton(tr("Release"));
   BindButton(release_, commands, "head.release");
@@ -119,8 +118,7 @@ void HeadStrip::ShowStatus() {
   row_->SetWanted(sweep_, sweeping);
   lines_->setText(tr("Line %1 of %2").arg(status.lines).arg(status.expected_lines));
   sweep_->setValue(static_cast<int>(1000.0 * head_->ScanProgress()));
-  message_->setText(QString::fromStdString(status.message));
-  message_->setToolTip(message_->text());
+  message_->SetText(QString::fromStdString(status.message));
   row_->SetWanted(message_, !status.message.empty());
   row_->Arrange();
 }

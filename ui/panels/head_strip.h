@@ -13,6 +13,7 @@ class QPushButton;
 namespace foresight {
 
 class PriorityRow;
+class QuietLabel;
 
 /// The strip along the top: which document is shown, what the head does, and the button that stops
 /// it. Never covered, never wider than the window: what there is no room for goes, the button
@@ -37,7 +38,7 @@ class HeadStrip : public QFrame {
   QLabel* angle_;
   QLabel* speed_;
   QLabel* lines_;
-  QLabel* message_;
+  QuietLabel* message_;
   QProgressBar* sweep_;
   QPushButton* release_;
 };

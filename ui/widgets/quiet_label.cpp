@@ -7,14 +7,27 @@ namespace {
 
 const QColor kFaintText(164, 172, 182);
 const QColor kCard(44, 49, 56);
+const QColor kStrip(28, 31, 36);
 constexpr int kNarrow_px = 40;
+
+QColor ColorOf(QuietLabel::Ground ground, const QPalette& palette) {
+  switch (ground) {
+    case QuietLabel::Ground::kCard:
+      return kCard;
+    case QuietLabel::Ground::kStrip:
+      return kStrip;
+    case QuietLabel::Ground::kWindow:
+      break;
+  }
+  return palette.color(QPalette::Window);
+}
 
 }  // namespace
 
 QuietLabel::QuietLabel(Ground ground, QWidget* parent)
     : QWidget(parent),
-      ground_color_(ground == Ground::kCard ? kCard : palette().color(QPalette::Window)),
-      text_color_(ground == Ground::kCard ? palette().color(QPalette::WindowText) : kFaintText) {
+      ground_color_(ColorOf(ground, palette())),
+      text_color_(ground == Ground::kWindow ? kFaintText : palette().color(QPalette::WindowText)) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
 }
@@ -23,6 +36,7 @@ void QuietLabel::SetText(const QString& text) {
   if (text == text_) return;
   text_ = text;
   setAccessibleName(text);
+  setToolTip(text);
   update();
 }
 

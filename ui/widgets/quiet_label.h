@@ -12,10 +12,11 @@ class QuietLabel : public QWidget {
 
  public:
   /// What the label lies on; colours are those of the theme.
-  enum class Ground { kWindow, kCard };
+  enum class Ground { kWindow, kCard, kStrip };
 
   explicit QuietLabel(Ground ground, QWidget* parent = nullptr);
 
+  /// The whole text is the label's tip, too.
   void SetText(const QString& text);
   QString Text() const { return text_; }
 
