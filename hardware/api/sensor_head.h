@@ -7,6 +7,8 @@
 
 #include "core/sensor/scan.h"
 #include "hardware/api/head_health.h"
+#include "hardware/api/live_view.h"
+#include "hardware/api/stop_capture.h"
 
 namespace foresight {
 
@@ -70,6 +72,16 @@ class SensorHead {
   /// Fails with kState unless ready, kInvalidOptions for a bad plan. Once it is accepted, the sink
   /// hears OnScanStarted and OnScanEnded whatever happens. `sink` lives until OnScanEnded.
   virtual foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) = 0;
+  /// Goes to each of the plan's angles and captures while it stands. Fails as StartScan does. Once
+  /// it is accepted, the sink hears OnStopsEnded whatever happens, and lives until then. It is
+  /// ended by EndScan, StopMotor and a lost operator, as a scan is.
+  virtual foresight::Status StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink) = 0;
+  /// Shows what the camera sees while the head is ready; during a scan, captures or homing the view
+  /// pauses. Replaces a running view. Fails with kInvalidOptions.
+  virtual foresight::Status StartLiveView(const LiveViewOptions& options,
+                                          std::shared_ptr<LiveViewSink> sink) = 0;
+  /// The sink may hear one last image meanwhile.
+  virtual void StopLiveView() = 0;
   /// Ends the running scan as aborted for `reason` and keeps what it has; the motor stops.
   virtual void EndScan(const std::string& reason) = 0;
   void AbortScan() { EndScan("the operator ended the scan"); }

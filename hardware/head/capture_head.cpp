@@ -10,6 +10,7 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kIdlePeriod{100};
+constexpr std::chrono::milliseconds kLiveViewPeriod{10};
 constexpr std::chrono::microseconds kHomingPoll{5000};
 
 std::int64_t WallClock_ns() {
@@ -94,10 +95,7 @@ Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> si
   FORESIGHT_EXPECTS(sink != nullptr, "a scan needs somewhere to go");
   const std::lock_guard lock(mutex_);
   FORESIGHT_TRY(const ScanPrediction prediction, PredictScan(plan, rig_, Motion()));
-  if (status_.state != HeadState::kReady)
-    return Fail(ErrorCode::kState, "{}: cannot scan while {}{}", options_.description,
-                ToString(status_.state),
-                status_.state == HeadState::kDisconnected ? ": home it first" : "");
+  FORESIGHT_CHECK(CheckReady("scan"));
   ScanRequest request{stop_count_, Scan(), std::move(sink)};
   request.header.uuid = NewUuid();
   request.header.start_utc_ns =
@@ -115,6 +113,44 @@ Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> si
   request_ = std::move(request);
   wake_.notify_all();
   return {};
+}
+
+Status CaptureHead::StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink) {
+  FORESIGHT_EXPECTS(sink != nullptr, "captures need somewhere to go");
+  const std::lock_guard lock(mutex_);
+  FORESIGHT_CHECK(plan.Check());
+  FORESIGHT_CHECK(CheckReady("capture"));
+  end_reason_.reset();
+  status_.state = HeadState::kSweeping;
+  status_.commanded_speed_rad_s = options_.travel_speed_rad_s;
+  status_.lines = status_.frames = status_.lost_lines = 0;
+  status_.expected_lines = plan.lines * static_cast<int>(plan.angles_rad.size());
+  status_.message.clear();
+  request_ = StopsRequest{stop_count_, plan, std::move(sink)};
+  wake_.notify_all();
+  return {};
+}
+
+Status CaptureHead::StartLiveView(const LiveViewOptions& options,
+                                  std::shared_ptr<LiveViewSink> sink) {
+  FORESIGHT_EXPECTS(sink != nullptr, "images need somewhere to go");
+  FORESIGHT_CHECK(options.Check());
+  const std::lock_guard lock(mutex_);
+  live_view_ = std::make_shared<LiveView>(options, std::move(sink));
+  return {};
+}
+
+void CaptureHead::StopLiveView() {
+  const std::lock_guard lock(mutex_);
+  live_view_.reset();
+}
+
+/// With the mutex held.
+Status CaptureHead::CheckReady(const char* what) const {
+  if (status_.state == HeadState::kReady) return {};
+  return Fail(ErrorCode::kState, "{}: cannot {} while {}{}", options_.description, what,
+              ToString(status_.state),
+              status_.state == HeadState::kDisconnected ? ": home it first" : "");
 }
 
 void CaptureHead::EndScan(const std::string& reason) {
@@ -146,7 +182,7 @@ void CaptureHead::Work(const std::stop_token& stop) {
     {
       std::unique_lock lock(mutex_);
       const auto asked = [this] { return !std::holds_alternative<std::monostate>(request_); };
-      wake_.wait_for(lock, stop, kIdlePeriod, asked);
+      wake_.wait_for(lock, stop, live_view_ ? kLiveViewPeriod : kIdlePeriod, asked);
       request = std::exchange(request_, std::monostate());
     }
     try {
@@ -155,11 +191,14 @@ void CaptureHead::Work(const std::stop_token& stop) {
         RunHoming(*home, stop);
       } else if (auto* scan = std::get_if<ScanRequest>(&request)) {
         RunScan(*scan, stop);
+      } else if (auto* stops = std::get_if<StopsRequest>(&request)) {
+        RunStops(*stops, stop);
       } else if (stop.stop_requested()) {
         return;
       } else {
         LookAtMotor();
       }
+      LookAtLiveView(!std::holds_alternative<std::monostate>(request));
     } catch (const std::exception& error) {
       EnterFault(error.what());
     }
@@ -214,11 +253,11 @@ Status CaptureHead::ConnectAndHome(const HomeRequest& request, const std::stop_t
   return {};
 }
 
-std::optional<SweepEnd> CaptureHead::Interruption(const ScanRequest& request,
+std::optional<SweepEnd> CaptureHead::Interruption(int stops_before,
                                                   const std::stop_token& stop) const {
   if (stop.stop_requested())
     return SweepEnd{ScanState::kInterrupted, "the head was switched off", false, true};
-  if (stop_count_ != request.stops_before)
+  if (stop_count_ != stops_before)
     return SweepEnd{ScanState::kAborted, "the operator stopped the motor", false, false};
   {
     const std::lock_guard lock(mutex_);
@@ -229,9 +268,9 @@ std::optional<SweepEnd> CaptureHead::Interruption(const ScanRequest& request,
   return std::nullopt;
 }
 
-void CaptureHead::RunScan(ScanRequest& request, const std::stop_token& stop) {
+CaptureSweep::Hooks CaptureHead::HooksOf(int stops_before, const std::stop_token& stop) {
   CaptureSweep::Hooks hooks;
-  hooks.interruption = [&] { return Interruption(request, stop); };
+  hooks.interruption = [this, stops_before, stop] { return Interruption(stops_before, stop); };
   hooks.report = [this](const SweepProgress& progress) {
     Update([&](HeadStatus& status) {
       status.state = progress.state;
@@ -243,15 +282,33 @@ void CaptureHead::RunScan(ScanRequest& request, const std::stop_token& stop) {
       status.lost_lines = progress.lost_lines;
     });
   };
+  return hooks;
+}
+
+void CaptureHead::RunScan(ScanRequest& request, const std::stop_token& stop) {
   std::optional<CaptureSweep> sweep;
   try {
-    sweep.emplace(devices_, options_, request.header, encoder_, *request.sink, hooks);
+    sweep.emplace(devices_, options_, request.header, encoder_, *request.sink,
+                  HooksOf(request.stops_before, stop));
   } catch (const std::exception& error) {
-    EndUnbegun(request, error.what());
+    Request unbegun = request;
+    EndUnbegun(unbegun, error.what());
     throw;
   }
   const SweepEnd end = sweep->Run();
   request.sink.reset();
+  ShowEnd(end);
+}
+
+void CaptureHead::RunStops(StopsRequest& request, const std::stop_token& stop) {
+  const SweepEnd end = CaptureStops(devices_, options_, request.plan, encoder_, *request.sink,
+                                    HooksOf(request.stops_before, stop))
+                           .Run();
+  request.sink.reset();
+  ShowEnd(end);
+}
+
+void CaptureHead::ShowEnd(const SweepEnd& end) {
   if (end.fault) return EnterFault(end.reason);
   Update([&](HeadStatus& status) {
     status.state = HeadState::kReady;
@@ -277,11 +334,28 @@ void CaptureHead::LookAtMotor() {
   });
 }
 
-/// Tells the sink of a scan that was accepted and never began.
-void CaptureHead::EndUnbegun(ScanRequest& request, const std::string& reason) {
+void CaptureHead::LookAtLiveView(bool camera_was_used) {
+  std::shared_ptr<LiveView> view;
+  double angle_rad = 0.0;
+  {
+    const std::lock_guard lock(mutex_);
+    view = live_view_;
+    if (!view || status_.state != HeadState::kReady) return;
+    angle_rad = status_.angle_rad;
+  }
+  if (camera_was_used) view->Forget();
+  view->Look(*devices_.camera, *devices_.clock, angle_rad);
+}
+
+/// Tells the sink of what was accepted and never began.
+void CaptureHead::EndUnbegun(Request& request, const std::string& reason) {
   try {
-    request.sink->OnScanStarted(request.header);
-    request.sink->OnScanEnded(ScanState::kInterrupted, reason);
+    if (auto* scan = std::get_if<ScanRequest>(&request)) {
+      scan->sink->OnScanStarted(scan->header);
+      scan->sink->OnScanEnded(ScanState::kInterrupted, reason);
+    } else if (auto* stops = std::get_if<StopsRequest>(&request)) {
+      stops->sink->OnStopsEnded(ScanState::kInterrupted, reason);
+    }
   } catch (const std::exception& error) {
     LogError("{}: {}", options_.description, error.what());
   }
@@ -290,14 +364,13 @@ void CaptureHead::EndUnbegun(ScanRequest& request, const std::string& reason) {
 void CaptureHead::EnterFault(const std::string& what) {
   StopMotorNow();
   LogError("{}: {}", options_.description, what);
-  std::optional<ScanRequest> unbegun;
+  Request unbegun;
   {
     const std::lock_guard lock(mutex_);
     // Homing that the operator asked for meanwhile is what leads out of the fault.
     if (std::holds_alternative<HomeRequest>(request_)) return;
     // A scan that was accepted meanwhile must not turn a motor that has just failed.
-    if (auto* scan = std::get_if<ScanRequest>(&request_)) unbegun = std::move(*scan);
-    request_ = std::monostate();
+    unbegun = std::exchange(request_, std::monostate());
     status_.state = HeadState::kFault;
     status_.speed_rad_s = 0.0;
     status_.commanded_speed_rad_s = 0.0;
@@ -306,7 +379,7 @@ void CaptureHead::EnterFault(const std::string& what) {
                       "; the motor was told to stop. See that it stands, check the device's power "
                       "and cable, then home the head";
   }
-  if (unbegun) EndUnbegun(*unbegun, what);
+  EndUnbegun(unbegun, what);
 }
 
 void CaptureHead::StopMotorNow() noexcept {

@@ -11,9 +11,11 @@
 
 #include "hardware/api/sensor_head.h"
 #include "hardware/head/capture_options.h"
+#include "hardware/head/capture_stops.h"
 #include "hardware/head/capture_sweep.h"
 #include "hardware/head/encoder_watch.h"
 #include "hardware/head/head_devices.h"
+#include "hardware/head/live_view.h"
 
 namespace foresight {
 
@@ -36,6 +38,10 @@ class CaptureHead final : public SensorHead {
   HeadMotion Motion() const override { return options_.Motion(); }
   foresight::Status Home() override;
   foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
+  foresight::Status StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink) override;
+  foresight::Status StartLiveView(const LiveViewOptions& options,
+                                  std::shared_ptr<LiveViewSink> sink) override;
+  void StopLiveView() override;
   void EndScan(const std::string& reason) override;
   void StopMotor() override;
   void OperatorSeen() override;
@@ -49,28 +55,38 @@ class CaptureHead final : public SensorHead {
     Scan header;
     std::shared_ptr<ScanSink> sink;
   };
-  using Request = std::variant<std::monostate, HomeRequest, ScanRequest>;
+  struct StopsRequest {
+    int stops_before;
+    StopPlan plan;
+    std::shared_ptr<StopSink> sink;
+  };
+  using Request = std::variant<std::monostate, HomeRequest, ScanRequest, StopsRequest>;
 
   void Work(const std::stop_token& stop);
   void RunHoming(const HomeRequest& request, const std::stop_token& stop);
   foresight::Status ConnectAndHome(const HomeRequest& request, const std::stop_token& stop);
   void RunScan(ScanRequest& request, const std::stop_token& stop);
-  std::optional<SweepEnd> Interruption(const ScanRequest& request,
-                                       const std::stop_token& stop) const;
+  void RunStops(StopsRequest& request, const std::stop_token& stop);
+  foresight::Status CheckReady(const char* what) const;
+  CaptureSweep::Hooks HooksOf(int stops_before, const std::stop_token& stop);
+  void ShowEnd(const SweepEnd& end);
+  std::optional<SweepEnd> Interruption(int stops_before, const std::stop_token& stop) const;
   std::optional<std::string> OperatorLost() const;
   void LookAtMotor();
+  void LookAtLiveView(bool camera_was_used);
   void EnterFault(const std::string& what);
-  void EndUnbegun(ScanRequest& request, const std::string& reason);
+  void EndUnbegun(Request& request, const std::string& reason);
   void StopMotorNow() noexcept;
   void Update(const std::function<void(HeadStatus&)>& change);
 
   HeadDevices devices_;
   const CaptureOptions options_;
 
-  mutable std::mutex mutex_;  ///< guards rig_, status_, request_ and end_reason_
+  mutable std::mutex mutex_;  ///< guards rig_, status_, request_, live_view_ and end_reason_
   SensorRig rig_;
   HeadStatus status_;
   Request request_;
+  std::shared_ptr<LiveView> live_view_;  ///< null = nobody looks
   std::condition_variable_any wake_;
   std::atomic<int> stop_count_{0};
   std::optional<std::string> end_reason_;  ///< why the running scan is to end

@@ -36,6 +36,17 @@ class FakeHead : public SensorHead {
     status_.state = HeadState::kSweeping;
     return {};
   }
+  foresight::Status StartStops(const StopPlan& plan, std::shared_ptr<StopSink>) override {
+    FORESIGHT_CHECK(plan.Check());
+    return Fail(ErrorCode::kState, "fake head: has no stops");
+  }
+  foresight::Status StartLiveView(const LiveViewOptions& options,
+                                  std::shared_ptr<LiveViewSink> sink) override {
+    FORESIGHT_CHECK(options.Check());
+    live_view = std::move(sink);
+    return {};
+  }
+  void StopLiveView() override { live_view.reset(); }
   void EndScan(const std::string& reason) override {
     if (sink_ && delivered_) sink_->OnScanEnded(ScanState::kAborted, reason);
     sink_.reset();
@@ -84,6 +95,8 @@ class FakeHead : public SensorHead {
     Finish(scan, state);
     return [sink, scan](std::size_t line) { sink->OnLine(scan.lines[line]); };
   }
+
+  std::shared_ptr<LiveViewSink> live_view;  ///< of whoever looks
 
   void SetState(HeadState state) { status_.state = state; }
   void SetFault(const std::string& message) {
