@@ -138,6 +138,7 @@ struct Extension {
   CornerGrid grid;
   int asked = 0;   ///< corners of the new line whose squares lie in the image
   int passed = 0;  ///< those that are corners
+  int hidden = 0;  ///< corners that would lie outside of the image
 };
 
 Eigen::Vector2d GuessBeyond(const std::array<Eigen::Vector2d, 3>& last, Guess guess) {
@@ -172,6 +173,7 @@ Extension Extended(const GrayImage& image, const CornerGrid& grid, const Side& s
       last[static_cast<std::size_t>(depth)] = grid.At(column, row);
     }
     const Eigen::Vector2d beyond = GuessBeyond(last, guess);
+    extension.hidden += GreyAt(image, beyond) ? 0 : 1;
     const double reach = 0.35 * (beyond - last[0]).norm();
     const auto corner = RefineCorner(image, beyond, reach);
     const auto [column, row] = place(i, -1);
@@ -197,7 +199,8 @@ bool Ends(const GrayImage& image, const CornerGrid& grid, OutsideImage outside) 
   for (const Side& side : kSides)
     for (const Guess guess : {Guess::kParabola, Guess::kSameRatio}) {
       const Extension more = Extended(image, grid, side, guess);
-      if (more.asked < 3 && outside == OutsideImage::kIsNoEnd) return false;
+      const int along = side.above_or_below ? grid.columns : grid.rows;
+      if (2 * more.hidden > along && outside == OutsideImage::kIsNoEnd) return false;
       if (more.asked >= 3 && more.passed >= 0.6 * more.asked) return false;
     }
   return true;
