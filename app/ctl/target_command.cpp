@@ -8,7 +8,7 @@ namespace foresight {
 namespace {
 
 struct TargetArguments {
-  std::string board = "checkerboard:7x6:30";
+  std::string board = "checkerboard:7x6:25";
   std::string paper = "A4";
   std::string out;
   bool mount = false;

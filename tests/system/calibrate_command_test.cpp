@@ -85,7 +85,7 @@ TEST(CalibrateCommand, SaysWhatIsWrongWithTheCommandLine) {
 TEST(TargetCommand, WritesAPdfOrSaysWhatDoesNotFit) {
   const TemporaryFolder folder;
   const std::string file = folder / "board.pdf";
-  EXPECT_EQ(Ctl({"target", "--board", "charuco:7x6:30", "--out", file}).exit_code, 0);
+  EXPECT_EQ(Ctl({"target", "--board", "charuco:7x6:25", "--out", file}).exit_code, 0);
   EXPECT_EQ(ReadFile(file).value().substr(0, 5), "%PDF-");
   const ProgramResult large = Ctl({"target", "--board", "checkerboard:7x6:60", "--out", file});
   EXPECT_EQ(large.exit_code, 2);
