@@ -25,9 +25,8 @@ double PlateAngles::At(int pose, int stop, int visit, double time_s) const {
   if (stop != BoardHits::kNone)
     return state_.plate_rad[static_cast<std::size_t>(stop)] +
            (visit == BoardHits::kNone ? 0.0 : state_.jitter_rad[static_cast<std::size_t>(visit)]);
-  const MotorTrack* track = data_.tracks[static_cast<std::size_t>(pose)];
-  if (track == nullptr) return std::nan("");
-  const double motor_rad = track->AngleAt(time_s + state_.stamp_offset_s);
+  const MotorTrack& track = data_.tracks[static_cast<std::size_t>(pose)];
+  const double motor_rad = track.AngleAt(time_s + state_.stamp_offset_s);
   return std::isfinite(motor_rad) ? correction_.PlateAngle(motor_rad) : motor_rad;
 }
 

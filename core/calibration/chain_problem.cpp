@@ -127,7 +127,8 @@ Chain::Chain(const ChainData& data, const ChainSolveOptions& options, const Chai
   AddBlocks();
   for (const CornerSet& corners : data.corners) AddCorners(corners);
   for (const BoardHits& hits : data.hits)
-    AddHits(hits, data.tracks.empty() ? nullptr : data.tracks[static_cast<std::size_t>(hits.pose)]);
+    AddHits(hits,
+            data.tracks.empty() ? nullptr : &data.tracks[static_cast<std::size_t>(hits.pose)]);
   AddPriors();
 }
 
@@ -272,9 +273,10 @@ std::vector<Chain::SharedBlock> Chain::SharedBlocks() {
                                                 hinges)});
   blocks.push_back(
       {&range_offset_, {{"range offset", "the offset of the lidar's ranges", "m", hinges}}});
-  blocks.push_back({&stamp_offset_,
-                    {{"stamp offset", "the offset of the lidar's time stamps", "s",
-                      "sweep faster, up and down, in front of the stand"}}});
+  blocks.push_back(
+      {&stamp_offset_,
+       {{"stamp offset", "the offset of the lidar's time stamps", "s",
+         "sweep up and down at 50 deg/s or more, in front of a stand whose hinge is level"}}});
   std::erase_if(blocks, [this](const SharedBlock& block) { return !IsFree(block.values); });
   return blocks;
 }

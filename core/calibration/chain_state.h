@@ -64,7 +64,7 @@ struct BoardHits {
 struct ChainData {
   std::vector<CornerSet> corners;
   std::vector<BoardHits> hits;
-  std::vector<const MotorTrack*> tracks;  ///< a pose; null = no sweep
+  std::vector<MotorTrack> tracks;  ///< a pose; empty = no sweep
   double period_s = 0.025;
 };
 

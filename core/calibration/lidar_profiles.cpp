@@ -50,18 +50,39 @@ struct Candidate {
   double sigma_m = 0.0;
 };
 
+/// Where a beam was measured, and where it should meet the board.
+struct Prediction {
+  Eigen::Vector3d measured;
+  Eigen::Vector3d on_plane;  ///< NaN where the beam does not meet it
+};
+
+Prediction Predict(const Rigid<frame::Pattern, frame::Lidar>& board_from_lidar,
+                   const LidarReturn& r, double range_offset_m) {
+  const Eigen::Vector3d& from = board_from_lidar.translation();
+  const Eigen::Vector3d direction = board_from_lidar.Rotate(r.direction);
+  constexpr double kLeastSine = 0.1;  // a flatter beam says little of the board
+  const double range = std::abs(direction.z()) < kLeastSine ? -1.0 : -from.z() / direction.z();
+  return {from + (r.range_m + range_offset_m) * direction,
+          range > 0.0 ? Eigen::Vector3d(from + range * direction)
+                      : Eigen::Vector3d::Constant(std::nan(""))};
+}
+
+// Whether a beam meets the board is told from its direction alone. Told from its range, beams along
+// the outline would be taken where their noise carries them inside: a bias that grows with the
+// number of lines.
 std::vector<Candidate> CandidatesOf(const CalibrationBoard& board,
-                                    const std::vector<Eigen::Vector3d>& predicted,
+                                    const std::vector<Prediction>& predicted,
                                     const LidarProfile& profile,
                                     const AssociationOptions& options) {
   const double s = board.square_m, margin = options.margin_m;
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
-    const Eigen::Vector3d& p = predicted[i];
+    const Eigen::Vector3d& p = predicted[i].on_plane;
     const bool inside = p.x() > -s + margin && p.x() < board.columns * s - margin &&
                         p.y() > -s + margin && p.y() < board.rows * s - margin;
-    if (inside && std::abs(p.z()) < options.depth_m)
-      candidates.push_back({i, profile.returns[i].beam, p, profile.returns[i].sigma_m});
+    if (inside && std::abs(predicted[i].measured.z()) < options.depth_m)
+      candidates.push_back(
+          {i, profile.returns[i].beam, predicted[i].measured, profile.returns[i].sigma_m});
   }
   return candidates;
 }
@@ -118,21 +139,40 @@ std::vector<Candidate> LongestRun(const std::vector<Candidate>& candidates) {
 }  // namespace
 
 double RangeSigmaOf(const CalibrationSession& session) {
-  const LidarModel& lidar = session.prior.lidar;
+  std::vector<std::vector<double>> beams;
   std::vector<double> deviations;
   for (const PatternPose& pose : session.poses)
-    for (const MotorStop& stop : pose.stops) {
-      if (stop.lines.size() < 5) continue;
-      for (int beam = 0; beam < lidar.beams; beam += 4) {
-        const std::vector<double> ranges = RangesOf(stop.lines, beam, lidar);
+    for (const MotorStop& stop : pose.stops)
+      for (int beam = 0; beam < session.prior.lidar.beams && stop.lines.size() >= 5; beam += 4) {
+        std::vector<double> ranges = RangesOf(stop.lines, beam, session.prior.lidar);
         if (2 * ranges.size() < stop.lines.size() || ranges.size() < 5) continue;
         const double median = MedianOf(ranges);
-        for (const double range : ranges) deviations.push_back(std::abs(range - median));
+        for (double& range : ranges) {
+          range -= median;
+          deviations.push_back(std::abs(range));
+        }
+        beams.push_back(std::move(ranges));
       }
-    }
   if (deviations.empty()) return std::nan("");
-  constexpr double kSigmasOfMedian = 1.4826;  // of a normal distribution
-  return std::max(kSigmasOfMedian * MedianOf(deviations), 0.0005);
+  // Ranges are whole millimetres, and so is the median deviation: it only tells spikes from the
+  // rest. Of a normal distribution 0.9733 of the variance lie within 3 deviations.
+  constexpr double kSigmasOfMedian = 1.4826, kGate = 3.0, kVarianceInGate = 0.9733;
+  const double rough_m = std::max(kSigmasOfMedian * MedianOf(deviations), 0.0005);
+  double squares = 0.0, freedom = 0.0;
+  for (const std::vector<double>& beam : beams) {
+    double sum = 0.0, sum_squares = 0.0, count = 0.0;
+    for (const double deviation : beam) {
+      if (std::abs(deviation) > kGate * rough_m) continue;
+      sum += deviation;
+      sum_squares += deviation * deviation;
+      count += 1.0;
+    }
+    if (2.0 * count < static_cast<double>(beam.size()) || count < 3.0) continue;
+    squares += sum_squares - sum * sum / count;
+    freedom += count - 1.0;
+  }
+  if (freedom <= 0.0) return rough_m;
+  return std::max(std::sqrt(squares / (freedom * kVarianceInGate)), 0.0005);
 }
 
 std::vector<LidarProfile> ProfilesOfStops(const CalibrationSession& session,
@@ -203,18 +243,18 @@ std::vector<BoardHits> AssociateReturns(const BoardMount& mount, const ChainData
       const auto base_from_stand = state.base_from_pattern[static_cast<std::size_t>(profile.pose)];
       const auto board_from_base =
           (on_b ? base_from_stand * state.a_from_b : base_from_stand).Inverse();
-      std::vector<Eigen::Vector3d> predicted;
+      std::vector<Prediction> predicted;
       for (const LidarReturn& r : profile.returns) {
         const double rad = plate.At(profile.pose, profile.stop, profile.visit, r.time_s);
-        predicted.push_back(
-            board_from_base *
-            (HeadFromBase(rad).Inverse() *
-             (head_from_lidar * ((r.range_m + state.range_offset_m) * r.direction))));
+        const auto board_from_lidar =
+            board_from_base * HeadFromBase(rad).Inverse() * head_from_lidar;
+        predicted.push_back(Predict(board_from_lidar, r, state.range_offset_m));
       }
       const CalibrationBoard& board = on_b ? *mount.b : mount.a;
       const auto candidates = CandidatesOf(board, predicted, profile, options);
       if (static_cast<int>(candidates.size()) < options.least_returns) continue;
-      const auto run = LongestRun(MostOnALine(candidates, options, random));
+      const auto run =
+          options.straight_line ? LongestRun(MostOnALine(candidates, options, random)) : candidates;
       if (static_cast<int>(run.size()) < options.least_returns) continue;
       BoardHits hits{profile.pose, profile.visit, profile.stop, on_b, {}};
       for (const Candidate& candidate : run)

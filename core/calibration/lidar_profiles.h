@@ -32,14 +32,17 @@ struct AssociationOptions {
   double depth_m = 0.060;      ///< how near its plane
   double most_tilt_rad = 0.5;  ///< of the line of returns against the predicted plane
   int least_returns = 8;
+  /// Only the longest run of returns on one straight line; false where the poses are known so well
+  /// that a gate on the residuals does.
+  bool straight_line = true;
   std::uint64_t seed = 1;
 
   Status Check() const;
 };
 
-/// The returns of each profile that lie on the boards of the stand: those predicted inside a
-/// board's outline and near its plane, of them the straight line that most agree with (RANSAC), of
-/// it the longest run of neighbours. O(returns).
+/// The returns of each profile that lie on the boards of the stand: those whose beams are predicted
+/// to meet a board inside its outline and that lie near its plane, of them the straight line that
+/// most agree with (RANSAC), of it the longest run of neighbours. O(returns).
 std::vector<BoardHits> AssociateReturns(const BoardMount& mount, const ChainData& tracks,
                                         const ChainState& state,
                                         const std::vector<LidarProfile>& profiles,

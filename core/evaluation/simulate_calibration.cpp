@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
+#include "core/base/contract.h"
 #include "core/base/random.h"
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
@@ -76,6 +78,8 @@ class SessionMaker {
   void MakeRig();
   void MakeViews();
   void MakePose(int index);
+  static constexpr int kHingeRolls = 4;
+  bool SweepsBefore(int index) const;
   Rigid<frame::Base, frame::Pattern> PlaceStand(Random& random, int index) const;
   std::optional<BoardView> See(const CalibrationBoard& board,
                                const Rigid<frame::Camera, frame::Pattern>& camera_from_board);
@@ -200,6 +204,18 @@ void SessionMaker::MakeViews() {
   }
 }
 
+// A vertical hinge says nothing of time: where a beam hits its boards higher or lower the range is
+// the same. Poses with a level hinge come first.
+bool SessionMaker::SweepsBefore(int index) const {
+  int before = 0;
+  for (const int roll : {1, 2, 3, 0})
+    for (int pose = roll; pose < options_.poses; pose += kHingeRolls) {
+      if (pose == index) return before < options_.sweeps;
+      ++before;
+    }
+  return false;
+}
+
 Rigid<frame::Base, frame::Pattern> SessionMaker::PlaceStand(Random& random, int index) const {
   // Elevations are spread evenly; rolls of the hinge take turns.
   const double low = options_.first_stop_deg + 15.0, high = options_.last_stop_deg - 15.0;
@@ -207,8 +223,9 @@ Rigid<frame::Base, frame::Pattern> SessionMaker::PlaceStand(Random& random, int 
   const double elevation =
       RadiansFromDegrees(low + part * (high - low) + random.Uniform(-5.0, 5.0));
   const double azimuth = RadiansFromDegrees(random.Uniform(-15.0, 15.0));
-  constexpr double kRolls_deg[] = {0.0, 90.0, 45.0, -45.0};
-  const double roll = RadiansFromDegrees(kRolls_deg[index % 4] + random.Uniform(-8.0, 8.0));
+  constexpr double kRolls_deg[kHingeRolls] = {0.0, 90.0, 45.0, -45.0};
+  const double roll =
+      RadiansFromDegrees(kRolls_deg[index % kHingeRolls] + random.Uniform(-8.0, 8.0));
   const Eigen::Vector3d tilt(RadiansFromDegrees(random.Uniform(-20.0, 20.0)),
                              RadiansFromDegrees(random.Uniform(-20.0, 20.0)), 0.0);
   const double distance_m = random.Uniform(options_.least_distance_m, options_.most_distance_m);
@@ -343,14 +360,13 @@ void SessionMaker::MakePose(int index) {
     const auto camera_from_stand = truth_.camera_from_head * HeadFromBase(plate_rad) * stand;
     stop.view.a = See(session_.mount.a, camera_from_stand);
     if (session_.mount.b) stop.view.b = See(*session_.mount.b, camera_from_stand * made_.a_from_b);
-    if (stop.view.empty()) continue;
     const std::vector<double> ranges = TrueRanges(
         panels, std::vector<double>(static_cast<std::size_t>(truth_.lidar.beams), plate_rad));
     for (int scan = 0; scan < options_.scans_per_stop; ++scan)
       stop.lines.push_back(Measure(ranges, scan, scan * truth_.lidar.period_s));
-    pose.stops.push_back(std::move(stop));
+    if (!stop.view.empty() || !stop.lines.empty()) pose.stops.push_back(std::move(stop));
   }
-  if (index < options_.sweeps) Sweep(panels, &pose.sweep);
+  if (SweepsBefore(index)) Sweep(panels, &pose.sweep);
   session_.poses.push_back(std::move(pose));
 }
 
@@ -385,7 +401,7 @@ Status CalibrationSimulation::Check() const {
   if (poses < 0 || poses > 100) return fail("poses", poses, "between 0 and 100");
   if (scans_per_stop < 0 || scans_per_stop > 1000)
     return fail("scans_per_stop", scans_per_stop, "between 0 and 1000");
-  if (sweeps < 0 || sweeps > poses) return fail("sweeps", sweeps, "between 0 and poses");
+  if (sweeps < 0 || sweeps > 100) return fail("sweeps", sweeps, "between 0 and 100");
   if (!(stop_step_deg >= 0.5)) return fail("stop_step_deg", stop_step_deg, "0.5 or more");
   if (!(first_stop_deg >= -180.0)) return fail("first_stop_deg", first_stop_deg, "-180 or more");
   if (!(last_stop_deg > first_stop_deg) || last_stop_deg > 180.0)
@@ -447,6 +463,46 @@ RigError CompareRigs(const SensorRig& rig, const SensorRig& truth) {
   error.range_offset_m = rig.lidar.range_offset_m - truth.lidar.range_offset_m;
   error.stamp_offset_s = rig.lidar.stamp_offset_s - truth.lidar.stamp_offset_s;
   return error;
+}
+
+Eigen::VectorXd DeviationsFromTruth(const ChainCalibration& found,
+                                    const SimulatedCalibration& truth) {
+  FORESIGHT_EXPECTS(found.covariance.has_value(), "a joint calibration");
+  std::map<std::string, double> by_name;
+  const CameraModel::Parameters camera = found.state.camera.Values() - truth.truth.camera.Values();
+  const auto names = truth.truth.camera.ParameterNames();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    by_name[std::string(names[i])] = camera[static_cast<Eigen::Index>(i)];
+
+  // The true axis where it crosses the plane x = 0 of the head that was found.
+  const auto head_from_camera = found.state.camera_from_head.Inverse();
+  const auto head_from_true = head_from_camera * truth.truth.camera_from_head;
+  const Eigen::Vector3d axis = head_from_true.Rotate(Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d crossing =
+      head_from_true.translation() - axis * (head_from_true.translation().x() / axis.x());
+  by_name["axis turn y"] = axis.z();
+  by_name["axis turn z"] = -axis.y();
+  by_name["axis shift y"] = -crossing.y();
+  by_name["axis shift z"] = -crossing.z();
+
+  const auto add_step = [&by_name](const std::string& name,
+                                   const Eigen::Matrix<double, 6, 1>& step) {
+    for (int i = 0; i < 6; ++i)
+      by_name[fmt::format("{} {} {}", name, i < 3 ? "turn" : "shift", "xyz"[i % 3])] = step[i];
+  };
+  add_step("board B", StepBetween(truth.a_from_b, found.state.a_from_b));
+  add_step("lidar", StepBetween(truth.truth.camera_from_lidar, found.state.camera_from_lidar));
+  by_name["range offset"] = found.state.range_offset_m - truth.truth.lidar.range_offset_m;
+  by_name["stamp offset"] = found.state.stamp_offset_s - truth.truth.lidar.stamp_offset_s;
+  for (std::size_t stop = 0; stop < found.state.motor_rad.size(); ++stop) {
+    const double motor = found.state.motor_rad[stop];
+    by_name[fmt::format("plate angle at {:.6g} deg", DegreesFromRadians(motor))] =
+        found.state.plate_rad[stop] - truth.truth.angle_correction.PlateAngle(motor);
+  }
+  Eigen::VectorXd deviations(static_cast<Eigen::Index>(found.covariance->unknowns.size()));
+  for (Eigen::Index i = 0; i < deviations.size(); ++i)
+    deviations[i] = by_name.at(found.covariance->unknowns[static_cast<std::size_t>(i)].name);
+  return deviations;
 }
 
 }  // namespace foresight

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/calibration/calibrate_chain.h"
 #include "core/calibration/calibration_session.h"
 
 namespace foresight {
@@ -22,7 +23,7 @@ struct CalibrationSimulation {
   double last_stop_deg = 80.0;
   double stop_step_deg = 10.0;
   int scans_per_stop = 40;
-  int sweeps = 1;  ///< poses before which the head sweeps up and down; from the first one
+  int sweeps = 6;  ///< of the poses, before how many the head sweeps up and down too
   bool one_way_sweep = false;
   double sweep_speed_deg_s = 50.0;
 
@@ -70,5 +71,10 @@ struct RigError {
   double stamp_offset_s = 0.0;  ///< signed
 };
 RigError CompareRigs(const SensorRig& rig, const SensorRig& truth);
+
+/// How far each unknown of the covariance is from the truth, in its order and units: what the
+/// covariance is a covariance of. @pre found.covariance
+Eigen::VectorXd DeviationsFromTruth(const ChainCalibration& found,
+                                    const SimulatedCalibration& truth);
 
 }  // namespace foresight
