@@ -98,7 +98,7 @@ TEST_F(SessionFile, RefusesACornerThatTheBoardDoesNotHave) {
 }
 
 TEST_F(SessionFile, RefusesALineOfAnotherLidar) {
-  const std::string file = "pose_01/sweep_lines.csv";
+  const std::string file = "pose_02/sweep_lines.csv";
   std::string text = Text(file);
   text.erase(text.rfind(','), std::string::npos);
   ASSERT_TRUE(WriteFileAtomically(path_ / file, text));
@@ -111,8 +111,8 @@ TEST_F(SessionFile, RefusesFilesOutsideOfItsFolder) {
 }
 
 TEST_F(SessionFile, NamesAFileThatIsMissing) {
-  std::filesystem::remove(path_ / "pose_01/sweep_motor.csv");
-  EXPECT_THAT(Message(), HasSubstr("pose_01/sweep_motor.csv"));
+  std::filesystem::remove(path_ / "pose_02/sweep_motor.csv");
+  EXPECT_THAT(Message(), HasSubstr("pose_02/sweep_motor.csv"));
 }
 
 TEST_F(SessionFile, SaysThatNobodyLooksForBoardsInAnImage) {
