@@ -72,6 +72,8 @@ class SharedState final : public ceres::EvaluationCallback {
   void PrepareForEvaluation(bool, bool new_point) override {
     if (!new_point) return;
     camera_ = camera_.WithValues(values_);
+    // k on its way through 0 is a pinhole; other values out of their range are of no camera.
+    usable_ = std::holds_alternative<FisheyeLens>(camera_.lens) || !camera_.FindFault();
     for (std::size_t i = 0; i < poses_.size(); ++i)
       rotations_[i] = PoseOf(poses_[i].data()).RotationMatrix();
   }
@@ -82,6 +84,7 @@ class SharedState final : public ceres::EvaluationCallback {
     for (std::size_t i = 0; i < poses_.size(); ++i) bundle.poses[i] = PoseOf(poses_[i].data());
   }
 
+  bool usable() const { return usable_; }
   const CameraModel& camera() const { return camera_; }
   const CalibrationBoard& board() const { return board_; }
   const Eigen::Matrix3d& rotation(std::size_t view) const { return rotations_[view]; }
@@ -92,6 +95,7 @@ class SharedState final : public ceres::EvaluationCallback {
   double* pose(std::size_t view) { return poses_[view].data(); }
 
  private:
+  bool usable_ = true;
   CameraModel camera_;
   CalibrationBoard board_;
   CameraModel::Parameters values_;
@@ -112,6 +116,7 @@ class CornerError final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
+    if (!state_.usable()) return false;  // Ceres shortens its step
     const Eigen::Map<const Eigen::Vector2d> warp(parameters[1]);
     const Eigen::Map<const Eigen::Vector3d> translation(parameters[2] + 4);
     const Eigen::Matrix3d& rotation = state_.rotation(view_);
@@ -122,7 +127,7 @@ class CornerError final : public ceres::CostFunction {
     const auto pixel =
         state_.camera().Project(rotation * corner + translation, wanted ? &by_point : nullptr,
                                 wanted ? &by_parameters : nullptr);
-    if (!pixel) return false;  // Ceres shortens its step
+    if (!pixel) return false;
     Eigen::Map<Eigen::Vector2d> error(residuals);
     error = *pixel - pixel_;
     if (!wanted) return true;

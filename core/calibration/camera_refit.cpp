@@ -65,7 +65,7 @@ std::optional<Fit> FitSamples(const CameraModel& start, const std::vector<Sample
     if (!step.allFinite()) return std::nullopt;
     const CameraModel next = fit.camera.WithValues(fit.camera.Values() + step);
     Equations there = Linearize(next, fit.samples);
-    if (!there.all_shown || !(there.squares < here.squares)) {
+    if (next.FindFault() || !there.all_shown || !(there.squares < here.squares)) {
       damping *= 5.0;
       continue;
     }

@@ -220,34 +220,34 @@ bool IsCorner(const GrayImage& image, const CornerGrid& grid, int column, int ro
   return darkest_light - lightest_dark > kLocalContrast * std::abs(contrast);
 }
 
-std::optional<CornerGrid> FindCheckerboard(const GrayImage& image, int columns, int rows) {
+CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int rows) {
+  CheckerboardSearch search;
   const int side = std::max(image.width(), image.height());
-  const auto accepted = [&](const std::optional<CornerGrid>& found) {
-    return Accepted(image, found, columns, rows);
+  const auto found = [&](const std::optional<CornerGrid>& candidate) {
+    search.grid = Accepted(image, candidate, columns, rows);
+    return search.grid.has_value();
   };
   // Cheap first: most images are found in a tenth of a second.
-  if (side > 700)
-    if (auto grid = accepted(FindWithSectors(image, columns, rows, 0.5, kThorough))) return grid;
-  if (auto grid = accepted(FindWithQuads(image, columns, rows, 1.0))) return grid;
-  if (auto grid = accepted(FindWithSectors(image, columns, rows, 1.0, kThorough))) return grid;
-  if (auto grown = GrownFromParts(image)) {
-    if (auto grid = accepted(grown)) return grid;
-    // A whole board of another size: the slow attempts would find a part of it.
-    if (Ends(image, *grown) && grown->columns >= 4 && grown->rows >= 4) return std::nullopt;
+  if (side > 700 && found(FindWithSectors(image, columns, rows, 0.5, kThorough))) return search;
+  if (found(FindWithQuads(image, columns, rows, 1.0))) return search;
+  if (found(FindWithSectors(image, columns, rows, 1.0, kThorough))) return search;
+  search.other = GrownFromParts(image);
+  if (search.other) {
+    if (found(search.other)) return search;
+    search.other_is_whole =
+        search.other->columns >= 4 && search.other->rows >= 4 && Ends(image, *search.other);
+    if (search.other_is_whole) return search;
   }
-  if (auto grid = accepted(FindWithQuads(image, columns, rows, 0.5))) return grid;
-  if (auto grid = accepted(
-          FindWithSectors(image, columns, rows, 1.0, kThorough | cv::CALIB_CB_NORMALIZE_IMAGE)))
-    return grid;
-  if (side > 1400)
-    if (auto grid = accepted(FindWithSectors(image, columns, rows, 0.25, kThorough))) return grid;
-  if (side > 1400) return std::nullopt;
-  if (auto grid = accepted(FindWithQuads(image, columns, rows, 2.0))) return grid;
-  return accepted(FindWithSectors(image, columns, rows, 2.0, kThorough));
-}
-
-std::optional<CornerGrid> FindAnyCheckerboard(const GrayImage& image) {
-  return GrownFromParts(image);
+  if (found(FindWithQuads(image, columns, rows, 0.5))) return search;
+  if (found(FindWithSectors(image, columns, rows, 1.0, kThorough | cv::CALIB_CB_NORMALIZE_IMAGE)))
+    return search;
+  if (side > 1400) {
+    found(FindWithSectors(image, columns, rows, 0.25, kThorough));
+    return search;
+  }
+  if (found(FindWithQuads(image, columns, rows, 2.0))) return search;
+  found(FindWithSectors(image, columns, rows, 2.0, kThorough));
+  return search;
 }
 
 }  // namespace foresight
