@@ -27,6 +27,7 @@ int Main(int argc, char** argv) {
   AddHealthCommand(app, invocation);
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);
+  AddCalibrateCommand(app, invocation);
   AddSimulateCommand(app, invocation);
   return RunProgram("foresightctl", app, argc, argv,
                     [&](const RunContext& context) { return invocation(context); });

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/geometry/angles.h"
-#include "tests/core/calibration/calibrated_session.h"
+#include "tests/core/calibration/chain/calibrated_session.h"
 
 namespace foresight {
 namespace {

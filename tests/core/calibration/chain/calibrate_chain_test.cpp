@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/geometry/angles.h"
-#include "tests/core/calibration/calibrated_session.h"
+#include "tests/core/calibration/chain/calibrated_session.h"
 
 namespace foresight {
 namespace {

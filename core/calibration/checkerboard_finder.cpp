@@ -1,0 +1,253 @@
+#include "core/calibration/checkerboard_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/calibration/refine_corners.h"
+
+namespace foresight {
+namespace {
+
+/// Fraction of the board's contrast that squares around a corner must have.
+constexpr double kLocalContrast = 0.35;
+/// Grey levels below which a pattern is noise.
+constexpr double kLeastContrast = 8.0;
+/// Fraction of the corners that must pass. Glare and shadows hide some.
+constexpr double kCornersThatPass = 0.9;
+
+cv::Mat Wrap(const GrayImage& image) {
+  return {image.height(), image.width(), CV_8UC1,
+          const_cast<std::uint8_t*>(image.data())};  // never written
+}
+
+CornerGrid GridOf(const std::vector<cv::Point2f>& points, int columns, int rows, double scale) {
+  CornerGrid grid{columns, rows, {}};
+  // Pixel centres: a resized image has its pixel (0, 0) at the middle of the block it came from.
+  for (const cv::Point2f& p : points)
+    grid.pixels.emplace_back((p.x + 0.5) / scale - 0.5, (p.y + 0.5) / scale - 0.5);
+  return grid;
+}
+
+cv::Mat Scaled(const GrayImage& image, double scale) {
+  if (scale == 1.0) return Wrap(image);
+  cv::Mat scaled;
+  cv::resize(Wrap(image), scaled, {}, scale, scale, scale < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  return scaled;
+}
+
+std::optional<CornerGrid> FindWithSectors(const GrayImage& image, int columns, int rows,
+                                          double scale, int flags) {
+  std::vector<cv::Point2f> points;
+  if (!cv::findChessboardCornersSB(Scaled(image, scale), {columns, rows}, points, flags) ||
+      points.size() != static_cast<std::size_t>(columns * rows))
+    return std::nullopt;
+  return GridOf(points, columns, rows, scale);
+}
+
+std::optional<CornerGrid> FindWithQuads(const GrayImage& image, int columns, int rows,
+                                        double scale) {
+  std::vector<cv::Point2f> points;
+  if (!cv::findChessboardCorners(Scaled(image, scale), {columns, rows}, points,
+                                 cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
+    return std::nullopt;
+  return GridOf(points, columns, rows, scale);
+}
+
+std::optional<CornerGrid> FindPart(const GrayImage& image, double scale, int flags) {
+  std::vector<cv::Point2f> points;
+  cv::Mat meta;
+  if (!cv::findChessboardCornersSB(Scaled(image, scale), {3, 3}, points,
+                                   flags | cv::CALIB_CB_LARGER, meta) ||
+      meta.total() != points.size())
+    return std::nullopt;
+  return GridOf(points, meta.cols, meta.rows, scale);
+}
+
+double SignOf(int column, int row) {
+  return (column + row) % 2 == 0 ? 1.0 : -1.0;
+}
+
+/// Grey values of the four squares around a corner: upper left, upper right, lower right, lower
+/// left. nullopt where one lies outside of the image.
+std::optional<std::array<double, 4>> SquaresAround(const GrayImage& image, const CornerGrid& grid,
+                                                   int column, int row) {
+  constexpr double kReach = 0.4;  // of a square: clear of edges, blurred ones too
+  constexpr std::array<std::array<double, 2>, 4> kSides = {
+      {{-kReach, -kReach}, {kReach, -kReach}, {kReach, kReach}, {-kReach, kReach}}};
+  std::array<double, 4> greys{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto grey = GreyAt(image, GridPoint(grid, column + kSides[i][0], row + kSides[i][1]));
+    if (!grey) return std::nullopt;
+    greys[i] = *grey;
+  }
+  return greys;
+}
+
+bool IsRegular(const GrayImage& image, const CornerGrid& grid) {
+  const double contrast = MeasureLevels(image, grid).Contrast();
+  if (std::abs(contrast) < kLeastContrast) return false;
+  int passed = 0;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column)
+      passed += IsCorner(image, grid, column, row, contrast) ? 1 : 0;
+  return passed >= kCornersThatPass * grid.columns * grid.rows;
+}
+
+/// Whether the squares beyond one border of the grid's outer squares alternate as those inside do.
+bool GoesOn(const GrayImage& image, const CornerGrid& grid, double contrast, bool above_or_below,
+            bool at_end) {
+  const int along = above_or_below ? grid.columns : grid.rows;
+  const int across = above_or_below ? grid.rows : grid.columns;
+  const int beyond = at_end ? across : -1;  // where the next corners would be
+  int asked = 0, passed = 0;
+  for (int i = 0; i < along; ++i) {
+    const int column = above_or_below ? i : beyond, row = above_or_below ? beyond : i;
+    if (!SquaresAround(image, grid, column, row)) continue;
+    ++asked;
+    passed += IsCorner(image, grid, column, row, contrast) ? 1 : 0;
+  }
+  return asked >= 3 && passed >= 0.7 * asked;
+}
+
+bool Ends(const GrayImage& image, const CornerGrid& grid) {
+  const double contrast = MeasureLevels(image, grid).Contrast();
+  for (const bool above_or_below : {false, true})
+    for (const bool at_end : {false, true})
+      if (GoesOn(image, grid, contrast, above_or_below, at_end)) return false;
+  return true;
+}
+
+/// The grid with one more row or column on one side, if its corners are there.
+std::optional<CornerGrid> Extended(const GrayImage& image, const CornerGrid& grid,
+                                   bool above_or_below, bool at_end) {
+  const double contrast = MeasureLevels(image, grid).Contrast();
+  const int along = above_or_below ? grid.columns : grid.rows;
+  const int across = above_or_below ? grid.rows : grid.columns;
+  const int beyond = at_end ? across : -1;
+  CornerGrid wider{
+      grid.columns + (above_or_below ? 0 : 1), grid.rows + (above_or_below ? 1 : 0), {}};
+  wider.pixels.resize(static_cast<std::size_t>(wider.columns * wider.rows));
+  const int shift_x = !above_or_below && !at_end ? 1 : 0;
+  const int shift_y = above_or_below && !at_end ? 1 : 0;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column)
+      wider.At(column + shift_x, row + shift_y) = grid.At(column, row);
+  int found = 0;
+  for (int i = 0; i < along; ++i) {
+    const int column = above_or_below ? i : beyond, row = above_or_below ? beyond : i;
+    const Eigen::Vector2d guess = GridPoint(grid, column, row);
+    const Eigen::Vector2d inner = GridPoint(grid, above_or_below ? i : (at_end ? across - 1 : 0),
+                                            above_or_below ? (at_end ? across - 1 : 0) : i);
+    const double spacing = (guess - inner).norm();
+    const auto corner = RefineCorner(image, guess, 0.35 * spacing);
+    const bool near = corner && (*corner - guess).norm() < 0.35 * spacing;
+    wider.At(column + shift_x, row + shift_y) = near ? *corner : guess;
+    found += near ? 1 : 0;
+  }
+  if (found < kCornersThatPass * along) return std::nullopt;
+  int passed = 0;
+  for (int i = 0; i < along; ++i)
+    passed += IsCorner(image, wider, (above_or_below ? i : beyond) + shift_x,
+                       (above_or_below ? beyond : i) + shift_y,
+                       shift_x + shift_y > 0 ? -contrast : contrast)
+                  ? 1
+                  : 0;
+  if (passed < kCornersThatPass * along) return std::nullopt;
+  return wider;
+}
+
+CornerGrid Grown(const GrayImage& image, CornerGrid grid, int most_across) {
+  bool growing = true;
+  while (growing) {
+    growing = false;
+    for (const bool above_or_below : {false, true})
+      for (const bool at_end : {false, true}) {
+        if ((above_or_below ? grid.rows : grid.columns) >= most_across) continue;
+        if (auto wider = Extended(image, grid, above_or_below, at_end)) {
+          grid = std::move(*wider);
+          growing = true;
+        }
+      }
+  }
+  return grid;
+}
+
+/// The candidate refined, if it is a board of this size and no part of a larger one.
+std::optional<CornerGrid> Accepted(const GrayImage& image, const std::optional<CornerGrid>& found,
+                                   int columns, int rows) {
+  if (!found) return std::nullopt;
+  auto grid = Arranged(*found, columns, rows);
+  if (!grid) return std::nullopt;
+  RefineCorners(image, *grid);
+  if (!IsRegular(image, *grid) || !Ends(image, *grid)) return std::nullopt;
+  return grid;
+}
+
+constexpr int kThorough = cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY;
+constexpr int kMostAcross = 61;
+
+std::optional<CornerGrid> GrownFromParts(const GrayImage& image) {
+  std::optional<CornerGrid> largest;
+  for (const double scale : {1.0, 0.5})
+    for (const int flags : {0, static_cast<int>(cv::CALIB_CB_EXHAUSTIVE),
+                            cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_NORMALIZE_IMAGE}) {
+      auto part = FindPart(image, scale, flags);
+      if (!part) continue;
+      part = Arranged(*part, part->columns, part->rows);
+      RefineCorners(image, *part);
+      if (!IsRegular(image, *part)) continue;
+      CornerGrid grown = Grown(image, *part, kMostAcross);
+      if (!largest || grown.pixels.size() > largest->pixels.size()) largest = std::move(grown);
+    }
+  return largest;
+}
+
+}  // namespace
+
+bool IsCorner(const GrayImage& image, const CornerGrid& grid, int column, int row,
+              double contrast) {
+  const auto greys = SquaresAround(image, grid, column, row);
+  if (!greys) return false;
+  const auto& [upper_left, upper_right, lower_right, lower_left] = *greys;
+  // Of the colour of the print's first square for an even corner: the upper left and lower right.
+  const double sign = SignOf(column, row) * (contrast > 0.0 ? 1.0 : -1.0);
+  const double darkest_light =
+      sign > 0.0 ? std::min(upper_right, lower_left) : std::min(upper_left, lower_right);
+  const double lightest_dark =
+      sign > 0.0 ? std::max(upper_left, lower_right) : std::max(upper_right, lower_left);
+  return darkest_light - lightest_dark > kLocalContrast * std::abs(contrast);
+}
+
+CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int rows) {
+  CheckerboardSearch search;
+  const int side = std::max(image.width(), image.height());
+  const auto found = [&](const std::optional<CornerGrid>& candidate) {
+    search.grid = Accepted(image, candidate, columns, rows);
+    return search.grid.has_value();
+  };
+  // Cheap first: most images are found in a tenth of a second.
+  if (side > 700 && found(FindWithSectors(image, columns, rows, 0.5, kThorough))) return search;
+  if (found(FindWithQuads(image, columns, rows, 1.0))) return search;
+  if (found(FindWithSectors(image, columns, rows, 1.0, kThorough))) return search;
+  search.other = GrownFromParts(image);
+  if (search.other) {
+    if (found(search.other)) return search;
+    search.other_is_whole =
+        search.other->columns >= 4 && search.other->rows >= 4 && Ends(image, *search.other);
+    if (search.other_is_whole) return search;
+  }
+  if (found(FindWithQuads(image, columns, rows, 0.5))) return search;
+  if (found(FindWithSectors(image, columns, rows, 1.0, kThorough | cv::CALIB_CB_NORMALIZE_IMAGE)))
+    return search;
+  if (side > 1400) {
+    found(FindWithSectors(image, columns, rows, 0.25, kThorough));
+    return search;
+  }
+  if (found(FindWithQuads(image, columns, rows, 2.0))) return search;
+  found(FindWithSectors(image, columns, rows, 2.0, kThorough));
+  return search;
+}
+
+}  // namespace foresight
