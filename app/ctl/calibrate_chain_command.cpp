@@ -14,6 +14,7 @@ struct ChainArguments {
   std::string session;
   std::string out;
   std::string report;
+  std::string lenses;
   bool json = false;
   bool paper = false;
   bool leave_out = false;
@@ -30,8 +31,12 @@ std::string UtcNow() {
   return text.substr(0, text.find('.')) + "Z";
 }
 
-ChainCalibrationOptions OptionsFrom(const ChainArguments& arguments, CalibrationStage stage) {
+Result<ChainCalibrationOptions> OptionsFrom(const ChainArguments& arguments,
+                                            CalibrationStage stage) {
   ChainCalibrationOptions options;
+  if (!arguments.lenses.empty()) {
+    FORESIGHT_TRY(options.lenses, LensModelsFromText(arguments.lenses));
+  }
   options.stage = stage;
   options.as_in_the_paper = arguments.paper;
   if (arguments.leave_out) options.loose_stops = MotorCalibrationOptions::LooseStops::kLeaveOut;
@@ -43,10 +48,10 @@ ChainCalibrationOptions OptionsFrom(const ChainArguments& arguments, Calibration
 
 Result<ExitCode> Calibrate(const ChainArguments& arguments, CalibrationStage stage,
                            const RunContext& context) {
+  FORESIGHT_TRY(const ChainCalibrationOptions options, OptionsFrom(arguments, stage));
   FORESIGHT_TRY(const CalibrationSession session,
-                ReadCalibrationSession(arguments.session, nullptr, context.Part(0.0, 0.5)));
-  FORESIGHT_TRY(ChainCalibration found,
-                CalibrateChain(session, OptionsFrom(arguments, stage), context.Part(0.5, 1.0)));
+                ReadCalibrationSession(arguments.session, context.Part(0.0, 0.5)));
+  FORESIGHT_TRY(ChainCalibration found, CalibrateChain(session, options, context.Part(0.5, 1.0)));
   found.rig.name = session.name;
   found.rig.date_utc = UtcNow();
   found.rig.parent_id = RigId(session.prior);
@@ -72,6 +77,9 @@ void AddStage(CLI::App& calibrate, Invocation& invocation, const char* name, con
   command->add_option("--report", arguments->report,
                       "Write a page with tables and charts into this folder");
   command->add_flag("--json", arguments->json, "Print all values as JSON");
+  command->add_option("--model", arguments->lenses,
+                      "Models of the camera to choose from, of k, eucm, kb4, radtan; else the "
+                      "prior's, where the session has images for it");
   command->add_flag("--paper", arguments->paper,
                     "Section III-B as printed: the stand as drawn, distances from planes, no joint "
                     "refinement");

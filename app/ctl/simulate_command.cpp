@@ -3,7 +3,7 @@
 
 #include "app/ctl/command.h"
 #include "core/calibration/session_file.h"
-#include "core/evaluation/simulate_calibration.h"
+#include "core/evaluation/calibration_images.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -12,6 +12,7 @@ namespace {
 struct SimulateArguments {
   std::string folder;
   std::string mount = "normal";
+  bool images = false;
   CalibrationSimulation simulation;
   double prior_error_deg = DegreesFromRadians(CalibrationSimulation().prior_error_rad);
   double prior_error_mm = 1000.0 * CalibrationSimulation().prior_error_m;
@@ -26,8 +27,9 @@ const std::map<std::string, CameraMount> kMounts = {{"normal", CameraMount::kNor
                                                     {"portrait", CameraMount::kPortrait},
                                                     {"upside-down", CameraMount::kUpsideDown}};
 
-Result<ExitCode> Simulate(const SimulateArguments& arguments) {
+Result<ExitCode> Simulate(const SimulateArguments& arguments, const RunContext& context) {
   CalibrationSimulation simulation = arguments.simulation;
+  simulation.distinct_boards = arguments.images;
   simulation.mount = kMounts.at(arguments.mount);
   simulation.prior_error_rad = RadiansFromDegrees(arguments.prior_error_deg);
   simulation.prior_error_m = 1e-3 * arguments.prior_error_mm;
@@ -37,7 +39,10 @@ Result<ExitCode> Simulate(const SimulateArguments& arguments) {
   simulation.repeatability_rad = RadiansFromDegrees(arguments.repeatability_deg);
   simulation.dihedral_error_rad = RadiansFromDegrees(arguments.dihedral_error_deg);
   FORESIGHT_TRY(const SimulatedCalibration made, SimulateCalibration(simulation));
-  FORESIGHT_CHECK(WriteCalibrationSession(made.session, arguments.folder));
+  if (arguments.images)
+    FORESIGHT_CHECK(WriteSimulatedImages(made, simulation.seed, arguments.folder, context));
+  else
+    FORESIGHT_CHECK(WriteCalibrationSession(made.session, arguments.folder));
   const std::filesystem::path truth = std::filesystem::path(arguments.folder) / "truth.yaml";
   FORESIGHT_CHECK(SaveSensorRig(made.truth, truth));
   PrintLine(fmt::format("{}: {} poses of the stand, {} intrinsic images; the truth is in {}",
@@ -59,6 +64,8 @@ void AddCalibration(CLI::App& simulate, Invocation& invocation) {
   command->add_option("--mount", arguments->mount, "How the camera is mounted")
       ->check(CLI::IsMember({"normal", "portrait", "upside-down"}))
       ->capture_default_str();
+  command->add_flag("--images", arguments->images,
+                    "Painted images instead of corners; --corner-sigma does not matter then");
   option("--views", s.intrinsic_views, "Images of a board for the camera alone");
   option("--poses", s.poses, "Poses of the stand of two boards");
   option("--first-stop", s.first_stop_deg, "Lowest stop of the motor, deg");
@@ -79,7 +86,7 @@ void AddCalibration(CLI::App& simulate, Invocation& invocation) {
   option("--prior-error", arguments->prior_error_deg, "Of the CAD poses, deg");
   option("--prior-shift", arguments->prior_error_mm, "Of the CAD poses, mm");
   command->callback([&invocation, arguments] {
-    invocation = [arguments](const RunContext&) { return Simulate(*arguments); };
+    invocation = [arguments](const RunContext& context) { return Simulate(*arguments, context); };
   });
 }
 

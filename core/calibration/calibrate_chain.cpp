@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/calibration/initial_motor.h"
-#include "core/calibration/locate_board.h"
+#include "core/calibration/intrinsics.h"
 #include "core/calibration/motor_graph.h"
 #include "core/geometry/angles.h"
 
@@ -32,34 +32,40 @@ struct CameraStage {
   std::vector<Rigid<frame::Camera, frame::Pattern>> camera_from_view;
 };
 
-Result<CameraStage> RefineCamera(const CalibrationSession& session,
-                                 const ChainCalibrationOptions& options,
-                                 std::vector<std::string>* notes, const RunContext& context) {
-  ChainState state;
-  state.camera = session.prior.camera;
-  ChainData data;
-  for (const IntrinsicView& view : session.intrinsic_views) {
-    const auto located = LocateBoard(state.camera, session.intrinsic_board, view.view, view.source);
-    if (!located && located.error().code == ErrorCode::kTooFewPoints) {
-      notes->push_back(located.error().message);
-      continue;
-    }
-    if (!located) return tl::unexpected(located.error());
+Result<CameraStage> FindCamera(const CalibrationSession& session,
+                               const ChainCalibrationOptions& options,
+                               std::vector<std::string>* notes, const RunContext& context) {
+  CameraStage stage;
+  stage.camera = session.prior.camera;
+  if (session.intrinsic_views.empty()) return stage;
+  std::vector<IntrinsicsImage> images;
+  for (const IntrinsicView& view : session.intrinsic_views)
+    images.push_back({view.source, view.view});
+  IntrinsicsOptions intrinsics;
+  intrinsics.warp = IntrinsicsOptions::Warp::kOff;  // the joint solve takes boards as flat
+  intrinsics.models = options.lenses;
+  if (intrinsics.models.empty()) intrinsics.models = {LensModelOf(session.prior.camera.lens)};
+  FORESIGHT_TRY(const IntrinsicsCalibration found,
+                CalibrateIntrinsics(session.intrinsic_board, images, session.prior.camera.width,
+                                    session.prior.camera.height, intrinsics, context));
+  if (found.best < 0)
+    return Fail(ErrorCode::kNoConvergence, "camera: {}", found.models.front().failure);
+  for (const RejectedImage& image : found.images_rejected)
+    notes->push_back(fmt::format("{} is left out: {}", image.name, image.reason));
+  const ModelCalibration& best = found.models[static_cast<std::size_t>(found.best)];
+  notes->insert(notes->end(), best.warnings.begin(), best.warnings.end());
+  stage.camera = best.camera;
+  for (const ImageErrors& image : best.images) {
     CornerSet corners;
-    corners.view = static_cast<int>(state.camera_from_view.size());
-    corners.source = view.source;
-    corners.pixels = view.view.pixels;
-    for (const int id : view.view.corner_ids)
+    corners.view = static_cast<int>(stage.camera_from_view.size());
+    corners.source = images[image.image].name;
+    corners.pixels = image.pixels;
+    for (const int id : image.corner_ids)
       corners.on_board.push_back(session.intrinsic_board.Corner(id));
-    data.corners.push_back(std::move(corners));
-    state.camera_from_view.push_back(located->camera_from_board);
+    stage.corners.push_back(std::move(corners));
+    stage.camera_from_view.push_back(image.camera_from_pattern);
   }
-  if (!data.corners.empty()) {
-    const ChainSolveOptions solve{.free = {.camera = true, .views = true}, .noise = options.noise};
-    FORESIGHT_TRY([[maybe_unused]] const ChainFit fit, SolveChain(data, solve, &state, context));
-    FORESIGHT_CHECK(state.camera.Check());
-  }
-  return CameraStage{state.camera, std::move(data.corners), std::move(state.camera_from_view)};
+  return stage;
 }
 
 SensorRig RigFrom(const SensorRig& prior, const ChainState& state) {
@@ -162,7 +168,7 @@ LidarCalibrationOptions ChainRunner::LidarOptions() const {
 }
 
 Status ChainRunner::Camera() {
-  FORESIGHT_TRY(camera_, RefineCamera(session_, options_, &found_.notes, context_));
+  FORESIGHT_TRY(camera_, FindCamera(session_, options_, &found_.notes, context_));
   return {};
 }
 

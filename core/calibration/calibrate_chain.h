@@ -4,6 +4,7 @@
 
 #include "core/calibration/calibrate_lidar.h"
 #include "core/calibration/calibrate_motor.h"
+#include "core/calibration/lens_model.h"
 
 namespace foresight {
 
@@ -16,6 +17,9 @@ struct ChainCalibrationOptions {
   /// with distances from planes, neither offsets nor joint refinement, and no covariance.
   bool as_in_the_paper = false;
   MotorCalibrationOptions::LooseStops loose_stops = MotorCalibrationOptions::LooseStops::kRefuse;
+  /// What the camera may be where the session has images for it; the best by cross-validation is
+  /// taken. Empty = the lens of the session's prior.
+  std::vector<LensModel> lenses;
   ChainNoise noise;
   double range_sigma_m = 0.0;    ///< of one range; 0 = from the scatter over the lines of a stop
   double range_floor_m = 0.001;  ///< least sigma of a beam's mean
@@ -66,8 +70,8 @@ struct ChainCalibration {
 };
 
 /// The chain camera -> motor -> lidar -> time, one stage after the other, then all in one least
-/// squares problem. The camera starts from the session's prior and is refined where the session has
-/// images of a board for it. A stage that the session has no data for fails; the joint solve goes
+/// squares problem. The camera needs no guess where the session has images of a board for it; else
+/// it is the prior's. A stage that the session has no data for fails; the joint solve goes
 /// without a sweep, and keeps the prior's stamp offset then.
 Result<ChainCalibration> CalibrateChain(const CalibrationSession& session,
                                         const ChainCalibrationOptions& options,

@@ -1,11 +1,15 @@
 #include "core/calibration/session_file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/base/atomic_file.h"
+#include "core/base/parallel.h"
+#include "core/calibration/board_detector.h"
 #include "core/calibration/number_table.h"
 #include "core/geometry/angles.h"
+#include "core/io/image_file.h"
 #include "core/io/yaml_reader.h"
 
 namespace foresight {
@@ -22,11 +26,15 @@ const NumberTable kMotorTable{{"time_s", "angle_rad"}, false, ""};
 
 // ---- writing
 
-Status WriteText(const fs::path& folder, const std::string& name, const std::string& text) {
+Status MakeFolder(const fs::path& folder) {
   std::error_code error;
-  fs::create_directories((folder / name).parent_path(), error);
-  if (error)
-    return Fail(ErrorCode::kIo, "{}: {}", (folder / name).parent_path().string(), error.message());
+  fs::create_directories(folder, error);
+  if (error) return Fail(ErrorCode::kIo, "{}: {}", folder.string(), error.message());
+  return {};
+}
+
+Status WriteText(const fs::path& folder, const std::string& name, const std::string& text) {
+  FORESIGHT_CHECK(MakeFolder((folder / name).parent_path()));
   return WriteFileAtomically(folder / name, text);
 }
 
@@ -73,8 +81,8 @@ std::string Quoted(const std::string& text) {
 
 class Writer {
  public:
-  Writer(const CalibrationSession& session, const fs::path& folder)
-      : session_(session), folder_(folder) {}
+  Writer(const CalibrationSession& session, const fs::path& folder, SessionViews views)
+      : session_(session), folder_(folder), views_(views) {}
 
   Status Write() {
     FORESIGHT_CHECK(session_.Check());
@@ -88,7 +96,7 @@ class Writer {
     FORESIGHT_CHECK(WriteViews());
     if (!session_.poses.empty()) yaml_ += "poses:\n";
     for (std::size_t pose = 0; pose < session_.poses.size(); ++pose)
-      FORESIGHT_CHECK(WritePose(session_.poses[pose], fmt::format("pose_{:02}", pose + 1)));
+      FORESIGHT_CHECK(WritePose(pose, fmt::format("pose_{:02}", pose + 1)));
     // Last: a folder without it is no session.
     return WriteText(folder_, "session.yaml", yaml_);
   }
@@ -99,6 +107,11 @@ class Writer {
     yaml_ +=
         fmt::format("intrinsic_board: {}\nintrinsic_views:\n", ToText(session_.intrinsic_board));
     for (std::size_t i = 0; i < session_.intrinsic_views.size(); ++i) {
+      if (views_ == SessionViews::kImages) {
+        FORESIGHT_CHECK(MakeFolder(folder_ / "intrinsic"));
+        yaml_ += fmt::format("  - {{image: {}}}\n", ImageNameOfView(i));
+        continue;
+      }
       const std::string name = fmt::format("intrinsic/{:03}.csv", i + 1);
       std::string text = "board,corner,u,v\n";
       AppendCorners('a', session_.intrinsic_views[i].view, &text);
@@ -108,7 +121,9 @@ class Writer {
     return {};
   }
 
-  Status WritePose(const PatternPose& pose, const std::string& folder) {
+  Status WritePose(std::size_t number, const std::string& folder) {
+    const PatternPose& pose = session_.poses[number];
+    FORESIGHT_CHECK(MakeFolder(folder_ / folder));
     yaml_ += fmt::format("  - name: {}\n    stops:{}\n", Quoted(pose.name),
                          pose.stops.empty() ? " []" : "");
     for (std::size_t i = 0; i < pose.stops.size(); ++i) {
@@ -116,7 +131,9 @@ class Writer {
       const std::string name = fmt::format("{}/stop_{:02}", folder, i + 1);
       // The shortest decimal number that gives the same angle but for the last digit.
       yaml_ += fmt::format("      - {{motor_deg: {:.12g}", DegreesFromRadians(stop.motor_rad));
-      if (!stop.view.empty()) {
+      if (views_ == SessionViews::kImages) {
+        yaml_ += ", image: " + ImageNameOfStop(number, i);
+      } else if (!stop.view.empty()) {
         std::string text = "board,corner,u,v\n";
         if (stop.view.a) AppendCorners('a', *stop.view.a, &text);
         if (stop.view.b) AppendCorners('b', *stop.view.b, &text);
@@ -139,6 +156,7 @@ class Writer {
 
   const CalibrationSession& session_;
   fs::path folder_;
+  SessionViews views_;
   std::string yaml_;
 };
 
@@ -313,111 +331,136 @@ Result<MotorTrack> ReadTrack(const fs::path& path) {
   return track;
 }
 
+/// One image, or file of corners, and what is in it.
+struct ViewJob {
+  ViewEntry entry;
+  const CalibrationBoard* a = nullptr;
+  const CalibrationBoard* b = nullptr;
+  MountView view;
+  Status status;
+};
+
+Status LookAt(const fs::path& folder, const SensorRig& rig, ViewJob* job) {
+  if (!job->entry.corners.empty()) {
+    FORESIGHT_TRY(job->view, ReadCorners(folder / job->entry.corners));
+    job->view.source = job->entry.corners;
+    return {};
+  }
+  job->view.source = job->entry.image;
+  const fs::path file = folder / job->entry.image;
+  FORESIGHT_TRY(const GrayImage image, ReadImageGray(file));
+  if (image.width() != rig.camera.width || image.height() != rig.camera.height)
+    return Fail(ErrorCode::kBadData, "{}: {} x {} pixels, the rig's camera has {} x {}",
+                file.string(), image.width(), image.height(), rig.camera.width, rig.camera.height);
+  const auto find = [&image](const CalibrationBoard* board, std::optional<BoardView>* view) {
+    if (board == nullptr) return;
+    BoardDetection detection = DetectBoard(image, *board);
+    if (detection.rejection.empty()) *view = std::move(detection.view);
+  };
+  find(job->a, &job->view.a);
+  find(job->b, &job->view.b);
+  return {};
+}
+
 class Loader {
  public:
-  Loader(const fs::path& folder, const BoardFinder* finder, const RunContext& context)
-      : folder_(folder), finder_(finder), context_(context) {}
+  Loader(const fs::path& folder, const RunContext& context) : folder_(folder), context_(context) {}
 
   Result<CalibrationSession> Load() {
     const fs::path file = folder_ / "session.yaml";
     FORESIGHT_TRY(const std::string text, ReadFile(file));
-    SessionEntry entry;
     FORESIGHT_CHECK(ParseYaml(text, file.string(),
-                              [&](YamlMap& map) { entry = SessionFromYaml(map, &session_); }));
-    FORESIGHT_TRY(session_.prior, LoadSensorRig(folder_ / entry.rig));
-    views_ = entry.views.size();
-    for (const PoseEntry& pose : entry.poses) views_ += pose.stops.size();
-    for (const ViewEntry& view : entry.views) FORESIGHT_CHECK(LoadView(view));
-    for (const PoseEntry& pose : entry.poses) FORESIGHT_CHECK(LoadPose(pose));
+                              [&](YamlMap& map) { entry_ = SessionFromYaml(map, &session_); }));
+    FORESIGHT_TRY(session_.prior, LoadSensorRig(folder_ / entry_.rig));
+    FORESIGHT_CHECK(LoadViews());
+    for (std::size_t pose = 0; pose < entry_.poses.size(); ++pose)
+      FORESIGHT_CHECK(LoadPose(entry_.poses[pose], &session_.poses[pose]));
     if (const Status status = session_.Check(); !status)
       return Fail(ErrorCode::kBadData, "{}: {}", file.string(), status.error().message);
     return std::move(session_);
   }
 
  private:
-  Status NeedFinder(const std::string& image) const {
-    if (finder_ != nullptr) return {};
-    return Fail(ErrorCode::kInvalidInput,
-                "{}: corners are needed instead of an image here: nothing finds boards in it",
-                (folder_ / image).string());
+  /// Images are looked at on all threads.
+  Status LoadViews() {
+    std::vector<ViewJob> jobs;
+    for (const ViewEntry& entry : entry_.views)
+      jobs.push_back({entry, &session_.intrinsic_board, nullptr, {}, {}});
+    const CalibrationBoard* b = session_.mount.b ? &*session_.mount.b : nullptr;
+    for (const PoseEntry& pose : entry_.poses)
+      for (const StopEntry& stop : pose.stops)
+        if (!stop.view.image.empty() || !stop.view.corners.empty())
+          jobs.push_back({stop.view, &session_.mount.a, b, {}, {}});
+    std::atomic<int> done = 0;
+    const int count = static_cast<int>(jobs.size());
+    const bool finished = ParallelFor(count, context_, [&](int i) {
+      ViewJob& job = jobs[static_cast<std::size_t>(i)];
+      job.status = LookAt(folder_, session_.prior, &job);
+      context_.Report(static_cast<double>(++done) / count, "looking for boards");
+    });
+    if (!finished) return Fail(ErrorCode::kCancelled, "reading the session: cancelled");
+    for (const ViewJob& job : jobs) FORESIGHT_CHECK(job.status);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < entry_.views.size(); ++i, ++next)
+      if (jobs[next].view.a)
+        session_.intrinsic_views.push_back({jobs[next].view.source, *jobs[next].view.a});
+    for (const PoseEntry& entry : entry_.poses) {
+      PatternPose pose;
+      pose.name = entry.name;
+      for (const StopEntry& stop : entry.stops) {
+        pose.stops.push_back({stop.motor_rad, {}, {}});
+        if (!stop.view.image.empty() || !stop.view.corners.empty())
+          pose.stops.back().view = std::move(jobs[next++].view);
+      }
+      session_.poses.push_back(std::move(pose));
+    }
+    return {};
   }
 
-  Status Advance() {
+  Status LoadPose(const PoseEntry& entry, PatternPose* pose) {
     if (context_.Cancelled()) return Fail(ErrorCode::kCancelled, "reading the session: cancelled");
-    context_.Report(
-        static_cast<double>(done_++) / static_cast<double>(std::max<std::size_t>(1, views_)),
-        "reading the session");
-    return {};
-  }
-
-  Status LoadView(const ViewEntry& entry) {
-    FORESIGHT_CHECK(Advance());
-    std::optional<BoardView> found;
-    if (!entry.corners.empty()) {
-      FORESIGHT_TRY(MountView view, ReadCorners(folder_ / entry.corners));
-      found = std::move(view.a);
-    } else {
-      FORESIGHT_CHECK(NeedFinder(entry.image));
-      FORESIGHT_TRY(found, finder_->board(session_.intrinsic_board, folder_ / entry.image));
+    for (std::size_t i = 0; i < entry.stops.size(); ++i) {
+      if (entry.stops[i].lines.empty()) continue;
+      FORESIGHT_TRY(pose->stops[i].lines,
+                    ReadLines(folder_ / entry.stops[i].lines, session_.prior.lidar));
     }
-    if (found)
-      session_.intrinsic_views.push_back(
-          {entry.corners.empty() ? entry.image : entry.corners, std::move(*found)});
-    return {};
-  }
-
-  Status LoadStop(const StopEntry& entry, PatternPose* pose) {
-    FORESIGHT_CHECK(Advance());
-    MotorStop stop;
-    stop.motor_rad = entry.motor_rad;
-    if (!entry.view.corners.empty()) {
-      FORESIGHT_TRY(stop.view, ReadCorners(folder_ / entry.view.corners));
-      stop.view.source = entry.view.corners;
-    } else if (!entry.view.image.empty()) {
-      FORESIGHT_CHECK(NeedFinder(entry.view.image));
-      FORESIGHT_TRY(stop.view, finder_->mount(session_.mount, folder_ / entry.view.image));
-      stop.view.source = entry.view.image;
-    }
-    if (!entry.lines.empty()) {
-      FORESIGHT_TRY(stop.lines, ReadLines(folder_ / entry.lines, session_.prior.lidar));
-    }
-    pose->stops.push_back(std::move(stop));
-    return {};
-  }
-
-  Status LoadPose(const PoseEntry& entry) {
-    PatternPose pose;
-    pose.name = entry.name;
-    for (const StopEntry& stop : entry.stops) FORESIGHT_CHECK(LoadStop(stop, &pose));
     if (!entry.sweep_lines.empty()) {
-      FORESIGHT_TRY(pose.sweep.lines, ReadLines(folder_ / entry.sweep_lines, session_.prior.lidar));
-      FORESIGHT_TRY(pose.sweep.track, ReadTrack(folder_ / entry.sweep_motor));
+      FORESIGHT_TRY(pose->sweep.lines,
+                    ReadLines(folder_ / entry.sweep_lines, session_.prior.lidar));
+      FORESIGHT_TRY(pose->sweep.track, ReadTrack(folder_ / entry.sweep_motor));
     }
-    session_.poses.push_back(std::move(pose));
     return {};
   }
 
   fs::path folder_;
-  const BoardFinder* finder_;
   const RunContext& context_;
+  SessionEntry entry_;
   CalibrationSession session_;
-  std::size_t views_ = 0, done_ = 0;
 };
 
 }  // namespace
 
-Result<CalibrationSession> ReadCalibrationSession(const fs::path& folder, const BoardFinder* finder,
+Result<CalibrationSession> ReadCalibrationSession(const fs::path& folder,
                                                   const RunContext& context) {
-  return Loader(folder, finder, context).Load();
+  return Loader(folder, context).Load();
 }
 
-Status WriteCalibrationSession(const CalibrationSession& session, const fs::path& folder) {
+Status WriteCalibrationSession(const CalibrationSession& session, const fs::path& folder,
+                               SessionViews views) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Fail(ErrorCode::kIo, "{}: {}", folder.string(), error.message());
   if (!fs::is_empty(folder, error) || error)
     return Fail(ErrorCode::kIo, "{}: the folder is not empty; name a new one", folder.string());
-  return Writer(session, folder).Write();
+  return Writer(session, folder, views).Write();
+}
+
+std::string ImageNameOfView(std::size_t view) {
+  return fmt::format("intrinsic/{:03}.png", view + 1);
+}
+
+std::string ImageNameOfStop(std::size_t pose, std::size_t stop) {
+  return fmt::format("pose_{:02}/stop_{:02}.png", pose + 1, stop + 1);
 }
 
 }  // namespace foresight

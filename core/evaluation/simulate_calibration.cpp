@@ -145,6 +145,13 @@ void SessionMaker::MakeRig() {
 
   session_.name = truth_.name;
   session_.mount = DefaultBoardMount();
+  if (options_.distinct_boards) {
+    session_.mount.a.columns = 9;
+    session_.mount.b->columns = 7;
+    const Eigen::Vector3d one_square = session_.mount.a.square_m * Eigen::Vector3d::UnitX();
+    session_.mount.a_from_b = {session_.mount.a_from_b.rotation(),
+                               session_.mount.a_from_b.translation() + one_square};
+  }
   session_.intrinsic_board = session_.mount.a;
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
   error.head<3>() = RandomVector(random, options_.dihedral_error_rad);
@@ -201,6 +208,7 @@ void SessionMaker::MakeViews() {
     if (!view) continue;
     session_.intrinsic_views.push_back(
         {fmt::format("view {}", session_.intrinsic_views.size() + 1), std::move(*view)});
+    made_.camera_from_view.push_back(pose);
   }
 }
 
@@ -350,6 +358,7 @@ void SessionMaker::MakePose(int index) {
   const Rigid<frame::Base, frame::Pattern> stand = PlaceStand(random, index);
   made_.base_from_pattern.push_back(stand);
   const std::vector<Panel> panels = PanelsOf(stand);
+  made_.camera_from_stand.emplace_back();
   PatternPose pose;
   pose.name = fmt::format("pose {}", index + 1);
   for (const double motor_rad : stops_rad_) {
@@ -364,7 +373,9 @@ void SessionMaker::MakePose(int index) {
         panels, std::vector<double>(static_cast<std::size_t>(truth_.lidar.beams), plate_rad));
     for (int scan = 0; scan < options_.scans_per_stop; ++scan)
       stop.lines.push_back(Measure(ranges, scan, scan * truth_.lidar.period_s));
-    if (!stop.view.empty() || !stop.lines.empty()) pose.stops.push_back(std::move(stop));
+    if (stop.view.empty() && stop.lines.empty()) continue;
+    pose.stops.push_back(std::move(stop));
+    made_.camera_from_stand.back().push_back(camera_from_stand);
   }
   if (SweepsBefore(index)) Sweep(panels, &pose.sweep);
   session_.poses.push_back(std::move(pose));

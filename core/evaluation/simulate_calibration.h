@@ -17,6 +17,8 @@ std::string_view ToString(CameraMount mount);
 struct CalibrationSimulation {
   std::uint64_t seed = 1;
   CameraMount mount = CameraMount::kNormal;
+  /// Boards that a detector can tell apart, and their corner 0 from the others: for images.
+  bool distinct_boards = false;
   int intrinsic_views = 20;
   int poses = 6;
   double first_stop_deg = -30.0;
@@ -52,6 +54,9 @@ struct SimulatedCalibration {
   SensorRig truth;  ///< plate angles between the knots are a spline's, as in the session
   BoardFromBoard a_from_b;
   std::vector<Rigid<frame::Base, frame::Pattern>> base_from_pattern;
+  std::vector<Rigid<frame::Camera, frame::Pattern>> camera_from_view;  ///< intrinsic views
+  /// Of each pose and stop of the session, with the stop's own angle.
+  std::vector<std::vector<Rigid<frame::Camera, frame::Pattern>>> camera_from_stand;
 };
 
 /// The same options give the same session on every machine. Fails with kInvalidOptions. Half a

@@ -5,6 +5,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/evaluation/simulate_calibration.h"
+#include "core/io/png.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -38,7 +39,7 @@ class SessionFile : public ::testing::Test {
     ASSERT_TRUE(WriteFileAtomically(path_ / file, text));
   }
   std::string Message() const {
-    const auto read = ReadCalibrationSession(path_, nullptr, {});
+    const auto read = ReadCalibrationSession(path_, {});
     return read ? "read" : read.error().message;
   }
 
@@ -48,7 +49,7 @@ class SessionFile : public ::testing::Test {
 };
 
 TEST_F(SessionFile, IsReadAsItWasWritten) {
-  const auto read = ReadCalibrationSession(path_, nullptr, {});
+  const auto read = ReadCalibrationSession(path_, {});
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->name, session_.name);
   EXPECT_EQ(read->mount.a, session_.mount.a);
@@ -115,9 +116,10 @@ TEST_F(SessionFile, NamesAFileThatIsMissing) {
   EXPECT_THAT(Message(), HasSubstr("pose_02/sweep_motor.csv"));
 }
 
-TEST_F(SessionFile, SaysThatNobodyLooksForBoardsInAnImage) {
-  Replace("session.yaml", "corners: intrinsic/001.csv", "image: intrinsic/001.png");
-  EXPECT_THAT(Message(), HasSubstr("corners are needed"));
+TEST_F(SessionFile, RefusesAnImageOfAnotherCamera) {
+  ASSERT_TRUE(WritePng(path_ / "small.png", GrayImage(64, 48, 128)));
+  Replace("session.yaml", "corners: intrinsic/001.csv", "image: small.png");
+  EXPECT_THAT(Message(), HasSubstr("64 x 48 pixels, the rig's camera has 1288 x 964"));
 }
 
 TEST_F(SessionFile, RefusesAnotherVersion) {
