@@ -65,7 +65,7 @@ void AddCalibration(CLI::App& simulate, Invocation& invocation) {
       ->check(CLI::IsMember({"normal", "portrait", "upside-down"}))
       ->capture_default_str();
   command->add_flag("--images", arguments->images,
-                    "Painted images instead of corners; --corner-sigma does not matter then");
+                    "Painted images of the intrinsic views instead of their corners");
   option("--views", s.intrinsic_views, "Images of a board for the camera alone");
   option("--poses", s.poses, "Poses of the stand of two boards");
   option("--first-stop", s.first_stop_deg, "Lowest stop of the motor, deg");

@@ -131,9 +131,7 @@ class Writer {
       const std::string name = fmt::format("{}/stop_{:02}", folder, i + 1);
       // The shortest decimal number that gives the same angle but for the last digit.
       yaml_ += fmt::format("      - {{motor_deg: {:.12g}", DegreesFromRadians(stop.motor_rad));
-      if (views_ == SessionViews::kImages) {
-        yaml_ += ", image: " + ImageNameOfStop(number, i);
-      } else if (!stop.view.empty()) {
+      if (!stop.view.empty()) {
         std::string text = "board,corner,u,v\n";
         if (stop.view.a) AppendCorners('a', *stop.view.a, &text);
         if (stop.view.b) AppendCorners('b', *stop.view.b, &text);
@@ -457,10 +455,6 @@ Status WriteCalibrationSession(const CalibrationSession& session, const fs::path
 
 std::string ImageNameOfView(std::size_t view) {
   return fmt::format("intrinsic/{:03}.png", view + 1);
-}
-
-std::string ImageNameOfStop(std::size_t pose, std::size_t stop) {
-  return fmt::format("pose_{:02}/stop_{:02}.png", pose + 1, stop + 1);
 }
 
 }  // namespace foresight

@@ -14,19 +14,18 @@ namespace foresight {
 Result<CalibrationSession> ReadCalibrationSession(const std::filesystem::path& folder,
                                                   const RunContext& context);
 
-/// What stands for a view in a session's files.
+/// What stands for the intrinsic views in a session's files; stops have corners.
 enum class SessionViews { kCorners, kImages };
 
 /// Writes a session into `folder`, which is made where it is not there; one that has files is
-/// refused. With kImages, corners are left out and session.yaml names an image of every view and
-/// stop, which the caller writes. Reading gives the same session, but for the last digits of motor
-/// angles.
+/// refused. With kImages, session.yaml names an image of every intrinsic view instead of its
+/// corners, and the caller writes it. Reading gives the same session, but for the last digits of
+/// motor angles.
 Status WriteCalibrationSession(const CalibrationSession& session,
                                const std::filesystem::path& folder,
                                SessionViews views = SessionViews::kCorners);
 
-/// The images that session.yaml names then, in the session's folder.
+/// The image that session.yaml names then, in the session's folder.
 std::string ImageNameOfView(std::size_t view);
-std::string ImageNameOfStop(std::size_t pose, std::size_t stop);
 
 }  // namespace foresight

@@ -119,13 +119,6 @@ Status WriteSimulatedImages(const SimulatedCalibration& made, std::uint64_t seed
   const CalibrationSession& session = made.session;
   for (std::size_t i = 0; i < made.camera_from_view.size(); ++i)
     jobs.push_back({ImageNameOfView(i), {{session.intrinsic_board, made.camera_from_view[i]}}, {}});
-  for (std::size_t pose = 0; pose < session.poses.size(); ++pose)
-    for (std::size_t stop = 0; stop < session.poses[pose].stops.size(); ++stop) {
-      const auto& stand = made.camera_from_stand[pose][stop];
-      Job job{ImageNameOfStop(pose, stop), {{session.mount.a, stand}}, {}};
-      if (session.mount.b) job.boards.push_back({*session.mount.b, stand * made.a_from_b});
-      jobs.push_back(std::move(job));
-    }
   FORESIGHT_CHECK(WriteCalibrationSession(session, folder, SessionViews::kImages));
   std::atomic<int> done = 0;
   const int count = static_cast<int>(jobs.size());

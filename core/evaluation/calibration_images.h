@@ -29,8 +29,8 @@ class BoardPainter {
   std::vector<Eigen::Vector3f> rays_;
 };
 
-/// Writes a simulated session with images (PNG) instead of corners, of every view and of every stop
-/// that has lidar lines or shows a board. Images are painted on all threads.
+/// Writes a simulated session with images (PNG) of its intrinsic views instead of their corners;
+/// the stand's stay corners. Images are painted on all threads.
 Status WriteSimulatedImages(const SimulatedCalibration& made, std::uint64_t seed,
                             const std::filesystem::path& folder, const RunContext& context);
 

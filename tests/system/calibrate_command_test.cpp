@@ -81,8 +81,8 @@ TEST_F(CalibrateCommand, AFolderWithoutASessionIsNamed) {
   EXPECT_THAT(result.errors, HasSubstr("session.yaml"));
 }
 
-TEST_F(CalibrateCommand, ImagesAreLookedAtForBoards) {
-  // Few, for a second's work: three poses, three stops.
+TEST_F(CalibrateCommand, IntrinsicImagesAreLookedAtForTheBoard) {
+  // Few, for some seconds' work: three poses, three stops.
   const std::string session =
       Simulate({"--images", "--views", "8", "--poses", "3", "--first-stop", "0", "--last-stop",
                 "40", "--stop-step", "20", "--scans", "0", "--sweeps", "0"});
