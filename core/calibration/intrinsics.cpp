@@ -83,6 +83,13 @@ void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
         fmt::format("the images do not determine the lens: {}; {}", DescribeViews(bundle), kAdvice);
     return;
   }
+  if (calibration.rms_px > options.largest_rms_px) {
+    calibration.failure = fmt::format(
+        "corners are {:.1f} px (rms) off: the model is not that of the lens, or the "
+        "images are not of one camera with one zoom and focus",
+        calibration.rms_px);
+    return;
+  }
   const CameraModel::Parameters sigmas = calibration.covariance->ValueSigmas();
   const double focal_sigma =
       std::max(sigmas[0] / calibration.camera.fx, sigmas[1] / calibration.camera.fy);
@@ -170,6 +177,9 @@ Status IntrinsicsOptions::Check() const {
                 corner_outlier_ratio);
   if (!(image_outlier_floor_px >= 0.0) || !(corner_outlier_floor_px >= 0.0))
     return Fail(ErrorCode::kInvalidOptions, "intrinsics: a floor of outliers is negative");
+  if (!(largest_rms_px > 0.0))
+    return Fail(ErrorCode::kInvalidOptions, "intrinsics: largest_rms_px {} is not positive",
+                largest_rms_px);
   if (!(largest_focal_sigma > 0.0))
     return Fail(ErrorCode::kInvalidOptions, "intrinsics: largest_focal_sigma {} is not positive",
                 largest_focal_sigma);

@@ -36,7 +36,7 @@ TEST(BoardPrint, PrintsWhatTheDetectorFindsInItsTrueSize) {
     const CalibrationBoard board = CalibrationBoardFromText(text).value();
     const auto pdf = BoardPdf(board, PaperFromText("A4", board).value());
     ASSERT_TRUE(pdf) << pdf.error().message;
-    constexpr int kDotsPerInch = 100;
+    constexpr int kDotsPerInch = 200;
     const auto image = Rasterised(*pdf, kDotsPerInch);
     if (!image) GTEST_SKIP() << "needs pdftoppm (poppler-utils)";
     const BoardDetection found = DetectBoard(*image, board);
@@ -48,8 +48,8 @@ TEST(BoardPrint, PrintsWhatTheDetectorFindsInItsTrueSize) {
       const Eigen::Vector2d expected =
           found.view.pixels[0] +
           dots_per_m * (board.Corner(found.view.corner_ids[i]) - board.Corner(0)).head<2>();
-      // Half a dot: where squares begin is rounded to dots.
-      EXPECT_LT((found.view.pixels[i] - expected).norm(), 0.7);
+      // pdftoppm rounds where each square begins to dots, of 0.13 mm.
+      EXPECT_LT((found.view.pixels[i] - expected).norm(), 1.2);
     }
   }
 }

