@@ -50,9 +50,11 @@ std::optional<CornerGrid> FindWithSectors(const GrayImage& image, int columns, i
 std::optional<CornerGrid> FindWithQuads(const GrayImage& image, int columns, int rows,
                                         double scale) {
   // Noise makes thousands of tiny quadrangles, which this detector joins one by one for ten seconds
-  // and more; they vanish in a little blur, and corners are placed in the sharp image afterwards.
+  // and more. A median takes most of them and keeps the corners of thin squares.
   cv::Mat smooth;
-  cv::GaussianBlur(Scaled(image, scale), smooth, {5, 5}, 0.0);
+  cv::medianBlur(Wrap(image), smooth, 3);
+  if (scale != 1.0)
+    cv::resize(smooth, smooth, {}, scale, scale, scale < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
   std::vector<cv::Point2f> points;
   if (!cv::findChessboardCorners(smooth, {columns, rows}, points,
                                  cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
@@ -265,7 +267,11 @@ CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int row
     if (found(search.other)) return search;
     search.other_is_whole =
         search.other->columns >= 4 && search.other->rows >= 4 && Ends(image, *search.other);
-    if (search.other_is_whole) return search;
+    // A larger board is there: further attempts could only find a part of it.
+    const bool fits =
+        std::max(search.other->columns, search.other->rows) <= std::max(columns, rows) &&
+        std::min(search.other->columns, search.other->rows) <= std::min(columns, rows);
+    if (search.other_is_whole && !fits) return search;
   }
   if (found(FindWithQuads(image, columns, rows, 1.0))) return search;
   if (found(FindWithQuads(image, columns, rows, 0.5))) return search;

@@ -19,6 +19,7 @@ namespace {
 constexpr double kEqualPrediction = 0.005;
 /// A relative standard deviation of the focal length that is worth a remark.
 constexpr double kRemarkableFocalSigma = 0.003;
+constexpr double kRemarkableRms_px = 0.9;
 
 double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -90,6 +91,11 @@ void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
         calibration.rms_px);
     return;
   }
+  if (calibration.rms_px > kRemarkableRms_px)
+    calibration.warnings.push_back(fmt::format(
+        "corners are {:.2f} px (rms) off, where good images have 0.2 to 0.6 px: look for "
+        "another model, a changed zoom or focus, a board that bends",
+        calibration.rms_px));
   const CameraModel::Parameters sigmas = calibration.covariance->ValueSigmas();
   const double focal_sigma =
       std::max(sigmas[0] / calibration.camera.fx, sigmas[1] / calibration.camera.fy);

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Calibrates the same corners with foresightctl and with mrcal (Debian: mrcal, python3-mrcal).
 
   compare_with_mrcal.py FOLDER --board checkerboard:7x6:50 --focal 400 [--ctl build/release/bin/foresightctl]

@@ -207,18 +207,6 @@ TEST(Intrinsics, SaysHowManyImagesAreMissing) {
   EXPECT_THAT(FaultOf(views), HasSubstr("3 images with a board: a camera needs at least 4"));
 }
 
-TEST(Intrinsics, SaysThatImagesOfTwoZoomsContradictEachOther) {
-  SyntheticOptions options{.views = 20};
-  SyntheticViews views = MakeViews(options, 14);
-  options.camera.fx *= 1.3;
-  options.camera.fy *= 1.3;
-  const SyntheticViews zoomed = MakeViews(options, 15);
-  views.images.insert(views.images.end(), zoomed.images.begin(), zoomed.images.end());
-  const std::string fault = FaultOf(views);
-  EXPECT_THAT(fault, testing::AnyOf(HasSubstr("contradict each other"),
-                                    HasSubstr("not of one camera with one zoom")));
-}
-
 TEST(Intrinsics, SaysThatAModelIsForNarrowerViews) {
   SyntheticOptions options;
   options.camera = {.width = 1280,
