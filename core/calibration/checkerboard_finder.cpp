@@ -17,6 +17,8 @@ constexpr double kLocalContrast = 0.35;
 constexpr double kLeastContrast = 8.0;
 /// Fraction of the corners that must pass. Glare and shadows hide some.
 constexpr double kCornersThatPass = 0.9;
+/// Grey levels that a median of 3 x 3 changes a pixel by, on average, in a noisy image.
+constexpr double kNoisy = 1.2;
 
 cv::Mat Wrap(const GrayImage& image) {
   return {image.height(), image.width(), CV_8UC1,
@@ -47,16 +49,33 @@ std::optional<CornerGrid> FindWithSectors(const GrayImage& image, int columns, i
   return GridOf(points, columns, rows, scale);
 }
 
-std::optional<CornerGrid> FindWithQuads(const GrayImage& image, int columns, int rows,
+/// The image without most of its noise, and how much that was.
+struct SmoothImage {
+  cv::Mat pixels;
+  double noise = 0.0;  ///< mean change of a pixel, grey levels
+};
+
+SmoothImage Smoothed(const GrayImage& image) {
+  SmoothImage smooth;
+  cv::medianBlur(Wrap(image), smooth.pixels, 3);
+  cv::Mat change;
+  cv::absdiff(Wrap(image), smooth.pixels, change);
+  smooth.noise = cv::mean(change)[0];
+  if (smooth.noise > kNoisy) cv::medianBlur(Wrap(image), smooth.pixels, 5);
+  return smooth;
+}
+
+std::optional<CornerGrid> FindWithQuads(const SmoothImage& image, int columns, int rows,
                                         double scale) {
   // Noise makes thousands of tiny quadrangles, which this detector joins one by one for ten seconds
   // and more. A median takes most of them and keeps the corners of thin squares.
-  cv::Mat smooth;
-  cv::medianBlur(Wrap(image), smooth, 3);
+  if (scale > 1.0 && image.noise > kNoisy) return std::nullopt;
+  cv::Mat scaled = image.pixels;
   if (scale != 1.0)
-    cv::resize(smooth, smooth, {}, scale, scale, scale < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
+    cv::resize(image.pixels, scaled, {}, scale, scale,
+               scale < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
   std::vector<cv::Point2f> points;
-  if (!cv::findChessboardCorners(smooth, {columns, rows}, points,
+  if (!cv::findChessboardCorners(scaled, {columns, rows}, points,
                                  cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
     return std::nullopt;
   return GridOf(points, columns, rows, scale);
@@ -171,13 +190,16 @@ Extension Extended(const GrayImage& image, const CornerGrid& grid, const Side& s
   return extension;
 }
 
-/// Whether the board goes on beyond none of the grid's sides.
-bool Ends(const GrayImage& image, const CornerGrid& grid) {
+/// Whether the board goes on beyond none of the grid's sides; what lies outside of the image is not
+/// known, and counts as an end or not.
+enum class OutsideImage { kIsAnEnd, kIsNoEnd };
+bool Ends(const GrayImage& image, const CornerGrid& grid, OutsideImage outside) {
   for (const Side& side : kSides)
-    for (const Guess guess : {Guess::kParabola, Guess::kSameRatio})
-      if (const Extension more = Extended(image, grid, side, guess);
-          more.asked >= 3 && more.passed >= 0.6 * more.asked)
-        return false;
+    for (const Guess guess : {Guess::kParabola, Guess::kSameRatio}) {
+      const Extension more = Extended(image, grid, side, guess);
+      if (more.asked < 3 && outside == OutsideImage::kIsNoEnd) return false;
+      if (more.asked >= 3 && more.passed >= 0.6 * more.asked) return false;
+    }
   return true;
 }
 
@@ -213,7 +235,7 @@ std::optional<CornerGrid> Accepted(const GrayImage& image, const std::optional<C
   auto grid = Arranged(*found, columns, rows);
   if (!grid) return std::nullopt;
   RefineCorners(image, *grid);
-  if (!IsRegular(image, *grid) || !Ends(image, *grid)) return std::nullopt;
+  if (!IsRegular(image, *grid) || !Ends(image, *grid, OutsideImage::kIsAnEnd)) return std::nullopt;
   return grid;
 }
 
@@ -265,23 +287,24 @@ CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int row
   search.other = GrownFromParts(image);
   if (search.other) {
     if (found(search.other)) return search;
-    search.other_is_whole =
-        search.other->columns >= 4 && search.other->rows >= 4 && Ends(image, *search.other);
+    search.other_is_whole = search.other->columns >= 4 && search.other->rows >= 4 &&
+                            Ends(image, *search.other, OutsideImage::kIsNoEnd);
     // A larger board is there: further attempts could only find a part of it.
     const bool fits =
         std::max(search.other->columns, search.other->rows) <= std::max(columns, rows) &&
         std::min(search.other->columns, search.other->rows) <= std::min(columns, rows);
     if (search.other_is_whole && !fits) return search;
   }
-  if (found(FindWithQuads(image, columns, rows, 1.0))) return search;
-  if (found(FindWithQuads(image, columns, rows, 0.5))) return search;
+  const SmoothImage smooth = Smoothed(image);
+  if (found(FindWithQuads(smooth, columns, rows, 1.0))) return search;
+  if (found(FindWithQuads(smooth, columns, rows, 0.5))) return search;
   if (found(FindWithSectors(image, columns, rows, 1.0, kThorough | cv::CALIB_CB_NORMALIZE_IMAGE)))
     return search;
   if (side > 1400) {
     found(FindWithSectors(image, columns, rows, 0.25, kThorough));
     return search;
   }
-  if (found(FindWithQuads(image, columns, rows, 2.0))) return search;
+  if (found(FindWithQuads(smooth, columns, rows, 2.0))) return search;
   found(FindWithSectors(image, columns, rows, 2.0, kThorough));
   return search;
 }
