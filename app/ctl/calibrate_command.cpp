@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "core/base/atomic_file.h"
 #include "core/base/utc_text.h"
 #include "core/calibration/board_images.h"
 #include "core/calibration/intrinsics.h"
@@ -20,6 +21,7 @@ struct IntrinsicsArguments {
   std::string warp = "auto";
   std::string rig;
   std::string out;
+  std::string corners;
   bool json = false;
 };
 
@@ -143,6 +145,25 @@ std::string Describe(const ModelCalibration& m) {
   return text;
 }
 
+/// The corners as a table that mrcal reads too (vnlog): a line a corner, row by row, "-" where a
+/// corner was not found.
+Status WriteCorners(const CalibrationBoard& board, const BoardImages& images,
+                    const std::string& file) {
+  std::string text = "# filename x y level\n";
+  for (const IntrinsicsImage& image : images.images) {
+    std::map<int, Eigen::Vector2d> found;
+    for (std::size_t i = 0; i < image.view.pixels.size(); ++i)
+      found[image.view.corner_ids[i]] = image.view.pixels[i];
+    for (int id = 0; id < board.CornerCount(); ++id) {
+      const auto at = found.find(id);
+      text += at == found.end()
+                  ? fmt::format("{} - - -\n", image.name)
+                  : fmt::format("{} {:.4f} {:.4f} 0\n", image.name, at->second.x(), at->second.y());
+    }
+  }
+  return WriteFileAtomically(file, text);
+}
+
 Status WriteRig(const IntrinsicsArguments& arguments, const CameraModel& camera) {
   SensorRig rig = DefaultSensorRig();
   if (!arguments.rig.empty()) {
@@ -200,6 +221,8 @@ Result<ExitCode> CalibrateCamera(const IntrinsicsArguments& arguments, const Run
     return Fail(ErrorCode::kBadData, "none of {} files is an image that can be read; {}: {}",
                 files.size(), images.rejected.front().name, images.rejected.front().reason);
 
+  if (!arguments.corners.empty()) FORESIGHT_CHECK(WriteCorners(board, images, arguments.corners));
+
   auto calibration = CalibrateIntrinsics(board, images.images, images.width, images.height, options,
                                          context.Part(0.8, 1.0));
   if (calibration) {
@@ -246,6 +269,8 @@ void AddIntrinsicsCommand(CLI::App& calibrate, Invocation& invocation) {
   command->add_option("--rig", arguments->rig,
                       "The rig that gets the camera; else the default one");
   command->add_option("--out", arguments->out, "Write the rig with the chosen camera (YAML)");
+  command->add_option("--corners", arguments->corners,
+                      "Also write the corners found: filename x y level, as mrcal reads them");
   command->add_flag("--json", arguments->json, "Print one object a model, in a list");
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) {

@@ -31,6 +31,7 @@ void AddHealthCommand(CLI::App& app, Invocation& invocation);
 void AddMissionCommand(CLI::App& app, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);
 void AddCalibrateCommand(CLI::App& app, Invocation& invocation);
+void AddTargetCommand(CLI::App& app, Invocation& invocation);
 void AddSimulateCommand(CLI::App& app, Invocation& invocation);
 /// `calibrate` is the command of that name.
 void AddCalibrateChainCommands(CLI::App& calibrate, Invocation& invocation);

@@ -28,6 +28,7 @@ int Main(int argc, char** argv) {
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);
   AddCalibrateCommand(app, invocation);
+  AddTargetCommand(app, invocation);
   AddSimulateCommand(app, invocation);
   return RunProgram("foresightctl", app, argc, argv,
                     [&](const RunContext& context) { return invocation(context); });

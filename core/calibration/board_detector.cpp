@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "core/base/contract.h"
 #include "core/calibration/charuco_finder.h"
@@ -25,7 +27,15 @@ std::string WhyNotFound(const GrayImage& image, const CalibrationBoard& board,
   const std::string asked = fmt::format("{}x{}", board.columns, board.rows);
   if (!search.other)
     return WithFault(fmt::format("no board of {} inner corners was found", asked), image);
-  const std::string found = fmt::format("{}x{}", search.other->columns, search.other->rows);
+  // Blur and glare make patterns of their own.
+  if (const std::string fault = RatingFault(RateImage(image, *search.other)); !fault.empty())
+    return fmt::format("no board of {} inner corners was found; {}", asked, fault);
+  int columns = search.other->columns, rows = search.other->rows;
+  // A board has no upright: as it is nearest to what was asked for.
+  if (std::abs(columns - board.columns) + std::abs(rows - board.rows) >
+      std::abs(rows - board.columns) + std::abs(columns - board.rows))
+    std::swap(columns, rows);
+  const std::string found = fmt::format("{}x{}", columns, rows);
   if (search.other_is_whole)
     return fmt::format("a board of {} inner corners was found where {} was asked for", found,
                        asked);

@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "core/base/contract.h"
 #include "core/calibration/corner_grid.h"
+#include "core/calibration/predefined_dictionary.h"
 #include "core/calibration/refine_corners.h"
 
 namespace foresight {
@@ -18,32 +18,6 @@ namespace {
 /// How far the markers beside a corner may disagree about it, in squares.
 constexpr double kLargestDisagreement = 0.2;
 constexpr double kLeastContrast = 15.0;
-
-cv::aruco::PREDEFINED_DICTIONARY_NAME NameOf(CalibrationBoard::Dictionary dictionary) {
-  using D = CalibrationBoard::Dictionary;
-  switch (dictionary) {
-    case D::k4x4_50:
-      return cv::aruco::DICT_4X4_50;
-    case D::k4x4_100:
-      return cv::aruco::DICT_4X4_100;
-    case D::k4x4_250:
-      return cv::aruco::DICT_4X4_250;
-    case D::k5x5_50:
-      return cv::aruco::DICT_5X5_50;
-    case D::k5x5_100:
-      return cv::aruco::DICT_5X5_100;
-    case D::k5x5_250:
-      return cv::aruco::DICT_5X5_250;
-    case D::k6x6_50:
-      return cv::aruco::DICT_6X6_50;
-    case D::k6x6_100:
-      return cv::aruco::DICT_6X6_100;
-    case D::k6x6_250:
-      return cv::aruco::DICT_6X6_250;
-  }
-  FORESIGHT_EXPECTS(false, "a dictionary of the enumeration");
-  return {};
-}
 
 /// A marker that was seen: from the plane of the print, in squares from its upper left corner, to
 /// pixels.
@@ -77,8 +51,9 @@ MarkersByNumber DetectMarkers(const cv::Mat& image, const CalibrationBoard& boar
   parameters->minMarkerPerimeterRate = 0.01;
   std::vector<std::vector<cv::Point2f>> corners;
   std::vector<int> numbers;
-  cv::aruco::detectMarkers(image, cv::aruco::getPredefinedDictionary(NameOf(board.dictionary)),
-                           corners, numbers, parameters);
+  cv::aruco::detectMarkers(
+      image, cv::aruco::getPredefinedDictionary(PredefinedDictionary(board.dictionary)), corners,
+      numbers, parameters);
   const std::vector<Square> squares = SquaresOfMarkers(board);
   MarkersByNumber markers;
   for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -19,6 +19,7 @@ namespace {
 constexpr double kEqualPrediction = 0.005;
 /// A relative standard deviation of the focal length that is worth a remark.
 constexpr double kRemarkableFocalSigma = 0.003;
+constexpr double kRemarkableRms_px = 0.9;
 
 double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -83,6 +84,18 @@ void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
         fmt::format("the images do not determine the lens: {}; {}", DescribeViews(bundle), kAdvice);
     return;
   }
+  if (calibration.rms_px > options.largest_rms_px) {
+    calibration.failure = fmt::format(
+        "corners are {:.1f} px (rms) off: the model is not that of the lens, or the "
+        "images are not of one camera with one zoom and focus",
+        calibration.rms_px);
+    return;
+  }
+  if (calibration.rms_px > kRemarkableRms_px)
+    calibration.warnings.push_back(fmt::format(
+        "corners are {:.2f} px (rms) off, where good images have 0.2 to 0.6 px: look for "
+        "another model, a changed zoom or focus, a board that bends",
+        calibration.rms_px));
   const CameraModel::Parameters sigmas = calibration.covariance->ValueSigmas();
   const double focal_sigma =
       std::max(sigmas[0] / calibration.camera.fx, sigmas[1] / calibration.camera.fy);
@@ -170,6 +183,9 @@ Status IntrinsicsOptions::Check() const {
                 corner_outlier_ratio);
   if (!(image_outlier_floor_px >= 0.0) || !(corner_outlier_floor_px >= 0.0))
     return Fail(ErrorCode::kInvalidOptions, "intrinsics: a floor of outliers is negative");
+  if (!(largest_rms_px > 0.0))
+    return Fail(ErrorCode::kInvalidOptions, "intrinsics: largest_rms_px {} is not positive",
+                largest_rms_px);
   if (!(largest_focal_sigma > 0.0))
     return Fail(ErrorCode::kInvalidOptions, "intrinsics: largest_focal_sigma {} is not positive",
                 largest_focal_sigma);

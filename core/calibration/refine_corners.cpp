@@ -44,7 +44,7 @@ std::optional<Eigen::Vector2d> RefineCorner(const GrayImage& image, const Eigen:
                    {cv::TermCriteria::EPS | cv::TermCriteria::MAX_ITER, 60, 1e-4});
   const Eigen::Vector2d corner(point[0].x, point[0].y);
   // OpenCV leaves the point where it was when the search left the window.
-  if (point[0] == start || (corner - guess).cwiseAbs().maxCoeff() > half) return std::nullopt;
+  if ((corner - guess).cwiseAbs().maxCoeff() > half) return std::nullopt;
   return corner;
 }
 

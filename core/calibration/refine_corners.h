@@ -5,7 +5,8 @@
 namespace foresight {
 
 /// The corner of a checkerboard next to `guess`: the point at which the image's gradients in a
-/// window of +- reach_px pass by sideways. nullopt where the search leaves the window or the image.
+/// window of +- reach_px pass by sideways; `guess` itself where there is none in the window.
+/// nullopt outside of the image.
 std::optional<Eigen::Vector2d> RefineCorner(const GrayImage& image, const Eigen::Vector2d& guess,
                                             double reach_px);
 

@@ -19,6 +19,7 @@ find_package(embree 3 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(hwy 1.0.3 CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(cairo REQUIRED QUIET IMPORTED_TARGET cairo-pdf)
 pkg_check_modules(modbus REQUIRED QUIET IMPORTED_TARGET libmodbus)
 pkg_check_modules(aravis REQUIRED QUIET IMPORTED_TARGET aravis-0.8)
 # -pthread only defines _REENTRANT with this glibc, and a file with it could not use the precompiled

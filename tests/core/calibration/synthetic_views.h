@@ -27,7 +27,7 @@ struct SyntheticOptions {
                         .cx = 650.3,
                         .cy = 477.1,
                         .lens = FisheyeLens{0.9413}};
-  BoardWarp warp;
+  BoardWarp warp = {};
   int views = 40;
   double noise_px = 0.287;  ///< an axis
   double nearest_m = 0.5, farthest_m = 1.2;
