@@ -1,5 +1,7 @@
 #include "core/calibration/chain_costs.h"
 
+#include <ceres/cost_function.h>
+
 #include <cmath>
 
 #include "core/base/contract.h"

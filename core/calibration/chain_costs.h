@@ -1,10 +1,13 @@
 #pragma once
 
-#include <ceres/cost_function.h>
-
+#include <array>
 #include <memory>
 
 #include "core/calibration/chain_problem.h"
+
+namespace ceres {
+class CostFunction;
+}
 
 // Residuals of the chain for Ceres, with their derivatives. A pose's parameter block is 7 doubles
 // (quaternion w x y z, translation); its derivatives are those by a step in its own frame
