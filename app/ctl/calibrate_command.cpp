@@ -285,6 +285,7 @@ void AddCalibrateCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* calibrate = app.add_subcommand("calibrate", "Calibrate a head from images of boards");
   calibrate->require_subcommand(1);
   AddIntrinsicsCommand(*calibrate, invocation);
+  AddCalibrateChainCommands(*calibrate, invocation);
 }
 
 }  // namespace foresight

@@ -32,6 +32,9 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);
 void AddCalibrateCommand(CLI::App& app, Invocation& invocation);
 void AddTargetCommand(CLI::App& app, Invocation& invocation);
+void AddSimulateCommand(CLI::App& app, Invocation& invocation);
+/// `calibrate` is the command of that name.
+void AddCalibrateChainCommands(CLI::App& calibrate, Invocation& invocation);
 
 /// Creates the folder for results. Fails with kIo.
 Status MakeOutputFolder(const std::string& folder);

@@ -29,6 +29,7 @@ int Main(int argc, char** argv) {
   AddRigCommand(app, invocation);
   AddCalibrateCommand(app, invocation);
   AddTargetCommand(app, invocation);
+  AddSimulateCommand(app, invocation);
   return RunProgram("foresightctl", app, argc, argv,
                     [&](const RunContext& context) { return invocation(context); });
 }

@@ -40,12 +40,17 @@ Status WriteHtmlReport(const HtmlReport& report, const std::filesystem::path& fo
       "<body><h1>{0}</h1>\n<p>{2}</p>\n",
       EscapeMarkup(report.title), kStyle, EscapeMarkup(report.summary));
   for (const auto& table : report.tables) html += TableHtml(table);
-  html += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
+  const bool has_figures = !report.charts.empty() || !report.pictures.empty();
+  if (has_figures) html += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
+  for (const auto& chart : report.charts)
+    html += "<figure>" + chart.svg + "<figcaption>" + EscapeMarkup(chart.caption) +
+            "</figcaption></figure>\n";
   for (const auto& picture : report.pictures) {
     FORESIGHT_CHECK(WritePng(folder / picture.file, picture.image));
     html += PictureHtml(picture);
   }
-  html += "</div>\n</body></html>\n";
+  if (has_figures) html += "</div>\n";
+  html += "</body></html>\n";
   return WriteFileAtomically(folder / "report.html", html);
 }
 

@@ -26,9 +26,15 @@ struct HtmlReport {
     ColorImage image;
   };
 
+  struct Chart {
+    std::string svg;  ///< text of its own, as SvgOf makes it
+    std::string caption;
+  };
+
   std::string title;
   std::string summary;  ///< one or two sentences
   std::vector<Table> tables;
+  std::vector<Chart> charts;
   std::vector<Picture> pictures;
 };
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/base/run_context.h"
+#include "core/calibration/calibration_session.h"
+
+namespace foresight {
+
+/// Reads a session's folder, docs/formats.md. Boards are looked for in its images, on all threads;
+/// an intrinsic image without a board is left out, a stop's image then shows nothing. Everything is
+/// checked, and an error names the file and the place in it. Files outside of the folder are
+/// refused.
+Result<CalibrationSession> ReadCalibrationSession(const std::filesystem::path& folder,
+                                                  const RunContext& context);
+
+/// What stands for the intrinsic views in a session's files; stops have corners.
+enum class SessionViews { kCorners, kImages };
+
+/// Writes a session into `folder`, which is made where it is not there; one that has files is
+/// refused. With kImages, session.yaml names an image of every intrinsic view instead of its
+/// corners, and the caller writes it. Reading gives the same session, but for the last digits of
+/// motor angles.
+Status WriteCalibrationSession(const CalibrationSession& session,
+                               const std::filesystem::path& folder,
+                               SessionViews views = SessionViews::kCorners);
+
+/// The image that session.yaml names then, in the session's folder.
+std::string ImageNameOfView(std::size_t view);
+
+}  // namespace foresight
