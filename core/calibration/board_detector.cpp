@@ -45,9 +45,10 @@ std::string WhyNotFound(const GrayImage& image, const CalibrationBoard& board,
                    image);
 }
 
-BoardDetection DetectCheckerboard(const GrayImage& image, const CalibrationBoard& board) {
+BoardDetection DetectCheckerboard(const GrayImage& image, const CalibrationBoard& board,
+                                  SearchEffort effort) {
   BoardDetection detection;
-  CheckerboardSearch search = FindCheckerboard(image, board.columns, board.rows);
+  CheckerboardSearch search = FindCheckerboard(image, board.columns, board.rows, effort);
   if (!search.grid) {
     detection.rejection = WhyNotFound(image, board, search);
     return detection;
@@ -97,10 +98,11 @@ BoardDetection DetectCharuco(const GrayImage& image, const CalibrationBoard& boa
 
 }  // namespace
 
-BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board) {
+BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board,
+                           SearchEffort effort) {
   FORESIGHT_EXPECTS(board.Check().has_value(), "a board that can be");
   return board.kind == CalibrationBoard::Kind::kCharuco ? DetectCharuco(image, board)
-                                                        : DetectCheckerboard(image, board);
+                                                        : DetectCheckerboard(image, board, effort);
 }
 
 }  // namespace foresight

@@ -5,6 +5,7 @@
 
 #include "core/base/image.h"
 #include "core/calibration/calibration_board.h"
+#include "core/calibration/checkerboard_finder.h"
 
 namespace foresight {
 
@@ -32,6 +33,7 @@ struct BoardDetection {
 /// seen in part (6 corners, not in one row). Corner 0 of a checkerboard that can be told from its
 /// opposite (CalibrationBoard::LooksSameUpsideDown) is the one beside the black square; of the
 /// others, either. @pre board.Check()
-BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board);
+BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board,
+                           SearchEffort effort = SearchEffort::kThorough);
 
 }  // namespace foresight

@@ -277,7 +277,8 @@ bool IsCorner(const GrayImage& image, const CornerGrid& grid, int column, int ro
   return darkest_light - lightest_dark > kLocalContrast * std::abs(contrast);
 }
 
-CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int rows) {
+CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int rows,
+                                    SearchEffort effort) {
   CheckerboardSearch search;
   const int side = std::max(image.width(), image.height());
   const auto found = [&](const std::optional<CornerGrid>& candidate) {
@@ -287,6 +288,7 @@ CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int row
   // Cheap first: most images are found in a tenth of a second.
   if (side > 700 && found(FindWithSectors(image, columns, rows, 0.5, kThorough))) return search;
   if (found(FindWithSectors(image, columns, rows, 1.0, kThorough))) return search;
+  if (effort == SearchEffort::kQuick) return search;
   search.other = GrownFromParts(image);
   if (search.other) {
     if (found(search.other)) return search;

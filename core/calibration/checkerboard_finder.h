@@ -15,12 +15,19 @@ struct CheckerboardSearch {
   bool other_is_whole = false;
 };
 
+/// How much time a search may take where there is no board.
+enum class SearchEffort {
+  kThorough,  ///< some seconds; says what is there instead
+  kQuick,     ///< tenths of a second: for many images of which most show the board, or none
+};
+
 /// The inner corners of a checkerboard of columns x rows, refined below a pixel, in any rotation.
 /// Two detectors of OpenCV at several scales, then growth from a part that one of them found: the
 /// squares of a fisheye image are curved and of very different sizes. What is found is checked:
 /// black and white squares must alternate around the corners, and the board must end beyond the
 /// outer ones. Up to some seconds where there is no board.
-CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int rows);
+CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int rows,
+                                    SearchEffort effort = SearchEffort::kThorough);
 
 /// Whether black and white squares alternate around the corner at a place of the grid, or where the
 /// grid would have one beyond its border; `contrast` as MeasureLevels has it.

@@ -74,6 +74,12 @@ ImageErrors ErrorsOf(const CameraBundle& bundle, std::size_t view, std::size_t i
   return errors;
 }
 
+/// A camera with more pixels has larger errors in pixels.
+double ErrorScale(const CameraModel& camera) {
+  constexpr double kUsualDiagonal_px = 1300.0;
+  return std::max(1.0, std::hypot(camera.width, camera.height) / kUsualDiagonal_px);
+}
+
 /// Says why a camera cannot be relied on, or what is weak about it.
 void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
            ModelCalibration& calibration) {
@@ -84,14 +90,15 @@ void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
         fmt::format("the images do not determine the lens: {}; {}", DescribeViews(bundle), kAdvice);
     return;
   }
-  if (calibration.rms_px > options.largest_rms_px) {
+  const double scale = ErrorScale(calibration.camera);
+  if (calibration.rms_px > scale * options.largest_rms_px) {
     calibration.failure = fmt::format(
         "corners are {:.1f} px (rms) off: the model is not that of the lens, or the "
         "images are not of one camera with one zoom and focus",
         calibration.rms_px);
     return;
   }
-  if (calibration.rms_px > kRemarkableRms_px)
+  if (calibration.rms_px > scale * kRemarkableRms_px)
     calibration.warnings.push_back(fmt::format(
         "corners are {:.2f} px (rms) off, where good images have 0.2 to 0.6 px: look for "
         "another model, a changed zoom or focus, a board that bends",

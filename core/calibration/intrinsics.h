@@ -39,7 +39,8 @@ struct IntrinsicsOptions {
   int min_images = 4;
   /// Beyond this relative standard deviation the focal length counts as not observed.
   double largest_focal_sigma = 0.02;
-  /// Beyond this rms the model does not describe the images.
+  /// Beyond this rms the model does not describe the images. In images with a diagonal of more than
+  /// 1300 px the limit grows with it.
   double largest_rms_px = 2.0;
 
   Status Check() const;

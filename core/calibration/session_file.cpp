@@ -334,6 +334,7 @@ struct ViewJob {
   ViewEntry entry;
   const CalibrationBoard* a = nullptr;
   const CalibrationBoard* b = nullptr;
+  SearchEffort effort = SearchEffort::kThorough;
   MountView view;
   Status status;
 };
@@ -350,9 +351,9 @@ Status LookAt(const fs::path& folder, const SensorRig& rig, ViewJob* job) {
   if (image.width() != rig.camera.width || image.height() != rig.camera.height)
     return Fail(ErrorCode::kBadData, "{}: {} x {} pixels, the rig's camera has {} x {}",
                 file.string(), image.width(), image.height(), rig.camera.width, rig.camera.height);
-  const auto find = [&image](const CalibrationBoard* board, std::optional<BoardView>* view) {
+  const auto find = [&](const CalibrationBoard* board, std::optional<BoardView>* view) {
     if (board == nullptr) return;
-    BoardDetection detection = DetectBoard(image, *board);
+    BoardDetection detection = DetectBoard(image, *board, job->effort);
     if (detection.rejection.empty()) *view = std::move(detection.view);
   };
   find(job->a, &job->view.a);
@@ -383,12 +384,13 @@ class Loader {
   Status LoadViews() {
     std::vector<ViewJob> jobs;
     for (const ViewEntry& entry : entry_.views)
-      jobs.push_back({entry, &session_.intrinsic_board, nullptr, {}, {}});
+      jobs.push_back({entry, &session_.intrinsic_board, nullptr, SearchEffort::kThorough, {}, {}});
     const CalibrationBoard* b = session_.mount.b ? &*session_.mount.b : nullptr;
     for (const PoseEntry& pose : entry_.poses)
       for (const StopEntry& stop : pose.stops)
         if (!stop.view.image.empty() || !stop.view.corners.empty())
-          jobs.push_back({stop.view, &session_.mount.a, b, {}, {}});
+          // At many stops no board is in sight, and nobody wants to know what is there instead.
+          jobs.push_back({stop.view, &session_.mount.a, b, SearchEffort::kQuick, {}, {}});
     std::atomic<int> done = 0;
     const int count = static_cast<int>(jobs.size());
     const bool finished = ParallelFor(count, context_, [&](int i) {

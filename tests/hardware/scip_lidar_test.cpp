@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "tests/hardware/scip_bench.h"
 
@@ -100,9 +101,13 @@ TEST(ScipLidar, TheRoundingOfTheStampsIsAveragedAway) {
     EXPECT_LT(std::abs(error), 1e-3);
     if (i >= 40) errors.push_back(error);
   }
+  // The mean is half the round trip, which is the machine's affair.
+  const double mean = std::accumulate(errors.begin(), errors.end(), 0.0) / 80.0;
+  for (double& error : errors) error -= mean;
   RecordProperty("rms_us", static_cast<int>(1e6 * Rms(errors)));
-  // Rounding alone would be 0.29 ms about its mean; what remains is mostly the round trip.
-  EXPECT_LT(Rms(errors), 0.25e-3);
+  std::printf("mean %.3f ms, rms about it %.3f ms\n", 1e3 * mean, 1e3 * Rms(errors));
+  // Rounding alone would be 0.29 ms.
+  EXPECT_LT(Rms(errors), 0.2e-3);
 }
 
 TEST(ScipLidar, TheCalibratedOffsetOfTheStampIsAdded) {

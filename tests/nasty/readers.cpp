@@ -282,10 +282,20 @@ class GoodFiles {
         ctl, {"scan", "--scene", kResources + "scenes/room.yaml", "--rig", *this / "rig.yaml",
               "--from", "-1", "--to", "1", "--speed", "40", "--out", *this / "mission.foresight"});
     if (scanned.exit_code != 0) return Fail(ErrorCode::kIo, "{}", scanned.errors);
-    return {};
+    FORESIGHT_CHECK(text("image.pgm", "P5\n96 72\n255\n" + std::string(kWidth * kHeight, 'x')));
+    for (const std::string format : {"opencv", "ros", "kalibr", "colmap"})
+      FORESIGHT_CHECK(Make(ctl, {"rig", "export", *this / "rig.yaml", "--format", format, "--out",
+                                 *this / ("camera." + format)}));
+    return Make(ctl, {"simulate", "calibration", *this / "session", "--views", "5", "--poses", "3",
+                      "--scans", "1", "--sweeps", "1"});
   }
 
  private:
+  static Status Make(const std::string& ctl, const std::vector<std::string>& arguments) {
+    const ProgramResult made = RunProgram(ctl, arguments);
+    if (made.exit_code == 0) return {};
+    return Fail(ErrorCode::kIo, "{} {}: {}", arguments[0], arguments[1], made.errors);
+  }
   Status WriteStereo() const {
     std::filesystem::create_directories(*this / "stereo");
     FORESIGHT_CHECK(WriteFileAtomically(*this / "stereo/calib.txt",
@@ -334,6 +344,33 @@ Command EvaluateWith(const GoodFiles& good, const std::string& file) {
                                       too_long);
     }
     return std::vector<std::string>{"evaluate", scene.string(), "--json"};
+  };
+}
+
+/// The session with one of its files replaced.
+Command CalibrateWith(const GoodFiles& good, const std::string& file, const char* stage) {
+  return
+      [session = good / "session", file, stage](const std::string& path, const std::string& out) {
+        const std::filesystem::path copy = std::filesystem::path(out) / "session";
+        std::filesystem::copy(session, copy, std::filesystem::copy_options::recursive);
+        std::error_code not_there;  // a path that is nasty itself
+        std::filesystem::copy_file(path, copy / file,
+                                   std::filesystem::copy_options::overwrite_existing, not_there);
+        return std::vector<std::string>{"calibrate", stage, copy.string(), "--json"};
+      };
+}
+
+Command ImportAs(const char* format) {
+  return [format](const std::string& path, const std::string& out) {
+    return std::vector<std::string>{"rig",   "import",        path,    "--format", format,
+                                    "--out", out + "/o.yaml", "--json"};
+  };
+}
+
+Command CalibrateFrom() {
+  return [](const std::string& path, const std::string&) {
+    return std::vector<std::string>{"calibrate", "intrinsics",          path,
+                                    "--board",   "checkerboard:7x6:25", "--json"};
   };
 }
 
@@ -414,6 +451,31 @@ Result<std::vector<Reader>> AllReaders(const std::string& folder, const std::str
         return std::vector<std::string>{"emulate",   room,   "--faults", path,
                                         "--seconds", "0.05", "--json"};
       });
+  add("image of a board", "nasty.png", false, good / "image.png", WrongPng(), CalibrateFrom());
+  add("grey image of a board", "nasty.pgm", false, good / "image.pgm",
+      {"P5\n2000000000 2000000000\n255\n", "P5\n20000 20000\n255\n", "P5\n-1 5\n255\n",
+       "P5\n96 72\n65535\n", "P5\n# x\n", "P2\n1 1\n255\n7\n"},
+      CalibrateFrom());
+  add("JPEG of a board", "nasty.jpg", false, good / "image.pgm",
+      {"\xff\xd8\xff\xe0", "\xff\xd8\xff\xdb\xff\xff" + Repeated("x", 100'000),
+       "\xff\xd8\xff\xc0" + std::string("\0\x11\x08\xff\xff\xff\xff\x03", 8)},
+      CalibrateFrom());
+  add("session", "session.yaml", true, good / "session/session.yaml",
+      WrongYaml("foresight_calibration_session: 1\n"),
+      CalibrateWith(good, "session.yaml", "motor"));
+  add("corners of a view", "001.csv", true, good / "session/intrinsic/001.csv", {},
+      CalibrateWith(good, "intrinsic/001.csv", "motor"));
+  add("lines of a stop", "stop_01_lines.csv", true, good / "session/pose_01/stop_01_lines.csv", {},
+      CalibrateWith(good, "pose_01/stop_01_lines.csv", "lidar"));
+  add("camera of OpenCV", "nasty.yml", true, good / "camera.opencv", WrongYaml("%YAML:1.0\n---\n"),
+      ImportAs("opencv"));
+  add("camera of ROS", "nasty.yaml", true, good / "camera.ros", WrongYaml("image_width: 1\n"),
+      ImportAs("ros"));
+  add("camera of Kalibr", "nasty.yaml", true, good / "camera.kalibr", WrongYaml("cam0:\n"),
+      ImportAs("kalibr"));
+  add("camera of COLMAP", "nasty.txt", true, good / "camera.colmap",
+      {"1 FOV 1288 964 nan 1 1 1 1\n", "1 FOV 999999999 999999999 1 1 1 1 1\n", "1 FOV 1288\n"},
+      ImportAs("colmap"));
   // The mission's name is taken by a folder, so that no device is looked for.
   add(
       "plan", "nasty.json", true, good / "plan.json", WrongJson(),

@@ -12,6 +12,7 @@
 #include "core/calibration/board_images.h"
 #include "core/io/png.h"
 #include "tests/core/calibration/synthetic_views.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {
@@ -137,18 +138,13 @@ TEST(BoardDetector, RatesSharpnessAndCoverage) {
 
 class ImageFolder {
  public:
-  ImageFolder() : folder_(std::filesystem::path(testing::TempDir()) / "board_images") {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~ImageFolder() { std::filesystem::remove_all(folder_); }
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Path(const std::string& name) const { return folder_ / name; }
   void Add(const std::string& name, const GrayImage& image) const {
     ASSERT_TRUE(WritePng(Path(name), image));
   }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST(BoardImages, NamesEachFileThatCannotBeUsedAndWhy) {

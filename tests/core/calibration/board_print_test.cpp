@@ -9,6 +9,7 @@
 #include "core/base/atomic_file.h"
 #include "core/calibration/board_detector.h"
 #include "core/io/image_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {
@@ -18,15 +19,14 @@ using testing::HasSubstr;
 /// The PDF's page as poppler's pdftoppm draws it; nullopt where that program is missing.
 std::optional<GrayImage> Rasterised(const std::string& pdf, int dots_per_inch) {
   if (std::system("command -v pdftoppm > /dev/null 2>&1") != 0) return std::nullopt;
-  const std::string stem = testing::TempDir() + "board_print";
+  const TemporaryFolder folder;
+  const std::string stem = folder / "board";
   EXPECT_TRUE(WriteFileAtomically(stem + ".pdf", pdf));
   const std::string command = "pdftoppm -r " + std::to_string(dots_per_inch) +
                               " -gray -singlefile '" + stem + ".pdf' '" + stem + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
   auto image = ReadImageGray(stem + ".pgm");
   EXPECT_TRUE(image) << image.error().message;
-  std::filesystem::remove(stem + ".pdf");
-  std::filesystem::remove(stem + ".pgm");
   return image ? std::optional(std::move(*image)) : std::nullopt;
 }
 
