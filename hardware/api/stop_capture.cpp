@@ -1,6 +1,5 @@
 #include "hardware/api/stop_capture.h"
 
-#include "core/geometry/angles.h"
 #include "core/sensor/scan_plan.h"
 
 namespace foresight {
@@ -13,7 +12,7 @@ Status StopPlan::Check() const {
     if (!(angle_rad >= ScanPlan::kMinAngle_rad && angle_rad <= ScanPlan::kMaxAngle_rad))
       return Fail(ErrorCode::kInvalidOptions,
                   "angles_rad: a stop at {:.2f} deg is not within -90 to 90",
-                  DegreesFromRadians(angle_rad));
+                  57.29577951308232 * angle_rad);
   if (lines < 0 || lines > kMostLines)
     return Fail(ErrorCode::kInvalidOptions, "lines: {} is not within 0 to {}", lines, kMostLines);
   if (lines == 0 && !image)

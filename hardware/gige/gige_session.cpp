@@ -48,10 +48,10 @@ struct GigeSession::Impl {
   static void OnStream(void* self, ArvStreamCallbackType type, ArvBuffer* /*buffer*/) {
     if (type == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE) static_cast<Impl*>(self)->wake();
   }
-  static void OnControlLost(ArvDevice* /*device*/, void* self) {
-    static_cast<Impl*>(self)->answering = false;
-    static_cast<Impl*>(self)->wake();
-  }
+  /// Asked for, and not heard from the signal "control-lost": Aravis' heartbeat thread holds a
+  /// reference while it emits that. Dropped meanwhile, the device would be destroyed by that
+  /// thread, which then waits for itself, and GLib ends the program.
+  bool InControl() const { return arv_gv_device_is_controller(ARV_GV_DEVICE(device.get())) != 0; }
 
   const GigeCameraOptions options;
   const std::function<void()> wake;
@@ -59,7 +59,6 @@ struct GigeSession::Impl {
   Limits limits;
   double ticks_per_s = 0.0;
   bool has_thermometer = false;
-  gulong control_lost_handler = 0;
   ArvHandle<ArvDevice> device;
   ArvHandle<ArvCamera> camera;
   ArvHandle<ArvStream> stream;
@@ -67,8 +66,7 @@ struct GigeSession::Impl {
 
 /// Stopping asks the camera: not one that does not answer.
 GigeSession::Impl::~Impl() {
-  if (control_lost_handler != 0) g_signal_handler_disconnect(device.get(), control_lost_handler);
-  if (stream && answering) arv_camera_stop_acquisition(camera.get(), nullptr);
+  if (stream && answering && InControl()) arv_camera_stop_acquisition(camera.get(), nullptr);
 }
 
 Status GigeSession::Impl::Open() {
@@ -92,11 +90,9 @@ Status GigeSession::Impl::OpenDevice() {
   FORESIGHT_CHECK(Judge(failure, "cannot open"));
   if (!device) return Fail(ErrorCode::kDevice, "cannot open");
   // Open nonetheless: Aravis leaves a device readable that somebody else controls.
-  if (!arv_gv_device_is_controller(ARV_GV_DEVICE(device.get())))
+  if (!InControl())
     return Fail(ErrorCode::kDevice,
                 "is controlled by another client, or by one that crashed a few seconds ago");
-  control_lost_handler =
-      g_signal_connect(device.get(), "control-lost", G_CALLBACK(OnControlLost), this);
   // Raw packet sockets need rights that the program must not have.
   arv_gv_device_set_stream_options(ARV_GV_DEVICE(device.get()),
                                    ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
@@ -272,7 +268,7 @@ Status GigeSession::Probe() {
 }
 
 bool GigeSession::answering() const {
-  return impl_->answering;
+  return impl_->answering && impl_->InControl();
 }
 
 GigeSession::Counts GigeSession::counts() const {

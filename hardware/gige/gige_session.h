@@ -45,8 +45,9 @@ class GigeSession {
     std::int64_t missing_packets = 0;
   };
 
-  /// `wake` is called from threads of Aravis when an image has come or control was lost; it lives
-  /// as long as the session. Fails also while another client controls the camera.
+  /// `wake` is called from a thread of Aravis when an image has come; it lives as long as the
+  /// session. Loss of control shows in answering(). Fails also while another client controls the
+  /// camera.
   static Result<std::unique_ptr<GigeSession>> Open(const GigeCameraOptions& options,
                                                    std::function<void()> wake);
   ~GigeSession();
