@@ -30,6 +30,8 @@ void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 void AddHealthCommand(CLI::App& app, Invocation& invocation);
 void AddMissionCommand(CLI::App& app, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);
+void AddCalibrateCommand(CLI::App& app, Invocation& invocation);
+void AddTargetCommand(CLI::App& app, Invocation& invocation);
 
 /// Creates the folder for results. Fails with kIo.
 Status MakeOutputFolder(const std::string& folder);

@@ -27,6 +27,8 @@ int Main(int argc, char** argv) {
   AddHealthCommand(app, invocation);
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);
+  AddCalibrateCommand(app, invocation);
+  AddTargetCommand(app, invocation);
   return RunProgram("foresightctl", app, argc, argv,
                     [&](const RunContext& context) { return invocation(context); });
 }

@@ -2,6 +2,8 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "core/base/atomic_file.h"
+#include "core/calibration/camera_formats.h"
 #include "core/geometry/angles.h"
 #include "core/sensor/rig_id.h"
 #include "core/sensor/sensor_rig.h"
@@ -11,6 +13,9 @@ namespace {
 
 struct RigArguments {
   std::string file;
+  std::string format;
+  std::string rig;
+  std::string out;
   bool json = false;
 };
 
@@ -146,6 +151,52 @@ Result<ExitCode> ShowRig(const RigArguments& arguments) {
   return ExitCode::kDone;
 }
 
+Result<ExitCode> ExportRig(const RigArguments& arguments) {
+  FORESIGHT_TRY(const CameraFormat format, CameraFormatFromText(arguments.format));
+  FORESIGHT_TRY(const SensorRig rig, LoadSensorRig(arguments.file));
+  FORESIGHT_TRY(const CameraExport camera, ExportCamera(rig.camera, format));
+  FORESIGHT_CHECK(WriteFileAtomically(arguments.out, camera.text));
+  if (arguments.json) {
+    nlohmann::ordered_json json = {
+        {"file", arguments.out}, {"model", camera.model}, {"refit", camera.refit.has_value()}};
+    if (camera.refit) {
+      json["max_error_px"] = camera.refit->max_error_px;
+      json["rms_error_px"] = camera.refit->rms_error_px;
+      json["max_error_at"] = {camera.refit->max_at.x(), camera.refit->max_at.y()};
+      json["pixels_not_shown"] = camera.refit->not_shown;
+    }
+    PrintJson(json);
+    return ExitCode::kDone;
+  }
+  PrintLine(fmt::format("{}: {} for {}", arguments.out, camera.model, ToString(format)));
+  if (camera.refit)
+    PrintLine(fmt::format(
+        "{} has no name for the model {}: a refit was written, off by {:.4f} px at most (near "
+        "{:.0f}, {:.0f}) and {:.4f} px rms{}",
+        ToString(format), rig.camera.Key(), camera.refit->max_error_px, camera.refit->max_at.x(),
+        camera.refit->max_at.y(), camera.refit->rms_error_px,
+        camera.refit->not_shown == 0 ? "" : "; it does not show all of the image"));
+  return ExitCode::kDone;
+}
+
+Result<ExitCode> ImportRig(const RigArguments& arguments) {
+  FORESIGHT_TRY(const CameraFormat format, CameraFormatFromText(arguments.format));
+  FORESIGHT_TRY(const std::string text, ReadFile(arguments.file));
+  FORESIGHT_TRY(const CameraModel camera, ImportCamera(text, format, arguments.file));
+  SensorRig rig = DefaultSensorRig();
+  if (!arguments.rig.empty()) {
+    FORESIGHT_TRY(rig, LoadSensorRig(arguments.rig));
+  }
+  rig.parent_id = RigId(rig);
+  rig.date_utc.clear();  // when that camera was calibrated is not known
+  rig.camera = camera;
+  FORESIGHT_CHECK(SaveSensorRig(rig, arguments.out));
+  PrintLine(arguments.json ? ToJson(rig).dump(2)
+                           : fmt::format("{}: rig {} with a {} camera", arguments.out,
+                                         ShortRigId(rig), camera.Name()));
+  return ExitCode::kDone;
+}
+
 }  // namespace
 
 void AddRigCommand(CLI::App& app, Invocation& invocation) {
@@ -158,6 +209,27 @@ void AddRigCommand(CLI::App& app, Invocation& invocation) {
   show->add_flag("--json", arguments->json, "Print all values as JSON");
   show->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext&) { return ShowRig(*arguments); };
+  });
+  constexpr const char* kFormats = "opencv, ros (camera_info), kalibr (camchain), colmap";
+  CLI::App* to_others =
+      rig->add_subcommand("export", "Write a rig's camera as other programs read it");
+  to_others->add_option("file", arguments->file, "The rig (YAML)")->required();
+  to_others->add_option("--format", arguments->format, kFormats)->required();
+  to_others->add_option("--out", arguments->out, "The file")->required();
+  to_others->add_flag("--json", arguments->json, "Print the model and the refit's errors as JSON");
+  to_others->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext&) { return ExportRig(*arguments); };
+  });
+  CLI::App* from_others =
+      rig->add_subcommand("import", "Put a camera that another program calibrated into a rig");
+  from_others->add_option("file", arguments->file, "That program's file")->required();
+  from_others->add_option("--format", arguments->format, kFormats)->required();
+  from_others->add_option("--rig", arguments->rig,
+                          "The rig that gets the camera; else the default one");
+  from_others->add_option("--out", arguments->out, "The new rig (YAML)")->required();
+  from_others->add_flag("--json", arguments->json, "Print all values as JSON");
+  from_others->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext&) { return ImportRig(*arguments); };
   });
 }
 

@@ -1,0 +1,86 @@
+#include "core/calibration/board_print.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/base/atomic_file.h"
+#include "core/calibration/board_detector.h"
+#include "core/io/image_file.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+/// The PDF's page as poppler's pdftoppm draws it; nullopt where that program is missing.
+std::optional<GrayImage> Rasterised(const std::string& pdf, int dots_per_inch) {
+  if (std::system("command -v pdftoppm > /dev/null 2>&1") != 0) return std::nullopt;
+  const std::string stem = testing::TempDir() + "board_print";
+  EXPECT_TRUE(WriteFileAtomically(stem + ".pdf", pdf));
+  const std::string command = "pdftoppm -r " + std::to_string(dots_per_inch) +
+                              " -gray -singlefile '" + stem + ".pdf' '" + stem + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  auto image = ReadImageGray(stem + ".pgm");
+  EXPECT_TRUE(image) << image.error().message;
+  std::filesystem::remove(stem + ".pdf");
+  std::filesystem::remove(stem + ".pgm");
+  return image ? std::optional(std::move(*image)) : std::nullopt;
+}
+
+TEST(BoardPrint, PrintsWhatTheDetectorFindsInItsTrueSize) {
+  for (const char* text : {"checkerboard:7x6:25", "charuco:7x6:25", "charuco:8x5:25:18:4x4_50"}) {
+    SCOPED_TRACE(text);
+    const CalibrationBoard board = CalibrationBoardFromText(text).value();
+    const auto pdf = BoardPdf(board, PaperFromText("A4", board).value());
+    ASSERT_TRUE(pdf) << pdf.error().message;
+    constexpr int kDotsPerInch = 200;
+    const auto image = Rasterised(*pdf, kDotsPerInch);
+    if (!image) GTEST_SKIP() << "needs pdftoppm (poppler-utils)";
+    const BoardDetection found = DetectBoard(*image, board);
+    ASSERT_EQ(found.rejection, "");
+    ASSERT_EQ(found.view.pixels.size(), static_cast<std::size_t>(board.CornerCount()));
+    // Every corner lies where its size says, in dots, against corner 0.
+    const double dots_per_m = kDotsPerInch / 0.0254;
+    for (std::size_t i = 0; i < found.view.pixels.size(); ++i) {
+      const Eigen::Vector2d expected =
+          found.view.pixels[0] +
+          dots_per_m * (board.Corner(found.view.corner_ids[i]) - board.Corner(0)).head<2>();
+      // pdftoppm rounds where each square begins to dots, of 0.13 mm.
+      EXPECT_LT((found.view.pixels[i] - expected).norm(), 1.2);
+    }
+  }
+}
+
+TEST(BoardPrint, TwoPrintsOfOneBoardAreEqual) {
+  const CalibrationBoard board = CalibrationBoardFromText("charuco:7x6:25").value();
+  const Paper paper = PaperFromText("A4", board).value();
+  EXPECT_EQ(BoardPdf(board, paper).value(), BoardPdf(board, paper).value());
+}
+
+TEST(BoardPrint, SaysThatABoardDoesNotFit) {
+  const CalibrationBoard board = CalibrationBoardFromText("checkerboard:7x6:50").value();
+  const auto pdf = BoardPdf(board, PaperFromText("A4", board).value());
+  ASSERT_FALSE(pdf);
+  EXPECT_THAT(pdf.error().message, HasSubstr("400 x 350 mm and 14 mm all round do not fit on A4"));
+  EXPECT_TRUE(BoardPdf(board, PaperFromText("fit", board).value()));
+  EXPECT_TRUE(BoardPdf(board, PaperFromText("500x400", board).value()));
+  EXPECT_THAT(PaperFromText("A7", board).error().message, HasSubstr("paper 'A7' is not A4"));
+}
+
+TEST(BoardPrint, DrawsTheMount) {
+  const CalibrationBoard board = CalibrationBoardFromText("checkerboard:7x6:50").value();
+  const auto pdf = TwoBoardMountPdf(board);
+  ASSERT_TRUE(pdf);
+  EXPECT_EQ(pdf->substr(0, 5), "%PDF-");
+  const auto image = Rasterised(*pdf, 50);
+  if (!image) GTEST_SKIP() << "needs pdftoppm (poppler-utils)";
+  int black = 0;
+  for (const std::uint8_t grey : image->values()) black += grey < 64 ? 1 : 0;
+  EXPECT_GT(black, 2000);
+}
+
+}  // namespace
+}  // namespace foresight
