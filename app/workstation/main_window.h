@@ -75,6 +75,7 @@ class MainWindow : public QMainWindow {
   ads::CDockManager* docks_ = nullptr;
   ads::CDockWidget* gallery_dock_ = nullptr;
   ads::CDockWidget* options_dock_ = nullptr;
+  ads::CDockWidget* calibration_dock_ = nullptr;
   QMenu* view_menu_ = nullptr;
   QByteArray first_layout_;
 };

@@ -138,11 +138,7 @@ CalibrationCheck CheckNumber(const ViewCoverage& coverage) {
 
 CameraCalibrationModel::CameraCalibrationModel(HeadViewModel* head, SessionModel* session,
                                                const QString& folder, QObject* parent)
-    : QObject(parent),
-      head_(head),
-      session_(session),
-      root_(folder.isEmpty() ? DefaultFolder() : folder),
-      rig_(head, session) {
+    : QObject(parent), head_(head), session_(session), root_(folder), rig_(head, session) {
   for (TaskRunner* runner : {&reader_, &solver_, &keeper_})
     connect(runner, &TaskRunner::changed, this, &CameraCalibrationModel::changed);
   connect(&rig_, &RigVersionModel::changed, this, &CameraCalibrationModel::changed);
@@ -158,12 +154,16 @@ QString CameraCalibrationModel::DefaultFolder() {
       .filePath(QStringLiteral("calibrations"));
 }
 
+QString CameraCalibrationModel::Root() const {
+  return root_.isEmpty() ? DefaultFolder() : root_;
+}
+
 QString CameraCalibrationModel::LastSession() const {
   // Names begin with the date and the time.
   const QStringList names =
-      QDir(root_).entryList({QStringLiteral("camera-*")}, QDir::Dirs, QDir::Name | QDir::Reversed);
+      QDir(Root()).entryList({QStringLiteral("camera-*")}, QDir::Dirs, QDir::Name | QDir::Reversed);
   for (const QString& name : names) {
-    const QString path = QDir(root_).filePath(name);
+    const QString path = QDir(Root()).filePath(name);
     if (path != folder_ && IsCameraSession(path.toStdString())) return path;
   }
   return {};
@@ -172,9 +172,9 @@ QString CameraCalibrationModel::LastSession() const {
 void CameraCalibrationModel::MakeFolder() {
   if (!folder_.isEmpty()) return;
   const QString now = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-HHmmss"));
-  folder_ = QDir(root_).filePath(QStringLiteral("camera-") + now);
+  folder_ = QDir(Root()).filePath(QStringLiteral("camera-") + now);
   for (int i = 2; QDir(folder_).exists(); ++i)
-    folder_ = QDir(root_).filePath(QStringLiteral("camera-%1-%2").arg(now).arg(i));
+    folder_ = QDir(Root()).filePath(QStringLiteral("camera-%1-%2").arg(now).arg(i));
   QDir().mkpath(QString::fromStdString(CameraSessionImages(folder_.toStdString()).string()));
   rig_.SetFolder(folder_);
 }
@@ -182,7 +182,8 @@ void CameraCalibrationModel::MakeFolder() {
 void CameraCalibrationModel::Clear() {
   reader_.cancel();
   solver_.cancel();
-  ++board_version_;  // answers that are on their way are of no image any more
+  ++session_version_;  // answers that are on their way are of no image any more
+  ++solve_version_;
   entries_.clear();
   folder_.clear();
   next_number_ = 1;
@@ -307,11 +308,12 @@ void CameraCalibrationModel::Read(const CameraSessionImage& image, bool on_disk,
     result.image = InspectBoardImage(gray, board);
     return result;
   };
-  reader_.Run<ReadResult>(
-      tr("Looking for the board"), work,
-      [this, name = image.file, version = board_version_](Result<ReadResult> read) {
-        TakeRead(name, version, std::move(read));
-      });
+  reader_.Run<ReadResult>(tr("Looking for the board"), work,
+                          [this, name = image.file, session = session_version_,
+                           version = board_version_](Result<ReadResult> read) {
+                            if (session == session_version_)
+                              TakeRead(name, version, std::move(read));
+                          });
 }
 
 void CameraCalibrationModel::ReadAgain(const Entry& entry) {
@@ -346,6 +348,8 @@ void CameraCalibrationModel::TakeRead(const std::string& file, int board_version
     entry->image.fault = read.error().code == ErrorCode::kCancelled
                              ? "it was not looked at: that was cancelled"
                              : read.error().message;
+    if (const std::string prefix = file + ": "; entry->image.fault.starts_with(prefix))
+      entry->image.fault.erase(0, prefix.size());  // the image is named beside the reason
   }
   Changed();
 }
@@ -419,18 +423,13 @@ void CameraCalibrationModel::Keep() {
       },
       [this](const Result<bool>& kept) {
         if (!kept) session_->Report(NoticeOf(tr("Keeping the calibration"), kept.error()));
-        // Not from here: the runner counts as busy until its queue has been looked at.
-        QMetaObject::invokeMethod(
-            this,
-            [this] {
-              Advance();
-              Announce();
-            },
-            Qt::QueuedConnection);
+        Advance();
+        Announce();
       });
 }
 
 void CameraCalibrationModel::StartSolve() {
+  const int version = ++solve_version_;
   if (static_cast<int>(sorted_.images.size()) < kMinImages) {
     solver_.cancel();
     result_.reset();
@@ -451,7 +450,8 @@ void CameraCalibrationModel::StartSolve() {
   for (const IntrinsicsImage& image : images) files.push_back(image.name);
   solver_.Run<IntrinsicsCalibration>(
       tr("Calibrating the camera"), work,
-      [this, files = std::move(files)](Result<IntrinsicsCalibration> result) mutable {
+      [this, version, files = std::move(files)](Result<IntrinsicsCalibration> result) mutable {
+        if (version != solve_version_) return;
         solved_files_ = std::move(files);
         TakeResult(std::move(result));
       });
@@ -532,6 +532,13 @@ int CameraCalibrationModel::UsedCount() const {
   return static_cast<int>(std::count_if(rows_.begin(), rows_.end(), [](const auto& row) {
     return row.state == CalibrationImageRow::State::kUsed;
   }));
+}
+
+int CameraCalibrationModel::ReadPermille() const {
+  if (entries_.empty()) return 0;
+  const auto read = std::count_if(entries_.begin(), entries_.end(),
+                                  [](const Entry& entry) { return entry.read; });
+  return static_cast<int>(1000 * read / static_cast<std::ptrdiff_t>(entries_.size()));
 }
 
 QString CameraCalibrationModel::StateText() const {

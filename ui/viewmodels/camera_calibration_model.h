@@ -84,6 +84,9 @@ class CameraCalibrationModel : public QObject {
 
   bool Reading() const { return reader_.Busy(); }
   bool Solving() const { return solver_.Busy(); }
+  /// Of the images that are being read, and of the solve.
+  int ReadPermille() const;
+  int SolvePermille() const { return solver_.Permille(); }
   bool Busy() const { return Reading() || Solving() || keeper_.Busy() || rig_.Busy(); }
   /// What goes on, or what is missing for a result, as a sentence.
   QString StateText() const;
@@ -140,6 +143,7 @@ class CameraCalibrationModel : public QObject {
     GrayImage thumbnail;
   };
 
+  QString Root() const;
   void MakeFolder();
   void Clear();
   std::string NewFileName(const std::string& name);
@@ -168,6 +172,8 @@ class CameraCalibrationModel : public QObject {
   std::vector<Entry> entries_;
   int next_number_ = 1;
   int board_version_ = 0;
+  int session_version_ = 0;
+  int solve_version_ = 0;
   BoardImages sorted_;  ///< of the images that are not excluded
   std::vector<CalibrationImageRow> rows_;
   int width_ = 0;
