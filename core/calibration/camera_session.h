@@ -23,7 +23,7 @@ struct CameraSessionImage {
 struct CameraSession {
   CalibrationBoard board;
   std::vector<LensModel> models;
-  std::vector<CameraSessionImage> images;
+  std::vector<CameraSessionImage> images = {};
 
   bool operator==(const CameraSession&) const = default;
 };

@@ -177,7 +177,7 @@ TEST_F(RigVersionTest, ANewVersionNamesItsParentAndReplacesNoFile) {
   EXPECT_EQ(saved->parent_id, old_id);
   EXPECT_FALSE(saved->date_utc.empty());
   EXPECT_EQ(saved->camera, SmallCamera());
-  EXPECT_EQ(saved->camera_from_lidar.matrix(), head->Rig().camera_from_lidar.matrix());
+  EXPECT_EQ(saved->camera_from_lidar.Matrix(), head->Rig().camera_from_lidar.Matrix());
   notices.clear();
   ASSERT_TRUE(Save());
   ASSERT_EQ(notices.size(), 1u);

@@ -21,10 +21,10 @@ struct CalibrationImageRow {
   QString name;
   QString origin;  ///< the file that it came from, or the head
   State state = State::kReading;
-  QString reason;  ///< why it is not used, in words
-  ImageRating rating;
+  QString reason = {};  ///< why it is not used, in words
+  ImageRating rating = {};
   double rms_px = std::numeric_limits<double>::quiet_NaN();  ///< under the chosen model
-  GrayImage thumbnail;
+  GrayImage thumbnail = {};
 };
 
 /// One model of a result as a panel shows it.
@@ -33,8 +33,8 @@ struct CalibrationModelRow {
   double mean_error_px = 0.0;
   double rms_px = 0.0;
   double cross_validation_px = 0.0;  ///< NaN: too few images
-  QString parameters;                ///< one a line, with its standard deviation
-  QString failure;                   ///< why it cannot be used
+  QString parameters = {};           ///< one a line, with its standard deviation
+  QString failure = {};              ///< why it cannot be used
 };
 
 /// One thing that was compared with its limit.
@@ -134,13 +134,13 @@ class CameraCalibrationModel : public QObject {
     CameraSessionImage kept;
     bool on_disk = false;  ///< in the session's folder
     bool read = false;
-    BoardImage image;
-    GrayImage thumbnail;
+    BoardImage image = {};
+    GrayImage thumbnail = {};
   };
   struct ReadResult {
     bool on_disk = false;
-    BoardImage image;
-    GrayImage thumbnail;
+    BoardImage image = {};
+    GrayImage thumbnail = {};
   };
 
   QString Root() const;
