@@ -230,8 +230,7 @@ Status CameraCalibrationModel::SetBoard(const CalibrationBoard& board) {
   FORESIGHT_CHECK(board.Check());
   if (board == board_) return {};
   board_ = board;
-  ++board_version_;
-  reader_.cancel();
+  ++*board_version_;
   for (Entry& entry : entries_) {
     if (!entry.on_disk) continue;
     entry.read = false;
@@ -297,23 +296,23 @@ void CameraCalibrationModel::Read(const CameraSessionImage& image, bool on_disk,
     entries_.push_back({.kept = image, .on_disk = on_disk});
   MakeFolder();
   const auto file = CameraSessionImages(folder_.toStdString()) / image.file;
-  const auto work = [file, on_disk, bytes = std::move(bytes),
-                     board = board_](const RunContext& context) -> Result<ReadResult> {
+  const int version = *board_version_;
+  const auto work = [file, on_disk, bytes = std::move(bytes), board = board_, version,
+                     newest = board_version_](const RunContext& context) -> Result<ReadResult> {
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "it was cancelled");
     FORESIGHT_TRY(const std::string content, bytes());
     FORESIGHT_TRY(const GrayImage gray, DecodeImageGray(content, file.filename().string()));
     // On the disk before anything is computed from it: a crash loses no image.
     if (!on_disk) FORESIGHT_CHECK(WriteFileAtomically(file, content));
     ReadResult result{.on_disk = true, .thumbnail = ThumbnailOf(gray)};
-    result.image = InspectBoardImage(gray, board);
+    if (version == *newest) result.image = InspectBoardImage(gray, board);
     return result;
   };
-  reader_.Run<ReadResult>(tr("Looking for the board"), work,
-                          [this, name = image.file, session = session_version_,
-                           version = board_version_](Result<ReadResult> read) {
-                            if (session == session_version_)
-                              TakeRead(name, version, std::move(read));
-                          });
+  reader_.Run<ReadResult>(
+      tr("Looking for the board"), work,
+      [this, name = image.file, session = session_version_, version](Result<ReadResult> read) {
+        if (session == session_version_) TakeRead(name, version, std::move(read));
+      });
 }
 
 void CameraCalibrationModel::ReadAgain(const Entry& entry) {
@@ -327,7 +326,7 @@ void CameraCalibrationModel::TakeRead(const std::string& file, int board_version
     return candidate.kept.file == file;
   });
   if (entry == entries_.end()) return;
-  if (board_version != board_version_) {
+  if (board_version != *board_version_) {
     // It came too late, with an older board; where it is kept it was asked for again.
     if (read && !entry->on_disk) {
       entry->on_disk = true;

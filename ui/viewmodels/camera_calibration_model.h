@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QString>
 #include <QStringList>
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -171,7 +172,8 @@ class CameraCalibrationModel : public QObject {
   std::vector<LensModel> models_ = IntrinsicsOptions().models;
   std::vector<Entry> entries_;
   int next_number_ = 1;
-  int board_version_ = 0;
+  /// Counts boards; shared with the reading threads, which look for no board of yesterday.
+  std::shared_ptr<std::atomic<int>> board_version_ = std::make_shared<std::atomic<int>>(0);
   int session_version_ = 0;
   int solve_version_ = 0;
   BoardImages sorted_;  ///< of the images that are not excluded
