@@ -32,6 +32,21 @@ constexpr std::array<LensModel, 4> kModels = {LensModel::kFisheyeK, LensModel::k
                                               LensModel::kKannalaBrandt,
                                               LensModel::kRadialTangential};
 
+/// As checkbox and table have room for it.
+QString NameOf(LensModel model) {
+  switch (model) {
+    case LensModel::kFisheyeK:
+      return CameraCalibrationPanel::tr("k");
+    case LensModel::kExtendedUnified:
+      return CameraCalibrationPanel::tr("EUCM");
+    case LensModel::kKannalaBrandt:
+      return CameraCalibrationPanel::tr("KB4");
+    case LensModel::kRadialTangential:
+      break;
+  }
+  return CameraCalibrationPanel::tr("radtan");
+}
+
 QLabel* Section(const QString& text) {
   auto* label = new QLabel(text);
   label->setObjectName(QStringLiteral("sectionTitle"));
@@ -165,6 +180,7 @@ CameraCalibrationPanel::CameraCalibrationPanel(CameraCalibrationModel* model, Ta
   images_->setToolTip(tr("Clear the mark of an image to leave it out; Ctrl+Z takes that back"));
   images_->setIconSize(kThumbnail);
   images_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  images_->setWordWrap(true);
   images_->setFixedHeight(176);
   auto* inner = new QWidget;
   auto* layout = new QVBoxLayout(inner);
@@ -220,6 +236,9 @@ QPushButton* CameraCalibrationPanel::Button(const char* name, const QString& tex
   auto* button = new QPushButton(text);
   button->setObjectName(QString::fromLatin1(name));
   button->setToolTip(tip);
+  // In a narrow dock the buttons of a row share what there is.
+  button->setStyleSheet(QStringLiteral("padding: 6px 4px;"));
+  button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   return button;
 }
 
@@ -240,6 +259,7 @@ QWidget* CameraCalibrationPanel::BuildBoard() {
     box->setAccessibleName(name);
     box->setToolTip(CameraCalibrationPanel::tr("Inner corners: where two black squares touch"));
     box->setKeyboardTracking(false);
+    box->setMinimumWidth(56);
     return box;
   };
   columns_ = number(tr("Inner corners in a row"));
@@ -275,11 +295,11 @@ QWidget* CameraCalibrationPanel::BuildSources() {
   take_ = Button("takeFromHead", tr("Take from head"), {});
   auto* fresh = Button("startNew", tr("New"), tr("Begin anew; what is here is kept on the disk"));
   last_ = Button("openLast", tr("Open last"), tr("Go on with the calibration before this one"));
-  grid->addWidget(add, 0, 0, 1, 3);
-  grid->addWidget(folder, 0, 3, 1, 3);
+  grid->addWidget(add, 0, 0);
+  grid->addWidget(folder, 0, 1);
   grid->addWidget(take_, 1, 0, 1, 2);
-  grid->addWidget(fresh, 1, 2, 1, 2);
-  grid->addWidget(last_, 1, 4, 1, 2);
+  grid->addWidget(fresh, 2, 0);
+  grid->addWidget(last_, 2, 1);
   connect(add, &QPushButton::clicked, this, [this] { ChooseImages(false); });
   connect(folder, &QPushButton::clicked, this, [this] { ChooseImages(true); });
   connect(take_, &QPushButton::clicked, model_, &CameraCalibrationModel::takeFromHead);
@@ -294,19 +314,19 @@ QWidget* CameraCalibrationPanel::BuildSolve() {
   auto* row = new QWidget;
   auto* grid = new QGridLayout(row);
   grid->setContentsMargins(0, 0, 0, 0);
-  const QStringList names = {tr("k"), tr("EUCM"), tr("KB4"), tr("radtan")};
-  for (int i = 0; i < names.size(); ++i) {
-    auto* box = new QCheckBox(names[i]);
+  grid->setSpacing(6);
+  for (int i = 0; i < static_cast<int>(kModels.size()); ++i) {
+    auto* box = new QCheckBox(NameOf(kModels[static_cast<std::size_t>(i)]));
     box->setToolTip(tr("Fit this model too; the one that predicts unused images best is chosen"));
     connect(box, &QCheckBox::clicked, this, &CameraCalibrationPanel::TakeModels);
     wanted_.push_back(box);
-    grid->addWidget(box, 0, i);
+    grid->addWidget(box, i / 2, i % 2);
   }
   solve_ = Button("solveCamera", tr("Solve"),
                   tr("Calibrate again; after each change that happens by itself"));
   cancel_ = Button("cancelCalibration", tr("Cancel"), tr("Stop what is being computed"));
-  grid->addWidget(solve_, 1, 0, 1, 2);
-  grid->addWidget(cancel_, 1, 2, 1, 2);
+  grid->addWidget(solve_, 2, 0);
+  grid->addWidget(cancel_, 2, 1);
   connect(solve_, &QPushButton::clicked, model_, &CameraCalibrationModel::solve);
   connect(cancel_, &QPushButton::clicked, model_, &CameraCalibrationModel::cancel);
   return row;
@@ -413,11 +433,12 @@ void CameraCalibrationPanel::ShowModels() {
   table_->setRowCount(static_cast<int>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CalibrationModelRow& row = rows[i];
-    const QStringList texts = {row.title, Pixels(row.mean_error_px), Pixels(row.rms_px),
+    const QStringList texts = {NameOf(row.model), Pixels(row.mean_error_px), Pixels(row.rms_px),
                                Pixels(row.cross_validation_px)};
     for (int column = 0; column < texts.size(); ++column) {
       auto* item = new QTableWidgetItem(texts[column]);
-      item->setToolTip(row.failure.isEmpty() ? row.parameters : row.failure);
+      item->setToolTip(row.title + QLatin1Char('\n') +
+                       (row.failure.isEmpty() ? row.parameters : row.failure));
       if (!row.failure.isEmpty()) item->setForeground(state_color::kCaution);
       if (column > 0) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
       table_->setItem(static_cast<int>(i), column, item);

@@ -560,7 +560,8 @@ std::vector<CalibrationModelRow> CameraCalibrationModel::ModelRows() const {
   std::vector<CalibrationModelRow> rows;
   if (!result_) return rows;
   for (const ModelCalibration& model : result_->models) {
-    CalibrationModelRow row{.title = TitleOf(model.model),
+    CalibrationModelRow row{.model = model.model,
+                            .title = TitleOf(model.model),
                             .failure = QString::fromStdString(model.failure)};
     row.mean_error_px = model.mean_error_px;
     row.rms_px = model.rms_px;

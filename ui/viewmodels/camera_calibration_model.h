@@ -30,6 +30,7 @@ struct CalibrationImageRow {
 
 /// One model of a result as a panel shows it.
 struct CalibrationModelRow {
+  LensModel model = LensModel::kFisheyeK;
   QString title;
   double mean_error_px = 0.0;
   double rms_px = 0.0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numeric>
 
 #include "core/geometry/angles.h"
@@ -15,10 +16,15 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+ImageErrors At(const CameraFromPattern& pose) {
+  ImageErrors errors;
+  errors.camera_from_pattern = pose;
+  return errors;
+}
+
 std::vector<ImageErrors> PosesOf(const SyntheticViews& views) {
   std::vector<ImageErrors> errors;
-  for (std::size_t i = 0; i < views.truth.poses.size(); ++i)
-    errors.push_back({.image = i, .camera_from_pattern = views.truth.poses[i]});
+  for (const CameraFromPattern& pose : views.truth.poses) errors.push_back(At(pose));
   return errors;
 }
 
@@ -31,8 +37,7 @@ ViewCoverage CoverageOfAll(const SyntheticViews& views) {
 ImageErrors Tilted(const CalibrationBoard& board, double tilt_deg, const Eigen::Vector3d& axis) {
   const Eigen::Vector3d middle = 0.5 * (board.Corner(0) + board.Corner(board.CornerCount() - 1));
   const Eigen::Quaterniond rotation(Eigen::AngleAxisd(RadiansFromDegrees(tilt_deg), axis));
-  return {.camera_from_pattern =
-              CameraFromPattern(rotation, Eigen::Vector3d(0.0, 0.0, 1.0) - rotation * middle)};
+  return At(CameraFromPattern(rotation, Eigen::Vector3d(0.0, 0.0, 1.0) - rotation * middle));
 }
 
 TEST(ViewCoverage, CountsEachCornerOnce) {
