@@ -282,8 +282,8 @@ void MainWindow::BuildDocks() {
                             Dock("objects", tr("Objects"), Stack(objects(&bench_->live), objects)));
   options_dock_ = Dock("options", tr("Options"), Stack(options(&bench_->live), options));
   docks_->addDockWidgetTabToArea(options_dock_, right);
-  calibration_dock_ = Dock("calibrate_camera", tr("Calibrate camera"),
-                           new CameraCalibrationPanel(&bench_->camera_calibration, &bench_->tasks));
+  calibration_ = new CameraCalibrationPanel(&bench_->camera_calibration, &bench_->tasks);
+  calibration_dock_ = Dock("calibrate_camera", tr("Calibrate camera"), calibration_);
   docks_->addDockWidgetTabToArea(calibration_dock_, right);
   right->setCurrentIndex(0);
   auto* top = docks_->addDockWidget(

@@ -25,7 +25,7 @@ struct CalibrationDock : testing::Test {
   bool kept_in_folder = qputenv("XDG_DATA_HOME", folder.path().toUtf8());
   RunningWindow running;
   CameraCalibrationModel& model = running.bench().camera_calibration;
-  CameraCalibrationPanel* panel = running.window().findChild<CameraCalibrationPanel*>();
+  CameraCalibrationPanel* panel = running.window().Calibration();
 
   ~CalibrationDock() override { qunsetenv("XDG_DATA_HOME"); }
 

@@ -174,7 +174,6 @@ Status HeadViewModel::SetRig(const SensorRig& rig) {
     return Fail(ErrorCode::kInvalidInput,
                 "the head was given the rig {} and says that it has {}; put the rig in force again",
                 RigId(rig).substr(0, 8), id.substr(0, 8));
-  Q_EMIT rigChanged();
   Q_EMIT statusChanged();
   Q_EMIT planChanged();  // what a plan gives depends on the camera
   return {};

@@ -121,7 +121,6 @@ class HeadViewModel : public QObject {
  Q_SIGNALS:
   void statusChanged();  ///< something that can be seen changed
   void planChanged();
-  void rigChanged();  ///< another calibration was put in force here
   void scanStarted();
   /// What has arrived so far, about four times a second.
   void scanGrew(const std::shared_ptr<const foresight::Scan>& scan);
