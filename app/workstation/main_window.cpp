@@ -18,6 +18,7 @@
 #include "app/workstation/document_stack.h"
 #include "app/workstation/keys_everywhere.h"
 #include "app/workstation/shortcut_sheet.h"
+#include "ui/panels/camera_calibration_panel.h"
 #include "ui/panels/dock_style.h"
 #include "ui/panels/head_panel.h"
 #include "ui/panels/head_strip.h"
@@ -36,7 +37,7 @@ namespace foresight {
 namespace {
 
 /// Counts up when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 3;
+constexpr int kLayoutVersion = 4;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
 constexpr QSize kUsualSize(1600, 1000);
@@ -184,6 +185,16 @@ void MainWindow::AddWindowCommands() {
                   if (options_dock_->isClosed()) options_dock_->toggleView(true);
                   options_dock_->setAsCurrentTab();
                 }});
+  commands.Add({.id = "view.calibrate_camera",
+                .menu = "view",
+                .text = tr("Calibrate camera"),
+                .tip = tr("Calibrate the head's camera from images of a board; scanning and "
+                          "recording go on"),
+                .keys = QStringLiteral("Ctrl+Shift+C"),
+                .run = [this] {
+                  if (calibration_dock_->isClosed()) calibration_dock_->toggleView(true);
+                  calibration_dock_->setAsCurrentTab();
+                }});
   commands.Add({.id = "help.shortcuts",
                 .menu = "help",
                 .icon = "help",
@@ -271,6 +282,9 @@ void MainWindow::BuildDocks() {
                             Dock("objects", tr("Objects"), Stack(objects(&bench_->live), objects)));
   options_dock_ = Dock("options", tr("Options"), Stack(options(&bench_->live), options));
   docks_->addDockWidgetTabToArea(options_dock_, right);
+  calibration_ = new CameraCalibrationPanel(&bench_->camera_calibration, &bench_->tasks);
+  calibration_dock_ = Dock("calibrate_camera", tr("Calibrate camera"), calibration_);
+  docks_->addDockWidgetTabToArea(calibration_dock_, right);
   right->setCurrentIndex(0);
   auto* top = docks_->addDockWidget(
       ads::TopDockWidgetArea, Dock("picture", tr("Image"), Stack(image_, MakeImagePane)), centre);
@@ -293,6 +307,7 @@ void MainWindow::BuildDocks() {
   docks_->addDockWidgetTabToArea(gallery_dock_, bottom);
   log->toggleView(false);
   gallery_dock_->toggleView(false);
+  calibration_dock_->toggleView(false);
   docks_->setSplitterSizes(top, {500, 500});
   for (auto* splitter : docks_->findChildren<QSplitter*>())
     if (splitter->count() == 3 && splitter->orientation() == Qt::Horizontal)

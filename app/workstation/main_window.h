@@ -16,6 +16,7 @@ class QSettings;
 namespace foresight {
 
 class Actions;
+class CameraCalibrationPanel;
 class CloudPane;
 class DepthPane;
 class DocumentStack;
@@ -40,6 +41,7 @@ class MainWindow : public QMainWindow {
   MissionPanel* Mission() { return mission_; }
   LogStrip* Log() { return log_; }
   SourceGallery* Gallery() { return gallery_; }
+  CameraCalibrationPanel* Calibration() { return calibration_; }
 
   /// Where the panes are and how large the window is; kept from one run to the next.
   void SaveLayout(QSettings* settings) const;
@@ -71,10 +73,12 @@ class MainWindow : public QMainWindow {
   LogStrip* log_ = nullptr;
   MissionPanel* mission_ = nullptr;
   SourceGallery* gallery_ = nullptr;
+  CameraCalibrationPanel* calibration_ = nullptr;
   QVector<DocumentStack*> stacks_;
   ads::CDockManager* docks_ = nullptr;
   ads::CDockWidget* gallery_dock_ = nullptr;
   ads::CDockWidget* options_dock_ = nullptr;
+  ads::CDockWidget* calibration_dock_ = nullptr;
   QMenu* view_menu_ = nullptr;
   QByteArray first_layout_;
 };

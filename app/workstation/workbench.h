@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/workstation/desk.h"
+#include "ui/viewmodels/camera_calibration_model.h"
 #include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/live_depth_view_model.h"
@@ -32,6 +33,7 @@ class Workbench : public QObject {
   ReviewViewModel reviewer;
   ScanFlow flow;
   LiveDepthViewModel live_depth;
+  CameraCalibrationModel camera_calibration;
   CommandTable commands;
 
   /// Whether the window shows the document for review.

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/contract.h"
 #include "core/base/parallel.h"
 #include "core/base/sha256.h"
 #include "core/io/image_file.h"
@@ -50,23 +51,15 @@ bool NaturalLess(const std::string& a, const std::string& b) {
   return i == a.size();
 }
 
-struct ReadFileResult {
-  std::string fault;  ///< why the file cannot be read
-  int width = 0;
-  int height = 0;
-  std::string hash;  ///< of the pixels
-  BoardDetection detection;
-};
-
 struct Size {
   int width = 0;
   int height = 0;
   auto operator<=>(const Size&) const = default;
 };
 
-Size MostCommonSize(const std::vector<ReadFileResult>& results) {
+Size MostCommonSize(const std::vector<BoardImage>& results) {
   std::map<Size, int> counts;
-  for (const ReadFileResult& result : results)
+  for (const BoardImage& result : results)
     if (result.fault.empty()) ++counts[{result.width, result.height}];
   const auto most =
       std::max_element(counts.begin(), counts.end(),
@@ -74,28 +67,11 @@ Size MostCommonSize(const std::vector<ReadFileResult>& results) {
   return most == counts.end() ? Size{} : most->first;
 }
 
-ReadFileResult ReadAndDetect(const fs::path& file, const CalibrationBoard& board) {
-  ReadFileResult result;
-  const auto image = ReadImageGray(file);
-  if (!image) {
-    result.fault = image.error().message;
-    if (const std::string prefix = file.string() + ": "; result.fault.starts_with(prefix))
-      result.fault.erase(0, prefix.size());  // the file is named beside the reason
-    return result;
-  }
-  result.width = image->width();
-  result.height = image->height();
-  result.hash =
-      Sha256Hex(std::string_view(reinterpret_cast<const char*>(image->data()), image->size()));
-  result.detection = DetectBoard(*image, board);
-  return result;
-}
-
-void RejectOddOnes(const std::vector<fs::path>& files, Size size,
-                   std::vector<ReadFileResult>& results) {
+void RejectOddOnes(const std::vector<std::string>& names, Size size,
+                   std::vector<BoardImage>& results) {
   std::map<std::string, std::size_t> first_with;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    ReadFileResult& result = results[i];
+    BoardImage& result = results[i];
     if (!result.fault.empty()) continue;
     if (Size{result.width, result.height} != size) {
       result.fault = fmt::format("its size is {}x{} where the other images have {}x{}",
@@ -103,7 +79,7 @@ void RejectOddOnes(const std::vector<fs::path>& files, Size size,
       continue;
     }
     const auto [at, is_new] = first_with.emplace(result.hash, i);
-    if (!is_new) result.fault = fmt::format("the same image as {}", files[at->second].string());
+    if (!is_new) result.fault = fmt::format("the same image as {}", names[at->second]);
   }
 }
 
@@ -154,36 +130,63 @@ Result<std::vector<fs::path>> ListImageFiles(const std::vector<std::string>& pla
   return files;
 }
 
-Result<BoardImages> DetectBoards(const std::vector<fs::path>& files, const CalibrationBoard& board,
-                                 const RunContext& context) {
-  std::vector<ReadFileResult> results(files.size());
-  std::atomic<int> done = 0;
-  context.Report(0.0, "boards");
-  const bool finished = ParallelFor(static_cast<int>(files.size()), context, [&](int index) {
-    const auto i = static_cast<std::size_t>(index);
-    results[i] = ReadAndDetect(files[i], board);
-    context.Report(++done / static_cast<double>(files.size()), "boards");
-  });
-  if (!finished) return Fail(ErrorCode::kCancelled, "detection of boards was cancelled");
+BoardImage ReadBoardImage(const fs::path& file, const CalibrationBoard& board) {
+  const auto image = ReadImageGray(file);
+  if (image) return InspectBoardImage(*image, board);
+  BoardImage result;
+  result.fault = image.error().message;
+  if (const std::string prefix = file.string() + ": "; result.fault.starts_with(prefix))
+    result.fault.erase(0, prefix.size());  // the file is named beside the reason
+  return result;
+}
+
+BoardImage InspectBoardImage(const GrayImage& image, const CalibrationBoard& board) {
+  BoardImage result;
+  result.width = image.width();
+  result.height = image.height();
+  result.hash =
+      Sha256Hex(std::string_view(reinterpret_cast<const char*>(image.data()), image.size()));
+  result.detection = DetectBoard(image, board);
+  return result;
+}
+
+BoardImages SortBoardImages(const std::vector<std::string>& names,
+                            std::vector<BoardImage> results) {
+  FORESIGHT_EXPECTS(names.size() == results.size(), "each image has a name");
   const Size size = MostCommonSize(results);
-  RejectOddOnes(files, size, results);
+  RejectOddOnes(names, size, results);
 
   BoardImages images;
   images.width = size.width;
   images.height = size.height;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string name = files[i].string();
+  for (std::size_t i = 0; i < names.size(); ++i) {
     if (!results[i].fault.empty()) {
-      images.rejected.push_back({name, results[i].fault});
+      images.rejected.push_back({names[i], results[i].fault});
     } else if (!results[i].detection.rejection.empty()) {
-      images.rejected.push_back({name, results[i].detection.rejection});
+      images.rejected.push_back({names[i], results[i].detection.rejection});
     } else {
-      images.images.push_back({name, std::move(results[i].detection.view)});
+      images.images.push_back({names[i], std::move(results[i].detection.view)});
       images.ratings.push_back(results[i].detection.rating);
     }
   }
   RejectBlurred(images);
   return images;
+}
+
+Result<BoardImages> DetectBoards(const std::vector<fs::path>& files, const CalibrationBoard& board,
+                                 const RunContext& context) {
+  std::vector<BoardImage> results(files.size());
+  std::atomic<int> done = 0;
+  context.Report(0.0, "boards");
+  const bool finished = ParallelFor(static_cast<int>(files.size()), context, [&](int index) {
+    const auto i = static_cast<std::size_t>(index);
+    results[i] = ReadBoardImage(files[i], board);
+    context.Report(++done / static_cast<double>(files.size()), "boards");
+  });
+  if (!finished) return Fail(ErrorCode::kCancelled, "detection of boards was cancelled");
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(file.string());
+  return SortBoardImages(names, std::move(results));
 }
 
 }  // namespace foresight

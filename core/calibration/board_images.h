@@ -9,6 +9,20 @@
 
 namespace foresight {
 
+/// What one image shows of a board, before it is compared with the other images.
+struct BoardImage {
+  std::string fault;  ///< why the file cannot be read; empty where it can
+  int width = 0;
+  int height = 0;
+  std::string hash;  ///< of the pixels
+  BoardDetection detection;
+};
+
+/// Reads a file and detects the board. @pre board.Check()
+BoardImage ReadBoardImage(const std::filesystem::path& file, const CalibrationBoard& board);
+/// The same of an image that was read.
+BoardImage InspectBoardImage(const GrayImage& image, const CalibrationBoard& board);
+
 /// Images of one board by one camera.
 struct BoardImages {
   int width = 0;
@@ -22,9 +36,13 @@ struct BoardImages {
 /// name with numbers by value. Fails with kIo, naming what is not there or a folder without images.
 Result<std::vector<std::filesystem::path>> ListImageFiles(const std::vector<std::string>& places);
 
-/// Reads files and detects the board in each, on all threads. A file is rejected with the reason
+/// Tells the images that can be used from those that cannot. An image is rejected with the reason
 /// where it cannot be read, has another size than most, equals an earlier one pixel by pixel, shows
-/// no board, or is much more blurred than the others. Fails with kCancelled only.
+/// no board, or is much more blurred than the others. @pre as many names as images
+BoardImages SortBoardImages(const std::vector<std::string>& names, std::vector<BoardImage> images);
+
+/// Reads files, detects the board in each on all threads, and sorts them by their paths. Fails with
+/// kCancelled only.
 Result<BoardImages> DetectBoards(const std::vector<std::filesystem::path>& files,
                                  const CalibrationBoard& board, const RunContext& context);
 

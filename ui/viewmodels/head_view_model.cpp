@@ -168,6 +168,17 @@ QVector<DeviceRow> HeadViewModel::DescribeDevices() const {
   return rows;
 }
 
+Status HeadViewModel::SetRig(const SensorRig& rig) {
+  FORESIGHT_CHECK(head_->SetRig(rig));
+  if (const std::string id = RigId(head_->Rig()); id != RigId(rig))
+    return Fail(ErrorCode::kInvalidInput,
+                "the head was given the rig {} and says that it has {}; put the rig in force again",
+                RigId(rig).substr(0, 8), id.substr(0, 8));
+  Q_EMIT statusChanged();
+  Q_EMIT planChanged();  // what a plan gives depends on the camera
+  return {};
+}
+
 QString HeadViewModel::RigText() const {
   const SensorRig rig = head_->Rig();
   const std::string_view model = rig.camera.Name();

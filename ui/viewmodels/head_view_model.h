@@ -74,6 +74,11 @@ class HeadViewModel : public QObject {
   /// Lidar, camera and motor; trouble of the last ten seconds still shows.
   const QVector<DeviceRow>& Devices() const { return devices_; }
 
+  /// The calibration in force on the head.
+  SensorRig Rig() const { return head_->Rig(); }
+  /// Another one from the next scan on, read back and compared. Fails with kState while the head is
+  /// busy, with kInvalidInput for one of another head and where the head keeps another one.
+  Status SetRig(const SensorRig& rig);
   /// The rig in force: its name, short id and camera model.
   QString RigText() const;
 
