@@ -13,7 +13,7 @@ namespace {
 /// As many images as the literature takes, and after which another one adds little.
 constexpr int kGoodNumber = 15;
 /// A region with a smaller fraction of cells with corners is asked for.
-constexpr double kCovered = 0.6;
+constexpr double kCovered = 0.5;
 /// A board held straight tells the lens from the distance badly: a third of the images is tilted.
 constexpr int kTiltedOneOf = 3;
 

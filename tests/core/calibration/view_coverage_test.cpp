@@ -83,7 +83,7 @@ TEST(NextImage, AsksForTiltWhereBoardsAreHeldStraight) {
 }
 
 TEST(NextImage, AsksForNothingAfterAGoodSet) {
-  const SyntheticViews views = MakeViews({.views = 100}, 4);
+  const SyntheticViews views = MakeViews({.views = 80}, 4);  // random ones rarely hit a corner
   EXPECT_EQ(NextImage(CoverageOfAll(views), 4), "");
 }
 
