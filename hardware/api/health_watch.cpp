@@ -7,6 +7,9 @@
 namespace foresight {
 namespace {
 
+/// Two seconds of polls while the motor turns.
+constexpr std::int64_t kFewPolls = 500;
+
 /// Collects what is wrong with one device.
 class Findings {
  public:
@@ -67,7 +70,9 @@ DeviceDiagnosis DiagnoseMotor(const MotorHealth& now, const MotorHealth& before,
   if (now.round_trip_median_s > limits.motor_round_trip_s)
     findings.Add(fmt::format("answers slowly: {:.0f} ms", 1e3 * now.round_trip_median_s));
   const std::int64_t slow = now.slow_polls - before.slow_polls;
-  if (static_cast<double>(slow) > limits.slow_polls * static_cast<double>(now.polls - before.polls))
+  // Of the few polls of a motor at rest some may be slow: nothing is measured with them.
+  const std::int64_t polls = std::max<std::int64_t>(now.polls - before.polls, kFewPolls);
+  if (static_cast<double>(slow) > limits.slow_polls * static_cast<double>(polls))
     findings.AddCount(slow, "slow polls: {}");
   return findings.Diagnosis();
 }

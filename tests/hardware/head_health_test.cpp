@@ -81,12 +81,15 @@ TEST(HeadHealth, TheNumbersReadAsWords) {
 TEST(HealthWatch, CallsAMotorDegradedWhenMoreThanAFiftiethOfItsPollsIsSlow) {
   HeadHealth before = WellHead(), now = WellHead();
   before.motor.polls = 1000;
-  now.motor.polls = 1200;
+  now.motor.polls = 2000;
   now.motor.poll_rate_hz = 20.0;  // idle again: what counts are the polls that there were
-  now.motor.slow_polls = 4;
+  now.motor.slow_polls = 20;
   EXPECT_EQ(Diagnose(now, before).motor.condition, DeviceCondition::kWell);
-  now.motor.slow_polls = 5;
-  EXPECT_EQ(Diagnose(now, before).motor.problem, "slow polls: 5");
+  now.motor.slow_polls = 21;
+  EXPECT_EQ(Diagnose(now, before).motor.problem, "slow polls: 21");
+  now.motor.polls = 1040;  // at rest
+  now.motor.slow_polls = 10;
+  EXPECT_EQ(Diagnose(now, before).motor.condition, DeviceCondition::kWell);
 }
 
 TEST(HeadHealth, AsJsonItIsOneLineWithNullForTheUnknown) {
