@@ -115,7 +115,8 @@ TEST_F(CameraCalibrationTest, AfterACrashTheSessionGoesOnWithItsImages) {
   EXPECT_EQ(again.Images()[0].state, State::kExcluded);
   EXPECT_EQ(again.Board(), model.Board());
   ASSERT_NE(again.ChosenModel(), nullptr) << again.StateText().toStdString();
-  EXPECT_EQ(again.ChosenModel()->camera.fx, focal) << "the same images, the same answer";
+  // Ceres orders unknowns by where they lie in memory: the last digits differ.
+  EXPECT_NEAR(again.ChosenModel()->camera.fx, focal, 1e-4);
 }
 
 TEST_F(CameraCalibrationTest, AnotherBoardIsLookedForInAllImagesAgain) {
