@@ -198,7 +198,7 @@ ceres::Solver::Options SolverOptions(SharedState& state, const CameraBundle& bun
   solver.function_tolerance = 1e-10;
   solver.gradient_tolerance = 1e-12;
   solver.parameter_tolerance = 1e-10;
-  solver.num_threads = 1;  // a solve takes a second at most
+  solver.num_threads = ThreadCount(context);
   solver.logging_type = ceres::SILENT;
   return solver;
 }

@@ -338,7 +338,7 @@ Result<ChainFit> SolveChain(const ChainData& data, const ChainSolveOptions& opti
   solver.max_num_iterations = options.max_iterations;
   solver.function_tolerance = 1e-9;
   solver.parameter_tolerance = 1e-10;
-  solver.num_threads = 1;  // a solve takes a second at most
+  solver.num_threads = ThreadCount(context);
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
