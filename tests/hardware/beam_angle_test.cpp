@@ -118,8 +118,8 @@ TEST_P(BeamAngle, IsWithinThreeHundredthsOfADegreeOfThePlate) {
   // 60 deg are 2400 lines at 1 deg/s; all beams of all lines but two at the ends.
   EXPECT_GT(errors.all.size(), (2400.0 / speed_deg_s - 3.0) * 1081.0);
   EXPECT_LT(errors.track.Rms(), 0.01);
-  // A stamp is a millisecond wide. On a quiet machine half of it is enough (measured: 0.3 to 0.5);
-  // beside other work lines arrive late, and 0.54 was seen.
+  // A stamp is a millisecond wide. Half of it is enough on a quiet machine; beside other work lines
+  // arrive late, and 0.54 ms was seen.
   EXPECT_LT(errors.stamps.Quantile(0.95), 1.0e-3 * speed_deg_s);
   // Knots every 10 deg do not see the plate's error of 50 periods a turn: 0.019 deg of this.
   EXPECT_LT(errors.all.Rms(), 0.03);
