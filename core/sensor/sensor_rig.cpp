@@ -124,6 +124,13 @@ Status SensorRig::Check() const {
       return Fail(ErrorCode::kInvalidOptions,
                   "rig: a sensor {:.2f} m from the head's axis is not on one plate with it",
                   t.norm());
+  // Far away a scene is smaller than the last digit of a coordinate.
+  constexpr double kFarthest_m = 1000.0;
+  const Eigen::Vector3d mount = robot_from_base.translation();
+  if (!mount.allFinite() || mount.norm() > kFarthest_m)
+    return Fail(ErrorCode::kInvalidOptions,
+                "rig: robot_from_base: a head {:.3g} m from the robot's origin; at most {:.0f} m",
+                mount.norm(), kFarthest_m);
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 #include "core/base/random.h"
 #include "core/sensor/rig_id.h"
@@ -211,6 +212,14 @@ TEST(SensorRig, RefusesAnUnknownKeyAnUnknownVersionAndARotationThatIsNone) {
   std::string bent = yaml;
   bent.replace(bent.find("quaternion_wxyz: ["), 18, "quaternion_wxyz: [7");
   EXPECT_FALSE(SensorRigFromYaml(bent, "rig"));
+}
+
+TEST(SensorRig, RefusesAHeadThatIsKilometresFromItsRobot) {
+  SensorRig rig = DefaultSensorRig();
+  for (const double height_m : {-1e308, 1001.0, std::numeric_limits<double>::quiet_NaN()}) {
+    rig.robot_from_base = {rig.robot_from_base.rotation(), Eigen::Vector3d(0.0, 0.0, height_m)};
+    EXPECT_NE(rig.Check().error().message.find("robot_from_base"), std::string::npos) << height_m;
+  }
 }
 
 TEST(SensorRig, RefusesASensorThatIsNotOnTheHead) {
