@@ -36,6 +36,14 @@ void AddSimulateCommand(CLI::App& app, Invocation& invocation);
 /// `calibrate` is the command of that name.
 void AddCalibrateChainCommands(CLI::App& calibrate, Invocation& invocation);
 
+/// For `map_error`: says which file a value in an error is of.
+inline auto Of(const std::string& file) {
+  return [file](Error error) {
+    if (error.code != ErrorCode::kCancelled) error.message = file + ": " + error.message;
+    return error;
+  };
+}
+
 /// Creates the folder for results. Fails with kIo.
 Status MakeOutputFolder(const std::string& folder);
 

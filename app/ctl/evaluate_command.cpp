@@ -67,7 +67,7 @@ Status EvaluateStereo(const std::string& folder, const std::vector<DepthMethod>&
   for (const DepthMethod method : methods) {
     Announce(scene.name, method);
     options.depth = TestbedOptionsOf(method);
-    FORESIGHT_TRY(const StereoRun run, RunOnScene(scene, options, context));
+    FORESIGHT_TRY(const StereoRun run, RunOnScene(scene, options, context).map_error(Of(folder)));
     if (pictures != nullptr)
       FORESIGHT_CHECK(pictures->Add({run.depth.score, run.depth.result, run.scene.right,
                                      run.truth_m, RayOfRightView(run.scene)}));

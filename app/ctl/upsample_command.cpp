@@ -54,8 +54,9 @@ Result<ExitCode> Upsample(const UpsampleArguments& arguments, const RunContext& 
   if (arguments.rig.empty()) PrintNote("no --rig: Eq. (7) compares depths instead of points");
   if (outside > 0)
     PrintNote("{}: {} samples outside the image are left out", arguments.samples, outside);
-  FORESIGHT_TRY(const DepthResult result,
-                ComputeDepth(std::move(samples), image, options, context));
+  FORESIGHT_TRY(
+      const DepthResult result,
+      ComputeDepth(std::move(samples), image, options, context).map_error(Of(arguments.samples)));
   WarnOfLowDensity(result);
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));
