@@ -2,7 +2,9 @@
 #include <QApplication>
 #include <QDir>
 #include <QFile>
+#include <QLocale>
 #include <QSettings>
+#include <QTranslator>
 
 #include "app/common/emulation.h"
 #include "app/common/seed_option.h"
@@ -123,6 +125,10 @@ int Run(int argc, char** argv) {
   QApplication::setOrganizationName(QStringLiteral("foresight"));
   QApplication::setApplicationName(QStringLiteral("workstation"));
   ApplyTheme(&application);
+  QTranslator translation;
+  if (translation.load(QLocale(), QStringLiteral("foresight"), QStringLiteral("_"),
+                       QCoreApplication::applicationDirPath() + QStringLiteral("/../translations")))
+    QCoreApplication::installTranslator(&translation);
   SetTranslator([](const char* english) {
     return QCoreApplication::translate("Core", english).toStdString();
   });

@@ -16,6 +16,7 @@
 #include "tests/display/mouse.h"
 #include "tests/display/paint_counter.h"
 #include "tests/display/workstation_fixture.h"
+#include "tests/support/sanitized.h"
 #include "ui/panels/detection_card.h"
 #include "ui/panels/head_panel.h"
 #include "ui/panels/log_strip.h"
@@ -407,15 +408,10 @@ TEST_F(Workstation, TheGuiThreadNeverStallsForLongDuringAScan) {
   const Stall worst = running->WorstStallOfTheScan();
   std::printf("worst stall of the GUI thread: %.0f ms, its own work in it %.0f ms\n", worst.wall_ms,
               worst.cpu_ms);
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr double kFactor = 10.0;
-#else
-  constexpr double kFactor = 1.0;
-#endif
-  EXPECT_LT(worst.cpu_ms, kFactor * 250.0);
+  EXPECT_LT(worst.cpu_ms, kSanitizerFactor * 250.0);
   // On a machine shared with others the thread also waits for its turn: a wider limit, which still
   // catches a thread that waits for a disk or for the depth.
-  EXPECT_LT(worst.wall_ms, kFactor * 1500.0);
+  EXPECT_LT(worst.wall_ms, kSanitizerFactor * 1500.0);
 }
 
 }  // namespace

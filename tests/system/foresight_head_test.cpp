@@ -10,6 +10,7 @@
 #include "core/mission/plan_json.h"
 #include "hardware/motor/modbus_link.h"
 #include "tests/support/running_program.h"
+#include "tests/support/sanitized.h"
 
 namespace foresight {
 namespace {
@@ -70,9 +71,7 @@ TEST_F(ForesightHead, FliesAPlanThroughItsOwnEmulatedDevices) {
 }
 
 TEST_F(ForesightHead, NeedsLessThanThreeFifthsOfACore) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer's time says nothing about the program's";
-#endif
+  if (kSanitized) GTEST_SKIP() << "a sanitizer's time says nothing about the program's";
   StartDevices();
   const ProgramResult result = RunProgram(
       FORESIGHT_HEAD,

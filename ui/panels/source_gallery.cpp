@@ -16,7 +16,7 @@ namespace {
 constexpr QSize kThumbnail(300, 220);
 
 const char* IconOf(const SourceAnswer& answer) {
-  if (!answer.found) return "info";
+  if (!answer.found) return "nothing";
   switch (answer.level) {
     case VerdictLevel::kConfirmed:
       return "confirmed";
@@ -67,6 +67,7 @@ QWidget* CardOf(const SourceAnswer& answer) {
   picture->setAlignment(Qt::AlignCenter);
   // Dark on the state's colour, as on the card of an object: the icons are drawn dark.
   auto* badge = new QFrame;
+  badge->setObjectName(QStringLiteral("verdict_badge"));
   badge->setStyleSheet(QStringLiteral("QFrame { background: %1; border-radius: 4px; } "
                                       "QLabel { color: #16181c; font-weight: bold; }")
                            .arg(ColorOf(answer).name()));

@@ -19,7 +19,7 @@ inline const QColor kGood(0, 158, 115);     ///< bluish green
 inline const QColor kCaution(230, 159, 0);  ///< orange
 inline const QColor kBad(213, 94, 0);       ///< vermillion
 inline const QColor kActive(86, 180, 233);  ///< sky blue
-inline const QColor kNeutral(120, 128, 138);
+inline const QColor kNeutral(132, 140, 150);
 }  // namespace state_color
 
 }  // namespace foresight
