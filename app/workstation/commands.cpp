@@ -7,29 +7,33 @@
 namespace foresight {
 namespace {
 
-QString Tr(const char* text) {
-  return QCoreApplication::translate("Commands", text);
-}
+/// Texts that lupdate finds under this name.
+struct Commands {
+  Q_DECLARE_TR_FUNCTIONS(Commands)
+};
 
 using Why = std::function<QString()>;
 
 /// The reason only while the condition holds.
-Why Because(std::function<bool()> allowed, const char* reason) {
-  return [allowed = std::move(allowed), reason] { return allowed() ? QString() : Tr(reason); };
+Why Because(std::function<bool()> allowed, QString reason) {
+  return [allowed = std::move(allowed), reason = std::move(reason)] {
+    return allowed() ? QString() : reason;
+  };
 }
 
 void AddHeadCommands(Workbench* bench) {
   HeadViewModel* head = &bench->head;
   const auto in_review = [bench]() -> QString {
     return bench->ShowsReview()
-               ? Tr("You are looking at a mission under review. Go back to live first (Ctrl+L).")
+               ? Commands::tr(
+                     "You are looking at a mission under review. Go back to live first (Ctrl+L).")
                : QString();
   };
   bench->commands.Add({.id = "head.scan",
                        .menu = "head",
                        .icon = "scan",
-                       .text = Tr("Scan"),
-                       .tip = Tr("Start the planned scan"),
+                       .text = Commands::tr("Scan"),
+                       .tip = Commands::tr("Start the planned scan"),
                        .keys = QStringLiteral("Space"),
                        .run = [head] { head->scan(); },
                        .why_not =
@@ -37,20 +41,20 @@ void AddHeadCommands(Workbench* bench) {
                              const QString review = in_review();
                              return review.isEmpty() ? head->WhyNoScan() : review;
                            }});
-  bench->commands.Add(
-      {.id = "head.abort",
-       .menu = "head",
-       .icon = "abort",
-       .text = Tr("Abort scan"),
-       .tip = Tr("End the scan and keep what it has"),
-       .keys = QStringLiteral("Shift+Esc"),
-       .run = [head] { head->abort(); },
-       .why_not = Because([head] { return head->CanAbort(); }, "No scan is running.")});
+  bench->commands.Add({.id = "head.abort",
+                       .menu = "head",
+                       .icon = "abort",
+                       .text = Commands::tr("Abort scan"),
+                       .tip = Commands::tr("End the scan and keep what it has"),
+                       .keys = QStringLiteral("Shift+Esc"),
+                       .run = [head] { head->abort(); },
+                       .why_not = Because([head] { return head->CanAbort(); },
+                                          Commands::tr("No scan is running."))});
   bench->commands.Add({.id = "head.home",
                        .menu = "head",
                        .icon = "home",
-                       .text = Tr("Home"),
-                       .tip = Tr("Connect and search the zero reference"),
+                       .text = Commands::tr("Home"),
+                       .tip = Commands::tr("Connect and search the zero reference"),
                        .keys = QStringLiteral("Ctrl+H"),
                        .run = [head] { head->home(); },
                        .why_not = [head] { return head->WhyNoHome(); }});
@@ -58,20 +62,21 @@ void AddHeadCommands(Workbench* bench) {
       {.id = "head.stop",
        .menu = "head",
        .icon = "stop",
-       .text = Tr("STOP HEAD"),
-       .tip = Tr("Stop the scanner's motor at once and keep it stopped. The robot's "
-                 "emergency stop is separate."),
+       .text = Commands::tr("STOP HEAD"),
+       .tip = Commands::tr("Stop the scanner's motor at once and keep it stopped. The robot's "
+                           "emergency stop is separate."),
        .keys = QStringLiteral("F12"),
        .scope = Command::Scope::kEverywhere,
        .run = [head] { head->stop(); }});
   bench->commands.Add(
       {.id = "head.release",
        .menu = "head",
-       .text = Tr("Release stop"),
-       .tip = Tr("Let the head move again when it is told to; moves nothing by itself"),
+       .text = Commands::tr("Release stop"),
+       .tip = Commands::tr("Let the head move again when it is told to; moves nothing by itself"),
        .keys = QStringLiteral("Ctrl+F12"),
        .run = [head] { head->releaseStop(); },
-       .why_not = Because([head] { return head->StopLatched(); }, "The head is not stopped.")});
+       .why_not = Because([head] { return head->StopLatched(); },
+                          Commands::tr("The head is not stopped."))});
 }
 
 void AddToolCommands(Workbench* bench) {
@@ -79,8 +84,8 @@ void AddToolCommands(Workbench* bench) {
   bench->commands.Add({.id = "tool.region",
                        .menu = "object",
                        .icon = "region",
-                       .text = Tr("Region"),
-                       .tip = Tr("Draw to choose a region"),
+                       .text = Commands::tr("Region"),
+                       .tip = Commands::tr("Draw to choose a region"),
                        .keys = QStringLiteral("R"),
                        .in_tool_bar = true,
                        .run = [fit] { fit().setRegionTool(!(fit().Drawing() && !fit().Tool())); },
@@ -108,16 +113,16 @@ void AddToolCommands(Workbench* bench) {
         {.id = tool.id,
          .menu = "object",
          .icon = tool.icon,
-         .text = Tr(tool.text),
-         .tip = Tr(tool.tip),
+         .text = Commands::tr(tool.text),
+         .tip = Commands::tr(tool.tip),
          .keys = QString::fromLatin1(tool.key),
          .in_tool_bar = true,
          .run = [fit, kind = tool.kind] { fit().SetTool(kind, fit().Tool() != kind); },
          .checked = [fit, kind = tool.kind] { return fit().Tool() == kind; }});
   bench->commands.Add({.id = "tool.leave",
                        .menu = "object",
-                       .text = Tr("Leave tool"),
-                       .tip = Tr("Back to moving the view"),
+                       .text = Commands::tr("Leave tool"),
+                       .tip = Commands::tr("Back to moving the view"),
                        .keys = QStringLiteral("Esc"),
                        .run = [fit] { fit().leaveTools(); }});
 }
@@ -126,31 +131,32 @@ void AddFitCommands(Workbench* bench) {
   bench->commands.Add({.id = "object.fit",
                        .menu = "object",
                        .icon = "fit",
-                       .text = Tr("Fit"),
-                       .tip = Tr("Fit the object into the region again"),
+                       .text = Commands::tr("Fit"),
+                       .tip = Commands::tr("Fit the object into the region again"),
                        .keys = QStringLiteral("F"),
                        .in_tool_bar = true,
                        .run = [bench] { bench->Shown().fit.fit(); },
                        .why_not = Because([bench] { return bench->Shown().fit.CanFit(); },
-                                          "Draw a region over the object first.")});
-  bench->commands.Add({.id = "object.compare_sources",
-                       .menu = "object",
-                       .icon = "compare",
-                       .text = Tr("Compare sources"),
-                       .tip = Tr("Fit to the lidar returns and every depth method, side by side"),
-                       .keys = QStringLiteral("Shift+F"),
-                       .run = [bench] { bench->Shown().gallery.start(); },
-                       .why_not = Because([bench] { return bench->Shown().gallery.CanStart(); },
-                                          "Draw a region over the object first.")});
+                                          Commands::tr("Draw a region over the object first."))});
+  bench->commands.Add(
+      {.id = "object.compare_sources",
+       .menu = "object",
+       .icon = "compare",
+       .text = Commands::tr("Compare sources"),
+       .tip = Commands::tr("Fit to the lidar returns and every depth method, side by side"),
+       .keys = QStringLiteral("Shift+F"),
+       .run = [bench] { bench->Shown().gallery.start(); },
+       .why_not = Because([bench] { return bench->Shown().gallery.CanStart(); },
+                          Commands::tr("Draw a region over the object first."))});
   const Why none = Because([bench] { return bench->Shown().session.Selected() != nullptr; },
-                           "No object is selected.");
+                           Commands::tr("No object is selected."));
   const auto add = [&](const char* id, const char* text, const char* tip, const char* keys,
                        void (*act)(SessionModel&), const char* icon = "") {
     bench->commands.Add({.id = id,
                          .menu = "object",
                          .icon = icon,
-                         .text = Tr(text),
-                         .tip = Tr(tip),
+                         .text = Commands::tr(text),
+                         .tip = Commands::tr(tip),
                          .keys = QString::fromLatin1(keys),
                          .run = [bench, act] { act(bench->Shown().session); },
                          .why_not = none});
@@ -180,24 +186,24 @@ void AddFitCommands(Workbench* bench) {
 
 void AddEditCommands(Workbench* bench) {
   const auto undo = [bench] { return bench->Shown().session.Undo(); };
-  bench->commands.Add(
-      {.id = "edit.undo",
-       .menu = "edit",
-       .icon = "undo",
-       .text = Tr("Undo"),
-       .tip = Tr("Take the last region or decision back"),
-       .keys = QStringLiteral("Ctrl+Z"),
-       .in_tool_bar = true,
-       .run = [undo] { undo()->undo(); },
-       .why_not = Because([undo] { return undo()->CanUndo(); }, "There is nothing to take back.")});
-  bench->commands.Add(
-      {.id = "edit.redo",
-       .menu = "edit",
-       .text = Tr("Redo"),
-       .tip = Tr("Do again what was taken back"),
-       .keys = QStringLiteral("Ctrl+Shift+Z"),
-       .run = [undo] { undo()->redo(); },
-       .why_not = Because([undo] { return undo()->CanRedo(); }, "There is nothing to do again.")});
+  bench->commands.Add({.id = "edit.undo",
+                       .menu = "edit",
+                       .icon = "undo",
+                       .text = Commands::tr("Undo"),
+                       .tip = Commands::tr("Take the last region or decision back"),
+                       .keys = QStringLiteral("Ctrl+Z"),
+                       .in_tool_bar = true,
+                       .run = [undo] { undo()->undo(); },
+                       .why_not = Because([undo] { return undo()->CanUndo(); },
+                                          Commands::tr("There is nothing to take back."))});
+  bench->commands.Add({.id = "edit.redo",
+                       .menu = "edit",
+                       .text = Commands::tr("Redo"),
+                       .tip = Commands::tr("Do again what was taken back"),
+                       .keys = QStringLiteral("Ctrl+Shift+Z"),
+                       .run = [undo] { undo()->redo(); },
+                       .why_not = Because([undo] { return undo()->CanRedo(); },
+                                          Commands::tr("There is nothing to do again."))});
 }
 
 void AddViewCommands(Workbench* bench) {
@@ -205,46 +211,49 @@ void AddViewCommands(Workbench* bench) {
   bench->commands.Add(
       {.id = "view.live",
        .menu = "view",
-       .text = Tr("Back to live"),
-       .tip = Tr("Show the live session again; the mission under review stays open"),
+       .text = Commands::tr("Back to live"),
+       .tip = Commands::tr("Show the live session again; the mission under review stays open"),
        .keys = QStringLiteral("Ctrl+L"),
        .run = [bench] { bench->backToLive(); },
        .why_not = Because([bench] { return bench->ShowsReview(); },
-                          "The live session is shown already.")});
+                          Commands::tr("The live session is shown already."))});
   bench->commands.Add({.id = "view.review",
                        .menu = "view",
-                       .text = Tr("Show review"),
-                       .tip = Tr("Show the mission that was opened for review"),
+                       .text = Commands::tr("Show review"),
+                       .tip = Commands::tr("Show the mission that was opened for review"),
                        .keys = QStringLiteral("Ctrl+R"),
                        .run = [bench] { bench->showReview(); },
                        .why_not = [bench]() -> QString {
-                         if (bench->ShowsReview()) return Tr("The review is shown already.");
+                         if (bench->ShowsReview())
+                           return Commands::tr("The review is shown already.");
                          return bench->reviewer.Path().isEmpty()
-                                    ? Tr("No mission is open for review. Open one (Ctrl+O).")
+                                    ? Commands::tr(
+                                          "No mission is open for review. Open one (Ctrl+O).")
                                     : QString();
                        }});
   bench->commands.Add({.id = "view.mask",
                        .menu = "view",
-                       .text = Tr("Mask on or off"),
-                       .tip = Tr("Hatch the uncertain depths"),
+                       .text = Commands::tr("Mask on or off"),
+                       .tip = Commands::tr("Hatch the uncertain depths"),
                        .keys = QStringLiteral("M"),
                        .run = [layers] { layers().toggleMask(); }});
   bench->commands.Add({.id = "view.layer",
                        .menu = "view",
-                       .text = Tr("Depth or confidence"),
-                       .tip = Tr("Change what the depth pane shows"),
+                       .text = Commands::tr("Depth or confidence"),
+                       .tip = Commands::tr("Change what the depth pane shows"),
                        .keys = QStringLiteral("C"),
                        .run = [layers] { layers().toggleLayer(); }});
-  bench->commands.Add({.id = "view.rejected",
-                       .menu = "view",
-                       .text = Tr("Rejected samples"),
-                       .tip = Tr("Show or hide the lidar samples that were rejected, and why"),
-                       .keys = QStringLiteral("H"),
-                       .run = [layers] { layers().toggleRejected(); }});
+  bench->commands.Add(
+      {.id = "view.rejected",
+       .menu = "view",
+       .text = Commands::tr("Rejected samples"),
+       .tip = Commands::tr("Show or hide the lidar samples that were rejected, and why"),
+       .keys = QStringLiteral("H"),
+       .run = [layers] { layers().toggleRejected(); }});
   bench->commands.Add({.id = "log.acknowledge",
                        .menu = "view",
-                       .text = Tr("Acknowledge messages"),
-                       .tip = Tr("Take note of all warnings and errors in the strip"),
+                       .text = Commands::tr("Acknowledge messages"),
+                       .tip = Commands::tr("Take note of all warnings and errors in the strip"),
                        .keys = QStringLiteral("Ctrl+K"),
                        .run = [bench] { bench->log.acknowledgeAll(); }});
 }
@@ -257,25 +266,27 @@ void AddCommands(Workbench* bench) {
   AddFitCommands(bench);
   AddEditCommands(bench);
   AddViewCommands(bench);
-  bench->commands.Add({.id = "recording.continue",
-                       .menu = "file",
-                       .text = Tr("Go on in the interrupted mission"),
-                       .tip = Tr("Record into the mission that the program was recording when it "
-                                 "ended unexpectedly"),
-                       .run = [bench] { bench->recording.continueInterrupted(); },
-                       .why_not = [bench]() -> QString {
-                         if (bench->recording.Interrupted().isEmpty())
-                           return Tr("No mission was interrupted.");
-                         return bench->head.Scanning() ? Tr("A scan is running; wait for its end.")
-                                                       : QString();
-                       }});
-  bench->commands.Add({.id = "recording.retry",
-                       .menu = "file",
-                       .text = Tr("Write the mission again"),
-                       .tip = Tr("After you have made room: write what is kept in memory"),
-                       .run = [bench] { bench->recording.tryAgain(); },
-                       .why_not = Because([bench] { return bench->recording.Waiting() > 0; },
-                                          "Everything is written.")});
+  bench->commands.Add(
+      {.id = "recording.continue",
+       .menu = "file",
+       .text = Commands::tr("Go on in the interrupted mission"),
+       .tip = Commands::tr("Record into the mission that the program was recording when it "
+                           "ended unexpectedly"),
+       .run = [bench] { bench->recording.continueInterrupted(); },
+       .why_not = [bench]() -> QString {
+         if (bench->recording.Interrupted().isEmpty())
+           return Commands::tr("No mission was interrupted.");
+         return bench->head.Scanning() ? Commands::tr("A scan is running; wait for its end.")
+                                       : QString();
+       }});
+  bench->commands.Add(
+      {.id = "recording.retry",
+       .menu = "file",
+       .text = Commands::tr("Write the mission again"),
+       .tip = Commands::tr("After you have made room: write what is kept in memory"),
+       .run = [bench] { bench->recording.tryAgain(); },
+       .why_not = Because([bench] { return bench->recording.Waiting() > 0; },
+                          Commands::tr("Everything is written."))});
 }
 
 }  // namespace foresight

@@ -8,9 +8,10 @@
 namespace foresight {
 namespace {
 
-QString Tr(const char* text) {
-  return QCoreApplication::translate("Advice", text);
-}
+/// Texts that lupdate finds under this name.
+struct AdviceTexts {
+  Q_DECLARE_TR_FUNCTIONS(AdviceTexts)
+};
 
 QString LevelName(VerdictLevel level) {
   return QString::fromUtf8(ToString(level));
@@ -27,9 +28,9 @@ const Verdict* OwnVerdict(const Detection& detection, int candidate) {
 
 QString WhyNotToActOn(bool is_current, SessionMode mode, Decision decision) {
   if (mode == SessionMode::kReplay)
-    return Tr("Review: do not act on it. The scene may have changed since.");
-  if (decision == Decision::kRejected) return Tr("You rejected it: do not act on it.");
-  if (!is_current) return Tr("From an earlier scan: fit it again in the newest one.");
+    return AdviceTexts::tr("Review: do not act on it. The scene may have changed since.");
+  if (decision == Decision::kRejected) return AdviceTexts::tr("You rejected it: do not act on it.");
+  if (!is_current) return AdviceTexts::tr("From an earlier scan: fit it again in the newest one.");
   return {};
 }
 
@@ -37,16 +38,18 @@ QString ByLevel(VerdictLevel level, SessionMode mode) {
   switch (level) {
     case VerdictLevel::kConfirmed:
       return mode == SessionMode::kSimulation
-                 ? Tr("Good to act on, in this simulation. Compare the outline with the image.")
-                 : Tr("Good to act on. Compare the outline with the image.");
+                 ? AdviceTexts::tr(
+                       "Good to act on, in this simulation. Compare the outline with the image.")
+                 : AdviceTexts::tr("Good to act on. Compare the outline with the image.");
     case VerdictLevel::kLikely:
-      return Tr(
+      return AdviceTexts::tr(
           "Compare the outline with the image and step through the alternatives before "
           "acting.");
     case VerdictLevel::kUnsure:
       break;
   }
-  return Tr("Do not act on this. Draw the region closer, or scan slower or from nearer.");
+  return AdviceTexts::tr(
+      "Do not act on this. Draw the region closer, or scan slower or from nearer.");
 }
 
 }  // namespace
@@ -65,16 +68,18 @@ Advice AdviceFor(const FoundObject& object, int candidate, bool is_current, Sess
         LevelName(own->level), QString::fromStdString(ProbabilityText(own->probability)));
   } else {
     advice.level = CandidateLevel(object.detection, candidate);
-    advice.badge = Tr("ALTERNATIVE");
+    advice.badge = AdviceTexts::tr("ALTERNATIVE");
   }
   advice.text = WhyNotToActOn(is_current, mode, object.decision);
   if (!advice.text.isEmpty()) return advice;
   advice.text =
       own != nullptr ? ByLevel(own->level, mode)
       : advice.level == VerdictLevel::kLikely
-          ? Tr("About as likely as the best answer: compare both outlines with the image.")
-          : Tr("Do not act on this alternative: the best answer explains the measurements "
-               "better.");
+          ? AdviceTexts::tr(
+                "About as likely as the best answer: compare both outlines with the image.")
+          : AdviceTexts::tr(
+                "Do not act on this alternative: the best answer explains the measurements "
+                "better.");
   return advice;
 }
 

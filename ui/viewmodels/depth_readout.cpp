@@ -7,9 +7,10 @@
 namespace foresight {
 namespace {
 
-QString Tr(const char* text) {
-  return QCoreApplication::translate("DepthReadout", text);
-}
+/// Texts that lupdate finds under this name.
+struct DepthReadoutTexts {
+  Q_DECLARE_TR_FUNCTIONS(DepthReadoutTexts)
+};
 
 struct Nearest {
   double distance_px = std::numeric_limits<double>::infinity();
@@ -31,7 +32,7 @@ Nearest NearestSample(const AlignedSamples& samples, int x, int y, bool only_kep
 }
 
 QString RejectedText(const Nearest& nearest) {
-  return Tr("the nearest, %1 px away, was rejected as %2")
+  return DepthReadoutTexts::tr("the nearest, %1 px away, was rejected as %2")
       .arg(nearest.distance_px, 0, 'f', 0)
       .arg(QString::fromUtf8(ToString(nearest.reason)));
 }
@@ -40,26 +41,30 @@ QString WhyEmpty(const ReadoutSource& source, int x, int y) {
   const Nearest any = NearestSample(source.result.samples, x, y, false);
   const bool rejected = any.reason != RejectReason::kKept;
   if (!(source.radius_px > 0.0))
-    return rejected ? Tr("of the lidar samples %1").arg(RejectedText(any))
-                    : Tr("the nearest lidar sample is %1 px away").arg(any.distance_px, 0, 'f', 0);
+    return rejected ? DepthReadoutTexts::tr("of the lidar samples %1").arg(RejectedText(any))
+                    : DepthReadoutTexts::tr("the nearest lidar sample is %1 px away")
+                          .arg(any.distance_px, 0, 'f', 0);
   const QString reach = QString::number(source.radius_px, 'f', 0);
   if (rejected && any.distance_px <= source.radius_px)
-    return Tr("no kept lidar sample within %1 px; %2").arg(reach, RejectedText(any));
+    return DepthReadoutTexts::tr("no kept lidar sample within %1 px; %2")
+        .arg(reach, RejectedText(any));
   if (any.distance_px <= source.radius_px)
-    return Tr("the lidar samples within %1 px agree on no depth").arg(reach);
-  return Tr("no lidar sample within %1 px").arg(reach);
+    return DepthReadoutTexts::tr("the lidar samples within %1 px agree on no depth").arg(reach);
+  return DepthReadoutTexts::tr("no lidar sample within %1 px").arg(reach);
 }
 
 QString WhyMasked(const ReadoutSource& source, const DepthReadout& readout) {
-  QString why = !source.result.dense.has_confidence
-                    ? Tr("no lidar line passed here; the method made the depth up")
-                    : Tr("below the threshold %1").arg(source.threshold, 0, 'f', 2);
+  QString why =
+      !source.result.dense.has_confidence
+          ? DepthReadoutTexts::tr("no lidar line passed here; the method made the depth up")
+          : DepthReadoutTexts::tr("below the threshold %1").arg(source.threshold, 0, 'f', 2);
   const Nearest any = NearestSample(source.result.samples, readout.x, readout.y, false);
   const Nearest kept = NearestSample(source.result.samples, readout.x, readout.y, true);
   if (any.reason != RejectReason::kKept && any.distance_px < kept.distance_px)
-    why += Tr("; of the samples %1").arg(RejectedText(any));
+    why += DepthReadoutTexts::tr("; of the samples %1").arg(RejectedText(any));
   else if (std::isfinite(kept.distance_px))
-    why += Tr("; the nearest sample is %1 px away").arg(kept.distance_px, 0, 'f', 0);
+    why += DepthReadoutTexts::tr("; the nearest sample is %1 px away")
+               .arg(kept.distance_px, 0, 'f', 0);
   return why;
 }
 
@@ -104,27 +109,32 @@ DepthReadout ReadDepth(const ReadoutSource& source, int x, int y) {
 
 QString DensityWarning(const DepthResult& result) {
   if (!result.BelowDensityFloor()) return {};
-  return Tr("Only %1\u00a0% of the pixels were measured, under the floor of %2\u00a0%: "
-            "do not trust this depth. Scan more slowly.")
+  return DepthReadoutTexts::tr(
+             "Only %1\u00a0% of the pixels were measured, under the floor of %2\u00a0%: "
+             "do not trust this depth. Scan more slowly.")
       .arg(100.0 * result.density, 0, 'f', 2)
       .arg(100.0 * ScanPrediction::kMinDensity, 0, 'f', 0);
 }
 
 QString TextOf(const DepthReadout& readout) {
   const QString at = QStringLiteral("(%1, %2)").arg(readout.x).arg(readout.y);
-  if (std::isnan(readout.depth_mm)) return Tr("%1  empty: %2").arg(at, readout.reason);
-  const QString value = !readout.has_confidence
-                            ? Tr("%1  %2 mm, this method knows no confidence")
-                                  .arg(at)
-                                  .arg(readout.depth_mm, 0, 'f', 0)
-                            : (readout.relative ? Tr("%1  %2 mm, confidence %3 of the largest")
-                                                : Tr("%1  %2 mm, confidence %3"))
-                                  .arg(at)
-                                  .arg(readout.depth_mm, 0, 'f', 0)
-                                  .arg(readout.confidence, 0, 'f', 2);
-  if (readout.masked) return Tr("%1  masked: %2").arg(value, readout.reason);
-  return readout.sparse ? Tr("%1  not to be trusted: too few samples in this map").arg(value)
-                        : value;
+  if (std::isnan(readout.depth_mm))
+    return DepthReadoutTexts::tr("%1  empty: %2").arg(at, readout.reason);
+  const QString value =
+      !readout.has_confidence
+          ? DepthReadoutTexts::tr("%1  %2 mm, this method knows no confidence")
+                .arg(at)
+                .arg(readout.depth_mm, 0, 'f', 0)
+          : (readout.relative ? DepthReadoutTexts::tr("%1  %2 mm, confidence %3 of the largest")
+                              : DepthReadoutTexts::tr("%1  %2 mm, confidence %3"))
+                .arg(at)
+                .arg(readout.depth_mm, 0, 'f', 0)
+                .arg(readout.confidence, 0, 'f', 2);
+  if (readout.masked) return DepthReadoutTexts::tr("%1  masked: %2").arg(value, readout.reason);
+  return readout.sparse
+             ? DepthReadoutTexts::tr("%1  not to be trusted: too few samples in this map")
+                   .arg(value)
+             : value;
 }
 
 }  // namespace foresight
