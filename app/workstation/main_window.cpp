@@ -90,6 +90,13 @@ void MainWindow::showEvent(QShowEvent* event) {
   if (first_layout_.isEmpty()) first_layout_ = docks_->saveState(kLayoutVersion);
 }
 
+void MainWindow::closeEvent(QCloseEvent* event) {
+  layout_at_close_ = docks_->saveState(kLayoutVersion);
+  // A dock left floating would keep the program alone, without the button that stops the head.
+  for (ads::CFloatingDockContainer* floating : docks_->floatingWidgets()) floating->hide();
+  QMainWindow::closeEvent(event);
+}
+
 void MainWindow::AddWindowCommands() {
   CommandTable& commands = bench_->commands;
   const QString missions = tr("Missions (*.foresight)"), clouds = tr("Clouds (*.ply)");
@@ -327,7 +334,8 @@ void MainWindow::ShowDocument() {
 }
 
 void MainWindow::SaveLayout(QSettings* settings) const {
-  settings->setValue(kLayoutKey, docks_->saveState(kLayoutVersion));
+  settings->setValue(kLayoutKey,
+                     isVisible() ? docks_->saveState(kLayoutVersion) : layout_at_close_);
   settings->setValue(kGeometryKey, saveGeometry());
 }
 

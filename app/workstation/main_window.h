@@ -44,6 +44,7 @@ class MainWindow : public QMainWindow {
   CameraCalibrationPanel* Calibration() { return calibration_; }
 
   /// Where the panes are and how large the window is; kept from one run to the next.
+  /// Of a closed window: as it was.
   void SaveLayout(QSettings* settings) const;
   /// Call it when the window is shown. A layout of another version of the program is left alone.
   void RestoreLayout(const QSettings& settings);
@@ -51,6 +52,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
 
  private:
   void AddWindowCommands();
@@ -81,6 +83,7 @@ class MainWindow : public QMainWindow {
   ads::CDockWidget* calibration_dock_ = nullptr;
   QMenu* view_menu_ = nullptr;
   QByteArray first_layout_;
+  QByteArray layout_at_close_;
 };
 
 }  // namespace foresight

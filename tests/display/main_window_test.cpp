@@ -257,6 +257,29 @@ TEST_F(Workstation, ALayoutComesBackAsItWasSavedAndCanBeReset) {
   running->Settle();
 }
 
+TEST_F(Workstation, AFloatingDockComesBackAfterTheWindowWasClosed) {
+  const QTemporaryDir folder;
+  QSettings settings(folder.filePath("layout.ini"), QSettings::IniFormat);
+  MainWindow& window = running->window();
+  auto* objects = window.findChild<ads::CDockWidget*>(QStringLiteral("objects"));
+  objects->setFloating();
+  running->Settle();
+  window.close();
+  running->Settle();
+  for (const QWidget* other : QApplication::topLevelWidgets())
+    EXPECT_FALSE(other->isVisible()) << other->windowTitle().toStdString();
+  window.SaveLayout(&settings);
+  window.show();
+  window.ResetLayout();
+  EXPECT_FALSE(objects->isFloating());
+  window.RestoreLayout(settings);
+  running->Settle();
+  EXPECT_TRUE(objects->isFloating());
+  EXPECT_TRUE(objects->isVisible());
+  window.ResetLayout();
+  running->Settle();
+}
+
 /// A widget that has the focus while F12 is pressed.
 void ExpectF12StopsWhileFocusedOn(QWidget* widget, Workbench* bench) {
   bench->head.releaseStop();
