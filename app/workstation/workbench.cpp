@@ -38,16 +38,17 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
 }
 
 void Workbench::KeepCommandsCurrent() {
+  // The models tell of changes even while they go, when the commands have gone already.
   const auto refresh = [this] { commands.refresh(); };
-  connect(&head, &HeadViewModel::statusChanged, this, refresh);
-  connect(&head, &HeadViewModel::planChanged, this, refresh);
-  connect(&recording, &RecordingViewModel::changed, this, refresh);
-  connect(&reviewer, &ReviewViewModel::changed, this, refresh);
-  connect(this, &Workbench::shownChanged, this, refresh);
+  connect(&head, &HeadViewModel::statusChanged, &commands, refresh);
+  connect(&head, &HeadViewModel::planChanged, &commands, refresh);
+  connect(&recording, &RecordingViewModel::changed, &commands, refresh);
+  connect(&reviewer, &ReviewViewModel::changed, &commands, refresh);
+  connect(this, &Workbench::shownChanged, &commands, refresh);
   for (Desk* desk : {&live, &review}) {
-    connect(&desk->fit, &FitViewModel::changed, this, refresh);
-    connect(&desk->session, &SessionModel::objectsChanged, this, refresh);
-    connect(desk->session.Undo(), &UndoStack::changed, this, refresh);
+    connect(&desk->fit, &FitViewModel::changed, &commands, refresh);
+    connect(&desk->session, &SessionModel::objectsChanged, &commands, refresh);
+    connect(desk->session.Undo(), &UndoStack::changed, &commands, refresh);
   }
 }
 

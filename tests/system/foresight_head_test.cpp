@@ -9,6 +9,7 @@
 #include "core/mission/mission_file.h"
 #include "core/mission/plan_json.h"
 #include "hardware/motor/modbus_link.h"
+#include "tests/hardware/emulated_head.h"
 #include "tests/support/running_program.h"
 #include "tests/support/sanitized.h"
 
@@ -19,10 +20,17 @@ const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
 
 class ForesightHead : public testing::Test {
  protected:
+  /// A file of the head that this build can emulate in real time.
+  std::string RealTimeRig() {
+    const std::string file = folder_ / "true_rig.yaml";
+    EXPECT_TRUE(SaveSensorRig(RealTimeDevices().true_rig, file));
+    return file;
+  }
   /// The devices live in the test, which so knows what the motor does.
   void StartDevices() {
     EmulationArguments arguments;
     arguments.scene = kRoom;
+    arguments.rig = RealTimeRig();
     devices_ = StartEmulation(arguments).value();
     ASSERT_TRUE(SaveHeadConfig(ConfigFor(*devices_), config_));
   }
@@ -55,9 +63,9 @@ class ForesightHead : public testing::Test {
 };
 
 TEST_F(ForesightHead, FliesAPlanThroughItsOwnEmulatedDevices) {
-  const ProgramResult result = RunProgram(
-      FORESIGHT_HEAD,
-      {"--emulate", kRoom, "--seed", "4", "--scan", Plan(-5, 5, 10), "--out", mission_, "--json"});
+  const ProgramResult result =
+      RunProgram(FORESIGHT_HEAD, {"--emulate", kRoom, "--rig", RealTimeRig(), "--seed", "4",
+                                  "--scan", Plan(-5, 5, 10), "--out", mission_, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const auto json = nlohmann::json::parse(result.output);
   EXPECT_EQ(json["state"], "complete");
