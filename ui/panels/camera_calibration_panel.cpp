@@ -11,7 +11,6 @@
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -21,11 +20,11 @@
 
 #include "ui/panels/calibration_plots.h"
 #include "ui/panels/theme.h"
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
 
-constexpr QSize kThumbnail(64, 48);
 /// Changes that come at once are drawn once.
 constexpr int kShowDelay_ms = 30;
 constexpr std::array<LensModel, 4> kModels = {LensModel::kFisheyeK, LensModel::kExtendedUnified,
@@ -47,12 +46,6 @@ QString NameOf(LensModel model) {
   return CameraCalibrationPanel::tr("radtan");
 }
 
-QLabel* Section(const QString& text) {
-  auto* label = new QLabel(text);
-  label->setObjectName(QStringLiteral("sectionTitle"));
-  return label;
-}
-
 QLabel* Words(const char* name) {
   auto* label = new QLabel;
   label->setObjectName(QString::fromLatin1(name));
@@ -62,13 +55,12 @@ QLabel* Words(const char* name) {
 }
 
 QIcon IconOf(const GrayImage& image) {
-  QPixmap pixmap(kThumbnail);
-  pixmap.fill(QColor(22, 25, 29));
+  QPixmap pixmap = EmptyThumbnail();
   if (!image.empty()) {
     const QImage borrowed(image.data(), image.width(), image.height(), image.width(),
                           QImage::Format_Grayscale8);
     pixmap = QPixmap::fromImage(
-        borrowed.scaled(kThumbnail, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+        borrowed.scaled(kThumbnailSize, Qt::KeepAspectRatio, Qt::SmoothTransformation));
   }
   // No second look for a row that is selected: it would tint the image.
   QIcon icon(pixmap);
@@ -178,7 +170,7 @@ CameraCalibrationPanel::CameraCalibrationPanel(CameraCalibrationModel* model, Ta
   progress_->setFixedHeight(6);
   images_->setAccessibleName(tr("Images of the board"));
   images_->setToolTip(tr("Clear the mark of an image to leave it out; Ctrl+Z takes that back"));
-  images_->setIconSize(kThumbnail);
+  images_->setIconSize(kThumbnailSize);
   images_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   images_->setWordWrap(true);
   images_->setFixedHeight(176);
@@ -186,9 +178,9 @@ CameraCalibrationPanel::CameraCalibrationPanel(CameraCalibrationModel* model, Ta
   auto* layout = new QVBoxLayout(inner);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->setSpacing(6);
-  layout->addWidget(Section(tr("Board")));
+  layout->addWidget(SectionTitle(tr("Board")));
   layout->addWidget(BuildBoard());
-  layout->addWidget(Section(tr("Images")));
+  layout->addWidget(SectionTitle(tr("Images")));
   layout->addWidget(BuildSources());
   layout->addWidget(next_);
   layout->addWidget(state_);
@@ -196,24 +188,17 @@ CameraCalibrationPanel::CameraCalibrationPanel(CameraCalibrationModel* model, Ta
   layout->addWidget(images_);
   layout->addWidget(map_);
   layout->addWidget(bars_);
-  layout->addWidget(Section(tr("Camera")));
+  layout->addWidget(SectionTitle(tr("Camera")));
   layout->addWidget(BuildSolve());
   layout->addWidget(table_);
   layout->addWidget(why_);
   layout->addWidget(verdict_);
   layout->addWidget(checks_);
   layout->addWidget(parameters_);
-  layout->addWidget(Section(tr("Rig")));
+  layout->addWidget(SectionTitle(tr("Rig")));
   layout->addWidget(BuildRig());
   layout->addStretch(1);
-  auto* scroll = new QScrollArea;
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(inner);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->addWidget(scroll);
+  FillWithScroll(this, inner);
   setMinimumWidth(240);
 
   soon_.setSingleShot(true);
