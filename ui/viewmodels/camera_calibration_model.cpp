@@ -84,13 +84,8 @@ QString TitleOf(LensModel model) {
 
 using Level = CalibrationCheck::Level;
 
-Level LevelOf(double value, double good, double bad) {
-  if (value <= good) return Level::kGood;
-  return value <= bad ? Level::kCaution : Level::kBad;
-}
-
 CalibrationCheck CheckError(const ModelCalibration& m) {
-  return {LevelOf(m.mean_error_px, kPaperError_px, kHighError_px),
+  return {CalibrationCheck::LevelOf(m.mean_error_px, kPaperError_px, kHighError_px),
           CameraCalibrationModel::tr("Mean error %1 px; the paper's is %2 px.")
               .arg(m.mean_error_px, 0, 'f', 3)
               .arg(kPaperError_px, 0, 'f', 3)};
@@ -113,7 +108,7 @@ CalibrationCheck CheckFocal(const ModelCalibration& m) {
     return {Level::kBad, CameraCalibrationModel::tr("The focal length is not observable.")};
   const CameraModel::Parameters sigmas = m.covariance->ValueSigmas();
   const double relative = std::max(sigmas[0] / m.camera.fx, sigmas[1] / m.camera.fy);
-  return {LevelOf(relative, kGoodFocalSigma, kBadFocalSigma),
+  return {CalibrationCheck::LevelOf(relative, kGoodFocalSigma, kBadFocalSigma),
           CameraCalibrationModel::tr("The focal length %1 px is known to ± %2 px (limit: ± %3).")
               .arg(m.camera.fx, 0, 'f', 1)
               .arg(std::max(sigmas[0], sigmas[1]), 0, 'f', 2)
@@ -122,7 +117,7 @@ CalibrationCheck CheckFocal(const ModelCalibration& m) {
 
 CalibrationCheck CheckCoverage(const ViewCoverage& coverage) {
   const double covered = coverage.CoveredFraction();
-  return {LevelOf(-covered, -kGoodCoverage, -kBadCoverage),
+  return {CalibrationCheck::LevelOf(-covered, -kGoodCoverage, -kBadCoverage),
           CameraCalibrationModel::tr("Corners cover %1 % of the image (limit: %2 %).")
               .arg(100.0 * covered, 0, 'f', 0)
               .arg(100.0 * kGoodCoverage, 0, 'f', 0)};
@@ -611,22 +606,6 @@ std::vector<CalibrationCheck> CameraCalibrationModel::Verdict() const {
   for (const std::string& warning : model->warnings)
     checks.push_back({Level::kCaution, Sentence(warning) + QLatin1Char('.')});
   return checks;
-}
-
-CalibrationCheck CameraCalibrationModel::VerdictSummary() const {
-  const std::vector<CalibrationCheck> checks = Verdict();
-  if (checks.empty()) return {Level::kBad, tr("There is no result yet.")};
-  const auto worst = std::max_element(
-      checks.begin(), checks.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
-  switch (worst->level) {
-    case Level::kGood:
-      return {Level::kGood, tr("Good: every limit is met.")};
-    case Level::kCaution:
-      return {Level::kCaution, tr("Usable with care: %1").arg(worst->text)};
-    case Level::kBad:
-      break;
-  }
-  return {Level::kBad, tr("Not good enough: %1").arg(worst->text)};
 }
 
 QString CameraCalibrationModel::Next() const {

@@ -12,6 +12,7 @@
 #include "core/calibration/camera_session.h"
 #include "core/calibration/intrinsics.h"
 #include "core/calibration/view_coverage.h"
+#include "ui/viewmodels/calibration_check.h"
 #include "ui/viewmodels/rig_version_model.h"
 
 namespace foresight {
@@ -37,13 +38,6 @@ struct CalibrationModelRow {
   double cross_validation_px = 0.0;  ///< NaN: too few images
   QString parameters = {};           ///< one a line, with its standard deviation
   QString failure = {};              ///< why it cannot be used
-};
-
-/// One thing that was compared with its limit.
-struct CalibrationCheck {
-  enum class Level { kGood, kCaution, kBad };
-  Level level = Level::kGood;
-  QString text;
 };
 
 /// Calibrates the head's camera from images of a board: a wizard without an order of steps. Each
@@ -107,8 +101,6 @@ class CameraCalibrationModel : public QObject {
   const ModelCalibration* ChosenModel() const;
 
   std::vector<CalibrationCheck> Verdict() const;
-  /// The worst level of the verdict, as a sentence.
-  CalibrationCheck VerdictSummary() const;
   const ViewCoverage& Coverage() const { return coverage_; }
   int ImageWidth() const { return width_; }
   int ImageHeight() const { return height_; }

@@ -1,6 +1,7 @@
 #include "ui/widgets/dock_parts.h"
 
 #include <QLabel>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
@@ -25,6 +26,28 @@ QLabel* SectionTitle(const QString& text) {
   auto* label = new QLabel(text);
   label->setObjectName(QStringLiteral("sectionTitle"));
   return label;
+}
+
+QLabel* WordsLabel(const char* name) {
+  auto* label = new QLabel;
+  label->setObjectName(QString::fromLatin1(name));
+  label->setWordWrap(true);
+  label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  return label;
+}
+
+QPushButton* NarrowButton(const char* name, const QString& text, const QString& tip) {
+  auto* button = new QPushButton(text);
+  button->setObjectName(QString::fromLatin1(name));
+  button->setToolTip(tip);
+  button->setStyleSheet(QStringLiteral("padding: 6px 4px;"));
+  button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  return button;
+}
+
+void ShowPossible(QPushButton* button, const QString& tip, const QString& why_not) {
+  button->setEnabled(why_not.isEmpty());
+  button->setToolTip(why_not.isEmpty() ? tip : tip + QLatin1Char('\n') + why_not);
 }
 
 QPixmap EmptyThumbnail() {
