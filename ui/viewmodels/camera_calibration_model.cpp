@@ -133,9 +133,26 @@ CalibrationCheck CheckNumber(const ViewCoverage& coverage) {
 
 CameraCalibrationModel::CameraCalibrationModel(HeadViewModel* head, SessionModel* session,
                                                const QString& folder, QObject* parent)
-    : QObject(parent), head_(head), session_(session), root_(folder), rig_(head, session) {
-  for (TaskRunner* runner : {&reader_, &solver_, &keeper_})
+    : QObject(parent),
+      head_(head),
+      session_(session),
+      root_(folder),
+      rig_(head, session),
+      captures_(head),
+      live_(head, session->Tasks()) {
+  for (TaskRunner* runner : {&reader_, &solver_, &mapper_, &keeper_})
     connect(runner, &TaskRunner::changed, this, &CameraCalibrationModel::changed);
+  connect(&captures_, &HeadCaptures::changed, this, &CameraCalibrationModel::changed);
+  connect(&captures_, &HeadCaptures::captured, this,
+          [this](const std::shared_ptr<const StopCapture>& capture) {
+            if (capture->image) AddFromHead(capture->image->image, capture->position.angle_rad);
+          });
+  connect(&captures_, &HeadCaptures::stopsEnded, this, [this](bool, const QString& reason) {
+    if (!reason.isEmpty())
+      session_->Report({Notice::Level::kWarning, tr("No image was captured: %1.").arg(reason),
+                        tr("Try again.")});
+  });
+  live_.SetBoards({board_});
   connect(&rig_, &RigVersionModel::changed, this, &CameraCalibrationModel::changed);
   connect(session_, &SessionModel::imageChanged, this, &CameraCalibrationModel::changed);
 }
@@ -183,6 +200,7 @@ void CameraCalibrationModel::Clear() {
   folder_.clear();
   next_number_ = 1;
   result_.reset();
+  maps_.reset();
   chosen_ = -1;
   failure_.clear();
   keep_wanted_ = solve_wanted_ = false;
@@ -211,6 +229,7 @@ void CameraCalibrationModel::OpenSession(const QString& folder) {
         folder_ = folder;
         rig_.SetFolder(folder);
         board_ = loaded->board;
+        live_.SetBoards({board_});
         models_ = loaded->models;
         for (const CameraSessionImage& image : loaded->images) {
           entries_.push_back({.kept = image, .on_disk = true});
@@ -225,6 +244,7 @@ Status CameraCalibrationModel::SetBoard(const CalibrationBoard& board) {
   FORESIGHT_CHECK(board.Check());
   if (board == board_) return {};
   board_ = board;
+  live_.SetBoards({board_});
   ++*board_version_;
   for (Entry& entry : entries_) {
     if (!entry.on_disk) continue;
@@ -276,11 +296,19 @@ void CameraCalibrationModel::takeFromHead() {
     session_->Report({Notice::Level::kInfo, tr("No image was taken over."), WhyNotTakeFromHead()});
     return;
   }
-  const auto image = std::make_shared<const ColorImage>(session_->CurrentImage()->image);
-  const double angle_deg = DegreesFromRadians(session_->CurrentImage()->motor_angle_rad);
-  const std::string name = fmt::format("head-{:+.0f}deg.png", angle_deg);
+  AddFromHead(session_->CurrentImage()->image, session_->CurrentImage()->motor_angle_rad);
+}
+
+void CameraCalibrationModel::captureFromHead() {
+  if (const Status started = captures_.StartImage(); !started)
+    session_->Report(NoticeOf(tr("Capturing an image"), started.error()));
+}
+
+void CameraCalibrationModel::AddFromHead(const ColorImage& image, double motor_rad) {
+  const auto kept = std::make_shared<const ColorImage>(image);
+  const std::string name = fmt::format("head-{:+.0f}deg.png", DegreesFromRadians(motor_rad));
   Read({.file = NewFileName(name), .name = tr("the head's image").toStdString()}, false,
-       [image] { return EncodePng(*image); });
+       [kept] { return EncodePng(*kept); });
   Changed();
 }
 
@@ -466,7 +494,37 @@ void CameraCalibrationModel::TakeResult(Result<IntrinsicsCalibration> result) {
   chosen_ = result->best;
   if (chosen_ < 0) failure_ = Sentence(result->models.front().failure) + QLatin1Char('.');
   result_ = std::make_shared<const IntrinsicsCalibration>(std::move(*result));
+  MakeMaps();
   Announce();
+}
+
+void CameraCalibrationModel::WantMaps(double distance_m) {
+  if (distance_m == map_distance_m_) return;
+  map_distance_m_ = distance_m;
+  MakeMaps();
+  Announce();
+}
+
+/// The last ones stay until the new ones are there.
+void CameraCalibrationModel::MakeMaps() {
+  const ModelCalibration* model = ChosenModel();
+  if (model == nullptr || !(map_distance_m_ > 0.0)) {
+    mapper_.cancel();
+    maps_.reset();
+    return;
+  }
+  mapper_.Run<CameraMaps>(
+      tr("Mapping the camera's uncertainty"),
+      [result = result_, chosen = chosen_, board = board_,
+       distance = map_distance_m_](const RunContext& context) {
+        return MakeCameraMaps(board, result->models[static_cast<std::size_t>(chosen)], distance,
+                              context);
+      },
+      [this, result = result_, chosen = chosen_](Result<CameraMaps> maps) {
+        if (!maps || result != result_ || chosen != chosen_) return;
+        maps_ = std::make_shared<const CameraMaps>(std::move(*maps));
+        Announce();
+      });
 }
 
 void CameraCalibrationModel::solve() {
@@ -576,6 +634,7 @@ void CameraCalibrationModel::Choose(int index) {
   if (index == chosen_ || !result_->models[static_cast<std::size_t>(index)].Usable()) return;
   chosen_ = index;
   rig_.Forget();
+  MakeMaps();
   Announce();
 }
 
