@@ -23,6 +23,11 @@ struct BoardMount {
   BoardFromBoard a_from_b;  ///< as drawn; the true one is estimated
 
   Status Check() const;
+  bool operator==(const BoardMount& other) const {
+    return a == other.a && b == other.b &&
+           a_from_b.rotation().coeffs() == other.a_from_b.rotation().coeffs() &&
+           a_from_b.translation() == other.a_from_b.translation();
+  }
 };
 
 /// A stand of two boards with 8 x 6 inner corners of 50 mm whose surfaces meet in a hinge along y,

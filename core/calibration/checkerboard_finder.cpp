@@ -300,6 +300,7 @@ CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int row
         std::min(search.other->columns, search.other->rows) <= std::min(columns, rows);
     if (search.other_is_whole && !fits) return search;
   }
+  if (effort == SearchEffort::kLive) return search;
   const SmoothImage smooth = Smoothed(image);
   if (found(FindWithQuads(smooth, columns, rows, 1.0))) return search;
   if (found(FindWithQuads(smooth, columns, rows, 0.5))) return search;

@@ -19,6 +19,7 @@ struct CheckerboardSearch {
 enum class SearchEffort {
   kThorough,  ///< some seconds; says what is there instead
   kQuick,     ///< tenths of a second: for many images of which most show the board, or none
+  kLive,      ///< as kQuick, and says what is there instead: for small images that go by
 };
 
 /// The inner corners of a checkerboard of columns x rows, refined below a pixel, in any rotation.

@@ -99,22 +99,27 @@ Result<CameraBundle> FitLens(const CameraBundle& near, LensModel model,
   return *best;
 }
 
+Result<CameraBundle> FitEverySecond(const CameraBundle& bundle, std::size_t first, bool free_warp,
+                                    const RunContext& context) {
+  CameraBundle half = Half(bundle, first);
+  const bool pinhole = std::holds_alternative<FisheyeLens>(bundle.camera.lens) &&
+                       std::get<FisheyeLens>(bundle.camera.lens).k == 0.0;
+  FORESIGHT_CHECK(AdjustBundle(half, {.free_lens = !pinhole, .free_warp = free_warp}, context));
+  return half;
+}
+
 Result<double> CrossValidate(const CameraBundle& bundle, bool free_warp,
                              const RunContext& context) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (bundle.views.size() < 4) return kNone;
   double sum = 0.0;
   for (const std::size_t parity : {std::size_t{0}, std::size_t{1}}) {
-    CameraBundle used = Half(bundle, parity);
-    const bool pinhole = std::holds_alternative<FisheyeLens>(bundle.camera.lens) &&
-                         std::get<FisheyeLens>(bundle.camera.lens).k == 0.0;
-    const Status status =
-        AdjustBundle(used, {.free_lens = !pinhole, .free_warp = free_warp}, context);
+    const auto used = FitEverySecond(bundle, parity, free_warp, context);
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "calibration was cancelled");
-    if (!status) return kNone;
+    if (!used) return kNone;
     CameraBundle others = Half(bundle, 1 - parity);
-    others.camera = used.camera;
-    others.warp = used.warp;
+    others.camera = used->camera;
+    others.warp = used->warp;
     sum += SumOfDistances(others);
   }
   return sum / bundle.CornerCount();

@@ -1,30 +1,18 @@
 #include "core/calibration/session_file.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 
 #include "core/base/atomic_file.h"
 #include "core/base/parallel.h"
 #include "core/calibration/board_detector.h"
-#include "core/calibration/number_table.h"
-#include "core/geometry/angles.h"
+#include "core/calibration/session_index.h"
+#include "core/calibration/session_tables.h"
 #include "core/io/image_file.h"
-#include "core/io/yaml_reader.h"
 
 namespace foresight {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kFormatVersion = 1;
-constexpr std::size_t kMostLines = 100000;  // of one file: 40 minutes of a lidar
-
-const NumberTable kCornerTable{{"board", "corner", "u", "v"}, false, "ab"};
-const NumberTable kLineTable{{"seq", "time_s", "range_mm"}, true, ""};
-const NumberTable kMotorTable{{"time_s", "angle_rad"}, false, ""};
-
-// ---- writing
 
 Status MakeFolder(const fs::path& folder) {
   std::error_code error;
@@ -38,47 +26,6 @@ Status WriteText(const fs::path& folder, const std::string& name, const std::str
   return WriteFileAtomically(folder / name, text);
 }
 
-void AppendCorners(char board, const BoardView& view, std::string* text) {
-  for (std::size_t i = 0; i < view.corner_ids.size(); ++i)
-    fmt::format_to(std::back_inserter(*text), "{},{},{},{}\n", board, view.corner_ids[i],
-                   view.pixels[i].x(), view.pixels[i].y());
-}
-
-std::string LinesText(const std::vector<LidarLine>& lines) {
-  std::string text = "seq,time_s,range_mm\n";
-  for (const LidarLine& line : lines) {
-    fmt::format_to(std::back_inserter(text), "{},{}", line.seq, line.time_s);
-    for (const std::uint16_t range : line.range_mm)
-      fmt::format_to(std::back_inserter(text), ",{}", range);
-    text += '\n';
-  }
-  return text;
-}
-
-std::string MotorText(const MotorTrack& track) {
-  std::string text = "time_s,angle_rad\n";
-  for (const MotorSample& sample : track.samples())
-    fmt::format_to(std::back_inserter(text), "{},{}\n", sample.time_s, sample.angle_rad);
-  return text;
-}
-
-std::string BoardFromBoardYaml(const BoardFromBoard& a_from_b) {
-  const Eigen::Quaterniond& q = a_from_b.rotation();
-  const Eigen::Vector3d& t = a_from_b.translation();
-  return fmt::format("{{quaternion_wxyz: [{}, {}, {}, {}], translation_m: [{}, {}, {}]}}", q.w(),
-                     q.x(), q.y(), q.z(), t.x(), t.y(), t.z());
-}
-
-/// In double quotes, with what YAML would read as something else escaped.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return quoted + "\"";
-}
-
 class Writer {
  public:
   Writer(const CalibrationSession& session, const fs::path& folder, SessionViews views)
@@ -86,267 +33,88 @@ class Writer {
 
   Status Write() {
     FORESIGHT_CHECK(session_.Check());
-    FORESIGHT_CHECK(WriteText(folder_, "rig.yaml", SensorRigToYaml(session_.prior)));
-    yaml_ =
-        fmt::format("foresight_calibration_session: {}\nname: {}\nrig: rig.yaml\nmount:\n  a: {}\n",
-                    kFormatVersion, Quoted(session_.name), ToText(session_.mount.a));
-    if (session_.mount.b)
-      yaml_ += fmt::format("  b: {}\n  a_from_b: {}\n", ToText(*session_.mount.b),
-                           BoardFromBoardYaml(session_.mount.a_from_b));
+    index_.name = session_.name;
+    index_.mount = session_.mount;
+    FORESIGHT_CHECK(WriteText(folder_, index_.rig, SensorRigToYaml(session_.prior)));
     FORESIGHT_CHECK(WriteViews());
-    if (!session_.poses.empty()) yaml_ += "poses:\n";
     for (std::size_t pose = 0; pose < session_.poses.size(); ++pose)
-      FORESIGHT_CHECK(WritePose(pose, fmt::format("pose_{:02}", pose + 1)));
+      FORESIGHT_CHECK(WritePose(session_.poses[pose], fmt::format("pose_{:02}", pose + 1)));
     // Last: a folder without it is no session.
-    return WriteText(folder_, "session.yaml", yaml_);
+    return WriteSessionIndex(index_, folder_);
   }
 
  private:
   Status WriteViews() {
     if (session_.intrinsic_views.empty()) return {};
-    yaml_ +=
-        fmt::format("intrinsic_board: {}\nintrinsic_views:\n", ToText(session_.intrinsic_board));
+    index_.intrinsic_board = session_.intrinsic_board;
+    if (views_ == SessionViews::kImages) FORESIGHT_CHECK(MakeFolder(folder_ / "intrinsic"));
     for (std::size_t i = 0; i < session_.intrinsic_views.size(); ++i) {
+      SessionViewFiles view;
       if (views_ == SessionViews::kImages) {
-        FORESIGHT_CHECK(MakeFolder(folder_ / "intrinsic"));
-        yaml_ += fmt::format("  - {{image: {}}}\n", ImageNameOfView(i));
-        continue;
+        view.image = ImageNameOfView(i);
+      } else {
+        view.corners = fmt::format("intrinsic/{:03}.csv", i + 1);
+        const MountView corners{"", session_.intrinsic_views[i].view, {}};
+        FORESIGHT_CHECK(WriteText(folder_, view.corners, CornersText(corners)));
       }
-      const std::string name = fmt::format("intrinsic/{:03}.csv", i + 1);
-      std::string text = "board,corner,u,v\n";
-      AppendCorners('a', session_.intrinsic_views[i].view, &text);
-      FORESIGHT_CHECK(WriteText(folder_, name, text));
-      yaml_ += fmt::format("  - {{corners: {}}}\n", name);
+      index_.intrinsic_views.push_back(view);
     }
     return {};
   }
 
-  Status WritePose(std::size_t number, const std::string& folder) {
-    const PatternPose& pose = session_.poses[number];
-    FORESIGHT_CHECK(MakeFolder(folder_ / folder));
-    yaml_ += fmt::format("  - name: {}\n    stops:{}\n", Quoted(pose.name),
-                         pose.stops.empty() ? " []" : "");
+  Status WritePose(const PatternPose& pose, const std::string& folder) {
+    SessionPoseFiles files;
+    files.name = pose.name;
     for (std::size_t i = 0; i < pose.stops.size(); ++i) {
       const MotorStop& stop = pose.stops[i];
       const std::string name = fmt::format("{}/stop_{:02}", folder, i + 1);
-      // The shortest decimal number that gives the same angle but for the last digit.
-      yaml_ += fmt::format("      - {{motor_deg: {:.12g}", DegreesFromRadians(stop.motor_rad));
+      SessionStopFiles& entry = files.stops.emplace_back();
+      entry.motor_rad = stop.motor_rad;
       if (!stop.view.empty()) {
-        std::string text = "board,corner,u,v\n";
-        if (stop.view.a) AppendCorners('a', *stop.view.a, &text);
-        if (stop.view.b) AppendCorners('b', *stop.view.b, &text);
-        FORESIGHT_CHECK(WriteText(folder_, name + "_corners.csv", text));
-        yaml_ += fmt::format(", corners: {}_corners.csv", name);
+        entry.view.corners = name + "_corners.csv";
+        FORESIGHT_CHECK(WriteText(folder_, entry.view.corners, CornersText(stop.view)));
       }
       if (!stop.lines.empty()) {
-        FORESIGHT_CHECK(WriteText(folder_, name + "_lines.csv", LinesText(stop.lines)));
-        yaml_ += fmt::format(", lines: {}_lines.csv", name);
+        entry.lines = name + "_lines.csv";
+        FORESIGHT_CHECK(WriteText(folder_, entry.lines, LinesText(stop.lines)));
       }
-      yaml_ += "}\n";
     }
-    if (pose.sweep.lines.empty()) return {};
-    FORESIGHT_CHECK(WriteText(folder_, folder + "/sweep_lines.csv", LinesText(pose.sweep.lines)));
-    FORESIGHT_CHECK(WriteText(folder_, folder + "/sweep_motor.csv", MotorText(pose.sweep.track)));
-    yaml_ += fmt::format("    sweep: {{lines: {0}/sweep_lines.csv, motor: {0}/sweep_motor.csv}}\n",
-                         folder);
+    if (!pose.sweep.lines.empty()) {
+      files.sweeps.push_back(
+          {.lines = folder + "/sweep_lines.csv", .motor = folder + "/sweep_motor.csv"});
+      FORESIGHT_CHECK(WriteText(folder_, files.sweeps[0].lines, LinesText(pose.sweep.lines)));
+      FORESIGHT_CHECK(WriteText(folder_, files.sweeps[0].motor, MotorText(pose.sweep.track)));
+    }
+    index_.poses.push_back(std::move(files));
     return {};
   }
 
   const CalibrationSession& session_;
   fs::path folder_;
   SessionViews views_;
-  std::string yaml_;
+  SessionIndex index_;
 };
-
-// ---- reading
-
-/// What session.yaml says, before the files that it names are read.
-struct ViewEntry {
-  std::string image, corners;
-};
-struct StopEntry {
-  double motor_rad = 0.0;
-  ViewEntry view;
-  std::string lines;
-};
-struct PoseEntry {
-  std::string name;
-  std::vector<StopEntry> stops;
-  std::string sweep_lines, sweep_motor;
-};
-struct SessionEntry {
-  std::string rig;
-  std::vector<ViewEntry> views;
-  std::vector<PoseEntry> poses;
-};
-
-/// A file's name, inside the session's folder.
-std::string FileName(YamlMap& map, const std::string& key) {
-  const std::string name = map.Text(key);
-  const fs::path path(name);
-  const bool leaves =
-      path.is_absolute() ||
-      std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
-  if (name.empty() || leaves)
-    map.Fault(map.Node(key), "'" + key + "' is not a file in the session's folder");
-  return name;
-}
-
-std::string OptionalFileName(YamlMap& map, const std::string& key) {
-  return map.Has(key) ? FileName(map, key) : std::string();
-}
-
-CalibrationBoard BoardFromYaml(YamlMap& map, const std::string& key) {
-  const auto board = CalibrationBoardFromText(map.Text(key));
-  if (!board) map.Fault(map.Node(key), board.error().message);
-  return *board;
-}
-
-ViewEntry ViewFromYaml(YamlMap& map) {
-  ViewEntry view{OptionalFileName(map, "image"), OptionalFileName(map, "corners")};
-  if (!view.image.empty() && !view.corners.empty())
-    map.Fault(map.Node("image"), "a view has an image or corners, not both");
-  return view;
-}
-
-BoardMount MountFromYaml(YamlMap map) {
-  BoardMount mount;
-  mount.a = BoardFromYaml(map, "a");
-  if (map.Has("b")) {
-    mount.b = BoardFromYaml(map, "b");
-    YamlMap pose = map.Map("a_from_b");
-    const std::vector<double> q = pose.Numbers("quaternion_wxyz", 4);
-    const Eigen::Vector3d t = pose.Vector("translation_m");
-    pose.Finish();
-    const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-    if (std::abs(rotation.norm() - 1.0) > 1e-3)
-      pose.Fault("quaternion_wxyz does not have length 1");
-    if (t.norm() > 10.0) pose.Fault("the boards are over 10 m apart");
-    mount.a_from_b = {rotation, t};
-  }
-  map.Finish();
-  return mount;
-}
-
-PoseEntry PoseFromYaml(YamlMap& map, std::size_t number) {
-  PoseEntry pose;
-  pose.name = map.Text("name", fmt::format("pose {}", number));
-  for (YamlMap& entry : map.List("stops")) {
-    StopEntry stop;
-    stop.motor_rad = RadiansFromDegrees(entry.Number("motor_deg"));
-    stop.view = ViewFromYaml(entry);
-    stop.lines = OptionalFileName(entry, "lines");
-    entry.Finish();
-    pose.stops.push_back(std::move(stop));
-  }
-  if (map.Has("sweep")) {
-    YamlMap sweep = map.Map("sweep");
-    pose.sweep_lines = FileName(sweep, "lines");
-    pose.sweep_motor = FileName(sweep, "motor");
-    sweep.Finish();
-  }
-  map.Finish();
-  return pose;
-}
-
-SessionEntry SessionFromYaml(YamlMap& map, CalibrationSession* session) {
-  const int version = map.Integer("foresight_calibration_session");
-  if (version != kFormatVersion)
-    map.Fault(fmt::format("version {} of the format is not known, this program reads {}", version,
-                          kFormatVersion));
-  SessionEntry entry;
-  session->name = map.Text("name", "unnamed");
-  entry.rig = FileName(map, "rig");
-  session->mount = MountFromYaml(map.Map("mount"));
-  if (map.Has("intrinsic_views")) session->intrinsic_board = BoardFromYaml(map, "intrinsic_board");
-  for (YamlMap& view : map.List("intrinsic_views")) {
-    entry.views.push_back(ViewFromYaml(view));
-    view.Finish();
-    if (entry.views.back().image.empty() && entry.views.back().corners.empty())
-      view.Fault("a view needs an image or corners");
-  }
-  for (YamlMap& pose : map.List("poses"))
-    entry.poses.push_back(PoseFromYaml(pose, entry.poses.size() + 1));
-  map.Finish();
-  return entry;
-}
-
-Result<MountView> ReadCorners(const fs::path& path) {
-  MountView view;
-  view.source = path.filename().string();
-  const auto on_row = [&](int line, std::span<const double> row) -> Status {
-    if (row[0] != 0.0 && row[0] != 1.0)
-      return Fail(ErrorCode::kBadData, "{}:{}: the board is a or b", path.string(), line);
-    if (row[1] < 0.0 || row[1] > 10000.0 || row[1] != std::floor(row[1]))
-      return Fail(ErrorCode::kBadData, "{}:{}: {} is no corner", path.string(), line, row[1]);
-    auto& board = row[0] == 0.0 ? view.a : view.b;
-    if (!board) board.emplace();
-    board->corner_ids.push_back(static_cast<int>(row[1]));
-    board->pixels.emplace_back(row[2], row[3]);
-    return {};
-  };
-  FORESIGHT_CHECK(ReadNumberTable(path, kCornerTable, on_row));
-  return view;
-}
-
-Result<std::vector<LidarLine>> ReadLines(const fs::path& path, const LidarModel& lidar) {
-  std::vector<LidarLine> lines;
-  const auto on_row = [&](int number, std::span<const double> row) -> Status {
-    if (row.size() - 2 != static_cast<std::size_t>(lidar.beams))
-      return Fail(ErrorCode::kBadData, "{}:{}: {} ranges, the rig's lidar has {} beams",
-                  path.string(), number, row.size() - 2, lidar.beams);
-    if (lines.size() == kMostLines)
-      return Fail(ErrorCode::kBadData, "{}:{}: more than {} lines", path.string(), number,
-                  kMostLines);
-    LidarLine line;
-    if (std::abs(row[0]) > 1e15)
-      return Fail(ErrorCode::kBadData, "{}:{}: {} is no number of a line", path.string(), number,
-                  row[0]);
-    line.seq = static_cast<std::int64_t>(row[0]);
-    line.time_s = row[1];
-    for (const double range : row.subspan(2)) {
-      if (range < 0.0 || range > 65535.0 || range != std::floor(range))
-        return Fail(ErrorCode::kBadData, "{}:{}: {} is no range in millimetres", path.string(),
-                    number, range);
-      line.range_mm.push_back(static_cast<std::uint16_t>(range));
-    }
-    lines.push_back(std::move(line));
-    return {};
-  };
-  FORESIGHT_CHECK(ReadNumberTable(path, kLineTable, on_row));
-  return lines;
-}
-
-Result<MotorTrack> ReadTrack(const fs::path& path) {
-  std::vector<MotorSample> samples;
-  FORESIGHT_CHECK(
-      ReadNumberTable(path, kMotorTable, [&](int, std::span<const double> row) -> Status {
-        samples.push_back({row[0], row[1]});
-        return {};
-      }));
-  auto track = MotorTrack::FromSamples(std::move(samples));
-  if (!track) return Fail(ErrorCode::kBadData, "{}: {}", path.string(), track.error().message);
-  return track;
-}
 
 /// One image, or file of corners, and what is in it.
 struct ViewJob {
-  ViewEntry entry;
+  SessionViewFiles files;
   const CalibrationBoard* a = nullptr;
   const CalibrationBoard* b = nullptr;
   SearchEffort effort = SearchEffort::kThorough;
-  MountView view;
-  Status status;
+  std::map<std::string, MountView>* found = nullptr;
+  MountView view = {};
+  bool done = false;
+  Status status = {};
 };
 
 Status LookAt(const fs::path& folder, const SensorRig& rig, ViewJob* job) {
-  if (!job->entry.corners.empty()) {
-    FORESIGHT_TRY(job->view, ReadCorners(folder / job->entry.corners));
-    job->view.source = job->entry.corners;
+  if (!job->files.corners.empty()) {
+    FORESIGHT_TRY(job->view, ReadCorners(folder / job->files.corners));
+    job->view.source = job->files.corners;
     return {};
   }
-  job->view.source = job->entry.image;
-  const fs::path file = folder / job->entry.image;
+  job->view.source = job->files.image;
+  const fs::path file = folder / job->files.image;
   FORESIGHT_TRY(const GrayImage image, ReadImageGray(file));
   if (image.width() != rig.camera.width || image.height() != rig.camera.height)
     return Fail(ErrorCode::kBadData, "{}: {} x {} pixels, the rig's camera has {} x {}",
@@ -363,86 +131,111 @@ Status LookAt(const fs::path& folder, const SensorRig& rig, ViewJob* job) {
 
 class Loader {
  public:
-  Loader(const fs::path& folder, const RunContext& context) : folder_(folder), context_(context) {}
+  Loader(const fs::path& folder, const RunContext& context, FoundViews* found)
+      : folder_(folder), context_(context), found_(found) {}
 
   Result<CalibrationSession> Load() {
-    const fs::path file = folder_ / "session.yaml";
-    FORESIGHT_TRY(const std::string text, ReadFile(file));
-    FORESIGHT_CHECK(ParseYaml(text, file.string(),
-                              [&](YamlMap& map) { entry_ = SessionFromYaml(map, &session_); }));
-    FORESIGHT_TRY(session_.prior, LoadSensorRig(folder_ / entry_.rig));
+    FORESIGHT_TRY(index_, ReadSessionIndex(folder_));
+    session_.name = index_.name;
+    session_.mount = index_.mount;
+    if (index_.intrinsic_board) session_.intrinsic_board = *index_.intrinsic_board;
+    FORESIGHT_TRY(session_.prior, LoadSensorRig(folder_ / index_.rig));
     FORESIGHT_CHECK(LoadViews());
-    for (std::size_t pose = 0; pose < entry_.poses.size(); ++pose)
-      FORESIGHT_CHECK(LoadPose(entry_.poses[pose], &session_.poses[pose]));
+    for (const SessionPoseFiles& pose : index_.poses)
+      if (!pose.excluded) FORESIGHT_CHECK(LoadPose(pose));
     if (const Status status = session_.Check(); !status)
-      return Fail(ErrorCode::kBadData, "{}: {}", file.string(), status.error().message);
+      return Fail(ErrorCode::kBadData, "{}: {}", (folder_ / "session.yaml").string(),
+                  status.error().message);
     return std::move(session_);
   }
 
  private:
   /// Images are looked at on all threads.
   Status LoadViews() {
-    std::vector<ViewJob> jobs;
-    for (const ViewEntry& entry : entry_.views)
-      jobs.push_back({entry, &session_.intrinsic_board, nullptr, SearchEffort::kThorough, {}, {}});
+    for (const SessionViewFiles& view : index_.intrinsic_views)
+      if (!view.excluded)
+        jobs_.push_back({view, &session_.intrinsic_board, nullptr, SearchEffort::kThorough,
+                         &found_->intrinsic});
+    const std::size_t views = jobs_.size();
     const CalibrationBoard* b = session_.mount.b ? &*session_.mount.b : nullptr;
-    for (const PoseEntry& pose : entry_.poses)
-      for (const StopEntry& stop : pose.stops)
-        if (!stop.view.image.empty() || !stop.view.corners.empty())
-          // At many stops no board is in sight, and nobody wants to know what is there instead.
-          jobs.push_back({stop.view, &session_.mount.a, b, SearchEffort::kQuick, {}, {}});
-    std::atomic<int> done = 0;
-    const int count = static_cast<int>(jobs.size());
-    const bool finished = ParallelFor(count, context_, [&](int i) {
-      ViewJob& job = jobs[static_cast<std::size_t>(i)];
-      job.status = LookAt(folder_, session_.prior, &job);
-      context_.Report(static_cast<double>(++done) / count, "looking for boards");
-    });
-    if (!finished) return Fail(ErrorCode::kCancelled, "reading the session: cancelled");
-    for (const ViewJob& job : jobs) FORESIGHT_CHECK(job.status);
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < entry_.views.size(); ++i, ++next)
-      if (jobs[next].view.a)
-        session_.intrinsic_views.push_back({jobs[next].view.source, *jobs[next].view.a});
-    for (const PoseEntry& entry : entry_.poses) {
-      PatternPose pose;
-      pose.name = entry.name;
-      for (const StopEntry& stop : entry.stops) {
-        pose.stops.push_back({stop.motor_rad, {}, {}});
-        if (!stop.view.image.empty() || !stop.view.corners.empty())
-          pose.stops.back().view = std::move(jobs[next++].view);
-      }
-      session_.poses.push_back(std::move(pose));
+    for (const SessionPoseFiles& pose : index_.poses)
+      for (const SessionStopFiles& stop : pose.stops)
+        // At many stops no board is in sight, and nobody wants to know what is there instead.
+        if (!pose.excluded && HasView(stop))
+          jobs_.push_back({stop.view, &session_.mount.a, b, SearchEffort::kQuick, &found_->stops});
+    FORESIGHT_CHECK(RunJobs());
+    for (next_job_ = 0; next_job_ < views; ++next_job_) {
+      const MountView& view = jobs_[next_job_].view;
+      if (view.a) session_.intrinsic_views.push_back({view.source, *view.a});
     }
     return {};
   }
 
-  Status LoadPose(const PoseEntry& entry, PatternPose* pose) {
+  Status RunJobs() {
+    std::vector<ViewJob*> open;
+    for (ViewJob& job : jobs_) {
+      const auto known = job.found->find(job.files.File());
+      if (known == job.found->end())
+        open.push_back(&job);
+      else
+        job.view = known->second;
+    }
+    std::atomic<int> done = 0;
+    const int count = static_cast<int>(open.size());
+    const bool finished = ParallelFor(count, context_, [&](int i) {
+      ViewJob& job = *open[static_cast<std::size_t>(i)];
+      job.status = LookAt(folder_, session_.prior, &job);
+      job.done = true;
+      context_.Report(static_cast<double>(++done) / count, "looking for boards");
+    });
+    for (const ViewJob* job : open)
+      if (job->done && job->status) (*job->found)[job->files.File()] = job->view;
+    if (!finished) return Fail(ErrorCode::kCancelled, "reading the session: cancelled");
+    for (const ViewJob* job : open) FORESIGHT_CHECK(job->status);
+    return {};
+  }
+
+  static bool HasView(const SessionStopFiles& stop) {
+    return !stop.excluded && !stop.view.excluded && !stop.view.empty();
+  }
+
+  /// In the order of the jobs.
+  Status LoadPose(const SessionPoseFiles& files) {
     if (context_.Cancelled()) return Fail(ErrorCode::kCancelled, "reading the session: cancelled");
-    for (std::size_t i = 0; i < entry.stops.size(); ++i) {
-      if (entry.stops[i].lines.empty()) continue;
-      FORESIGHT_TRY(pose->stops[i].lines,
-                    ReadLines(folder_ / entry.stops[i].lines, session_.prior.lidar));
+    PatternPose pose;
+    pose.name = files.name;
+    for (const SessionStopFiles& entry : files.stops) {
+      if (entry.excluded) continue;
+      MotorStop& stop = pose.stops.emplace_back();
+      stop.motor_rad = entry.motor_rad;
+      if (HasView(entry)) stop.view = std::move(jobs_[next_job_++].view);
+      if (entry.lines.empty() || entry.lines_excluded) continue;
+      FORESIGHT_TRY(stop.lines, ReadLines(folder_ / entry.lines, session_.prior.lidar));
     }
-    if (!entry.sweep_lines.empty()) {
-      FORESIGHT_TRY(pose->sweep.lines,
-                    ReadLines(folder_ / entry.sweep_lines, session_.prior.lidar));
-      FORESIGHT_TRY(pose->sweep.track, ReadTrack(folder_ / entry.sweep_motor));
+    for (const SessionSweepFiles& sweep : files.sweeps) {
+      if (sweep.excluded) continue;
+      FORESIGHT_TRY(pose.sweep.lines, ReadLines(folder_ / sweep.lines, session_.prior.lidar));
+      FORESIGHT_TRY(pose.sweep.track, ReadTrack(folder_ / sweep.motor));
     }
+    session_.poses.push_back(std::move(pose));
     return {};
   }
 
   fs::path folder_;
   const RunContext& context_;
-  SessionEntry entry_;
+  FoundViews* found_;
+  SessionIndex index_;
+  std::vector<ViewJob> jobs_;
+  std::size_t next_job_ = 0;
   CalibrationSession session_;
 };
 
 }  // namespace
 
-Result<CalibrationSession> ReadCalibrationSession(const fs::path& folder,
-                                                  const RunContext& context) {
-  return Loader(folder, context).Load();
+Result<CalibrationSession> ReadCalibrationSession(const fs::path& folder, const RunContext& context,
+                                                  FoundViews* found) {
+  FoundViews none;
+  return Loader(folder, context, found != nullptr ? found : &none).Load();
 }
 
 Status WriteCalibrationSession(const CalibrationSession& session, const fs::path& folder,

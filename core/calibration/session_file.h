@@ -1,18 +1,28 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "core/base/run_context.h"
 #include "core/calibration/calibration_session.h"
 
 namespace foresight {
 
+/// What was found in the images of a session, by their files' names. Files of a session never
+/// change, so it stays true as long as the session's boards are the same.
+struct FoundViews {
+  std::map<std::string, MountView> intrinsic;  ///< the intrinsic board is `a`
+  std::map<std::string, MountView> stops;
+};
+
 /// Reads a session's folder, docs/formats.md. Boards are looked for in its images, on all threads;
-/// an intrinsic image without a board is left out, a stop's image then shows nothing. Everything is
-/// checked, and an error names the file and the place in it. Files outside of the folder are
-/// refused.
+/// an intrinsic image without a board is left out, a stop's image then shows nothing. What is
+/// excluded is not read. Everything is checked, and an error names the file and the place in it.
+/// Files outside of the folder are refused. Images in `found` are not looked at again, others are
+/// added to it.
 Result<CalibrationSession> ReadCalibrationSession(const std::filesystem::path& folder,
-                                                  const RunContext& context);
+                                                  const RunContext& context,
+                                                  FoundViews* found = nullptr);
 
 /// What stands for the intrinsic views in a session's files; stops have corners.
 enum class SessionViews { kCorners, kImages };

@@ -36,9 +36,14 @@ class FakeHead : public SensorHead {
     status_.state = HeadState::kSweeping;
     return {};
   }
-  foresight::Status StartStops(const StopPlan& plan, std::shared_ptr<StopSink>) override {
+  foresight::Status StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink) override {
+    if (status_.state != HeadState::kReady)
+      return Fail(ErrorCode::kState, "fake head: it is {}", ToString(status_.state));
     FORESIGHT_CHECK(plan.Check());
-    return Fail(ErrorCode::kState, "fake head: has no stops");
+    stop_plan = plan;
+    stop_sink_ = std::move(sink);
+    status_.state = HeadState::kSweeping;
+    return {};
   }
   foresight::Status StartLiveView(const LiveViewOptions& options,
                                   std::shared_ptr<LiveViewSink> sink) override {
@@ -53,6 +58,14 @@ class FakeHead : public SensorHead {
     status_.state = HeadState::kReady;
   }
   void StopMotor() override { stopped_ = true; }
+  /// Plays a capture at each stop that was asked for, and the end.
+  void DeliverStops(const std::function<StopCapture(double angle_rad)>& capture_at,
+                    ScanState end = ScanState::kComplete, const std::string& reason = "") {
+    for (const double angle : stop_plan.angles_rad) stop_sink_->OnStop(capture_at(angle));
+    stop_sink_->OnStopsEnded(end, reason);
+    stop_sink_.reset();
+    status_.state = HeadState::kReady;
+  }
   void OperatorSeen() override { ++operator_seen_; }
 
   /// Plays a finished scan into the sink, up to its `lines`-th line.
@@ -97,6 +110,7 @@ class FakeHead : public SensorHead {
   }
 
   std::shared_ptr<LiveViewSink> live_view;  ///< of whoever looks
+  StopPlan stop_plan;                       ///< the last that was accepted
 
   void SetState(HeadState state) { status_.state = state; }
   void SetFault(const std::string& message) {
@@ -113,6 +127,7 @@ class FakeHead : public SensorHead {
   HeadStatus status_;
   ScanPlan plan_;
   std::shared_ptr<ScanSink> sink_;
+  std::shared_ptr<StopSink> stop_sink_;
   bool stopped_ = false;
   int operator_seen_ = 0;
   bool delivered_ = false;  ///< the sink was told that the scan started

@@ -4,156 +4,37 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFileDialog>
-#include <QFileInfo>
 #include <QGridLayout>
-#include <QHeaderView>
+#include <QHBoxLayout>
 #include <QLabel>
-#include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScrollArea>
-#include <QSignalBlocker>
-#include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "ui/panels/board_fields.h"
+#include "ui/panels/calibration_image_list.h"
 #include "ui/panels/calibration_plots.h"
-#include "ui/panels/theme.h"
+#include "ui/panels/camera_model_table.h"
+#include "ui/panels/field_map.h"
+#include "ui/panels/live_board_view.h"
+#include "ui/panels/rig_version_row.h"
+#include "ui/panels/verdict_view.h"
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
 
-constexpr QSize kThumbnail(64, 48);
 /// Changes that come at once are drawn once.
 constexpr int kShowDelay_ms = 30;
 constexpr std::array<LensModel, 4> kModels = {LensModel::kFisheyeK, LensModel::kExtendedUnified,
                                               LensModel::kKannalaBrandt,
                                               LensModel::kRadialTangential};
-
-/// As checkbox and table have room for it.
-QString NameOf(LensModel model) {
-  switch (model) {
-    case LensModel::kFisheyeK:
-      return CameraCalibrationPanel::tr("k");
-    case LensModel::kExtendedUnified:
-      return CameraCalibrationPanel::tr("EUCM");
-    case LensModel::kKannalaBrandt:
-      return CameraCalibrationPanel::tr("KB4");
-    case LensModel::kRadialTangential:
-      break;
-  }
-  return CameraCalibrationPanel::tr("radtan");
-}
-
-QLabel* Section(const QString& text) {
-  auto* label = new QLabel(text);
-  label->setObjectName(QStringLiteral("sectionTitle"));
-  return label;
-}
-
-QLabel* Words(const char* name) {
-  auto* label = new QLabel;
-  label->setObjectName(QString::fromLatin1(name));
-  label->setWordWrap(true);
-  label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  return label;
-}
-
-QIcon IconOf(const GrayImage& image) {
-  QPixmap pixmap(kThumbnail);
-  pixmap.fill(QColor(22, 25, 29));
-  if (!image.empty()) {
-    const QImage borrowed(image.data(), image.width(), image.height(), image.width(),
-                          QImage::Format_Grayscale8);
-    pixmap = QPixmap::fromImage(
-        borrowed.scaled(kThumbnail, Qt::KeepAspectRatio, Qt::SmoothTransformation));
-  }
-  // No second look for a row that is selected: it would tint the image.
-  QIcon icon(pixmap);
-  icon.addPixmap(pixmap, QIcon::Selected);
-  return icon;
-}
-
-QString RatingText(const CalibrationImageRow& row) {
-  QString text =
-      CameraCalibrationPanel::tr("covers %1 %").arg(100.0 * row.rating.coverage, 0, 'f', 0);
-  if (std::isfinite(row.rating.edge_width_px))
-    text += CameraCalibrationPanel::tr(", edges %1 px").arg(row.rating.edge_width_px, 0, 'f', 1);
-  return text;
-}
-
-/// Two lines: the name, and what became of the image.
-QString TextOf(const CalibrationImageRow& row) {
-  using State = CalibrationImageRow::State;
-  switch (row.state) {
-    case State::kReading:
-    case State::kExcluded:
-      return row.name + QLatin1Char('\n') + row.reason;
-    case State::kRejected:
-      return CameraCalibrationPanel::tr("%1\nnot used: %2").arg(row.name, row.reason);
-    case State::kUsed:
-      break;
-  }
-  const QString error = std::isfinite(row.rms_px)
-                            ? CameraCalibrationPanel::tr("rms %1 px, ").arg(row.rms_px, 0, 'f', 2)
-                            : QString();
-  return row.name + QLatin1Char('\n') + error + RatingText(row);
-}
-
-QString Pixels(double value) {
-  return std::isfinite(value) ? QString::number(value, 'f', 3) : QStringLiteral("–");
-}
-
-QColor ColorOf(CalibrationCheck::Level level) {
-  switch (level) {
-    case CalibrationCheck::Level::kGood:
-      return state_color::kGood;
-    case CalibrationCheck::Level::kCaution:
-      return state_color::kCaution;
-    case CalibrationCheck::Level::kBad:
-      break;
-  }
-  return state_color::kBad;
-}
-
-/// A mark besides the colour, for who cannot tell colours apart.
-QString MarkOf(CalibrationCheck::Level level) {
-  switch (level) {
-    case CalibrationCheck::Level::kGood:
-      return QStringLiteral("✓");
-    case CalibrationCheck::Level::kCaution:
-      return QStringLiteral("!");
-    case CalibrationCheck::Level::kBad:
-      break;
-  }
-  return QStringLiteral("✗");
-}
-
-QTableWidget* MakeTable() {
-  auto* table = new QTableWidget(0, 4);
-  table->setHorizontalHeaderLabels(
-      {CameraCalibrationPanel::tr("model"), CameraCalibrationPanel::tr("mean"),
-       CameraCalibrationPanel::tr("rms"), CameraCalibrationPanel::tr("unseen")});
-  table->horizontalHeaderItem(1)->setToolTip(CameraCalibrationPanel::tr(
-      "Mean distance of corners in used images, px: the paper's measure"));
-  table->horizontalHeaderItem(2)->setToolTip(
-      CameraCalibrationPanel::tr("Root mean square of the same, px: OpenCV's measure"));
-  table->horizontalHeaderItem(3)->setToolTip(CameraCalibrationPanel::tr(
-      "Cross-validation: mean distance in images that were not used, px"));
-  table->verticalHeader()->hide();
-  table->setAccessibleName(CameraCalibrationPanel::tr("Camera models"));
-  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table->setSelectionMode(QAbstractItemView::SingleSelection);
-  table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  table->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
-  table->horizontalHeader()->setMinimumSectionSize(40);
-  return table;
-}
+enum Map { kCorners, kUncertainty, kUncertaintyAtInfinity, kHalves, kHalvesAtInfinity };
+/// Where the colours of a map end: what a good calibration stays below.
+constexpr double kFullUncertainty_px = 0.5;
+constexpr double kFullHalves_px = 1.0;
 
 }  // namespace
 
@@ -162,65 +43,61 @@ CameraCalibrationPanel::CameraCalibrationPanel(CameraCalibrationModel* model, Ta
     : QWidget(parent),
       model_(model),
       tasks_(tasks),
-      next_(Words("nextHint")),
-      state_(Words("calibrationState")),
+      board_(new BoardFields),
+      next_(WordsLabel("nextHint")),
+      state_(WordsLabel("calibrationState")),
       progress_(new QProgressBar),
-      images_(new QListWidget),
+      images_(new CalibrationImageList),
       map_(new CoverageMap),
+      field_(new FieldMap),
       bars_(new ViewBars),
-      table_(MakeTable()),
-      why_(Words("faint")),
-      parameters_(Words("calibrationParameters")),
-      verdict_(Words("calibrationVerdict")),
-      checks_(Words("calibrationChecks")) {
+      table_(new CameraModelTable),
+      why_(WordsLabel("faint")),
+      parameters_(WordsLabel("calibrationParameters")),
+      verdict_(new VerdictView),
+      rig_(new RigVersionRow(model->Rig(),
+                             {.what = tr("Write the rig in force with this camera as a new file"),
+                              .why_not_save = [model] { return model->WhyNotSaveRig(); },
+                              .suggested_file = [model] { return model->SuggestedRigFile(); },
+                              .save = [model](const QString& path) { model->SaveRig(path); }})) {
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);
   progress_->setFixedHeight(6);
-  images_->setAccessibleName(tr("Images of the board"));
-  images_->setToolTip(tr("Clear the mark of an image to leave it out; Ctrl+Z takes that back"));
-  images_->setIconSize(kThumbnail);
-  images_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  images_->setWordWrap(true);
-  images_->setFixedHeight(176);
   auto* inner = new QWidget;
   auto* layout = new QVBoxLayout(inner);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->setSpacing(6);
-  layout->addWidget(Section(tr("Board")));
-  layout->addWidget(BuildBoard());
-  layout->addWidget(Section(tr("Images")));
+  layout->addWidget(SectionTitle(tr("Board")));
+  layout->addWidget(board_);
+  layout->addWidget(SectionTitle(tr("Images")));
   layout->addWidget(BuildSources());
+  layout->addWidget(new LiveBoardView(model->Live()));
   layout->addWidget(next_);
   layout->addWidget(state_);
   layout->addWidget(progress_);
   layout->addWidget(images_);
+  layout->addWidget(BuildMaps());
   layout->addWidget(map_);
+  layout->addWidget(field_);
   layout->addWidget(bars_);
-  layout->addWidget(Section(tr("Camera")));
+  layout->addWidget(SectionTitle(tr("Camera")));
   layout->addWidget(BuildSolve());
   layout->addWidget(table_);
   layout->addWidget(why_);
   layout->addWidget(verdict_);
-  layout->addWidget(checks_);
   layout->addWidget(parameters_);
-  layout->addWidget(Section(tr("Rig")));
-  layout->addWidget(BuildRig());
+  layout->addWidget(SectionTitle(tr("Rig")));
+  layout->addWidget(rig_);
   layout->addStretch(1);
-  auto* scroll = new QScrollArea;
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(inner);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->addWidget(scroll);
+  FillWithScroll(this, inner);
   setMinimumWidth(240);
 
   soon_.setSingleShot(true);
   connect(&soon_, &QTimer::timeout, this, &CameraCalibrationPanel::ShowAll);
   connect(model_, &CameraCalibrationModel::changed, this, &CameraCalibrationPanel::ShowSoon);
   connect(tasks_, &TaskQueue::changed, this, &CameraCalibrationPanel::ShowProgress);
-  connect(images_, &QListWidget::itemChanged, this, &CameraCalibrationPanel::TakeCheck);
+  connect(board_, &BoardFields::edited, this, &CameraCalibrationPanel::TakeBoard);
+  connect(images_, &CalibrationImageList::marked, model_, &CameraCalibrationModel::SetExcluded);
   connect(table_, &QTableWidget::cellClicked, model_,
           [this](int row, int) { model_->Choose(row); });
   ShowAll();
@@ -231,83 +108,88 @@ void CameraCalibrationPanel::showEvent(QShowEvent* event) {
   ShowAll();
 }
 
-QPushButton* CameraCalibrationPanel::Button(const char* name, const QString& text,
-                                            const QString& tip) {
-  auto* button = new QPushButton(text);
-  button->setObjectName(QString::fromLatin1(name));
-  button->setToolTip(tip);
-  // In a narrow dock the buttons of a row share what there is.
-  button->setStyleSheet(QStringLiteral("padding: 6px 4px;"));
-  button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  return button;
-}
-
-QWidget* CameraCalibrationPanel::BuildBoard() {
-  auto* row = new QWidget;
-  auto* grid = new QGridLayout(row);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setColumnStretch(1, 1);
-  grid->setColumnStretch(3, 1);
-  kind_ = new QComboBox;
-  kind_->addItems({tr("Checkerboard"), tr("ChArUco, 5x5_250")});
-  kind_->setAccessibleName(tr("Kind of board"));
-  kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  kind_->setMinimumContentsLength(6);
-  const auto number = [](const QString& name) {
-    auto* box = new QSpinBox;
-    box->setRange(3, 60);
-    box->setAccessibleName(name);
-    box->setToolTip(CameraCalibrationPanel::tr("Inner corners: where two black squares touch"));
-    box->setKeyboardTracking(false);
-    box->setMinimumWidth(56);
-    return box;
-  };
-  columns_ = number(tr("Inner corners in a row"));
-  rows_ = number(tr("Inner corners in a column"));
-  square_mm_ = new QDoubleSpinBox;
-  square_mm_->setRange(1.0, 1000.0);
-  square_mm_->setDecimals(2);
-  square_mm_->setSuffix(tr(" mm"));
-  square_mm_->setAccessibleName(tr("Side of a square"));
-  square_mm_->setKeyboardTracking(false);
-  grid->addWidget(kind_, 0, 0, 1, 4);
-  grid->addWidget(new QLabel(tr("Corners")), 1, 0);
-  grid->addWidget(columns_, 1, 1);
-  grid->addWidget(new QLabel(QStringLiteral("×")), 1, 2);
-  grid->addWidget(rows_, 1, 3);
-  grid->addWidget(new QLabel(tr("Square")), 2, 0);
-  grid->addWidget(square_mm_, 2, 1, 1, 3);
-  connect(kind_, QOverload<int>::of(&QComboBox::activated), this, [this] { TakeBoard(); });
-  for (QSpinBox* box : {columns_, rows_})
-    connect(box, QOverload<int>::of(&QSpinBox::valueChanged), this, [this] { TakeBoard(); });
-  connect(square_mm_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-          [this] { TakeBoard(); });
-  return row;
-}
-
 QWidget* CameraCalibrationPanel::BuildSources() {
   auto* row = new QWidget;
   auto* grid = new QGridLayout(row);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(6);
-  auto* add = Button("addImages", tr("Add images..."), tr("Image files: PNG, JPEG or PGM"));
-  auto* folder = Button("addFolder", tr("Add folder..."), tr("All images of a folder"));
-  take_ = Button("takeFromHead", tr("Take from head"), {});
-  auto* fresh = Button("startNew", tr("New"), tr("Begin anew; what is here is kept on the disk"));
-  last_ = Button("openLast", tr("Open last"), tr("Go on with the calibration before this one"));
+  auto* add = NarrowButton("addImages", tr("Add images..."), tr("Image files: PNG, JPEG or PGM"));
+  auto* folder = NarrowButton("addFolder", tr("Add folder..."), tr("All images of a folder"));
+  take_ = NarrowButton("takeFromHead", tr("Take from head"));
+  capture_ = NarrowButton("captureFromHead", tr("Capture"));
+  auto* fresh =
+      NarrowButton("startNew", tr("New"), tr("Begin anew; what is here is kept on the disk"));
+  last_ =
+      NarrowButton("openLast", tr("Open last"), tr("Go on with the calibration before this one"));
   grid->addWidget(add, 0, 0);
   grid->addWidget(folder, 0, 1);
-  grid->addWidget(take_, 1, 0, 1, 2);
+  grid->addWidget(capture_, 1, 0);
+  grid->addWidget(take_, 1, 1);
   grid->addWidget(fresh, 2, 0);
   grid->addWidget(last_, 2, 1);
   connect(add, &QPushButton::clicked, this, [this] { ChooseImages(false); });
   connect(folder, &QPushButton::clicked, this, [this] { ChooseImages(true); });
   connect(take_, &QPushButton::clicked, model_, &CameraCalibrationModel::takeFromHead);
+  connect(capture_, &QPushButton::clicked, model_, &CameraCalibrationModel::captureFromHead);
   connect(fresh, &QPushButton::clicked, model_, &CameraCalibrationModel::startNew);
   connect(last_, &QPushButton::clicked, this, [this] {
     if (const QString last = model_->LastSession(); !last.isEmpty()) model_->OpenSession(last);
   });
   return row;
+}
+
+QWidget* CameraCalibrationPanel::BuildMaps() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  which_map_ = new QComboBox;
+  which_map_->setObjectName(QStringLiteral("whichMap"));
+  which_map_->setAccessibleName(tr("What is mapped over the image"));
+  which_map_->addItems({tr("Corners and residuals"), tr("Uncertainty at"),
+                        tr("Uncertainty at infinity"), tr("Odd against even at"),
+                        tr("Odd against even at infinity")});
+  which_map_->setToolTip(tr(
+      "Uncertainty: one standard deviation of where a point appears, in the worst direction. Odd "
+      "against even: how far two cameras differ, each from every second image."));
+  which_map_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  map_distance_ = new QDoubleSpinBox;
+  map_distance_->setRange(0.1, 100.0);
+  map_distance_->setValue(2.0);
+  map_distance_->setDecimals(1);
+  map_distance_->setSuffix(tr(" m"));
+  map_distance_->setAccessibleName(tr("Distance of the map"));
+  map_distance_->setKeyboardTracking(false);
+  layout->addWidget(which_map_, 1);
+  layout->addWidget(map_distance_);
+  connect(which_map_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this] { WantMap(); });
+  connect(map_distance_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this] { WantMap(); });
+  return row;
+}
+
+void CameraCalibrationPanel::WantMap() {
+  model_->WantMaps(which_map_->currentIndex() == kCorners ? 0.0 : map_distance_->value());
+  ShowMap();
+}
+
+void CameraCalibrationPanel::ShowMap() {
+  const ModelCalibration* chosen = model_->ChosenModel();
+  map_->Show(model_->Coverage(), model_->ImageWidth(), model_->ImageHeight(),
+             chosen != nullptr ? chosen->images : std::vector<ImageErrors>());
+  const int which = which_map_->currentIndex();
+  const CameraMaps* maps = model_->Maps().get();
+  map_distance_->setVisible(which == kUncertainty || which == kHalves);
+  map_->setVisible(which == kCorners || maps == nullptr);
+  field_->setVisible(which != kCorners && maps != nullptr);
+  if (!field_->isVisibleTo(this)) return;
+  const bool halves = which == kHalves || which == kHalvesAtInfinity;
+  const ImageField& field = which == kUncertainty             ? maps->uncertainty
+                            : which == kUncertaintyAtInfinity ? maps->uncertainty_at_infinity
+                            : which == kHalves                ? maps->halves
+                                                              : maps->halves_at_infinity;
+  field_->Show(field, halves ? kFullHalves_px : kFullUncertainty_px);
 }
 
 QWidget* CameraCalibrationPanel::BuildSolve() {
@@ -316,15 +198,15 @@ QWidget* CameraCalibrationPanel::BuildSolve() {
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(6);
   for (int i = 0; i < static_cast<int>(kModels.size()); ++i) {
-    auto* box = new QCheckBox(NameOf(kModels[static_cast<std::size_t>(i)]));
+    auto* box = new QCheckBox(ShortNameOf(kModels[static_cast<std::size_t>(i)]));
     box->setToolTip(tr("Fit this model too; the one that predicts unused images best is chosen"));
     connect(box, &QCheckBox::clicked, this, &CameraCalibrationPanel::TakeModels);
     wanted_.push_back(box);
     grid->addWidget(box, i / 2, i % 2);
   }
-  solve_ = Button("solveCamera", tr("Solve"),
-                  tr("Calibrate again; after each change that happens by itself"));
-  cancel_ = Button("cancelCalibration", tr("Cancel"), tr("Stop what is being computed"));
+  solve_ = NarrowButton("solveCamera", tr("Solve"),
+                        tr("Calibrate again; after each change that happens by itself"));
+  cancel_ = NarrowButton("cancelCalibration", tr("Cancel"), tr("Stop what is being computed"));
   grid->addWidget(solve_, 2, 0);
   grid->addWidget(cancel_, 2, 1);
   connect(solve_, &QPushButton::clicked, model_, &CameraCalibrationModel::solve);
@@ -332,33 +214,8 @@ QWidget* CameraCalibrationPanel::BuildSolve() {
   return row;
 }
 
-QWidget* CameraCalibrationPanel::BuildRig() {
-  auto* box = new QWidget;
-  auto* grid = new QGridLayout(box);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setSpacing(6);
-  save_ = Button("saveRig", tr("Save rig..."), {});
-  force_ = Button("putInForce", tr("Put in force"), {});
-  back_ = Button("rollBack", tr("Roll back"), {});
-  saved_ = Words("faint");
-  grid->addWidget(save_, 0, 0);
-  grid->addWidget(force_, 0, 1);
-  grid->addWidget(back_, 1, 0, 1, 2);
-  grid->addWidget(saved_, 2, 0, 1, 2);
-  connect(save_, &QPushButton::clicked, this, &CameraCalibrationPanel::ChooseRigFile);
-  connect(force_, &QPushButton::clicked, model_->Rig(), &RigVersionModel::putInForce);
-  connect(back_, &QPushButton::clicked, model_->Rig(), &RigVersionModel::rollBack);
-  return box;
-}
-
 void CameraCalibrationPanel::TakeBoard() {
-  CalibrationBoard board = model_->Board();
-  board.kind = kind_->currentIndex() == 0 ? CalibrationBoard::Kind::kCheckerboard
-                                          : CalibrationBoard::Kind::kCharuco;
-  board.columns = columns_->value();
-  board.rows = rows_->value();
-  board.square_m = 1e-3 * square_mm_->value();
-  const Status taken = model_->SetBoard(board);
+  const Status taken = model_->SetBoard(board_->Board());
   state_->setText(taken ? model_->StateText() : QString::fromStdString(taken.error().message));
 }
 
@@ -369,85 +226,26 @@ void CameraCalibrationPanel::TakeModels() {
   model_->SetModels(models);
 }
 
-void CameraCalibrationPanel::TakeCheck(const QListWidgetItem* item) {
-  model_->SetExcluded(images_->row(item), item->checkState() != Qt::Checked);
-}
-
 void CameraCalibrationPanel::ShowSoon() {
   if (isVisible() && !soon_.isActive()) soon_.start(kShowDelay_ms);
 }
 
 void CameraCalibrationPanel::ShowAll() {
-  ShowBoard();
-  ShowImages();
-  const ModelCalibration* chosen = model_->ChosenModel();
-  map_->Show(model_->Coverage(), model_->ImageWidth(), model_->ImageHeight(),
-             chosen != nullptr ? chosen->images : std::vector<ImageErrors>());
+  board_->Show(model_->Board());
+  images_->Show(model_->Images());
+  ShowMap();
   bars_->Show(model_->Coverage());
   ShowModels();
-  ShowVerdict();
+  verdict_->Show(model_->Verdict());
   ShowProgress();
   ShowButtons();
   state_->setText(model_->StateText());
   next_->setText(model_->Next());
 }
 
-void CameraCalibrationPanel::ShowBoard() {
-  const CalibrationBoard& board = model_->Board();
-  const QSignalBlocker quiet_columns(columns_), quiet_rows(rows_), quiet_square(square_mm_);
-  kind_->setCurrentIndex(board.kind == CalibrationBoard::Kind::kCheckerboard ? 0 : 1);
-  // Not while somebody types into it.
-  if (!columns_->hasFocus()) columns_->setValue(board.columns);
-  if (!rows_->hasFocus()) rows_->setValue(board.rows);
-  if (!square_mm_->hasFocus()) square_mm_->setValue(1e3 * board.square_m);
-}
-
-void CameraCalibrationPanel::ShowImages() {
-  const QSignalBlocker quiet(images_);
-  const auto& rows = model_->Images();
-  while (images_->count() > static_cast<int>(rows.size()))
-    delete images_->takeItem(images_->count() - 1);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const CalibrationImageRow& row = rows[i];
-    if (static_cast<int>(i) >= images_->count()) images_->addItem(new QListWidgetItem);
-    QListWidgetItem* item = images_->item(static_cast<int>(i));
-    const QString key = row.name + QString::number(row.thumbnail.width());
-    if (item->data(Qt::UserRole).toString() != key) {
-      item->setIcon(IconOf(row.thumbnail));
-      item->setData(Qt::UserRole, key);
-    }
-    item->setText(TextOf(row));
-    item->setToolTip(row.reason.isEmpty() ? row.origin
-                                          : row.origin + QLatin1Char('\n') + row.reason);
-    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
-    const bool excluded = row.state == CalibrationImageRow::State::kExcluded;
-    item->setCheckState(excluded ? Qt::Unchecked : Qt::Checked);
-    const bool bad = row.state == CalibrationImageRow::State::kRejected;
-    item->setForeground(bad ? QBrush(state_color::kCaution) : palette().brush(QPalette::Text));
-  }
-  images_->setVisible(!rows.empty());
-}
-
 void CameraCalibrationPanel::ShowModels() {
   const std::vector<CalibrationModelRow> rows = model_->ModelRows();
-  table_->setRowCount(static_cast<int>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const CalibrationModelRow& row = rows[i];
-    const QStringList texts = {NameOf(row.model), Pixels(row.mean_error_px), Pixels(row.rms_px),
-                               Pixels(row.cross_validation_px)};
-    for (int column = 0; column < texts.size(); ++column) {
-      auto* item = new QTableWidgetItem(texts[column]);
-      item->setToolTip(row.title + QLatin1Char('\n') +
-                       (row.failure.isEmpty() ? row.parameters : row.failure));
-      if (!row.failure.isEmpty()) item->setForeground(state_color::kCaution);
-      if (column > 0) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-      table_->setItem(static_cast<int>(i), column, item);
-    }
-  }
-  if (model_->Chosen() >= 0) table_->selectRow(model_->Chosen());
-  table_->setVisible(!rows.empty());
-  table_->setFixedHeight(table_->horizontalHeader()->height() + table_->verticalHeader()->length() +
-                         2 * table_->frameWidth());
+  table_->Show(rows, model_->Chosen());
   const bool chosen = model_->ChosenModel() != nullptr;
   why_->setText(model_->WhyChosen());
   why_->setVisible(chosen);
@@ -456,22 +254,6 @@ void CameraCalibrationPanel::ShowModels() {
   const auto& wanted = model_->Models();
   for (std::size_t i = 0; i < kModels.size(); ++i)
     wanted_[i]->setChecked(std::find(wanted.begin(), wanted.end(), kModels[i]) != wanted.end());
-}
-
-void CameraCalibrationPanel::ShowVerdict() {
-  const std::vector<CalibrationCheck> checks = model_->Verdict();
-  verdict_->setVisible(!checks.empty());
-  checks_->setVisible(!checks.empty());
-  if (checks.empty()) return;
-  const CalibrationCheck summary = model_->VerdictSummary();
-  verdict_->setText(summary.text);
-  verdict_->setStyleSheet(QStringLiteral("color: #16181c; background: %1; border-radius: 4px; "
-                                         "padding: 4px 8px; font-weight: bold;")
-                              .arg(ColorOf(summary.level).name()));
-  QStringList lines;
-  for (const CalibrationCheck& check : checks)
-    lines << MarkOf(check.level) + QLatin1Char(' ') + check.text;
-  checks_->setText(lines.join(QLatin1Char('\n')));
 }
 
 void CameraCalibrationPanel::ShowProgress() {
@@ -484,20 +266,12 @@ void CameraCalibrationPanel::ShowProgress() {
 }
 
 void CameraCalibrationPanel::ShowButtons() {
-  const auto show = [](QPushButton* button, const QString& tip, const QString& why_not) {
-    button->setEnabled(why_not.isEmpty());
-    button->setToolTip(why_not.isEmpty() ? tip : tip + QLatin1Char('\n') + why_not);
-  };
-  show(take_, tr("Add the image of the live document"), model_->WhyNotTakeFromHead());
-  show(save_, tr("Write the rig in force with this camera as a new file"), model_->WhyNotSaveRig());
-  show(force_, tr("Give the saved rig to the head, read it back and compare"),
-       model_->Rig()->WhyNotPutInForce());
-  show(back_, tr("Give the head the rig that it had before"), model_->Rig()->WhyNotRollBack());
+  ShowPossible(capture_, tr("Take an image where the head stands now, and add it"),
+               model_->WhyNotCapture());
+  ShowPossible(take_, tr("Add the image of the live document"), model_->WhyNotTakeFromHead());
   last_->setEnabled(!model_->LastSession().isEmpty());
   solve_->setEnabled(model_->UsedCount() > 0);
-  const QString file = model_->Rig()->SavedFile();
-  saved_->setText(file.isEmpty() ? QString() : tr("Saved: %1").arg(file));
-  saved_->setVisible(!file.isEmpty());
+  rig_->Refresh();
 }
 
 void CameraCalibrationPanel::ChooseImages(bool folder) {
@@ -513,22 +287,6 @@ void CameraCalibrationPanel::ChooseImages(bool folder) {
     dialog->setNameFilter(tr("Images (*.png *.jpg *.jpeg *.pgm *.PNG *.JPG *.JPEG *.PGM)"));
   connect(dialog, &QFileDialog::filesSelected, model_, &CameraCalibrationModel::AddFiles);
   dialog->setModal(false);  // a scan may be running: the stop button must stay within reach
-  dialog->show();
-}
-
-void CameraCalibrationPanel::ChooseRigFile() {
-  auto* dialog = new QFileDialog(this, tr("Save as a new rig"), {}, tr("Rigs (*.yaml)"));
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setObjectName(QStringLiteral("file_dialog"));
-  dialog->setOption(QFileDialog::DontUseNativeDialog);
-  dialog->setOption(QFileDialog::DontConfirmOverwrite);  // an existing file is refused
-  dialog->setAcceptMode(QFileDialog::AcceptSave);
-  dialog->setDefaultSuffix(QStringLiteral("yaml"));
-  const QFileInfo suggested(model_->SuggestedRigFile());
-  dialog->setDirectory(suggested.path());
-  dialog->selectFile(suggested.fileName());
-  connect(dialog, &QFileDialog::fileSelected, model_, &CameraCalibrationModel::SaveRig);
-  dialog->setModal(false);
   dialog->show();
 }
 

@@ -2,7 +2,7 @@
 
 #include <QTimer>
 #include <QWidget>
-#include <functional>
+#include <vector>
 
 #include "ui/viewmodels/camera_calibration_model.h"
 
@@ -10,17 +10,18 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
-class QListWidget;
-class QListWidgetItem;
 class QProgressBar;
 class QPushButton;
-class QSpinBox;
-class QTableWidget;
-class QVBoxLayout;
 
 namespace foresight {
 
+class BoardFields;
+class CalibrationImageList;
+class CameraModelTable;
 class CoverageMap;
+class FieldMap;
+class RigVersionRow;
+class VerdictView;
 class ViewBars;
 
 /// "Calibrate camera": everything of CameraCalibrationModel from the board to the rig in force, one
@@ -38,51 +39,43 @@ class CameraCalibrationPanel : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  QWidget* BuildBoard();
   QWidget* BuildSources();
+  QWidget* BuildMaps();
   QWidget* BuildSolve();
-  QWidget* BuildRig();
-  QPushButton* Button(const char* name, const QString& text, const QString& tip);
   void TakeBoard();
   void TakeModels();
-  void TakeCheck(const QListWidgetItem* item);
   void ShowSoon();
   void ShowAll();
-  void ShowBoard();
-  void ShowImages();
+  void WantMap();
+  void ShowMap();
   void ShowModels();
-  void ShowVerdict();
   void ShowProgress();
   void ShowButtons();
   void ChooseImages(bool folder);
-  void ChooseRigFile();
 
   CameraCalibrationModel* model_;
   TaskQueue* tasks_;
-  QComboBox* kind_ = nullptr;
-  QSpinBox* columns_ = nullptr;
-  QSpinBox* rows_ = nullptr;
-  QDoubleSpinBox* square_mm_ = nullptr;
+  BoardFields* board_;
   QPushButton* take_ = nullptr;
+  QPushButton* capture_ = nullptr;
   QPushButton* last_ = nullptr;
   QLabel* next_;
   QLabel* state_;
   QProgressBar* progress_;
-  QListWidget* images_;
+  CalibrationImageList* images_;
+  QComboBox* which_map_ = nullptr;
+  QDoubleSpinBox* map_distance_ = nullptr;
   CoverageMap* map_;
+  FieldMap* field_;
   ViewBars* bars_;
   std::vector<QCheckBox*> wanted_;
   QPushButton* solve_ = nullptr;
   QPushButton* cancel_ = nullptr;
-  QTableWidget* table_;
+  CameraModelTable* table_;
   QLabel* why_;
   QLabel* parameters_;
-  QLabel* verdict_;
-  QLabel* checks_;
-  QPushButton* save_ = nullptr;
-  QPushButton* force_ = nullptr;
-  QPushButton* back_ = nullptr;
-  QLabel* saved_ = nullptr;
+  VerdictView* verdict_;
+  RigVersionRow* rig_;
   QTimer soon_;
 };
 

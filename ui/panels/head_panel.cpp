@@ -17,15 +17,10 @@
 #include "ui/panels/command_button.h"
 #include "ui/panels/head_device_rows.h"
 #include "ui/panels/theme.h"
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
-
-QLabel* SectionTitle(const QString& text) {
-  auto* label = new QLabel(text);
-  label->setObjectName(QStringLiteral("sectionTitle"));
-  return label;
-}
 
 QString AnglesAsText(const QVector<double>& angles_deg) {
   QStringList parts;
@@ -50,11 +45,7 @@ HeadPanel::HeadPanel(HeadViewModel* head, CommandTable* commands, QWidget* paren
   layout->addWidget(new HeadDeviceRows(head_));
   layout->addStretch(1);
   // On a low window the plan scrolls; the buttons stay where they are.
-  auto* scroll = new QScrollArea;
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(content);
+  QScrollArea* scroll = VerticalScroll(content);
   auto* whole = new QVBoxLayout(this);
   whole->setContentsMargins(0, 0, 0, 0);
   whole->setSpacing(0);

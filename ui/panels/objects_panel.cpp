@@ -6,7 +6,6 @@
 #include <QListWidget>
 #include <QMenu>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -15,6 +14,7 @@
 #include "ui/panels/command_button.h"
 #include "ui/panels/detection_card.h"
 #include "ui/panels/theme.h"
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
@@ -79,14 +79,7 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
   layout->addWidget(decisions_);
   layout->addWidget(card_);
   layout->addStretch(1);
-  auto* scroll = new QScrollArea;
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(inner);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->addWidget(scroll);
+  FillWithScroll(this, inner);
   setMinimumWidth(200);
 
   connect(session_, &SessionModel::objectsChanged, this, &ObjectsPanel::ShowObjects);

@@ -4,11 +4,11 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "core/options/option_text.h"
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
@@ -134,14 +134,7 @@ OptionsPanel::OptionsPanel(DepthViewModel* depth, FitViewModel* fit, QWidget* pa
   layout->addWidget(depth_);
   layout->addWidget(fit_);
   layout->addStretch(1);
-  auto* scroll = new QScrollArea;
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(inner);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->addWidget(scroll);
+  FillWithScroll(this, inner);
   setMinimumWidth(200);
 }
 

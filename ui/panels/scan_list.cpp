@@ -9,11 +9,10 @@
 
 #include "core/geometry/angles.h"
 #include "core/sensor/scan.h"
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
-
-constexpr QSize kThumbnail(64, 48);
 
 QString TextFor(const ScanSummary& scan) {
   const QDateTime begin = QDateTime::fromMSecsSinceEpoch(scan.begin_utc_ns / 1'000'000);
@@ -33,10 +32,7 @@ QIcon IconFor(const ScanSummary& scan) {
   if (!scan.thumbnail.empty())
     pixmap.loadFromData(reinterpret_cast<const uchar*>(scan.thumbnail.data()),
                         static_cast<uint>(scan.thumbnail.size()));
-  if (pixmap.isNull()) {
-    pixmap = QPixmap(kThumbnail);
-    pixmap.fill(QColor(22, 25, 29));
-  }
+  if (pixmap.isNull()) pixmap = EmptyThumbnail();
   return QIcon(pixmap);
 }
 
@@ -49,7 +45,7 @@ bool LooksSame(const ScanSummary& a, const ScanSummary& b) {
 
 ScanList::ScanList(QWidget* parent) : QWidget(parent), list_(new QListWidget) {
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  list_->setIconSize(kThumbnail);
+  list_->setIconSize(kThumbnailSize);
   list_->setTextElideMode(Qt::ElideRight);
   list_->setAccessibleName(tr("Scans of the mission"));
   list_->setMinimumHeight(60);

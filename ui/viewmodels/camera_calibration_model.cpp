@@ -84,13 +84,8 @@ QString TitleOf(LensModel model) {
 
 using Level = CalibrationCheck::Level;
 
-Level LevelOf(double value, double good, double bad) {
-  if (value <= good) return Level::kGood;
-  return value <= bad ? Level::kCaution : Level::kBad;
-}
-
 CalibrationCheck CheckError(const ModelCalibration& m) {
-  return {LevelOf(m.mean_error_px, kPaperError_px, kHighError_px),
+  return {CalibrationCheck::LevelOf(m.mean_error_px, kPaperError_px, kHighError_px),
           CameraCalibrationModel::tr("Mean error %1 px; the paper's is %2 px.")
               .arg(m.mean_error_px, 0, 'f', 3)
               .arg(kPaperError_px, 0, 'f', 3)};
@@ -113,7 +108,7 @@ CalibrationCheck CheckFocal(const ModelCalibration& m) {
     return {Level::kBad, CameraCalibrationModel::tr("The focal length is not observable.")};
   const CameraModel::Parameters sigmas = m.covariance->ValueSigmas();
   const double relative = std::max(sigmas[0] / m.camera.fx, sigmas[1] / m.camera.fy);
-  return {LevelOf(relative, kGoodFocalSigma, kBadFocalSigma),
+  return {CalibrationCheck::LevelOf(relative, kGoodFocalSigma, kBadFocalSigma),
           CameraCalibrationModel::tr("The focal length %1 px is known to ± %2 px (limit: ± %3).")
               .arg(m.camera.fx, 0, 'f', 1)
               .arg(std::max(sigmas[0], sigmas[1]), 0, 'f', 2)
@@ -122,7 +117,7 @@ CalibrationCheck CheckFocal(const ModelCalibration& m) {
 
 CalibrationCheck CheckCoverage(const ViewCoverage& coverage) {
   const double covered = coverage.CoveredFraction();
-  return {LevelOf(-covered, -kGoodCoverage, -kBadCoverage),
+  return {CalibrationCheck::LevelOf(-covered, -kGoodCoverage, -kBadCoverage),
           CameraCalibrationModel::tr("Corners cover %1 % of the image (limit: %2 %).")
               .arg(100.0 * covered, 0, 'f', 0)
               .arg(100.0 * kGoodCoverage, 0, 'f', 0)};
@@ -138,9 +133,26 @@ CalibrationCheck CheckNumber(const ViewCoverage& coverage) {
 
 CameraCalibrationModel::CameraCalibrationModel(HeadViewModel* head, SessionModel* session,
                                                const QString& folder, QObject* parent)
-    : QObject(parent), head_(head), session_(session), root_(folder), rig_(head, session) {
-  for (TaskRunner* runner : {&reader_, &solver_, &keeper_})
+    : QObject(parent),
+      head_(head),
+      session_(session),
+      root_(folder),
+      rig_(head, session),
+      captures_(head),
+      live_(head, session->Tasks()) {
+  for (TaskRunner* runner : {&reader_, &solver_, &mapper_, &keeper_})
     connect(runner, &TaskRunner::changed, this, &CameraCalibrationModel::changed);
+  connect(&captures_, &HeadCaptures::changed, this, &CameraCalibrationModel::changed);
+  connect(&captures_, &HeadCaptures::captured, this,
+          [this](const std::shared_ptr<const StopCapture>& capture) {
+            if (capture->image) AddFromHead(capture->image->image, capture->position.angle_rad);
+          });
+  connect(&captures_, &HeadCaptures::stopsEnded, this, [this](bool, const QString& reason) {
+    if (!reason.isEmpty())
+      session_->Report({Notice::Level::kWarning, tr("No image was captured: %1.").arg(reason),
+                        tr("Try again.")});
+  });
+  live_.SetBoards({board_});
   connect(&rig_, &RigVersionModel::changed, this, &CameraCalibrationModel::changed);
   connect(session_, &SessionModel::imageChanged, this, &CameraCalibrationModel::changed);
 }
@@ -188,6 +200,7 @@ void CameraCalibrationModel::Clear() {
   folder_.clear();
   next_number_ = 1;
   result_.reset();
+  maps_.reset();
   chosen_ = -1;
   failure_.clear();
   keep_wanted_ = solve_wanted_ = false;
@@ -216,6 +229,7 @@ void CameraCalibrationModel::OpenSession(const QString& folder) {
         folder_ = folder;
         rig_.SetFolder(folder);
         board_ = loaded->board;
+        live_.SetBoards({board_});
         models_ = loaded->models;
         for (const CameraSessionImage& image : loaded->images) {
           entries_.push_back({.kept = image, .on_disk = true});
@@ -230,6 +244,7 @@ Status CameraCalibrationModel::SetBoard(const CalibrationBoard& board) {
   FORESIGHT_CHECK(board.Check());
   if (board == board_) return {};
   board_ = board;
+  live_.SetBoards({board_});
   ++*board_version_;
   for (Entry& entry : entries_) {
     if (!entry.on_disk) continue;
@@ -281,11 +296,19 @@ void CameraCalibrationModel::takeFromHead() {
     session_->Report({Notice::Level::kInfo, tr("No image was taken over."), WhyNotTakeFromHead()});
     return;
   }
-  const auto image = std::make_shared<const ColorImage>(session_->CurrentImage()->image);
-  const double angle_deg = DegreesFromRadians(session_->CurrentImage()->motor_angle_rad);
-  const std::string name = fmt::format("head-{:+.0f}deg.png", angle_deg);
+  AddFromHead(session_->CurrentImage()->image, session_->CurrentImage()->motor_angle_rad);
+}
+
+void CameraCalibrationModel::captureFromHead() {
+  if (const Status started = captures_.StartImage(); !started)
+    session_->Report(NoticeOf(tr("Capturing an image"), started.error()));
+}
+
+void CameraCalibrationModel::AddFromHead(const ColorImage& image, double motor_rad) {
+  const auto kept = std::make_shared<const ColorImage>(image);
+  const std::string name = fmt::format("head-{:+.0f}deg.png", DegreesFromRadians(motor_rad));
   Read({.file = NewFileName(name), .name = tr("the head's image").toStdString()}, false,
-       [image] { return EncodePng(*image); });
+       [kept] { return EncodePng(*kept); });
   Changed();
 }
 
@@ -471,7 +494,37 @@ void CameraCalibrationModel::TakeResult(Result<IntrinsicsCalibration> result) {
   chosen_ = result->best;
   if (chosen_ < 0) failure_ = Sentence(result->models.front().failure) + QLatin1Char('.');
   result_ = std::make_shared<const IntrinsicsCalibration>(std::move(*result));
+  MakeMaps();
   Announce();
+}
+
+void CameraCalibrationModel::WantMaps(double distance_m) {
+  if (distance_m == map_distance_m_) return;
+  map_distance_m_ = distance_m;
+  MakeMaps();
+  Announce();
+}
+
+/// The last ones stay until the new ones are there.
+void CameraCalibrationModel::MakeMaps() {
+  const ModelCalibration* model = ChosenModel();
+  if (model == nullptr || !(map_distance_m_ > 0.0)) {
+    mapper_.cancel();
+    maps_.reset();
+    return;
+  }
+  mapper_.Run<CameraMaps>(
+      tr("Mapping the camera's uncertainty"),
+      [result = result_, chosen = chosen_, board = board_,
+       distance = map_distance_m_](const RunContext& context) {
+        return MakeCameraMaps(board, result->models[static_cast<std::size_t>(chosen)], distance,
+                              context);
+      },
+      [this, result = result_, chosen = chosen_](Result<CameraMaps> maps) {
+        if (!maps || result != result_ || chosen != chosen_) return;
+        maps_ = std::make_shared<const CameraMaps>(std::move(*maps));
+        Announce();
+      });
 }
 
 void CameraCalibrationModel::solve() {
@@ -581,6 +634,7 @@ void CameraCalibrationModel::Choose(int index) {
   if (index == chosen_ || !result_->models[static_cast<std::size_t>(index)].Usable()) return;
   chosen_ = index;
   rig_.Forget();
+  MakeMaps();
   Announce();
 }
 
@@ -611,22 +665,6 @@ std::vector<CalibrationCheck> CameraCalibrationModel::Verdict() const {
   for (const std::string& warning : model->warnings)
     checks.push_back({Level::kCaution, Sentence(warning) + QLatin1Char('.')});
   return checks;
-}
-
-CalibrationCheck CameraCalibrationModel::VerdictSummary() const {
-  const std::vector<CalibrationCheck> checks = Verdict();
-  if (checks.empty()) return {Level::kBad, tr("There is no result yet.")};
-  const auto worst = std::max_element(
-      checks.begin(), checks.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
-  switch (worst->level) {
-    case Level::kGood:
-      return {Level::kGood, tr("Good: every limit is met.")};
-    case Level::kCaution:
-      return {Level::kCaution, tr("Usable with care: %1").arg(worst->text)};
-    case Level::kBad:
-      break;
-  }
-  return {Level::kBad, tr("Not good enough: %1").arg(worst->text)};
 }
 
 QString CameraCalibrationModel::Next() const {

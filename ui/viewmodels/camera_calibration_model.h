@@ -12,6 +12,10 @@
 #include "core/calibration/camera_session.h"
 #include "core/calibration/intrinsics.h"
 #include "core/calibration/view_coverage.h"
+#include "ui/viewmodels/calibration_check.h"
+#include "ui/viewmodels/camera_maps.h"
+#include "ui/viewmodels/head_captures.h"
+#include "ui/viewmodels/live_board_model.h"
 #include "ui/viewmodels/rig_version_model.h"
 
 namespace foresight {
@@ -37,13 +41,6 @@ struct CalibrationModelRow {
   double cross_validation_px = 0.0;  ///< NaN: too few images
   QString parameters = {};           ///< one a line, with its standard deviation
   QString failure = {};              ///< why it cannot be used
-};
-
-/// One thing that was compared with its limit.
-struct CalibrationCheck {
-  enum class Level { kGood, kCaution, kBad };
-  Level level = Level::kGood;
-  QString text;
 };
 
 /// Calibrates the head's camera from images of a board: a wizard without an order of steps. Each
@@ -78,6 +75,9 @@ class CameraCalibrationModel : public QObject {
   /// Image files, and folders of them.
   void AddFiles(const QStringList& places);
   QString WhyNotTakeFromHead() const;
+  /// Why the head cannot capture an image now.
+  QString WhyNotCapture() const { return captures_.WhyNot(); }
+  LiveBoardModel* Live() { return &live_; }
 
   const std::vector<CalibrationImageRow>& Images() const { return rows_; }
   int UsedCount() const;
@@ -89,7 +89,10 @@ class CameraCalibrationModel : public QObject {
   /// Of the images that are being read, and of the solve.
   int ReadPermille() const;
   int SolvePermille() const { return solver_.Permille(); }
-  bool Busy() const { return Reading() || Solving() || keeper_.Busy() || rig_.Busy(); }
+  bool Busy() const {
+    return Reading() || Solving() || keeper_.Busy() || mapper_.Busy() || captures_.Running() ||
+           rig_.Busy();
+  }
   /// What goes on, or what is missing for a result, as a sentence.
   QString StateText() const;
 
@@ -107,13 +110,16 @@ class CameraCalibrationModel : public QObject {
   const ModelCalibration* ChosenModel() const;
 
   std::vector<CalibrationCheck> Verdict() const;
-  /// The worst level of the verdict, as a sentence.
-  CalibrationCheck VerdictSummary() const;
   const ViewCoverage& Coverage() const { return coverage_; }
   int ImageWidth() const { return width_; }
   int ImageHeight() const { return height_; }
   /// "next: the board at the left edge, tilted by over 20 deg".
   QString Next() const;
+
+  /// Maps of the chosen model at this distance, and at infinity, are wanted from now on.
+  void WantMaps(double distance_m);
+  /// nullptr = not made yet.
+  const std::shared_ptr<const CameraMaps>& Maps() const { return maps_; }
 
   RigVersionModel* Rig() { return &rig_; }
   QString WhyNotSaveRig() const;
@@ -125,6 +131,8 @@ class CameraCalibrationModel : public QObject {
   void startNew();
   /// The image that the live document shows.
   void takeFromHead();
+  /// One image of full size, where the head stands.
+  void captureFromHead();
   void solve();
   void cancel();
 
@@ -158,11 +166,13 @@ class CameraCalibrationModel : public QObject {
   void Keep();
   /// Images, board or models changed: sorts the images anew, keeps the session, and solves.
   void Changed();
+  void AddFromHead(const ColorImage& image, double motor_rad);
   void SortImages();
   void MakeRows();
   void Advance();
   void StartSolve();
   void TakeResult(Result<IntrinsicsCalibration> result);
+  void MakeMaps();
   void Announce();
 
   HeadViewModel* head_;
@@ -190,9 +200,15 @@ class CameraCalibrationModel : public QObject {
   int chosen_ = -1;
   ViewCoverage coverage_;
 
+  double map_distance_m_ = 0.0;  ///< 0 = nobody looks at the maps
+  std::shared_ptr<const CameraMaps> maps_;
+
   RigVersionModel rig_;
+  HeadCaptures captures_;
+  LiveBoardModel live_;
   TaskRunner reader_{session_->Tasks(), TaskPolicy::kQueue};
   TaskRunner solver_{session_->Tasks(), TaskPolicy::kReplace};
+  TaskRunner mapper_{session_->Tasks(), TaskPolicy::kReplace};
   TaskRunner keeper_{session_->Tasks(), TaskPolicy::kNeverCancel};
 };
 

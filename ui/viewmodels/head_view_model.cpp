@@ -197,17 +197,18 @@ bool HeadViewModel::CanScan() const {
 }
 
 QString HeadViewModel::WhyNoScan() const {
+  if (const QString why = WhyNoCapture(); !why.isEmpty()) return why;
+  const PredictionText prediction = Prediction();
+  return prediction.usable ? QString() : prediction.warning;
+}
+
+QString HeadViewModel::WhyNoCapture() const {
   if (stop_latched_) return tr("The head was stopped. Release the stop first.");
   if (live_) return tr("A scan is running.");
   if (status_.state != HeadState::kReady)
     return tr("The head is %1. Press Home and wait until it is ready.")
         .arg(QString::fromUtf8(ToString(status_.state)));
-  const PredictionText prediction = Prediction();
-  return prediction.usable ? QString() : prediction.warning;
-}
-
-bool HeadViewModel::CanAbort() const {
-  return status_.state == HeadState::kSweeping;
+  return {};
 }
 
 bool HeadViewModel::CanHome() const {
@@ -308,6 +309,31 @@ void HeadViewModel::scan() {
   Q_EMIT scanStarted();
   Poll();
   Q_EMIT statusChanged();
+}
+
+Status HeadViewModel::StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink) {
+  if (stop_latched_) return Fail(ErrorCode::kState, "the head was stopped; release the stop first");
+  FORESIGHT_CHECK(head_->StartStops(plan, std::move(sink)));
+  Poll();
+  return {};
+}
+
+Status HeadViewModel::StartUnrecordedScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) {
+  if (stop_latched_) return Fail(ErrorCode::kState, "the head was stopped; release the stop first");
+  FORESIGHT_CHECK(head_->StartScan(plan, std::move(sink)));
+  Poll();
+  return {};
+}
+
+Status HeadViewModel::StartLiveView(const LiveViewOptions& options,
+                                    std::shared_ptr<LiveViewSink> sink) {
+  FORESIGHT_CHECK(head_->StartLiveView(options, std::move(sink)));
+  Q_EMIT liveViewTaken();
+  return {};
+}
+
+void HeadViewModel::StopLiveView() {
+  head_->StopLiveView();
 }
 
 void HeadViewModel::StopForGood() {

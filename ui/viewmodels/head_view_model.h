@@ -95,6 +95,16 @@ class HeadViewModel : public QObject {
   /// Whether a scan was started and has not been handed over yet.
   bool Scanning() const { return live_ != nullptr; }
 
+  /// Captures and sweeps that are no scans: shown nowhere and not recorded. Fail with kState after
+  /// a stop that was not released, and as the head's own.
+  Status StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink);
+  Status StartUnrecordedScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink);
+  /// Why neither can start now, as a sentence; empty when they can.
+  QString WhyNoCapture() const;
+  /// One view at a time: who looked before hears liveViewTaken.
+  Status StartLiveView(const LiveViewOptions& options, std::shared_ptr<LiveViewSink> sink);
+  void StopLiveView();
+
   /// Asked at the start of each scan for a sink that shall also get it; nullptr = none.
   void SetRecorderSource(std::function<std::shared_ptr<ScanSink>()> source) {
     recorder_source_ = std::move(source);
@@ -128,6 +138,7 @@ class HeadViewModel : public QObject {
   /// A scan that was started will not come: the head never began it.
   void scanLost();
   void stopReleased();
+  void liveViewTaken();
   void noticed(const foresight::Notice& notice);
 
  private:

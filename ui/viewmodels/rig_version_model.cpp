@@ -45,11 +45,27 @@ QString RigVersionModel::FreeFile(const QString& name) {
   return file;
 }
 
-SensorRig RigVersionModel::WithCamera(const CameraModel& camera) const {
+SensorRig RigVersionModel::ChildOfRigInForce() const {
   SensorRig rig = head_->Rig();
   rig.parent_id = RigId(rig);
   rig.date_utc = Now();
+  return rig;
+}
+
+SensorRig RigVersionModel::WithCamera(const CameraModel& camera) const {
+  SensorRig rig = ChildOfRigInForce();
   rig.camera = camera;
+  return rig;
+}
+
+SensorRig RigVersionModel::WithChain(const SensorRig& found) const {
+  SensorRig rig = ChildOfRigInForce();
+  rig.camera = found.camera;
+  rig.camera_from_head = found.camera_from_head;
+  rig.camera_from_lidar = found.camera_from_lidar;
+  rig.lidar.range_offset_m = found.lidar.range_offset_m;
+  rig.lidar.stamp_offset_s = found.lidar.stamp_offset_s;
+  rig.angle_correction = found.angle_correction;
   return rig;
 }
 

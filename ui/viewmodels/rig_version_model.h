@@ -24,6 +24,8 @@ class RigVersionModel : public QObject {
 
   /// The rig in force with another camera: its child, made now.
   SensorRig WithCamera(const CameraModel& camera) const;
+  /// The same with another camera, motor and lidar: `found` is a calibration of the chain.
+  SensorRig WithChain(const SensorRig& found) const;
   /// Writes a rig to a file that is not there yet, and reads it back.
   void Save(const SensorRig& rig, const QString& path);
   /// What was saved last; empty = nothing since Forget.
@@ -49,6 +51,7 @@ class RigVersionModel : public QObject {
   void changed();
 
  private:
+  SensorRig ChildOfRigInForce() const;
   void Give(const SensorRig& rig, const QString& doing);
 
   HeadViewModel* head_;

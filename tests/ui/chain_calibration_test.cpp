@@ -1,0 +1,255 @@
+#include "ui/viewmodels/chain_calibration_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QDir>
+#include <QTemporaryDir>
+
+#include "core/geometry/angles.h"
+#include "core/sensor/rig_id.h"
+#include "tests/ui/board_pictures.h"
+#include "tests/ui/fake_head.h"
+#include "tests/ui/simulated_session.h"
+#include "tests/ui/wait_for.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+using Kind = SessionCapture::Kind;
+
+struct ChainCalibration : testing::Test {
+  QTemporaryDir folder;
+  QString sessions = folder.filePath("sessions");
+  QString simulated = sessions + "/head-2026-01-01-000000";
+  std::shared_ptr<FakeHead> head = std::make_shared<FakeHead>(DefaultSensorRig());
+  TaskQueue tasks;
+  HeadViewModel head_model{head};
+  SessionModel session{SessionMode::kSimulation, &tasks};
+  ChainCalibrationModel model{&head_model, &session, sessions};
+  std::vector<Notice> notices;
+
+  ChainCalibration() {
+    QObject::connect(&session, &SessionModel::noticed,
+                     [this](const Notice& notice) { notices.push_back(notice); });
+  }
+  static bool Settled(const ChainCalibrationModel& model) {
+    return WaitFor([&] { return !model.Busy(); }, 60'000);
+  }
+  bool Settled() const { return Settled(model); }
+  bool Open(int poses = 4) {
+    QDir().mkpath(sessions);
+    WriteSmallSession(simulated, poses);
+    model.OpenSession(simulated);
+    return Settled();
+  }
+  bool Solve() {
+    model.solve();
+    return Settled();
+  }
+  int Lamps(StopLamp::State state) const {
+    int count = 0;
+    for (const StandPlaceRow& row : model.Places())
+      for (const StopLamp& lamp : row.stops) count += lamp.state == state ? 1 : 0;
+    return count;
+  }
+};
+
+TEST_F(ChainCalibration, ASessionIsOpenedShownAndSolvedAsTheCommandLineDoes) {
+  ASSERT_TRUE(Open());
+  ASSERT_EQ(model.Places().size(), 4u);
+  EXPECT_EQ(model.BoardImages().size(), 8u);
+  EXPECT_GT(Lamps(StopLamp::State::kBothBoards), 8);
+  EXPECT_EQ(model.Solution(), nullptr) << "nothing is solved before it is asked for";
+  EXPECT_FALSE(model.WhyNotSaveRig().isEmpty());
+  ASSERT_TRUE(Solve());
+  ASSERT_NE(model.Solution(), nullptr) << model.StateText().toStdString();
+  EXPECT_TRUE(model.SolutionIsCurrent());
+  EXPECT_GE(model.Verdict().size(), 6u);
+  EXPECT_FALSE(model.Weakest().isEmpty());
+
+  const auto read = ReadCalibrationSession(simulated.toStdString(), {});
+  ASSERT_TRUE(read) << read.error().message;
+  ChainCalibrationOptions options;
+  options.noise_from_residuals = true;
+  const auto again = CalibrateChain(*read, options, {});
+  ASSERT_TRUE(again) << again.error().message;
+  // Ceres orders unknowns by where they lie in memory: the last digits differ.
+  EXPECT_NEAR(model.Solution()->found.rig.camera.fx, again->rig.camera.fx, 1e-4);
+  EXPECT_NEAR(model.Solution()->found.mean_error_px, again->mean_error_px, 1e-6);
+  EXPECT_TRUE(notices.empty());
+}
+
+TEST_F(ChainCalibration, APlaceThatIsLeftOutIsSolvedWithoutAndUndoTakesItInAgain) {
+  ASSERT_TRUE(Open());
+  ASSERT_TRUE(Solve());
+  ASSERT_TRUE(model.Solution()) << model.StateText().toStdString();
+  const std::size_t boards = model.Solution()->boards.size();
+  model.SetExcluded({Kind::kPose, 3, -1}, true);
+  ASSERT_TRUE(Settled());
+  EXPECT_TRUE(model.Places()[3].excluded);
+  // Without the fourth place a stop may be loose; then the reason is told and nothing is kept.
+  if (model.Solution())
+    EXPECT_EQ(model.Solution()->boards.size(), boards - 2);
+  else
+    EXPECT_FALSE(model.StateText().isEmpty());
+  session.Undo()->undo();
+  ASSERT_TRUE(Settled());
+  EXPECT_FALSE(model.Places()[3].excluded);
+  ASSERT_TRUE(model.Solution()) << model.StateText().toStdString();
+  EXPECT_EQ(model.Solution()->boards.size(), boards);
+}
+
+TEST_F(ChainCalibration, AnImageThatIsLeftOutIsStillLeftOutAfterACrash) {
+  ASSERT_TRUE(Open());
+  model.SetExcluded({Kind::kIntrinsicImage, -1, 2}, true);
+  ASSERT_TRUE(Settled());
+  EXPECT_EQ(model.BoardImages()[2].state, BoardImageRow::State::kExcluded);
+  ChainCalibrationModel again(&head_model, &session, sessions);
+  ASSERT_EQ(again.LastSession(), simulated);
+  again.OpenSession(again.LastSession());
+  ASSERT_TRUE(Settled(again));
+  EXPECT_EQ(again.BoardImages()[2].state, BoardImageRow::State::kExcluded);
+  EXPECT_EQ(again.Places().size(), 4u);
+}
+
+TEST_F(ChainCalibration, TooFewPlacesAreToldAndNotSolved) {
+  ASSERT_TRUE(Open(2));
+  EXPECT_THAT(model.WhyNotSolve().toStdString(), HasSubstr("there are 2"));
+  EXPECT_THAT(model.Next().toStdString(), HasSubstr("next: "));
+  ASSERT_TRUE(Solve());
+  EXPECT_EQ(model.Solution(), nullptr);
+  EXPECT_THAT(model.StateText().toStdString(), HasSubstr("there are 2"));
+}
+
+TEST_F(ChainCalibration, WhatIsCancelledSaysSoAndCanBeSolvedAgain) {
+  ASSERT_TRUE(Open());
+  model.solve();
+  ASSERT_TRUE(WaitFor([&] { return model.Solving(); }));
+  model.cancel();
+  ASSERT_TRUE(Settled());
+  EXPECT_EQ(model.Solution(), nullptr);
+  EXPECT_THAT(model.StateText().toStdString(), HasSubstr("cancelled"));
+  ASSERT_TRUE(Solve());
+  EXPECT_NE(model.Solution(), nullptr);
+}
+
+TEST_F(ChainCalibration, TheLidarsPointsOfASelectedStopAreThere) {
+  ASSERT_TRUE(Open());
+  ASSERT_TRUE(Solve());
+  ASSERT_TRUE(model.Solution());
+  std::size_t points = 0;
+  for (int place = 0; place < 4; ++place)
+    for (int stop = 0; stop < static_cast<int>(model.Places()[0].stops.size()); ++stop) {
+      model.Select(place, stop);
+      points += model.SelectedPoints().size();
+    }
+  EXPECT_EQ(points, model.Solution()->points.size()) << "each point is of one stop";
+}
+
+TEST_F(ChainCalibration, TheRigIsAChildOfTheOneInForceAndKeepsItsPlaceOnTheRobot) {
+  ASSERT_TRUE(Open());
+  ASSERT_TRUE(Solve());
+  ASSERT_TRUE(model.WhyNotSaveRig().isEmpty()) << model.WhyNotSaveRig().toStdString();
+  const QString file = folder.filePath("new.yaml");
+  model.SaveRig(file);
+  ASSERT_TRUE(WaitFor([&] { return !model.Rig()->Busy(); }));
+  const auto saved = LoadSensorRig(file.toStdString());
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_EQ(saved->parent_id, RigId(head->Rig()));
+  EXPECT_EQ(saved->camera, model.Solution()->found.rig.camera);
+  EXPECT_EQ(saved->robot_from_base.Matrix(), head->Rig().robot_from_base.Matrix());
+}
+
+/// Small, so that a look for boards that are not there takes no time.
+SensorRig RigOfSmallCamera() {
+  SensorRig rig = DefaultSensorRig();
+  rig.camera = SmallCamera();
+  return rig;
+}
+
+StopCapture DarkCapture(double angle_rad) {
+  const SensorRig rig = RigOfSmallCamera();
+  StopCapture capture;
+  capture.target_rad = angle_rad;
+  capture.position = {1.0, angle_rad + 1e-5};
+  capture.image.emplace();
+  capture.image->image = ColorImage(rig.camera.width, rig.camera.height, {10, 10, 10});
+  LidarLine line;
+  line.range_mm.assign(static_cast<std::size_t>(rig.lidar.beams), 2000);
+  capture.lines = {line, line};
+  return capture;
+}
+
+TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfterACrash) {
+  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  StandPlan plan;
+  plan.first_deg = 0.0;
+  plan.last_deg = 10.0;
+  model.SetPlan(plan);
+  model.captureStops();
+  ASSERT_EQ(head->stop_plan.angles_rad.size(), 2u);
+  EXPECT_FALSE(model.WhyNotCapture().isEmpty());
+  // The second stop never comes.
+  head->stop_plan.angles_rad.pop_back();
+  head->DeliverStops(DarkCapture, ScanState::kInterrupted, "the motor is stuck");
+  head_model.Poll();
+  ASSERT_TRUE(Settled());
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_THAT(notices[0].what.toStdString(), HasSubstr("the motor is stuck"));
+  ASSERT_EQ(model.Places().size(), 1u);
+  ASSERT_EQ(model.Places()[0].stops.size(), 2u);
+  EXPECT_EQ(model.Places()[0].stops[0].state, StopLamp::State::kNoBoard);
+  EXPECT_TRUE(model.Places()[0].stops[0].has_lines);
+  EXPECT_EQ(model.Places()[0].stops[1].state, StopLamp::State::kWaiting);
+
+  ChainCalibrationModel again(&head_model, &session, sessions);
+  ASSERT_EQ(again.LastSession(), model.Folder());
+  again.OpenSession(again.LastSession());
+  ASSERT_TRUE(Settled(again));
+  again.SetPlan(plan);
+  again.captureStops();
+  ASSERT_EQ(head->stop_plan.angles_rad.size(), 1u) << "only what is missing";
+  EXPECT_NEAR(head->stop_plan.angles_rad[0], RadiansFromDegrees(10.0), 1e-9);
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(Settled(again));
+  EXPECT_EQ(again.Places()[0].stops[1].state, StopLamp::State::kNoBoard);
+}
+
+TEST_F(ChainCalibration, AHeadThatWasStoppedCapturesNothing) {
+  head_model.stop();
+  model.captureStops();
+  ASSERT_FALSE(model.WhyNotCapture().isEmpty());
+  EXPECT_TRUE(head->stop_plan.angles_rad.empty());
+}
+
+TEST_F(ChainCalibration, ASweepGoesThereAndBackAndIsKeptWithThePlace) {
+  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  StandPlan plan;
+  plan.first_deg = -1.0;
+  plan.last_deg = 1.0;
+  plan.step_deg = 1.0;
+  model.SetPlan(plan);
+  EXPECT_FALSE(model.WhyNotSweep().isEmpty()) << "there is no place yet";
+  model.captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(Settled());
+  model.captureSweep();
+  EXPECT_EQ(head->LastPlan().passes, 2);
+  Scan scan;
+  scan.rig = DefaultSensorRig();
+  scan.lines = DarkCapture(0.0).lines;
+  scan.track = *MotorTrack::FromSamples({{0.0, -0.01}, {1.0, 0.01}});
+  head->Deliver(scan, scan.lines.size());
+  head->Finish(scan, ScanState::kComplete);
+  head_model.Poll();
+  ASSERT_TRUE(Settled());
+  EXPECT_EQ(model.Places()[0].sweep, StandPlaceRow::Sweep::kThere);
+  EXPECT_EQ(session.CurrentScan(), nullptr) << "it is no scan of the mission";
+}
+
+}  // namespace
+}  // namespace foresight

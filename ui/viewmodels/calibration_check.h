@@ -1,0 +1,21 @@
+#pragma once
+
+#include <QString>
+#include <vector>
+
+namespace foresight {
+
+/// One thing of a calibration that was compared with its limit.
+struct CalibrationCheck {
+  enum class Level { kGood, kCaution, kBad };
+  Level level = Level::kGood;
+  QString text;
+
+  /// Of a value that is the better the smaller it is.
+  static Level LevelOf(double value, double good, double bad);
+};
+
+/// The worst level of some checks, as a sentence.
+CalibrationCheck Summarize(const std::vector<CalibrationCheck>& checks);
+
+}  // namespace foresight
