@@ -6,9 +6,12 @@
 #include <QTimer>
 #include <functional>
 
+#include "tests/support/sanitized.h"
+
 namespace foresight {
 
-/// Runs the event loop until `condition` holds; false when it does not within `limit_ms`.
+/// Runs the event loop until `condition` holds; false when it does not within `limit_ms`, or ten
+/// times that under a sanitizer.
 inline bool WaitFor(const std::function<bool()>& condition, int limit_ms = 20'000) {
   QElapsedTimer timer;
   timer.start();
@@ -17,7 +20,7 @@ inline bool WaitFor(const std::function<bool()>& condition, int limit_ms = 20'00
   QTimer wake;
   wake.start(20);
   while (!condition()) {
-    if (timer.elapsed() > limit_ms) return false;
+    if (static_cast<double>(timer.elapsed()) > kSanitizerFactor * limit_ms) return false;
     QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents);
   }
   return true;
