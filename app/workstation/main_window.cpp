@@ -19,6 +19,7 @@
 #include "app/workstation/keys_everywhere.h"
 #include "app/workstation/shortcut_sheet.h"
 #include "ui/panels/camera_calibration_panel.h"
+#include "ui/panels/chain_calibration_panel.h"
 #include "ui/panels/dock_style.h"
 #include "ui/panels/head_panel.h"
 #include "ui/panels/head_strip.h"
@@ -37,7 +38,7 @@ namespace foresight {
 namespace {
 
 /// Counts up when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 4;
+constexpr int kLayoutVersion = 5;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
 constexpr QSize kUsualSize(1600, 1000);
@@ -181,20 +182,20 @@ void MainWindow::AddWindowCommands() {
                 .text = tr("Options"),
                 .tip = tr("All options of the depth map and of the fit"),
                 .keys = QStringLiteral("O"),
-                .run = [this] {
-                  if (options_dock_->isClosed()) options_dock_->toggleView(true);
-                  options_dock_->setAsCurrentTab();
-                }});
+                .run = [this] { Open(options_dock_); }});
   commands.Add({.id = "view.calibrate_camera",
                 .menu = "view",
                 .text = tr("Calibrate camera"),
                 .tip = tr("Calibrate the head's camera from images of a board; scanning and "
                           "recording go on"),
                 .keys = QStringLiteral("Ctrl+Shift+C"),
-                .run = [this] {
-                  if (calibration_dock_->isClosed()) calibration_dock_->toggleView(true);
-                  calibration_dock_->setAsCurrentTab();
-                }});
+                .run = [this] { Open(calibration_dock_); }});
+  commands.Add({.id = "view.calibrate_head",
+                .menu = "view",
+                .text = tr("Calibrate head"),
+                .tip = tr("Calibrate camera, motor, lidar and time from a stand of boards"),
+                .keys = QStringLiteral("Ctrl+Shift+H"),
+                .run = [this] { Open(head_calibration_dock_); }});
   commands.Add({.id = "help.shortcuts",
                 .menu = "help",
                 .icon = "help",
@@ -285,6 +286,9 @@ void MainWindow::BuildDocks() {
   calibration_ = new CameraCalibrationPanel(&bench_->camera_calibration, &bench_->tasks);
   calibration_dock_ = Dock("calibrate_camera", tr("Calibrate camera"), calibration_);
   docks_->addDockWidgetTabToArea(calibration_dock_, right);
+  head_calibration_ = new ChainCalibrationPanel(&bench_->head_calibration, &bench_->tasks);
+  head_calibration_dock_ = Dock("calibrate_head", tr("Calibrate head"), head_calibration_);
+  docks_->addDockWidgetTabToArea(head_calibration_dock_, right);
   right->setCurrentIndex(0);
   auto* top = docks_->addDockWidget(
       ads::TopDockWidgetArea, Dock("picture", tr("Image"), Stack(image_, MakeImagePane)), centre);
@@ -308,10 +312,16 @@ void MainWindow::BuildDocks() {
   log->toggleView(false);
   gallery_dock_->toggleView(false);
   calibration_dock_->toggleView(false);
+  head_calibration_dock_->toggleView(false);
   docks_->setSplitterSizes(top, {500, 500});
   for (auto* splitter : docks_->findChildren<QSplitter*>())
     if (splitter->count() == 3 && splitter->orientation() == Qt::Horizontal)
       splitter->setSizes({290, 980, 330});
+}
+
+void MainWindow::Open(ads::CDockWidget* dock) {
+  if (dock->isClosed()) dock->toggleView(true);
+  dock->setAsCurrentTab();
 }
 
 void MainWindow::ShowDocument() {

@@ -17,6 +17,7 @@ namespace foresight {
 
 class Actions;
 class CameraCalibrationPanel;
+class ChainCalibrationPanel;
 class CloudPane;
 class DepthPane;
 class DocumentStack;
@@ -42,6 +43,7 @@ class MainWindow : public QMainWindow {
   LogStrip* Log() { return log_; }
   SourceGallery* Gallery() { return gallery_; }
   CameraCalibrationPanel* Calibration() { return calibration_; }
+  ChainCalibrationPanel* HeadCalibration() { return head_calibration_; }
 
   /// Where the panes are and how large the window is; kept from one run to the next.
   void SaveLayout(QSettings* settings) const;
@@ -59,6 +61,7 @@ class MainWindow : public QMainWindow {
   void BuildDocks();
   ads::CDockWidget* Dock(const char* name, const QString& title, QWidget* content);
   DocumentStack* Stack(QWidget* live, std::function<QWidget*(Desk*)> make);
+  static void Open(ads::CDockWidget* dock);
   void ShowDocument();
   void BringFloatingDocksBack();
   void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
@@ -74,11 +77,13 @@ class MainWindow : public QMainWindow {
   MissionPanel* mission_ = nullptr;
   SourceGallery* gallery_ = nullptr;
   CameraCalibrationPanel* calibration_ = nullptr;
+  ChainCalibrationPanel* head_calibration_ = nullptr;
   QVector<DocumentStack*> stacks_;
   ads::CDockManager* docks_ = nullptr;
   ads::CDockWidget* gallery_dock_ = nullptr;
   ads::CDockWidget* options_dock_ = nullptr;
   ads::CDockWidget* calibration_dock_ = nullptr;
+  ads::CDockWidget* head_calibration_dock_ = nullptr;
   QMenu* view_menu_ = nullptr;
   QByteArray first_layout_;
 };

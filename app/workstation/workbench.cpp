@@ -12,7 +12,8 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
       reviewer(&review.session),
       flow(&head, &live.session),
       live_depth(&head, &live.session),
-      camera_calibration(&head, &live.session) {
+      camera_calibration(&head, &live.session),
+      head_calibration(&head, &live.session) {
   qRegisterMetaType<Notice>("foresight::Notice");
   head.SetRecorderSource([this] { return recording.Recorder(); });
   connect(&head, &HeadViewModel::scanStarted, this, [this] { log.close(kScanTopic); });

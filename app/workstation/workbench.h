@@ -5,6 +5,7 @@
 
 #include "app/workstation/desk.h"
 #include "ui/viewmodels/camera_calibration_model.h"
+#include "ui/viewmodels/chain_calibration_model.h"
 #include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/live_depth_view_model.h"
@@ -34,6 +35,7 @@ class Workbench : public QObject {
   ScanFlow flow;
   LiveDepthViewModel live_depth;
   CameraCalibrationModel camera_calibration;
+  ChainCalibrationModel head_calibration;
   CommandTable commands;
 
   /// Whether the window shows the document for review.

@@ -1,8 +1,11 @@
 #include "ui/panels/camera_calibration_panel.h"
 
 #include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
@@ -14,6 +17,8 @@
 #include "ui/panels/calibration_image_list.h"
 #include "ui/panels/calibration_plots.h"
 #include "ui/panels/camera_model_table.h"
+#include "ui/panels/field_map.h"
+#include "ui/panels/live_board_view.h"
 #include "ui/panels/rig_version_row.h"
 #include "ui/panels/verdict_view.h"
 #include "ui/widgets/dock_parts.h"
@@ -26,6 +31,10 @@ constexpr int kShowDelay_ms = 30;
 constexpr std::array<LensModel, 4> kModels = {LensModel::kFisheyeK, LensModel::kExtendedUnified,
                                               LensModel::kKannalaBrandt,
                                               LensModel::kRadialTangential};
+enum Map { kCorners, kUncertainty, kUncertaintyAtInfinity, kHalves, kHalvesAtInfinity };
+/// Where the colours of a map end: what a good calibration stays below.
+constexpr double kFullUncertainty_px = 0.5;
+constexpr double kFullHalves_px = 1.0;
 
 }  // namespace
 
@@ -40,6 +49,7 @@ CameraCalibrationPanel::CameraCalibrationPanel(CameraCalibrationModel* model, Ta
       progress_(new QProgressBar),
       images_(new CalibrationImageList),
       map_(new CoverageMap),
+      field_(new FieldMap),
       bars_(new ViewBars),
       table_(new CameraModelTable),
       why_(WordsLabel("faint")),
@@ -61,11 +71,14 @@ CameraCalibrationPanel::CameraCalibrationPanel(CameraCalibrationModel* model, Ta
   layout->addWidget(board_);
   layout->addWidget(SectionTitle(tr("Images")));
   layout->addWidget(BuildSources());
+  layout->addWidget(new LiveBoardView(model->Live()));
   layout->addWidget(next_);
   layout->addWidget(state_);
   layout->addWidget(progress_);
   layout->addWidget(images_);
+  layout->addWidget(BuildMaps());
   layout->addWidget(map_);
+  layout->addWidget(field_);
   layout->addWidget(bars_);
   layout->addWidget(SectionTitle(tr("Camera")));
   layout->addWidget(BuildSolve());
@@ -103,23 +116,80 @@ QWidget* CameraCalibrationPanel::BuildSources() {
   auto* add = NarrowButton("addImages", tr("Add images..."), tr("Image files: PNG, JPEG or PGM"));
   auto* folder = NarrowButton("addFolder", tr("Add folder..."), tr("All images of a folder"));
   take_ = NarrowButton("takeFromHead", tr("Take from head"));
+  capture_ = NarrowButton("captureFromHead", tr("Capture"));
   auto* fresh =
       NarrowButton("startNew", tr("New"), tr("Begin anew; what is here is kept on the disk"));
   last_ =
       NarrowButton("openLast", tr("Open last"), tr("Go on with the calibration before this one"));
   grid->addWidget(add, 0, 0);
   grid->addWidget(folder, 0, 1);
-  grid->addWidget(take_, 1, 0, 1, 2);
+  grid->addWidget(capture_, 1, 0);
+  grid->addWidget(take_, 1, 1);
   grid->addWidget(fresh, 2, 0);
   grid->addWidget(last_, 2, 1);
   connect(add, &QPushButton::clicked, this, [this] { ChooseImages(false); });
   connect(folder, &QPushButton::clicked, this, [this] { ChooseImages(true); });
   connect(take_, &QPushButton::clicked, model_, &CameraCalibrationModel::takeFromHead);
+  connect(capture_, &QPushButton::clicked, model_, &CameraCalibrationModel::captureFromHead);
   connect(fresh, &QPushButton::clicked, model_, &CameraCalibrationModel::startNew);
   connect(last_, &QPushButton::clicked, this, [this] {
     if (const QString last = model_->LastSession(); !last.isEmpty()) model_->OpenSession(last);
   });
   return row;
+}
+
+QWidget* CameraCalibrationPanel::BuildMaps() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  which_map_ = new QComboBox;
+  which_map_->setObjectName(QStringLiteral("whichMap"));
+  which_map_->setAccessibleName(tr("What is mapped over the image"));
+  which_map_->addItems({tr("Corners and residuals"), tr("Uncertainty at"),
+                        tr("Uncertainty at infinity"), tr("Odd against even at"),
+                        tr("Odd against even at infinity")});
+  which_map_->setToolTip(tr(
+      "Uncertainty: one standard deviation of where a point appears, in the worst direction. Odd "
+      "against even: how far two cameras differ, each from every second image."));
+  which_map_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  map_distance_ = new QDoubleSpinBox;
+  map_distance_->setRange(0.1, 100.0);
+  map_distance_->setValue(2.0);
+  map_distance_->setDecimals(1);
+  map_distance_->setSuffix(tr(" m"));
+  map_distance_->setAccessibleName(tr("Distance of the map"));
+  map_distance_->setKeyboardTracking(false);
+  layout->addWidget(which_map_, 1);
+  layout->addWidget(map_distance_);
+  connect(which_map_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this] { WantMap(); });
+  connect(map_distance_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this] { WantMap(); });
+  return row;
+}
+
+void CameraCalibrationPanel::WantMap() {
+  model_->WantMaps(which_map_->currentIndex() == kCorners ? 0.0 : map_distance_->value());
+  ShowMap();
+}
+
+void CameraCalibrationPanel::ShowMap() {
+  const ModelCalibration* chosen = model_->ChosenModel();
+  map_->Show(model_->Coverage(), model_->ImageWidth(), model_->ImageHeight(),
+             chosen != nullptr ? chosen->images : std::vector<ImageErrors>());
+  const int which = which_map_->currentIndex();
+  const CameraMaps* maps = model_->Maps().get();
+  map_distance_->setVisible(which == kUncertainty || which == kHalves);
+  map_->setVisible(which == kCorners || maps == nullptr);
+  field_->setVisible(which != kCorners && maps != nullptr);
+  if (!field_->isVisibleTo(this)) return;
+  const bool halves = which == kHalves || which == kHalvesAtInfinity;
+  const ImageField& field = which == kUncertainty             ? maps->uncertainty
+                            : which == kUncertaintyAtInfinity ? maps->uncertainty_at_infinity
+                            : which == kHalves                ? maps->halves
+                                                              : maps->halves_at_infinity;
+  field_->Show(field, halves ? kFullHalves_px : kFullUncertainty_px);
 }
 
 QWidget* CameraCalibrationPanel::BuildSolve() {
@@ -163,9 +233,7 @@ void CameraCalibrationPanel::ShowSoon() {
 void CameraCalibrationPanel::ShowAll() {
   board_->Show(model_->Board());
   images_->Show(model_->Images());
-  const ModelCalibration* chosen = model_->ChosenModel();
-  map_->Show(model_->Coverage(), model_->ImageWidth(), model_->ImageHeight(),
-             chosen != nullptr ? chosen->images : std::vector<ImageErrors>());
+  ShowMap();
   bars_->Show(model_->Coverage());
   ShowModels();
   verdict_->Show(model_->Verdict());
@@ -198,6 +266,8 @@ void CameraCalibrationPanel::ShowProgress() {
 }
 
 void CameraCalibrationPanel::ShowButtons() {
+  ShowPossible(capture_, tr("Take an image where the head stands now, and add it"),
+               model_->WhyNotCapture());
   ShowPossible(take_, tr("Add the image of the live document"), model_->WhyNotTakeFromHead());
   last_->setEnabled(!model_->LastSession().isEmpty());
   solve_->setEnabled(model_->UsedCount() > 0);

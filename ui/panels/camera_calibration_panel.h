@@ -7,6 +7,8 @@
 #include "ui/viewmodels/camera_calibration_model.h"
 
 class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -17,6 +19,7 @@ class BoardFields;
 class CalibrationImageList;
 class CameraModelTable;
 class CoverageMap;
+class FieldMap;
 class RigVersionRow;
 class VerdictView;
 class ViewBars;
@@ -37,11 +40,14 @@ class CameraCalibrationPanel : public QWidget {
 
  private:
   QWidget* BuildSources();
+  QWidget* BuildMaps();
   QWidget* BuildSolve();
   void TakeBoard();
   void TakeModels();
   void ShowSoon();
   void ShowAll();
+  void WantMap();
+  void ShowMap();
   void ShowModels();
   void ShowProgress();
   void ShowButtons();
@@ -51,12 +57,16 @@ class CameraCalibrationPanel : public QWidget {
   TaskQueue* tasks_;
   BoardFields* board_;
   QPushButton* take_ = nullptr;
+  QPushButton* capture_ = nullptr;
   QPushButton* last_ = nullptr;
   QLabel* next_;
   QLabel* state_;
   QProgressBar* progress_;
   CalibrationImageList* images_;
+  QComboBox* which_map_ = nullptr;
+  QDoubleSpinBox* map_distance_ = nullptr;
   CoverageMap* map_;
+  FieldMap* field_;
   ViewBars* bars_;
   std::vector<QCheckBox*> wanted_;
   QPushButton* solve_ = nullptr;

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <QWidget>
+
+#include "ui/viewmodels/chain_calibration_model.h"
+
+class QLabel;
+class QListWidget;
+class QPushButton;
+
+namespace foresight {
+
+class StandLamps;
+
+/// Second step of "Calibrate head": what was captured, and what to capture next.
+class RecordPage : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit RecordPage(ChainCalibrationModel* model, QWidget* parent = nullptr);
+
+  void Refresh();
+  StandLamps* Lamps() { return lamps_; }
+
+ private:
+  QWidget* BuildCaptures();
+  void ToggleSelected();
+  void TogglePlace();
+  void CaptureAgain();
+  const StopLamp* Selected() const;
+  void ShowSelected();
+  void ShowBoardImages();
+
+  ChainCalibrationModel* model_;
+  QLabel* next_;
+  QPushButton* stops_ = nullptr;
+  QPushButton* sweep_ = nullptr;
+  QPushButton* place_ = nullptr;
+  QPushButton* image_ = nullptr;
+  QPushButton* end_ = nullptr;
+  StandLamps* lamps_;
+  QLabel* selected_;
+  QPushButton* leave_out_;
+  QPushButton* leave_place_out_;
+  QPushButton* again_;
+  QLabel* images_title_;
+  QListWidget* images_;
+};
+
+}  // namespace foresight
