@@ -211,6 +211,10 @@ QString HeadViewModel::WhyNoCapture() const {
   return {};
 }
 
+bool HeadViewModel::CanAbort() const {
+  return status_.state == HeadState::kSweeping;
+}
+
 bool HeadViewModel::CanHome() const {
   return WhyNoHome().isEmpty();
 }
