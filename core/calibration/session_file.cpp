@@ -6,11 +6,11 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/parallel.h"
-#include "core/calibration/board_detector.h"
+#include "core/base/sha256.h"
 #include "core/calibration/number_table.h"
+#include "core/calibration/view_files.h"
 #include "core/geometry/angles.h"
-#include "core/io/image_file.h"
-#include "core/io/yaml_reader.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -20,7 +20,6 @@ namespace fs = std::filesystem;
 constexpr int kFormatVersion = 1;
 constexpr std::size_t kMostLines = 100000;  // of one file: 40 minutes of a lidar
 
-const NumberTable kCornerTable{{"board", "corner", "u", "v"}, false, "ab"};
 const NumberTable kLineTable{{"seq", "time_s", "range_mm"}, true, ""};
 const NumberTable kMotorTable{{"time_s", "angle_rad"}, false, ""};
 
@@ -113,7 +112,7 @@ class Writer {
         continue;
       }
       const std::string name = fmt::format("intrinsic/{:03}.csv", i + 1);
-      std::string text = "board,corner,u,v\n";
+      std::string text = kCornerHeader;
       AppendCorners('a', session_.intrinsic_views[i].view, &text);
       FORESIGHT_CHECK(WriteText(folder_, name, text));
       yaml_ += fmt::format("  - {{corners: {}}}\n", name);
@@ -132,7 +131,7 @@ class Writer {
       // The shortest decimal number that gives the same angle but for the last digit.
       yaml_ += fmt::format("      - {{motor_deg: {:.12g}", DegreesFromRadians(stop.motor_rad));
       if (!stop.view.empty()) {
-        std::string text = "board,corner,u,v\n";
+        std::string text = kCornerHeader;
         if (stop.view.a) AppendCorners('a', *stop.view.a, &text);
         if (stop.view.b) AppendCorners('b', *stop.view.b, &text);
         FORESIGHT_CHECK(WriteText(folder_, name + "_corners.csv", text));
@@ -161,9 +160,6 @@ class Writer {
 // ---- reading
 
 /// What session.yaml says, before the files that it names are read.
-struct ViewEntry {
-  std::string image, corners;
-};
 struct StopEntry {
   double motor_rad = 0.0;
   ViewEntry view;
@@ -180,69 +176,34 @@ struct SessionEntry {
   std::vector<PoseEntry> poses;
 };
 
-/// A file's name, inside the session's folder.
-std::string FileName(YamlMap& map, const std::string& key) {
-  const std::string name = map.Text(key);
-  const fs::path path(name);
-  const bool leaves =
-      path.is_absolute() ||
-      std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
-  if (name.empty() || leaves)
-    map.Fault(map.Node(key), "'" + key + "' is not a file in the session's folder");
-  return name;
-}
-
-std::string OptionalFileName(YamlMap& map, const std::string& key) {
-  return map.Has(key) ? FileName(map, key) : std::string();
-}
-
-CalibrationBoard BoardFromYaml(YamlMap& map, const std::string& key) {
-  const auto board = CalibrationBoardFromText(map.Text(key));
-  if (!board) map.Fault(map.Node(key), board.error().message);
-  return *board;
-}
-
-ViewEntry ViewFromYaml(YamlMap& map) {
-  ViewEntry view{OptionalFileName(map, "image"), OptionalFileName(map, "corners")};
-  if (!view.image.empty() && !view.corners.empty())
-    map.Fault(map.Node("image"), "a view has an image or corners, not both");
-  return view;
-}
-
 BoardMount MountFromYaml(YamlMap map) {
   BoardMount mount;
   mount.a = BoardFromYaml(map, "a");
   if (map.Has("b")) {
     mount.b = BoardFromYaml(map, "b");
-    YamlMap pose = map.Map("a_from_b");
-    const std::vector<double> q = pose.Numbers("quaternion_wxyz", 4);
-    const Eigen::Vector3d t = pose.Vector("translation_m");
-    pose.Finish();
-    const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-    if (std::abs(rotation.norm() - 1.0) > 1e-3)
-      pose.Fault("quaternion_wxyz does not have length 1");
-    if (t.norm() > 10.0) pose.Fault("the boards are over 10 m apart");
-    mount.a_from_b = {rotation, t};
+    mount.a_from_b = PoseFromYaml<frame::Pattern, frame::Pattern>(map.Map("a_from_b"));
+    if (mount.a_from_b.translation().norm() > 10.0)
+      map.Fault(map.Node("a_from_b"), "the boards are over 10 m apart");
   }
   map.Finish();
   return mount;
 }
 
-PoseEntry PoseFromYaml(YamlMap& map, std::size_t number) {
+PoseEntry PoseEntryFromYaml(YamlMap& map, std::size_t number) {
   PoseEntry pose;
   pose.name = map.Text("name", fmt::format("pose {}", number));
   for (YamlMap& entry : map.List("stops")) {
     StopEntry stop;
     stop.motor_rad = RadiansFromDegrees(entry.Number("motor_deg"));
     stop.view = ViewFromYaml(entry);
-    stop.lines = OptionalFileName(entry, "lines");
+    stop.lines = OptionalFileNameFromYaml(entry, "lines");
     entry.Finish();
     pose.stops.push_back(std::move(stop));
   }
   if (map.Has("sweep")) {
     YamlMap sweep = map.Map("sweep");
-    pose.sweep_lines = FileName(sweep, "lines");
-    pose.sweep_motor = FileName(sweep, "motor");
+    pose.sweep_lines = FileNameFromYaml(sweep, "lines");
+    pose.sweep_motor = FileNameFromYaml(sweep, "motor");
     sweep.Finish();
   }
   map.Finish();
@@ -256,37 +217,18 @@ SessionEntry SessionFromYaml(YamlMap& map, CalibrationSession* session) {
                           kFormatVersion));
   SessionEntry entry;
   session->name = map.Text("name", "unnamed");
-  entry.rig = FileName(map, "rig");
+  entry.rig = FileNameFromYaml(map, "rig");
   session->mount = MountFromYaml(map.Map("mount"));
   if (map.Has("intrinsic_views")) session->intrinsic_board = BoardFromYaml(map, "intrinsic_board");
   for (YamlMap& view : map.List("intrinsic_views")) {
     entry.views.push_back(ViewFromYaml(view));
     view.Finish();
-    if (entry.views.back().image.empty() && entry.views.back().corners.empty())
-      view.Fault("a view needs an image or corners");
+    if (entry.views.back().empty()) view.Fault("a view needs an image or corners");
   }
   for (YamlMap& pose : map.List("poses"))
-    entry.poses.push_back(PoseFromYaml(pose, entry.poses.size() + 1));
+    entry.poses.push_back(PoseEntryFromYaml(pose, entry.poses.size() + 1));
   map.Finish();
   return entry;
-}
-
-Result<MountView> ReadCorners(const fs::path& path) {
-  MountView view;
-  view.source = path.filename().string();
-  const auto on_row = [&](int line, std::span<const double> row) -> Status {
-    if (row[0] != 0.0 && row[0] != 1.0)
-      return Fail(ErrorCode::kBadData, "{}:{}: the board is a or b", path.string(), line);
-    if (row[1] < 0.0 || row[1] > 10000.0 || row[1] != std::floor(row[1]))
-      return Fail(ErrorCode::kBadData, "{}:{}: {} is no corner", path.string(), line, row[1]);
-    auto& board = row[0] == 0.0 ? view.a : view.b;
-    if (!board) board.emplace();
-    board->corner_ids.push_back(static_cast<int>(row[1]));
-    board->pixels.emplace_back(row[2], row[3]);
-    return {};
-  };
-  FORESIGHT_CHECK(ReadNumberTable(path, kCornerTable, on_row));
-  return view;
 }
 
 Result<std::vector<LidarLine>> ReadLines(const fs::path& path, const LidarModel& lidar) {
@@ -339,28 +281,6 @@ struct ViewJob {
   Status status;
 };
 
-Status LookAt(const fs::path& folder, const SensorRig& rig, ViewJob* job) {
-  if (!job->entry.corners.empty()) {
-    FORESIGHT_TRY(job->view, ReadCorners(folder / job->entry.corners));
-    job->view.source = job->entry.corners;
-    return {};
-  }
-  job->view.source = job->entry.image;
-  const fs::path file = folder / job->entry.image;
-  FORESIGHT_TRY(const GrayImage image, ReadImageGray(file));
-  if (image.width() != rig.camera.width || image.height() != rig.camera.height)
-    return Fail(ErrorCode::kBadData, "{}: {} x {} pixels, the rig's camera has {} x {}",
-                file.string(), image.width(), image.height(), rig.camera.width, rig.camera.height);
-  const auto find = [&](const CalibrationBoard* board, std::optional<BoardView>* view) {
-    if (board == nullptr) return;
-    BoardDetection detection = DetectBoard(image, *board, job->effort);
-    if (detection.rejection.empty()) *view = std::move(detection.view);
-  };
-  find(job->a, &job->view.a);
-  find(job->b, &job->view.b);
-  return {};
-}
-
 class Loader {
  public:
   Loader(const fs::path& folder, const RunContext& context) : folder_(folder), context_(context) {}
@@ -388,14 +308,18 @@ class Loader {
     const CalibrationBoard* b = session_.mount.b ? &*session_.mount.b : nullptr;
     for (const PoseEntry& pose : entry_.poses)
       for (const StopEntry& stop : pose.stops)
-        if (!stop.view.image.empty() || !stop.view.corners.empty())
+        if (!stop.view.empty())
           // At many stops no board is in sight, and nobody wants to know what is there instead.
           jobs.push_back({stop.view, &session_.mount.a, b, SearchEffort::kQuick, {}, {}});
     std::atomic<int> done = 0;
     const int count = static_cast<int>(jobs.size());
     const bool finished = ParallelFor(count, context_, [&](int i) {
       ViewJob& job = jobs[static_cast<std::size_t>(i)];
-      job.status = LookAt(folder_, session_.prior, &job);
+      auto view = ReadView(folder_, job.entry, session_.prior.camera, job.a, job.b, job.effort);
+      if (view)
+        job.view = std::move(*view);
+      else
+        job.status = tl::unexpected(view.error());
       context_.Report(static_cast<double>(++done) / count, "looking for boards");
     });
     if (!finished) return Fail(ErrorCode::kCancelled, "reading the session: cancelled");
@@ -409,8 +333,7 @@ class Loader {
       pose.name = entry.name;
       for (const StopEntry& stop : entry.stops) {
         pose.stops.push_back({stop.motor_rad, {}, {}});
-        if (!stop.view.image.empty() || !stop.view.corners.empty())
-          pose.stops.back().view = std::move(jobs[next++].view);
+        if (!stop.view.empty()) pose.stops.back().view = std::move(jobs[next++].view);
       }
       session_.poses.push_back(std::move(pose));
     }
@@ -453,6 +376,31 @@ Status WriteCalibrationSession(const CalibrationSession& session, const fs::path
   if (!fs::is_empty(folder, error) || error)
     return Fail(ErrorCode::kIo, "{}: the folder is not empty; name a new one", folder.string());
   return Writer(session, folder, views).Write();
+}
+
+std::string SessionHash(const CalibrationSession& session) {
+  Sha256 hash;
+  const auto add_view = [&hash](const MountView& view) {
+    std::string text = kCornerHeader;
+    if (view.a) AppendCorners('a', *view.a, &text);
+    if (view.b) AppendCorners('b', *view.b, &text);
+    hash.Add(text);
+  };
+  hash.Add(RigId(session.prior) + "\nboards\n" + ToText(session.mount.a) + "\n");
+  if (session.mount.b)
+    hash.Add(ToText(*session.mount.b) + "\n" + BoardFromBoardYaml(session.mount.a_from_b) + "\n");
+  if (!session.intrinsic_views.empty()) hash.Add(ToText(session.intrinsic_board) + "\n");
+  for (const IntrinsicView& view : session.intrinsic_views) add_view({"", view.view, {}});
+  for (const PatternPose& pose : session.poses) {
+    hash.Add("pose\n");
+    for (const MotorStop& stop : pose.stops) {
+      hash.Add(fmt::format("stop {:.9f}\n", DegreesFromRadians(stop.motor_rad)));
+      add_view(stop.view);
+      hash.Add(LinesText(stop.lines));
+    }
+    hash.Add("sweep\n").Add(LinesText(pose.sweep.lines)).Add(MotorText(pose.sweep.track));
+  }
+  return hash.Hex();
 }
 
 std::string ImageNameOfView(std::size_t view) {
