@@ -97,6 +97,7 @@ Result<ExitCode> CalibrateRobot(const RobotArguments& arguments, const RunContex
   rig.parent_id = RigId(rig);
   rig.date_utc = UtcDateNow();
   rig.robot_from_base = found.found.robot_from_base;
+  rig.robot_frame_source = samples.source;
   FORESIGHT_CHECK(rig.Check());
   if (!arguments.out.empty()) FORESIGHT_CHECK(SaveSensorRig(rig, arguments.out));
   if (arguments.json)

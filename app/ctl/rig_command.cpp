@@ -6,7 +6,6 @@
 #include "core/calibration/camera_formats.h"
 #include "core/geometry/angles.h"
 #include "core/sensor/rig_id.h"
-#include "core/sensor/robot_frame_source.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
@@ -82,7 +81,8 @@ nlohmann::ordered_json ToJson(const SensorRig& rig) {
           {"camera_from_head", ToJson(rig.camera_from_head)},
           {"camera_from_lidar", ToJson(rig.camera_from_lidar)},
           {"robot_from_base", ToJson(rig.robot_from_base)},
-              {"angle_correction", knots}};
+          {"robot_from_base_source", text_or_null(std::string(ToString(rig.robot_frame_source)))},
+          {"angle_correction", knots}};
 }
 
 std::string DescribeField(double field_rad) {
@@ -108,6 +108,20 @@ std::string Describe(const Rigid<To, From>& transform) {
                      DegreesFromRadians(turn_rad));
 }
 
+std::string DescribeSource(RobotFrameSource source) {
+  switch (source) {
+    case RobotFrameSource::kCad:
+      return "; typed from CAD, not measured";
+    case RobotFrameSource::kHandEye:
+      return "; measured with a board on the robot's hand";
+    case RobotFrameSource::kSurveyedBoards:
+      return "; measured with boards at surveyed places";
+    case RobotFrameSource::kUnknown:
+      break;
+  }
+  return "";
+}
+
 std::string Describe(const SensorRig& rig) {
   std::string text;
   const auto add = [&text](const char* title, const std::string& value) {
@@ -131,7 +145,7 @@ std::string Describe(const SensorRig& rig) {
                   1000.0 * rig.lidar.stamp_offset_s));
   add("camera from head", Describe(rig.camera_from_head));
   add("camera from lidar", Describe(rig.camera_from_lidar));
-  add("robot from base", Describe(rig.robot_from_base));
+  add("robot from base", Describe(rig.robot_from_base) + DescribeSource(rig.robot_frame_source));
   add("angle correction", rig.angle_correction.knots().empty()
                               ? "none"
                               : fmt::format("{} angles", rig.angle_correction.knots().size()));
@@ -216,6 +230,7 @@ Result<ExitCode> SetRobotFrame(const RigArguments& arguments) {
   rig.parent_id = RigId(rig);
   rig.robot_from_base = {turn, Eigen::Vector3d(arguments.position_m[0], arguments.position_m[1],
                                                arguments.position_m[2])};
+  rig.robot_frame_source = RobotFrameSource::kCad;
   FORESIGHT_CHECK(SaveSensorRig(rig, arguments.out));
   PrintLine(arguments.json ? ToJson(rig).dump(2)
                            : fmt::format("{}: rig {} with its robot's frame typed from CAD",
