@@ -1,8 +1,9 @@
-#include <chrono>
 #include <memory>
 
 #include "app/ctl/calibration_report.h"
 #include "app/ctl/command.h"
+#include "app/ctl/paper_comparison.h"
+#include "core/base/atomic_file.h"
 #include "core/base/utc_text.h"
 #include "core/calibration/session_file.h"
 #include "core/sensor/rig_id.h"
@@ -17,19 +18,12 @@ struct ChainArguments {
   std::string lenses;
   bool json = false;
   bool paper = false;
+  bool compare_paper = false;
   bool leave_out = false;
   bool fixed_noise = false;
   double corner_px = ChainNoise().corner_px;
   double range_mm = 0.0;
 };
-
-/// Whole seconds, as rigs have it.
-std::string UtcNow() {
-  const auto now =
-      std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()).time_since_epoch();
-  const std::string text = UtcText(std::chrono::nanoseconds(now).count());
-  return text.substr(0, text.find('.')) + "Z";
-}
 
 Result<ChainCalibrationOptions> OptionsFrom(const ChainArguments& arguments,
                                             CalibrationStage stage) {
@@ -46,24 +40,65 @@ Result<ChainCalibrationOptions> OptionsFrom(const ChainArguments& arguments,
   return options;
 }
 
+/// What the same session gives with Section III-B as printed; where that fails, the reason.
+struct PaperResult {
+  std::vector<ComparedValue> values;
+  std::string failure;
+};
+
+Result<PaperResult> RunPaper(const CalibrationSession& session, ChainCalibrationOptions options,
+                             const ChainCalibration& ours, const RunContext& context) {
+  options.as_in_the_paper = true;
+  const auto paper = CalibrateChain(session, options, context);
+  PaperResult result;
+  if (paper)
+    result.values = CompareWithPaper(ours, *paper);
+  else if (paper.error().code == ErrorCode::kCancelled)
+    return tl::unexpected(paper.error());
+  else
+    result.failure = "the paper's sequence gave no answer: " + paper.error().message;
+  return result;
+}
+
+Status WriteReports(const ChainCalibration& found, const CalibrationSession& session,
+                    const PaperResult& paper, const std::string& folder) {
+  FORESIGHT_CHECK(MakeOutputFolder(folder));
+  HtmlReport page = CalibrationReport(found, session.name);
+  if (!paper.values.empty()) page.tables.insert(page.tables.begin() + 1, TableOf(paper.values));
+  FORESIGHT_CHECK(WriteHtmlReport(page, folder));
+  FORESIGHT_TRY(const std::string sheet, PdfOf(CalibrationSheet(found, session, paper.values)));
+  return WriteFileAtomically(std::filesystem::path(folder) / "report.pdf", sheet);
+}
+
+void Print(const ChainCalibration& found, const PaperResult& paper, bool as_json) {
+  if (as_json) {
+    nlohmann::ordered_json json = CalibrationJson(found);
+    if (!paper.values.empty()) json["beside_the_paper"] = ToJson(paper.values);
+    PrintJson(json);
+    return;
+  }
+  PrintLine(DescribeCalibration(found));
+  if (!paper.values.empty()) PrintLine("\n" + Describe(paper.values));
+}
+
 Result<ExitCode> Calibrate(const ChainArguments& arguments, CalibrationStage stage,
                            const RunContext& context) {
   FORESIGHT_TRY(const ChainCalibrationOptions options, OptionsFrom(arguments, stage));
   FORESIGHT_TRY(const CalibrationSession session,
                 ReadCalibrationSession(arguments.session, context.Part(0.0, 0.5)));
-  FORESIGHT_TRY(ChainCalibration found, CalibrateChain(session, options, context.Part(0.5, 1.0)));
+  FORESIGHT_TRY(ChainCalibration found, CalibrateChain(session, options, context.Part(0.5, 0.8)));
   found.rig.name = session.name;
-  found.rig.date_utc = UtcNow();
+  found.rig.date_utc = UtcDateNow();
   found.rig.parent_id = RigId(session.prior);
-  if (!arguments.out.empty()) FORESIGHT_CHECK(SaveSensorRig(found.rig, arguments.out));
-  if (!arguments.report.empty()) {
-    FORESIGHT_CHECK(MakeOutputFolder(arguments.report));
-    FORESIGHT_CHECK(WriteHtmlReport(CalibrationReport(found, session.name), arguments.report));
+  PaperResult paper;
+  if (arguments.compare_paper) {
+    FORESIGHT_TRY(paper, RunPaper(session, options, found, context.Part(0.8, 1.0)));
+    if (!paper.failure.empty()) found.notes.push_back(paper.failure);
   }
-  if (arguments.json)
-    PrintJson(CalibrationJson(found));
-  else
-    PrintLine(DescribeCalibration(found));
+  if (!arguments.out.empty()) FORESIGHT_CHECK(SaveSensorRig(found.rig, arguments.out));
+  if (!arguments.report.empty())
+    FORESIGHT_CHECK(WriteReports(found, session, paper, arguments.report));
+  Print(found, paper, arguments.json);
   return ExitCode::kDone;
 }
 
@@ -75,26 +110,27 @@ void AddStage(CLI::App& calibrate, Invocation& invocation, const char* name, con
       ->required();
   command->add_option("--out", arguments->out, "Write the rig (YAML)");
   command->add_option("--report", arguments->report,
-                      "Write a page with tables and charts into this folder");
+                      "Write a page with tables and charts, and one sheet of it as PDF, into this "
+                      "folder");
   command->add_flag("--json", arguments->json, "Print all values as JSON");
   command->add_option("--model", arguments->lenses,
                       "Models of the camera to choose from, of k, eucm, kb4, radtan; else the "
                       "prior's, where the session has images for it");
-  command->add_flag("--paper", arguments->paper,
-                    "Section III-B as printed: the stand as drawn, distances from planes, no joint "
-                    "refinement");
+  CLI::Option* paper = command->add_flag(
+      "--paper", arguments->paper,
+      "Section III-B as printed: the stand as drawn, distances from planes, no joint refinement");
+  command
+      ->add_flag("--compare-paper", arguments->compare_paper,
+                 "Also calibrate as printed, and set both side by side")
+      ->excludes(paper);
   command->add_flag("--leave-out-loose-stops", arguments->leave_out,
                     "Go without stops that no image ties to the stop at 0 deg");
   command->add_flag("--fixed-noise", arguments->fixed_noise,
                     "Believe the deviations given; else they are estimated from the residuals");
-  command
-      ->add_option("--corner-sigma", arguments->corner_px,
-                   "Standard deviation of a corner an axis, px")
-      ->capture_default_str();
-  command
-      ->add_option("--range-sigma", arguments->range_mm,
-                   "Standard deviation of a range, mm; 0 = from the scatter at the stops")
-      ->capture_default_str();
+  AddOption(*command, "--corner-sigma", arguments->corner_px,
+            "Standard deviation of a corner an axis, px");
+  AddOption(*command, "--range-sigma", arguments->range_mm,
+            "Standard deviation of a range, mm; 0 = from the scatter at the stops");
   command->callback([&invocation, arguments, stage] {
     invocation = [arguments, stage](const RunContext& context) {
       return Calibrate(*arguments, stage, context);

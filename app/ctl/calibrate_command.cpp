@@ -170,11 +170,7 @@ Status WriteRig(const IntrinsicsArguments& arguments, const CameraModel& camera)
     FORESIGHT_TRY(rig, LoadSensorRig(arguments.rig));
   }
   rig.parent_id = RigId(rig);
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  // Whole seconds, as rig files have them: "2026-11-22T13:06:33Z".
-  rig.date_utc =
-      UtcText(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()).substr(0, 19) +
-      "Z";
+  rig.date_utc = UtcDateNow();
   rig.camera = camera;
   return SaveSensorRig(rig, arguments.out);
 }
@@ -286,6 +282,8 @@ void AddCalibrateCommand(CLI::App& app, Invocation& invocation) {
   calibrate->require_subcommand(1);
   AddIntrinsicsCommand(*calibrate, invocation);
   AddCalibrateChainCommands(*calibrate, invocation);
+  AddCalibrateRobotCommand(*calibrate, invocation);
+  AddCalibrateCheckCommand(*calibrate, invocation);
 }
 
 }  // namespace foresight

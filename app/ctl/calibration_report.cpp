@@ -4,20 +4,14 @@
 #include <cmath>
 
 #include "app/ctl/command.h"
+#include "app/ctl/paper_comparison.h"
+#include "core/calibration/session_file.h"
 #include "core/geometry/angles.h"
 #include "core/pictures/line_chart.h"
 #include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
-
-template <class To, class From>
-nlohmann::ordered_json ToJson(const Rigid<To, From>& transform) {
-  const Eigen::Quaterniond& q = transform.rotation();
-  const Eigen::Vector3d& t = transform.translation();
-  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"translation_m", {t.x(), t.y(), t.z()}}};
-}
 
 nlohmann::ordered_json ToJson(const ResidualSummary& summary, const char* rms_name, double scale) {
   return {{"count", summary.count},
@@ -45,13 +39,6 @@ nlohmann::ordered_json SigmasJson(const ChainCovariance& covariance) {
                     {"unit", covariance.unknowns[i].unit},
                     {"sigma", covariance.Sigma(static_cast<int>(i))}});
   return list;
-}
-
-/// The point of the motor's axis next to the camera.
-Eigen::Vector3d AxisPoint(const SensorRig& rig) {
-  const Eigen::Vector3d axis = rig.camera_from_head.Rotate(Eigen::Vector3d::UnitX());
-  const Eigen::Vector3d& t = rig.camera_from_head.translation();
-  return t - axis * axis.dot(t);
 }
 
 std::string TextOf(const Eigen::Vector3d& v, const char* format) {
@@ -147,7 +134,7 @@ void AddPoint(ChartSeries* series, double x, double y) {
   series->points.emplace_back(std::nan(""), std::nan(""));  // dots, not a line
 }
 
-std::string CornerChart(const ChainCalibration& found) {
+LineChart CornerChart(const ChainCalibration& found) {
   LineChart chart;
   chart.title = "Corner residuals";
   chart.x = {.title = "u, measured minus predicted", .unit = "px"};
@@ -161,10 +148,10 @@ std::string CornerChart(const ChainCalibration& found) {
   for (const CornerSet& corners : found.data.corners)
     for (const Eigen::Vector2d& residual : CornerResiduals(found.state, corners))
       if (i++ % every == 0) AddPoint(&chart.series.front(), residual.x(), residual.y());
-  return SvgOf(chart);
+  return chart;
 }
 
-std::string AngleChart(const ChainCalibration& found) {
+LineChart AngleChart(const ChainCalibration& found) {
   LineChart chart;
   chart.title = "Plate against motor";
   chart.x = {.title = "commanded angle", .unit = "deg"};
@@ -173,10 +160,10 @@ std::string AngleChart(const ChainCalibration& found) {
   for (const auto& knot : found.rig.angle_correction.knots())
     chart.series.front().points.emplace_back(DegreesFromRadians(knot.motor_rad),
                                              DegreesFromRadians(knot.plate_rad - knot.motor_rad));
-  return SvgOf(chart);
+  return chart;
 }
 
-std::string RangeChart(const ChainCalibration& found) {
+LineChart RangeChart(const ChainCalibration& found) {
   LineChart chart;
   chart.title = "Lidar residuals of each line";
   chart.x = {.title = "line", .unit = "", .whole_numbers = true};
@@ -186,10 +173,57 @@ std::string RangeChart(const ChainCalibration& found) {
     AddPoint(&chart.series[0], static_cast<double>(i + 1), 1000.0 * found.lines[i].rms_m);
     AddPoint(&chart.series[1], static_cast<double>(i + 1), 1000.0 * found.lines[i].mean_m);
   }
-  return SvgOf(chart);
+  return chart;
+}
+
+/// From where on a calibration does not pass: the paper's error of the corners with a quarter of
+/// it for other boards and light, and the accuracies of docs/calibration_chain.md.
+constexpr double kMostError_px = 0.45;
+constexpr double kMostAxis_rad = 0.0006, kMostLidar_rad = 0.0035, kMostLidar_m = 0.003;
+constexpr double kMostStamp_s = 0.001;
+
+std::string LimitsInWords() {
+  return fmt::format(
+      "corners {:.2f} px (the paper: 0.360 px), deviations of the motor's axis {:.3f} deg, of the "
+      "lidar {:.1f} deg and {:.0f} mm, of its stamps {:.0f} ms",
+      kMostError_px, DegreesFromRadians(kMostAxis_rad), DegreesFromRadians(kMostLidar_rad),
+      1000.0 * kMostLidar_m, 1000.0 * kMostStamp_s);
+}
+
+std::vector<std::string> FaultsOf(const ChainCalibration& found) {
+  std::vector<std::string> faults;
+  if (!(found.mean_error_px <= kMostError_px))
+    faults.push_back(fmt::format("corners are {:.3f} px off in the mean, more than {:.2f} px",
+                                 found.mean_error_px, kMostError_px));
+  if (!found.covariance) {
+    faults.emplace_back("deviations are not known: only the joint solve has them");
+    return faults;
+  }
+  const auto check = [&](const char* start, double most) {
+    for (std::size_t i = 0; i < found.covariance->unknowns.size(); ++i) {
+      const SharedUnknown& unknown = found.covariance->unknowns[i];
+      const double sigma = found.covariance->Sigma(static_cast<int>(i));
+      if (!unknown.name.starts_with(start) || sigma <= most) continue;
+      const Shown shown = ShownAs(unknown.unit);
+      faults.push_back(fmt::format("{} is known to +- {:.3g} {} only, {:.3g} are allowed",
+                                   unknown.name, shown.scale * sigma, shown.unit,
+                                   shown.scale * most));
+    }
+  };
+  check("axis turn", kMostAxis_rad);
+  check("lidar turn", kMostLidar_rad);
+  check("lidar shift", kMostLidar_m);
+  check("stamp offset", kMostStamp_s);
+  return faults;
 }
 
 }  // namespace
+
+Eigen::Vector3d AxisPoint(const SensorRig& rig) {
+  const Eigen::Vector3d axis = rig.camera_from_head.Rotate(Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d& t = rig.camera_from_head.translation();
+  return t - axis * axis.dot(t);
+}
 
 nlohmann::ordered_json CalibrationJson(const ChainCalibration& found) {
   const SensorRig& rig = found.rig;
@@ -267,13 +301,52 @@ HtmlReport CalibrationReport(const ChainCalibration& found, const std::string& s
                    {"Values", ValueRows(found)},
                    {"Images", ImageRows(found)}};
   report.charts = {
-      {CornerChart(found), "A round cloud about 0 is noise; a shape in it is an error."},
-      {AngleChart(found), "What Eq. (5) calls A, against the commanded angle."}};
+      {SvgOf(CornerChart(found)), "A round cloud about 0 is noise; a shape in it is an error."},
+      {SvgOf(AngleChart(found)), "What Eq. (5) calls A, against the commanded angle."}};
   if (!found.lines.empty())
     report.charts.push_back(
-        {RangeChart(found),
+        {SvgOf(RangeChart(found)),
          "A line whose mean is far from 0 is not on the board it was given to."});
   return report;
+}
+
+PdfReport CalibrationSheet(const ChainCalibration& found, const CalibrationSession& session,
+                           const std::vector<ComparedValue>& paper) {
+  // The plate's angles are in a chart.
+  const auto rows_of = [](const std::vector<HtmlReport::Row>& rows) {
+    std::vector<PdfReport::Row> sheet;
+    for (const HtmlReport::Row& row : rows)
+      if (!row.name.starts_with("plate angle")) sheet.push_back({row.name, row.value});
+    return sheet;
+  };
+  const std::vector<std::string> faults = FaultsOf(found);
+  PdfReport sheet;
+  sheet.title = "Calibration of " + session.name;
+  sheet.good = faults.empty();
+  sheet.verdict = faults.empty()
+                      ? fmt::format("Within all limits: {}.", LimitsInWords())
+                      : fmt::format("Not within the limits: {}.", fmt::join(faults, "; "));
+  sheet.subject = {{"session", session.name},
+                   {"its measurements", "SHA-256 " + SessionHash(session)},
+                   {"rig", RigId(found.rig)},
+                   {"made from rig", RigId(session.prior)},
+                   {"date", found.rig.date_utc}};
+  sheet.charts = {CornerChart(found), AngleChart(found)};
+  if (!found.lines.empty()) sheet.charts.push_back(RangeChart(found));
+  sheet.tables = {{"How well it fits", rows_of(QualityRows(found))},
+                  {"Values, with one standard deviation", rows_of(ValueRows(found))}};
+  if (!paper.empty()) {
+    PdfReport::Table table{"Beside the paper's sequence (Section III-B as printed)", {}};
+    for (const ComparedValue& value : paper) {
+      if (value.name.starts_with("plate angle") || !std::isfinite(value.paper)) continue;
+      const std::string sigma =
+          std::isfinite(value.sigma) ? fmt::format(" +- {:.3g}", value.sigma) : "";
+      table.rows.push_back({value.name, fmt::format("ours {:.6g}{}, the paper's {:.6g} {}",
+                                                    value.ours, sigma, value.paper, value.unit)});
+    }
+    sheet.tables.insert(sheet.tables.begin() + 1, std::move(table));
+  }
+  return sheet;
 }
 
 }  // namespace foresight

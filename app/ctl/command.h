@@ -7,6 +7,7 @@
 #include "app/common/exit_code.h"
 #include "app/common/output.h"
 #include "core/base/run_context.h"
+#include "core/geometry/rigid.h"
 
 namespace foresight {
 
@@ -22,6 +23,7 @@ void AddFitCommand(CLI::App& app, Invocation& invocation);
 void AddFitCylinderCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation);
+void AddEvaluateCheckCommand(CLI::App& app, Invocation& invocation);
 void AddVerdictCommand(CLI::App& app, Invocation& invocation);
 void AddUpsampleCommand(CLI::App& app, Invocation& invocation);
 void AddRenderCommand(CLI::App& app, Invocation& invocation);
@@ -35,6 +37,8 @@ void AddTargetCommand(CLI::App& app, Invocation& invocation);
 void AddSimulateCommand(CLI::App& app, Invocation& invocation);
 /// `calibrate` is the command of that name.
 void AddCalibrateChainCommands(CLI::App& calibrate, Invocation& invocation);
+void AddCalibrateCheckCommand(CLI::App& calibrate, Invocation& invocation);
+void AddCalibrateRobotCommand(CLI::App& calibrate, Invocation& invocation);
 
 /// For `map_error`: says which file a value in an error is of.
 inline auto Of(const std::string& file) {
@@ -49,5 +53,19 @@ Status MakeOutputFolder(const std::string& folder);
 
 /// A number for JSON: null where it is not finite.
 nlohmann::ordered_json Finite(double value);
+
+template <class To, class From>
+nlohmann::ordered_json ToJson(const Rigid<To, From>& transform) {
+  const Eigen::Quaterniond& q = transform.rotation();
+  const Eigen::Vector3d& t = transform.translation();
+  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation_m", {t.x(), t.y(), t.z()}}};
+}
+
+/// An option whose default is shown.
+template <class T>
+CLI::Option* AddOption(CLI::App& command, const char* names, T& value, const char* help) {
+  return command.add_option(names, value, help)->capture_default_str();
+}
 
 }  // namespace foresight

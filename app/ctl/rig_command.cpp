@@ -16,6 +16,9 @@ struct RigArguments {
   std::string format;
   std::string rig;
   std::string out;
+  std::vector<double> position_m;
+  std::vector<double> rpy_deg;
+  std::vector<double> quaternion;
   bool json = false;
 };
 
@@ -35,14 +38,6 @@ double HorizontalField(const CameraModel& camera) {
 
 double VerticalField(const CameraModel& camera) {
   return FieldOfView(camera, {camera.cx, -0.5}, {camera.cx, camera.height - 0.5});
-}
-
-template <class To, class From>
-nlohmann::ordered_json ToJson(const Rigid<To, From>& transform) {
-  const Eigen::Quaterniond& q = transform.rotation();
-  const Eigen::Vector3d& t = transform.translation();
-  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"translation_m", {t.x(), t.y(), t.z()}}};
 }
 
 nlohmann::ordered_json ToJson(const CameraModel& camera) {
@@ -86,6 +81,7 @@ nlohmann::ordered_json ToJson(const SensorRig& rig) {
           {"camera_from_head", ToJson(rig.camera_from_head)},
           {"camera_from_lidar", ToJson(rig.camera_from_lidar)},
           {"robot_from_base", ToJson(rig.robot_from_base)},
+          {"robot_from_base_source", text_or_null(std::string(ToString(rig.robot_frame_source)))},
           {"angle_correction", knots}};
 }
 
@@ -112,6 +108,20 @@ std::string Describe(const Rigid<To, From>& transform) {
                      DegreesFromRadians(turn_rad));
 }
 
+std::string DescribeSource(RobotFrameSource source) {
+  switch (source) {
+    case RobotFrameSource::kCad:
+      return "; typed from CAD, not measured";
+    case RobotFrameSource::kHandEye:
+      return "; measured with a board on the robot's hand";
+    case RobotFrameSource::kSurveyedBoards:
+      return "; measured with boards at surveyed places";
+    case RobotFrameSource::kUnknown:
+      break;
+  }
+  return "";
+}
+
 std::string Describe(const SensorRig& rig) {
   std::string text;
   const auto add = [&text](const char* title, const std::string& value) {
@@ -135,7 +145,7 @@ std::string Describe(const SensorRig& rig) {
                   1000.0 * rig.lidar.stamp_offset_s));
   add("camera from head", Describe(rig.camera_from_head));
   add("camera from lidar", Describe(rig.camera_from_lidar));
-  add("robot from base", Describe(rig.robot_from_base));
+  add("robot from base", Describe(rig.robot_from_base) + DescribeSource(rig.robot_frame_source));
   add("angle correction", rig.angle_correction.knots().empty()
                               ? "none"
                               : fmt::format("{} angles", rig.angle_correction.knots().size()));
@@ -197,6 +207,66 @@ Result<ExitCode> ImportRig(const RigArguments& arguments) {
   return ExitCode::kDone;
 }
 
+Result<Eigen::Quaterniond> TurnFrom(const RigArguments& arguments) {
+  if (!arguments.rpy_deg.empty()) {
+    const auto turn = [&](std::size_t i, const Eigen::Vector3d& axis) {
+      return Eigen::AngleAxisd(RadiansFromDegrees(arguments.rpy_deg[i]), axis);
+    };
+    return Eigen::Quaterniond(turn(2, Eigen::Vector3d::UnitZ()) *
+                              turn(1, Eigen::Vector3d::UnitY()) *
+                              turn(0, Eigen::Vector3d::UnitX()));
+  }
+  const std::vector<double>& q = arguments.quaternion;
+  const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(turn.norm() - 1.0) < 1e-3))
+    return Fail(ErrorCode::kInvalidOptions, "--quaternion: its length is {:.6g}, not 1",
+                turn.norm());
+  return turn;
+}
+
+Result<ExitCode> SetRobotFrame(const RigArguments& arguments) {
+  FORESIGHT_TRY(const Eigen::Quaterniond turn, TurnFrom(arguments));
+  FORESIGHT_TRY(SensorRig rig, LoadSensorRig(arguments.file));
+  rig.parent_id = RigId(rig);
+  rig.robot_from_base = {turn, Eigen::Vector3d(arguments.position_m[0], arguments.position_m[1],
+                                               arguments.position_m[2])};
+  rig.robot_frame_source = RobotFrameSource::kCad;
+  FORESIGHT_CHECK(SaveSensorRig(rig, arguments.out));
+  PrintLine(arguments.json ? ToJson(rig).dump(2)
+                           : fmt::format("{}: rig {} with its robot's frame typed from CAD",
+                                         arguments.out, ShortRigId(rig)));
+  return ExitCode::kDone;
+}
+
+void AddSetRobotFrame(CLI::App& rig, Invocation& invocation,
+                      const std::shared_ptr<RigArguments>& arguments) {
+  CLI::App* command = rig.add_subcommand(
+      "set-robot-frame",
+      "Where the head is mounted on the robot, typed from CAD; the rig says that it was not "
+      "measured");
+  command->add_option("file", arguments->file, "The rig (YAML)")->required();
+  command
+      ->add_option("--position", arguments->position_m,
+                   "Base's origin in robot, X,Y,Z in metres (x forward, y left, z up)")
+      ->delimiter(',')
+      ->expected(3)
+      ->required();
+  CLI::Option_group* turn = command->add_option_group("turn");
+  turn->add_option("--rpy", arguments->rpy_deg,
+                   "Roll,pitch,yaw of base in robot in degrees, about robot's fixed axes, as URDF")
+      ->delimiter(',')
+      ->expected(3);
+  turn->add_option("--quaternion", arguments->quaternion, "The same as W,X,Y,Z")
+      ->delimiter(',')
+      ->expected(4);
+  turn->require_option(1);
+  command->add_option("--out", arguments->out, "The new rig (YAML)")->required();
+  command->add_flag("--json", arguments->json, "Print all values as JSON");
+  command->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext&) { return SetRobotFrame(*arguments); };
+  });
+}
+
 }  // namespace
 
 void AddRigCommand(CLI::App& app, Invocation& invocation) {
@@ -210,6 +280,7 @@ void AddRigCommand(CLI::App& app, Invocation& invocation) {
   show->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext&) { return ShowRig(*arguments); };
   });
+  AddSetRobotFrame(*rig, invocation, arguments);
   constexpr const char* kFormats = "opencv, ros (camera_info), kalibr (camchain), colmap";
   CLI::App* to_others =
       rig->add_subcommand("export", "Write a rig's camera as other programs read it");

@@ -114,12 +114,10 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
       ->excludes("--real-time");
   command->add_option("--calibration", arguments->calibration,
                       "Calibration to put in force (YAML), in place of the head's");
-  command
-      ->add_option("--from", arguments->from_deg, "Begin of the scope in degrees, up is positive")
-      ->capture_default_str();
-  command->add_option("--to", arguments->to_deg, "End of the scope in degrees")
-      ->capture_default_str();
-  command->add_option("--speed", arguments->speed_deg_s, "Degrees a second")->capture_default_str();
+  AddOption(*command, "--from", arguments->from_deg,
+            "Begin of the scope in degrees, up is positive");
+  AddOption(*command, "--to", arguments->to_deg, "End of the scope in degrees");
+  AddOption(*command, "--speed", arguments->speed_deg_s, "Degrees a second");
   command
       ->add_option("--images", arguments->image_deg,
                    "Angles of images in degrees; default: the middle")
@@ -128,12 +126,9 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
                       "Exposure in milliseconds; default: the head's");
   command->add_flag("--stop-and-shoot", arguments->stop_and_shoot,
                     "Take the images after the sweep, standing still");
-  command
-      ->add_option("--max-blur", arguments->max_blur_px,
-                   "Most motion blur of an image taken in passing, in pixels: caps the exposure")
-      ->capture_default_str();
-  command->add_option("--passes", arguments->passes, "1: one way; 2: there and back in one scan")
-      ->capture_default_str();
+  AddOption(*command, "--max-blur", arguments->max_blur_px,
+            "Most motion blur of an image taken in passing, in pixels: caps the exposure");
+  AddOption(*command, "--passes", arguments->passes, "1: one way; 2: there and back in one scan");
   command->add_option("-o,--out", arguments->out,
                       "Mission file; a scan is added to one that exists");
   command->add_flag("--predict", arguments->predict, "Only say what the plan would cost and give");

@@ -58,7 +58,7 @@ void AddCalibration(CLI::App& simulate, Invocation& invocation) {
       "calibration", "A calibration session with its truth: corners, lidar lines and sweeps");
   command->add_option("folder", arguments->folder, "The session's folder, a new one")->required();
   const auto option = [&](const char* name, auto& value, const char* help) {
-    command->add_option(name, value, help)->capture_default_str();
+    AddOption(*command, name, value, help);
   };
   option("--seed", s.seed, "The same seed gives the same session");
   command->add_option("--mount", arguments->mount, "How the camera is mounted")

@@ -1,116 +1,31 @@
 #include "core/calibration/board_print.h"
 
-#include <cairo/cairo-pdf.h>
-#include <cairo/cairo.h>
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
-#include <memory>
-#include <numbers>
 
-#include "core/base/version.h"
+#include "core/io/pdf_page.h"
 
 namespace foresight {
 namespace {
 
-constexpr double kPointsPerMm = 72.0 / 25.4;
 constexpr double kMargin_mm = 14.0;  ///< for the ruler and the text beside the board
 constexpr double kRuler_mm = 100.0;
-
-struct Closer {
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-};
-
-/// A page of a PDF, drawn on in millimetres from its upper left corner.
-class Page {
- public:
-  Page(double width_mm, double height_mm)
-      : surface_(cairo_pdf_surface_create_for_stream(Append, &bytes_, width_mm * kPointsPerMm,
-                                                     height_mm * kPointsPerMm)) {
-    // A fixed date: the same board gives the same bytes.
-    cairo_pdf_surface_set_metadata(surface_.get(), CAIRO_PDF_METADATA_CREATE_DATE,
-                                   "2026-01-01T00:00:00Z");
-    context_.reset(cairo_create(surface_.get()));
-    cairo_scale(context_.get(), kPointsPerMm, kPointsPerMm);
-    cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_line_width(context_.get(), 0.2);
-  }
-  Page(const Page&) = delete;
-  Page& operator=(const Page&) = delete;
-
-  void Black() { cairo_set_source_rgb(context_.get(), 0.0, 0.0, 0.0); }
-  void White() { cairo_set_source_rgb(context_.get(), 1.0, 1.0, 1.0); }
-  void Grey() { cairo_set_source_rgb(context_.get(), 0.45, 0.45, 0.45); }
-  void Fill(double x, double y, double width, double height) {
-    cairo_rectangle(context_.get(), x, y, width, height);
-    cairo_fill(context_.get());
-  }
-  void Frame(double x, double y, double width, double height) {
-    cairo_rectangle(context_.get(), x, y, width, height);
-    cairo_stroke(context_.get());
-  }
-  void Line(double x0, double y0, double x1, double y1) {
-    cairo_move_to(context_.get(), x0, y0);
-    cairo_line_to(context_.get(), x1, y1);
-    cairo_stroke(context_.get());
-  }
-  void Shape(const std::vector<Eigen::Vector2d>& points, bool filled) {
-    for (const Eigen::Vector2d& p : points) cairo_line_to(context_.get(), p.x(), p.y());
-    cairo_close_path(context_.get());
-    filled ? cairo_fill(context_.get()) : cairo_stroke(context_.get());
-  }
-  void Text(double x, double y, double size_mm, const std::string& text) {
-    cairo_set_font_size(context_.get(), size_mm);
-    cairo_move_to(context_.get(), x, y);
-    cairo_show_text(context_.get(), text.c_str());
-  }
-  void Upwards(double x, double y, double size_mm, const std::string& text) {
-    cairo_save(context_.get());
-    cairo_translate(context_.get(), x, y);
-    cairo_rotate(context_.get(), -0.5 * std::numbers::pi);
-    Text(0.0, 0.0, size_mm, text);
-    cairo_restore(context_.get());
-  }
-
-  Result<std::string> Bytes() && {
-    cairo_show_page(context_.get());
-    const cairo_status_t status = cairo_status(context_.get());
-    context_.reset();
-    cairo_surface_finish(surface_.get());
-    const cairo_status_t end = cairo_surface_status(surface_.get());
-    if (status != CAIRO_STATUS_SUCCESS || end != CAIRO_STATUS_SUCCESS)
-      return Fail(ErrorCode::kIo, "PDF: {}",
-                  cairo_status_to_string(status != CAIRO_STATUS_SUCCESS ? status : end));
-    return std::move(bytes_);
-  }
-
- private:
-  static cairo_status_t Append(void* closure, const unsigned char* data, unsigned int length) {
-    static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  }
-
-  std::string bytes_;
-  std::unique_ptr<cairo_surface_t, Closer> surface_;
-  std::unique_ptr<cairo_t, Closer> context_;
-};
 
 bool ReadNumber(std::string_view text, double& value) {
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   return fault == std::errc() && end == text.data() + text.size();
 }
 
-void DrawMarker(Page& page, const CalibrationBoard& board, int marker, double x, double y,
+void DrawMarker(PdfPage& page, const CalibrationBoard& board, int marker, double x, double y,
                 double side) {
   int cells = 0;
   const std::vector<bool> white = MarkerCells(board.dictionary, marker, &cells);
   const double cell = side / cells;
-  page.Black();
+  page.SetColor(PdfPage::kBlack);
   page.Fill(x, y, side, side);
-  page.White();
+  page.SetColor(PdfPage::kWhite);
   // White cells of a row that touch are one rectangle: no hairlines between them on screens.
   for (int row = 0; row < cells; ++row)
     for (int begin = 0; begin < cells; ++begin) {
@@ -121,13 +36,13 @@ void DrawMarker(Page& page, const CalibrationBoard& board, int marker, double x,
     }
 }
 
-void DrawBoard(Page& page, const CalibrationBoard& board, double x, double y) {
+void DrawBoard(PdfPage& page, const CalibrationBoard& board, double x, double y) {
   const double square = 1000.0 * board.square_m;
   for (int row = 0; row <= board.rows; ++row)
     for (int column = 0; column <= board.columns; ++column) {
       const double left = x + column * square, top = y + row * square;
       if (CalibrationBoard::IsBlack(column, row)) {
-        page.Black();
+        page.SetColor(PdfPage::kBlack);
         page.Fill(left, top, square, square);
       } else if (const int marker = board.MarkerAt(column, row); marker >= 0) {
         const double side = square * board.marker_per_square;
@@ -138,8 +53,8 @@ void DrawBoard(Page& page, const CalibrationBoard& board, double x, double y) {
 }
 
 /// Millimetre marks, longer at 5 and 10; along x, or upwards.
-void DrawRuler(Page& page, double x, double y, bool upwards) {
-  page.Black();
+void DrawRuler(PdfPage& page, double x, double y, bool upwards) {
+  page.SetColor(PdfPage::kBlack);
   for (int mm = 0; mm <= static_cast<int>(kRuler_mm); ++mm) {
     const double length = mm % 10 == 0 ? 4.0 : mm % 5 == 0 ? 3.0 : 1.8;
     if (upwards)
@@ -207,12 +122,12 @@ Result<std::string> BoardPdf(const CalibrationBoard& board, const Paper& paper) 
                 "larger paper, 'fit', or smaller squares",
                 ToText(board), Short(width), Short(height), Short(kMargin_mm), paper.name,
                 Short(paper.width_mm), Short(paper.height_mm));
-  Page page(paper.width_mm, paper.height_mm);
+  PdfPage page(paper.width_mm, paper.height_mm);
   const double left = 0.5 * (paper.width_mm - width), top = 0.5 * (paper.height_mm - height);
   DrawBoard(page, board, left, top);
   DrawRuler(page, kMargin_mm, kMargin_mm - 4.0, false);
   DrawRuler(page, 2.0, paper.height_mm - kMargin_mm, true);
-  page.Grey();
+  page.SetColor(PdfPage::kGrey);
   page.Text(kMargin_mm, paper.height_mm - 7.0, 3.2, DescribeBoard(board));
   page.Text(
       kMargin_mm, paper.height_mm - 3.0, 2.6,
@@ -224,8 +139,8 @@ Result<std::string> BoardPdf(const CalibrationBoard& board, const Paper& paper) 
 
 Result<std::string> TwoBoardMountPdf(const CalibrationBoard& board) {
   FORESIGHT_CHECK(board.Check());
-  Page page(297.0, 210.0);
-  page.Black();
+  PdfPage page(297.0, 210.0);
+  page.SetColor(PdfPage::kBlack);
   page.Text(20.0, 22.0, 6.0, "Two boards at a right angle");
   page.Text(20.0, 30.0, 3.4, "For camera, motor and lidar together (Section III-B). Not to scale.");
   const double width = 1000.0 * board.Width(), height = 1000.0 * board.Height();
@@ -266,7 +181,7 @@ Result<std::string> TwoBoardMountPdf(const CalibrationBoard& board) {
     page.Text(188.0, y, 3.0, line);
     y += 7.0;
   }
-  page.Grey();
+  page.SetColor(PdfPage::kGrey);
   page.Text(20.0, 200.0, 2.6, fmt::format("--board {}", ToText(board)));
   return std::move(page).Bytes();
 }

@@ -11,6 +11,7 @@
 #include "core/calibration/intrinsics_start.h"
 #include "core/calibration/select_images.h"
 #include "core/calibration/view_geometry.h"
+#include "core/calibration/zoom_groups.h"
 
 namespace foresight {
 namespace {
@@ -80,9 +81,27 @@ double ErrorScale(const CameraModel& camera) {
   return std::max(1.0, std::hypot(camera.width, camera.height) / kUsualDiagonal_px);
 }
 
+/// Images of two zooms, in words; nearer boards explain so much of a longer focal length that the
+/// errors alone do not show them.
+std::string DescribeZooms(const CameraBundle& bundle, const std::vector<std::string>& names) {
+  const auto groups = FindZoomGroups(FocalOfEachView(bundle));
+  if (!groups) return "";
+  const auto list = [&](const std::vector<std::size_t>& views) {
+    constexpr std::size_t kMost = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(views.size(), kMost); ++i)
+      text += (i == 0 ? "" : ", ") + names[views[i]];
+    return views.size() > kMost ? fmt::format("{} and {} more", text, views.size() - kMost) : text;
+  };
+  return fmt::format(
+      "the images are of two focal lengths, {:.0f} % apart: {} ask for the shorter one, {} for the "
+      "longer one. Was the zoom or the focus changed between them?",
+      100.0 * (groups->ratio - 1.0), list(groups->shorter), list(groups->longer));
+}
+
 /// Says why a camera cannot be relied on, or what is weak about it.
-void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
-           ModelCalibration& calibration) {
+void Judge(const CameraBundle& bundle, const std::vector<std::string>& names,
+           const IntrinsicsOptions& options, ModelCalibration& calibration) {
   constexpr const char* kAdvice =
       "tilt the board by 20 to 45 deg in different directions, near and far";
   if (!calibration.covariance) {
@@ -98,6 +117,8 @@ void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
         calibration.rms_px);
     return;
   }
+  calibration.failure = DescribeZooms(bundle, names);
+  if (!calibration.failure.empty()) return;
   if (calibration.rms_px > scale * kRemarkableRms_px)
     calibration.warnings.push_back(fmt::format(
         "corners are {:.2f} px (rms) off, where good images have 0.2 to 0.6 px: look for "
@@ -120,8 +141,11 @@ void Judge(const CameraBundle& bundle, const IntrinsicsOptions& options,
   }
 }
 
-Result<ModelCalibration> Calibrate(const SelectedImages& selected, LensModel model, bool free_warp,
-                                   const IntrinsicsOptions& options, const RunContext& context) {
+/// @param names of the selected images
+Result<ModelCalibration> Calibrate(const SelectedImages& selected,
+                                   const std::vector<std::string>& names, LensModel model,
+                                   bool free_warp, const IntrinsicsOptions& options,
+                                   const RunContext& context) {
   const auto start = std::chrono::steady_clock::now();
   ModelCalibration calibration;
   calibration.model = model;
@@ -144,7 +168,7 @@ Result<ModelCalibration> Calibrate(const SelectedImages& selected, LensModel mod
     calibration.images.push_back(ErrorsOf(*fitted, view, selected.images[view]));
   calibration.covariance = BundleCovariance::Of(*fitted, free_warp);
   FORESIGHT_TRY(calibration.cross_validation_px, CrossValidate(*fitted, free_warp, context));
-  Judge(*fitted, options, calibration);
+  Judge(*fitted, names, options, calibration);
   calibration.seconds = SecondsSince(start);
   return calibration;
 }
@@ -215,11 +239,13 @@ Result<IntrinsicsCalibration> CalibrateIntrinsics(const CalibrationBoard& board,
   result.images_used = selected.images;
   result.images_rejected = selected.rejected;
   result.corners_rejected = selected.corners_rejected;
+  std::vector<std::string> names;
+  for (const std::size_t image : selected.images) names.push_back(images[image].name);
   for (std::size_t i = 0; i < options.models.size(); ++i) {
     context.Report(0.6 + 0.4 * static_cast<double>(i) / static_cast<double>(options.models.size()),
                    "lens");
     FORESIGHT_TRY(ModelCalibration calibration,
-                  Calibrate(selected, options.models[i], free_warp, options, context));
+                  Calibrate(selected, names, options.models[i], free_warp, options, context));
     result.models.push_back(std::move(calibration));
   }
   result.best = Best(result.models);

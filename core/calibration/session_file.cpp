@@ -4,10 +4,12 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/parallel.h"
-#include "core/calibration/board_detector.h"
+#include "core/base/sha256.h"
 #include "core/calibration/session_index.h"
 #include "core/calibration/session_tables.h"
-#include "core/io/image_file.h"
+#include "core/calibration/view_files.h"
+#include "core/geometry/angles.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -107,28 +109,6 @@ struct ViewJob {
   Status status = {};
 };
 
-Status LookAt(const fs::path& folder, const SensorRig& rig, ViewJob* job) {
-  if (!job->files.corners.empty()) {
-    FORESIGHT_TRY(job->view, ReadCorners(folder / job->files.corners));
-    job->view.source = job->files.corners;
-    return {};
-  }
-  job->view.source = job->files.image;
-  const fs::path file = folder / job->files.image;
-  FORESIGHT_TRY(const GrayImage image, ReadImageGray(file));
-  if (image.width() != rig.camera.width || image.height() != rig.camera.height)
-    return Fail(ErrorCode::kBadData, "{}: {} x {} pixels, the rig's camera has {} x {}",
-                file.string(), image.width(), image.height(), rig.camera.width, rig.camera.height);
-  const auto find = [&](const CalibrationBoard* board, std::optional<BoardView>* view) {
-    if (board == nullptr) return;
-    BoardDetection detection = DetectBoard(image, *board, job->effort);
-    if (detection.rejection.empty()) *view = std::move(detection.view);
-  };
-  find(job->a, &job->view.a);
-  find(job->b, &job->view.b);
-  return {};
-}
-
 class Loader {
  public:
   Loader(const fs::path& folder, const RunContext& context, FoundViews* found)
@@ -184,7 +164,11 @@ class Loader {
     const int count = static_cast<int>(open.size());
     const bool finished = ParallelFor(count, context_, [&](int i) {
       ViewJob& job = *open[static_cast<std::size_t>(i)];
-      job.status = LookAt(folder_, session_.prior, &job);
+      auto view = ReadView(folder_, job.files, session_.prior.camera, job.a, job.b, job.effort);
+      if (view)
+        job.view = std::move(*view);
+      else
+        job.status = tl::unexpected(view.error());
       job.done = true;
       context_.Report(static_cast<double>(++done) / count, "looking for boards");
     });
@@ -246,6 +230,29 @@ Status WriteCalibrationSession(const CalibrationSession& session, const fs::path
   if (!fs::is_empty(folder, error) || error)
     return Fail(ErrorCode::kIo, "{}: the folder is not empty; name a new one", folder.string());
   return Writer(session, folder, views).Write();
+}
+
+std::string SessionHash(const CalibrationSession& session) {
+  Sha256 hash;
+  hash.Add(RigId(session.prior) + "\nboards\n" + ToText(session.mount.a) + "\n");
+  if (session.mount.b) {
+    const Eigen::Quaterniond& q = session.mount.a_from_b.rotation();
+    const Eigen::Vector3d& t = session.mount.a_from_b.translation();
+    hash.Add(fmt::format("{} {} {} {} {} {} {} {}\n", ToText(*session.mount.b), q.w(), q.x(), q.y(),
+                         q.z(), t.x(), t.y(), t.z()));
+  }
+  if (!session.intrinsic_views.empty()) hash.Add(ToText(session.intrinsic_board) + "\n");
+  for (const IntrinsicView& view : session.intrinsic_views)
+    hash.Add(CornersText({"", view.view, {}}));
+  for (const PatternPose& pose : session.poses) {
+    hash.Add("pose\n");
+    for (const MotorStop& stop : pose.stops) {
+      hash.Add(fmt::format("stop {:.9f}\n", DegreesFromRadians(stop.motor_rad)));
+      hash.Add(CornersText(stop.view)).Add(LinesText(stop.lines));
+    }
+    hash.Add("sweep\n").Add(LinesText(pose.sweep.lines)).Add(MotorText(pose.sweep.track));
+  }
+  return hash.Hex();
 }
 
 std::string ImageNameOfView(std::size_t view) {

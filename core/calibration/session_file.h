@@ -35,6 +35,11 @@ Status WriteCalibrationSession(const CalibrationSession& session,
                                const std::filesystem::path& folder,
                                SessionViews views = SessionViews::kCorners);
 
+/// SHA-256 of everything that was measured, the boards and the rig it was measured with: 64
+/// hexadecimal digits. Two sessions of one hash give the same calibration, whatever their files and
+/// they themselves are called. O(ranges).
+std::string SessionHash(const CalibrationSession& session);
+
 /// The image that session.yaml names then, in the session's folder.
 std::string ImageNameOfView(std::size_t view);
 

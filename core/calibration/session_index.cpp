@@ -6,6 +6,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/printable.h"
+#include "core/calibration/view_files.h"
 #include "core/geometry/angles.h"
 #include "core/io/yaml_reader.h"
 
@@ -104,35 +105,9 @@ std::string IndexYaml(const SessionIndex& index) {
 
 // ---- reading
 
-/// A file's name, inside the session's folder.
-std::string FileName(YamlMap& map, const std::string& key) {
-  const std::string name = map.Text(key);
-  const fs::path path(name);
-  const bool leaves =
-      path.is_absolute() ||
-      std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
-  if (name.empty() || leaves)
-    map.Fault(map.Node(key), "'" + key + "' is not a file in the session's folder");
-  return name;
-}
-
-std::string OptionalFileName(YamlMap& map, const std::string& key) {
-  return map.Has(key) ? FileName(map, key) : std::string();
-}
-
-CalibrationBoard BoardFromYaml(YamlMap& map, const std::string& key) {
-  const auto board = CalibrationBoardFromText(map.Text(key));
-  if (!board) map.Fault(map.Node(key), board.error().message);
-  return *board;
-}
-
 SessionViewFiles ViewFromYaml(YamlMap& map, const char* excluded) {
-  SessionViewFiles view{.image = OptionalFileName(map, "image"),
-                        .corners = OptionalFileName(map, "corners"),
-                        .excluded = map.Flag(excluded, false),
-                        .origin = map.Text("origin", "")};
-  if (!view.image.empty() && !view.corners.empty())
-    map.Fault(map.Node("image"), "a view has an image or corners, not both");
+  SessionViewFiles view = ViewFromYaml(map);
+  view.excluded = map.Flag(excluded, false);
   return view;
 }
 
@@ -141,15 +116,9 @@ BoardMount MountFromYaml(YamlMap map) {
   mount.a = BoardFromYaml(map, "a");
   if (map.Has("b")) {
     mount.b = BoardFromYaml(map, "b");
-    YamlMap pose = map.Map("a_from_b");
-    const std::vector<double> q = pose.Numbers("quaternion_wxyz", 4);
-    const Eigen::Vector3d t = pose.Vector("translation_m");
-    pose.Finish();
-    const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-    if (std::abs(rotation.norm() - 1.0) > 1e-3)
-      pose.Fault("quaternion_wxyz does not have length 1");
-    if (t.norm() > 10.0) pose.Fault("the boards are over 10 m apart");
-    mount.a_from_b = {rotation, t};
+    mount.a_from_b = PoseFromYaml<frame::Pattern, frame::Pattern>(map.Map("a_from_b"));
+    if (mount.a_from_b.translation().norm() > 10.0)
+      map.Fault(map.Node("a_from_b"), "the boards are over 10 m apart");
   }
   map.Finish();
   return mount;
@@ -160,7 +129,7 @@ SessionStopFiles StopFromYaml(YamlMap& map) {
   stop.motor_rad = RadiansFromDegrees(map.Number("motor_deg"));
   if (map.Has("measured_deg")) stop.measured_rad = RadiansFromDegrees(map.Number("measured_deg"));
   stop.view = ViewFromYaml(map, "view_excluded");
-  stop.lines = OptionalFileName(map, "lines");
+  stop.lines = OptionalFileNameFromYaml(map, "lines");
   stop.lines_excluded = map.Flag("lines_excluded", false);
   stop.excluded = map.Flag("excluded", false);
   map.Finish();
@@ -168,8 +137,8 @@ SessionStopFiles StopFromYaml(YamlMap& map) {
 }
 
 SessionSweepFiles SweepFromYaml(YamlMap& map) {
-  SessionSweepFiles sweep{.lines = FileName(map, "lines"),
-                          .motor = FileName(map, "motor"),
+  SessionSweepFiles sweep{.lines = FileNameFromYaml(map, "lines"),
+                          .motor = FileNameFromYaml(map, "motor"),
                           .excluded = map.Flag("excluded", false)};
   map.Finish();
   return sweep;
@@ -196,7 +165,7 @@ SessionIndex IndexFromYaml(YamlMap& map) {
                           kFormatVersion));
   SessionIndex index;
   index.name = map.Text("name", "unnamed");
-  index.rig = FileName(map, "rig");
+  index.rig = FileNameFromYaml(map, "rig");
   index.mount = MountFromYaml(map.Map("mount"));
   if (map.Has("intrinsic_board") || map.Has("intrinsic_views"))
     index.intrinsic_board = BoardFromYaml(map, "intrinsic_board");

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kStyle = R"(
   body { font: 15px/1.5 "DejaVu Sans", sans-serif; color: #1c1f24; background: #f6f7f8; margin: 2em auto; max-width: 84em; padding: 0 1.5em; }
   h1 { font-size: 1.6em; } h2 { font-size: 1.15em; margin-top: 2em; }
-  table { border-collapse: collapse; background: #fff; } td { border: 1px solid #d5d9de; padding: .3em .8em; }
+  table { border-collapse: collapse; background: #fff; } td, th { border: 1px solid #d5d9de; padding: .3em .8em; }
   td:first-child { color: #555c66; }
   .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(34em, 1fr)); gap: 1.5em; }
   figure { margin: 0; background: #fff; border: 1px solid #d5d9de; padding: .8em; } img { width: 100%; }
@@ -19,9 +19,16 @@ constexpr const char* kStyle = R"(
 
 std::string TableHtml(const HtmlReport::Table& table) {
   std::string html = "<h2>" + EscapeMarkup(table.title) + "</h2>\n<table>\n";
-  for (const auto& row : table.rows)
-    html += "<tr><td>" + EscapeMarkup(row.name) + "</td><td>" + EscapeMarkup(row.value) +
-            "</td></tr>\n";
+  if (!table.header.empty()) {
+    html += "<tr>";
+    for (const std::string& title : table.header) html += "<th>" + EscapeMarkup(title) + "</th>";
+    html += "</tr>\n";
+  }
+  for (const auto& row : table.rows) {
+    html += "<tr><td>" + EscapeMarkup(row.name) + "</td><td>" + EscapeMarkup(row.value) + "</td>";
+    for (const std::string& value : row.more) html += "<td>" + EscapeMarkup(value) + "</td>";
+    html += "</tr>\n";
+  }
   return html + "</table>\n";
 }
 

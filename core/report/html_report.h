@@ -14,10 +14,12 @@ struct HtmlReport {
   struct Row {
     std::string name;
     std::string value;
+    std::vector<std::string> more = {};  ///< values of further columns
   };
   struct Table {
     std::string title;
     std::vector<Row> rows;
+    std::vector<std::string> header = {};  ///< of the columns; empty = none
   };
   struct Picture {
     std::string file;  ///< name in the report's folder, ending in .png

@@ -104,6 +104,18 @@ AngleCorrection CorrectionFromYaml(YamlMap& map) {
   return *correction;
 }
 
+constexpr std::array kRobotFrameSources = {RobotFrameSource::kCad, RobotFrameSource::kHandEye,
+                                           RobotFrameSource::kSurveyedBoards};
+
+RobotFrameSource RobotFrameSourceFromYaml(YamlMap& map) {
+  if (!map.Has("robot_from_base_source")) return RobotFrameSource::kUnknown;
+  const std::string text = map.Text("robot_from_base_source");
+  for (const RobotFrameSource source : kRobotFrameSources)
+    if (text == ToString(source)) return source;
+  map.Fault(map.Node("robot_from_base_source"),
+            "'" + text + "' is not cad, hand_eye or surveyed_boards");
+}
+
 Status CheckDate(const SensorRig& rig) {
   return rig.date_utc.empty() ? Status() : CheckUtcDate(rig.date_utc);
 }
@@ -189,6 +201,8 @@ std::string SensorRigToYaml(const SensorRig& rig) {
   yaml += "camera_from_head: " + TransformToYaml(rig.camera_from_head) + "\n";
   yaml += "camera_from_lidar: " + TransformToYaml(rig.camera_from_lidar) + "\n";
   yaml += "robot_from_base: " + TransformToYaml(rig.robot_from_base) + "\n";
+  if (rig.robot_frame_source != RobotFrameSource::kUnknown)
+    yaml += fmt::format("robot_from_base_source: {}\n", ToString(rig.robot_frame_source));
   if (!rig.angle_correction.knots().empty()) yaml += "angle_correction:\n";
   for (const auto& knot : rig.angle_correction.knots())
     yaml += fmt::format("  - {{motor_rad: {}, plate_rad: {}}}\n", knot.motor_rad, knot.plate_rad);
@@ -217,6 +231,7 @@ Result<SensorRig> SensorRigFromYaml(const std::string& yaml, const std::string& 
     rig.camera_from_lidar =
         TransformFromYaml<frame::Camera, frame::Lidar>(map.Map("camera_from_lidar"));
     rig.robot_from_base = TransformFromYaml<frame::Robot, frame::Base>(map.Map("robot_from_base"));
+    rig.robot_frame_source = RobotFrameSourceFromYaml(map);
     rig.angle_correction = CorrectionFromYaml(map);
     map.Finish();
     if (!map.Has("id") || stated_id == RigId(rig)) return;

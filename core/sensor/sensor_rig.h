@@ -7,6 +7,7 @@
 #include "core/sensor/camera_model.h"
 #include "core/sensor/lidar_line.h"
 #include "core/sensor/motor_track.h"
+#include "core/sensor/robot_frame_source.h"
 
 namespace foresight {
 
@@ -22,6 +23,7 @@ struct SensorRig {
   Rigid<frame::Camera, frame::Head> camera_from_head;    ///< H_mc of Eq. (5)
   Rigid<frame::Camera, frame::Lidar> camera_from_lidar;  ///< H_lc of Eq. (6)
   Rigid<frame::Robot, frame::Base> robot_from_base;      ///< how the head is mounted
+  RobotFrameSource robot_frame_source = RobotFrameSource::kUnknown;
 
   Status Check() const;
 

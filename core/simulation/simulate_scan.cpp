@@ -11,23 +11,36 @@ constexpr double kEncoderRate_hz = 240.0;
 /// The track reaches beyond the sweep, so that the first and the last beam have an angle.
 constexpr double kTrackMargin_s = 0.1;
 
-/// The shaft's angle at a time; 0 s is at the start of the scope.
-struct ConstantSpeed {
+/// The shaft's angle at a time; 0 s is at the start of the scope. A second pass goes back.
+class ConstantSpeed {
+ public:
   explicit ConstantSpeed(const ScanPlan& plan)
-      : from_rad(plan.from_rad),
-        speed_rad_s(std::copysign(plan.speed_rad_s, plan.to_rad - plan.from_rad)) {}
+      : plan_(plan),
+        speed_rad_s_(std::copysign(plan.speed_rad_s, plan.to_rad - plan.from_rad)),
+        pass_s_((plan.to_rad - plan.from_rad) / speed_rad_s_) {}
 
-  double from_rad;
-  double speed_rad_s;  ///< signed
+  double At(double time_s) const {
+    if (plan_.passes == 1 || time_s < pass_s_ + kTurn_s)
+      return plan_.from_rad + speed_rad_s_ * time_s;
+    return plan_.to_rad - speed_rad_s_ * (time_s - PassStart(1));
+  }
+  double TimeOf(double angle_rad) const { return (angle_rad - plan_.from_rad) / speed_rad_s_; }
+  double PassStart(int pass) const { return pass * (pass_s_ + 2.0 * kTurn_s); }
+  double pass_s() const { return pass_s_; }
+  double End() const { return PassStart(plan_.passes - 1) + pass_s_; }
 
-  double At(double time_s) const { return from_rad + speed_rad_s * time_s; }
-  double TimeOf(double angle_rad) const { return (angle_rad - from_rad) / speed_rad_s; }
+ private:
+  static constexpr double kTurn_s = kTrackMargin_s;  ///< beyond the scope, before it turns
+
+  const ScanPlan& plan_;
+  double speed_rad_s_;  ///< signed, of the first pass
+  double pass_s_;
 };
 
-MotorTrack EncoderTrack(const World& world, const ConstantSpeed& shaft, double duration_s) {
+MotorTrack EncoderTrack(const World& world, const ConstantSpeed& shaft) {
   MotorTrack track;
   const int first = -static_cast<int>(kEncoderRate_hz * kTrackMargin_s);
-  const int last = static_cast<int>(kEncoderRate_hz * (duration_s + kTrackMargin_s));
+  const int last = static_cast<int>(kEncoderRate_hz * (shaft.End() + kTrackMargin_s));
   for (int i = first; i <= last; ++i) {
     const double time_s = i / kEncoderRate_hz;
     track.Add({time_s, world.EncoderAngle(shaft.At(time_s))});
@@ -39,12 +52,11 @@ MotorTrack EncoderTrack(const World& world, const ConstantSpeed& shaft, double d
 
 Result<Scan> SimulateSweep(const World& world, const ScanPlan& plan, const RunContext& context) {
   FORESIGHT_CHECK(plan.Check());
-  if (plan.passes != 1 || plan.image_mode != ScanPlan::ImageMode::kOnTheFly)
+  if (plan.image_mode != ScanPlan::ImageMode::kOnTheFly)
     return Fail(ErrorCode::kInvalidOptions,
-                "simulated sweep: it has one pass, with images on the fly; simulate a head for "
-                "other plans");
+                "simulated sweep: its images are taken on the fly; simulate a head for other "
+                "plans");
   const ConstantSpeed shaft(plan);
-  const double duration_s = shaft.TimeOf(plan.to_rad);
   const double period_s = world.true_rig().lidar.period_s;
   Scan scan;
   scan.uuid = NewUuid();
@@ -53,11 +65,13 @@ Result<Scan> SimulateSweep(const World& world, const ScanPlan& plan, const RunCo
   scan.plan = plan;
   scan.rig = world.true_rig();
   scan.rig.angle_correction = world.CalibratedCorrection();
-  scan.track = EncoderTrack(world, shaft, duration_s);
-  std::vector<LidarLine> lines(static_cast<std::size_t>(std::ceil(duration_s / period_s)));
+  scan.track = EncoderTrack(world, shaft);
+  const int lines_a_pass = static_cast<int>(std::ceil(shaft.pass_s() / period_s));
+  std::vector<LidarLine> lines(static_cast<std::size_t>(plan.passes * lines_a_pass));
   const bool finished = ParallelFor(static_cast<int>(lines.size()), context, [&](int i) {
+    const double time_s = shaft.PassStart(i / lines_a_pass) + (i % lines_a_pass) * period_s;
     lines[static_cast<std::size_t>(i)] =
-        world.MeasureLine(i, i * period_s, [&](double time_s) { return shaft.At(time_s); });
+        world.MeasureLine(i, time_s, [&](double at_s) { return shaft.At(at_s); });
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "the simulated sweep was cancelled");
   scan.lines = std::move(lines);

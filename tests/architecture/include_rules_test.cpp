@@ -88,13 +88,27 @@ bool IsAravis(const std::string& target) {
   return StartsWithAny(target, {"arv", "glib", "gio/"});
 }
 
-const std::vector<std::string> kCoreOrder = {"base",          "geometry",        "io",
-                                             "options",       "sensor",          "objects",
-                                             "simulation",    "registration",    "calibration",
-                                             "depth",         "fitting",         "fitting/valve",
-                                             "fitting/drill", "fitting/terrain", "fitting/cylinder",
-                                             "detection",     "evaluation",      "mission",
-                                             "pictures",      "report"};
+const std::vector<std::string> kCoreOrder = {"base",
+                                             "geometry",
+                                             "io",
+                                             "options",
+                                             "sensor",
+                                             "objects",
+                                             "simulation",
+                                             "registration",
+                                             "calibration",
+                                             "depth",
+                                             "selfcheck",
+                                             "fitting",
+                                             "fitting/valve",
+                                             "fitting/drill",
+                                             "fitting/terrain",
+                                             "fitting/cylinder",
+                                             "detection",
+                                             "evaluation",
+                                             "mission",
+                                             "pictures",
+                                             "report"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);

@@ -467,6 +467,11 @@ Result<std::vector<Reader>> AllReaders(const std::string& folder, const std::str
       CalibrateWith(good, "intrinsic/001.csv", "motor"));
   add("lines of a stop", "stop_01_lines.csv", true, good / "session/pose_01/stop_01_lines.csv", {},
       CalibrateWith(good, "pose_01/stop_01_lines.csv", "lidar"));
+  add("samples of the robot's frame", "nasty.yaml", true, kCorpus + "robot_frame/surveyed.yaml",
+      WrongYaml("foresight_robot_frame: 1\nboards: surveyed\n"),
+      [rig = good / "rig.yaml"](const std::string& path, const std::string&) {
+        return std::vector<std::string>{"calibrate", "robot", path, "--rig", rig, "--json"};
+      });
   add("camera of OpenCV", "nasty.yml", true, good / "camera.opencv", WrongYaml("%YAML:1.0\n---\n"),
       ImportAs("opencv"));
   add("camera of ROS", "nasty.yaml", true, good / "camera.ros", WrongYaml("image_width: 1\n"),

@@ -58,6 +58,24 @@ TEST_F(CalibrateChainCommand, AllWritesARigCloseToTheTruthWithItsDeviations) {
   EXPECT_THAT(*html, HasSubstr("<svg"));
 }
 
+TEST_F(CalibrateChainCommand, ThePapersSequenceStandsBesideOursInEveryForm) {
+  const std::string session = Simulate({"--poses", "4", "--scans", "20"});
+  const std::string page = folder_ / "page";
+  const ProgramResult result = RunProgram(
+      FORESIGHTCTL, {"calibrate", "all", session, "--compare-paper", "--json", "--report", page});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto json = nlohmann::json::parse(result.output);
+  bool has_lidar = false;
+  for (const auto& value : json["beside_the_paper"])
+    has_lidar = has_lidar || (value["name"] == "place of the lidar" && value["paper"] > 0.0);
+  EXPECT_TRUE(has_lidar);
+  EXPECT_THAT(ReadFile(page + "/report.html").value(), HasSubstr("Beside the paper"));
+  EXPECT_THAT(ReadFile(page + "/report.pdf").value(), testing::StartsWith("%PDF"));
+  const ProgramResult both =
+      RunProgram(FORESIGHTCTL, {"calibrate", "all", session, "--compare-paper", "--paper"});
+  EXPECT_EQ(both.exit_code, 2);
+}
+
 TEST_F(CalibrateChainCommand, MotorAloneNeedsNoLidar) {
   const std::string session = Simulate({"--scans", "0", "--sweeps", "0"});
   const ProgramResult result = RunProgram(FORESIGHTCTL, {"calibrate", "motor", session});

@@ -163,6 +163,39 @@ TEST(Intrinsics, NamesAnImageThatContradictsTheOthers) {
   EXPECT_LT(result.models[0].mean_error_px, 0.365);
 }
 
+/// The first half of the images with one focal length, the rest with a longer one.
+SyntheticViews OfTwoZooms(double ratio, std::uint64_t seed) {
+  SyntheticOptions options{.board = {.columns = 9, .rows = 6, .square_m = 0.05}, .views = 10};
+  SyntheticViews views = MakeViews(options, seed);
+  options.camera.fx *= ratio;
+  options.camera.fy *= ratio;
+  const SyntheticViews longer = MakeViews(options, seed + 1000);
+  for (IntrinsicsImage image : longer.images) {
+    image.name = "longer " + image.name;
+    views.images.push_back(image);
+  }
+  return views;
+}
+
+TEST(Intrinsics, SaysThatTheZoomWasChangedBetweenTheImages) {
+  for (const double ratio : {1.1, 1.33}) {
+    SCOPED_TRACE(ratio);
+    const std::string fault = FaultOf(OfTwoZooms(ratio, 40), Only(LensModel::kFisheyeK));
+    EXPECT_THAT(fault, testing::AnyOf(HasSubstr("two focal lengths"), HasSubstr("zoom")));
+    EXPECT_NE(fault, "");
+  }
+}
+
+TEST(IntrinsicsByNight, TellsTwoZoomsFromOneOnThirtySeeds) {
+  int noticed = 0, false_alarms = 0;
+  for (std::uint64_t seed = 100; seed < 130; ++seed) {
+    noticed += FaultOf(OfTwoZooms(1.33, seed), Only(LensModel::kFisheyeK)).empty() ? 0 : 1;
+    false_alarms += FaultOf(OfTwoZooms(1.0, seed), Only(LensModel::kFisheyeK)).empty() ? 0 : 1;
+  }
+  EXPECT_EQ(noticed, 30);
+  EXPECT_EQ(false_alarms, 0);
+}
+
 TEST(Intrinsics, LeavesOutASingleWrongCornerAndKeepsItsImage) {
   SyntheticViews views = MakeViews({}, 10);
   views.images[3].view.pixels[20] += Eigen::Vector2d(9.0, -4.0);

@@ -147,6 +147,26 @@ std::string ComplaintAfter(std::string yaml, const std::string& what, const std:
   return rig ? "none" : rig.error().message;
 }
 
+TEST(SensorRig, SaysWhereItsRobotsFrameComesFrom) {
+  SensorRig rig = DefaultSensorRig();
+  const std::string id = RigId(rig);
+  for (const RobotFrameSource source :
+       {RobotFrameSource::kUnknown, RobotFrameSource::kCad, RobotFrameSource::kHandEye,
+        RobotFrameSource::kSurveyedBoards}) {
+    rig.robot_frame_source = source;
+    const auto again = SensorRigFromYaml(SensorRigToYaml(rig), "rig.yaml");
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->robot_frame_source, source);
+    EXPECT_EQ(RigId(*again), id) << "no result depends on it";
+  }
+  rig.robot_frame_source = RobotFrameSource::kUnknown;
+  const auto wrong =
+      SensorRigFromYaml(SensorRigToYaml(rig) + "robot_from_base_source: guessed\n", "rig.yaml");
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().message.find("'guessed' is not cad, hand_eye"), std::string::npos)
+      << wrong.error().message;
+}
+
 TEST(SensorRig, RefusesAnIdThatIsNotThatOfItsValues) {
   const std::string yaml = SensorRigToYaml(DefaultSensorRig());
   const std::string complaint = ComplaintAfter(yaml, "range_offset_m: 0", "range_offset_m: 0.01");

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/evaluation/simulated_trial.h"
+#include "core/selfcheck/check_rig.h"
+
+namespace foresight {
+
+/// What a head may have suffered since it was calibrated.
+struct RigDamage {
+  std::string name;  ///< "none", "camera turn x", "lidar turn y", "stamps", ...
+  Eigen::Vector3d camera_turn_rad = Eigen::Vector3d::Zero();  ///< of camera_from_head, in camera
+  Eigen::Vector3d lidar_turn_rad = Eigen::Vector3d::Zero();   ///< about the lidar's axes
+  double stamp_s = 0.0;
+};
+
+/// None; the camera and the lidar turned by `turn_rad` about each axis; the stamps late by
+/// `stamp_s`.
+std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s);
+
+/// The rig that a head was calibrated with before it suffered `damage` and became `true_rig`.
+SensorRig RigBefore(const RigDamage& damage, const SensorRig& true_rig);
+
+struct CheckTrialOptions {
+  /// Up and down at 20 deg/s from -30 to 30 deg, with three images.
+  ScanPlan plan = CheckPlan();
+  /// What a calibration leaves of each rig.
+  CalibrationError calibration_error{.rotation_rad = 0.00087, .translation_m = 0.001};
+  RigCheckOptions check;
+
+  static ScanPlan CheckPlan();
+};
+
+/// The outcome of one check.
+struct CheckOutcome {
+  std::uint64_t seed = 0;
+  std::string scene;
+  std::string damage;
+  double sign = 1.0;
+  RigCheck check;
+  double seconds = 0.0;
+};
+
+/// One scan of a scene, drawn by the seed from valves, drills and terrains (`scene` null) or with
+/// its noise drawn by the seed, checked with a rig for each damage.
+Result<std::vector<CheckOutcome>> RunCheckTrial(std::shared_ptr<const Scene> scene,
+                                                std::uint64_t seed,
+                                                const std::vector<RigDamage>& damages,
+                                                const CheckTrialOptions& options,
+                                                const RunContext& context);
+
+}  // namespace foresight

@@ -1,0 +1,213 @@
+#include "core/selfcheck/check_rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+using State = RigFinding::State;
+
+State StateOf(const RigFinding& finding, double sigmas, double seen_sigmas) {
+  if (!std::isfinite(finding.value) || !(finding.sigma * seen_sigmas < finding.limit))
+    return State::kNotSeen;
+  const double size = std::abs(finding.value);
+  return size > finding.limit && size > sigmas * finding.sigma ? State::kDrifted : State::kFine;
+}
+
+std::string Amount(const RigFinding& finding, double value) {
+  if (finding.unit == "rad") return fmt::format("{:.2f} deg", DegreesFromRadians(value));
+  if (finding.unit == "m") return fmt::format("{:.1f} mm", 1000.0 * value);
+  if (finding.unit == "s") return fmt::format("{:.1f} ms", 1000.0 * value);
+  return fmt::format("{:.2f} {}", value, finding.unit);
+}
+
+std::string AmountInWords(const RigFinding& finding) {
+  return fmt::format("{} +- {}, the limit is {}", Amount(finding, finding.value),
+                     Amount(finding, finding.sigma), Amount(finding, finding.limit));
+}
+
+class Judge {
+ public:
+  Judge(const SensorRig& rig, const Result<PlateCheck>& plate, const Result<CameraCheck>& camera,
+        const RigCheckLimits& limits)
+      : rig_(rig), limits_(limits) {
+    if (plate)
+      check_.plate = *plate;
+    else
+      check_.no_plate = plate.error().message;
+    if (camera)
+      check_.camera = *camera;
+    else
+      check_.no_camera = camera.error().message;
+  }
+
+  RigCheck Run() {
+    JudgeCamera();
+    JudgeLidar();
+    JudgeStamps();
+    SayWhatMoved();
+    SayWhatIsNotSeen();
+    return std::move(check_);
+  }
+
+ private:
+  void Add(RigFinding finding) {
+    finding.state = StateOf(finding, limits_.sigmas, limits_.seen_sigmas);
+    check_.findings.push_back(std::move(finding));
+  }
+
+  void JudgeCamera() {
+    for (int axis = 0; axis < 3; ++axis) {
+      RigFinding finding;
+      finding.name = fmt::format("camera turn {}", "xyz"[axis]);
+      finding.in_words =
+          fmt::format("camera against lidar, about the camera's {} axis", "xyz"[axis]);
+      finding.unit = "rad";
+      const double along = std::abs(rig_.camera_from_head.Rotate(Eigen::Vector3d::UnitX())[axis]);
+      finding.limit = limits_.camera_turn_rad +
+                      along * (limits_.camera_turn_along_motor_rad - limits_.camera_turn_rad);
+      finding.value = finding.sigma = std::nan("");
+      if (check_.camera) {
+        finding.value = check_.camera->turn_rad[axis];
+        finding.sigma = check_.camera->Sigma(axis);
+      }
+      Add(finding);
+      RigFinding& added = check_.findings.back();
+      if (added.state == State::kDrifted && check_.camera->gain_sigmas < limits_.least_gain_sigmas)
+        added.state = State::kNotSeen;
+    }
+  }
+
+  void JudgeLidar() {
+    for (const auto unknown : {PlateCheck::kTurnY, PlateCheck::kTurnZ}) {
+      const char axis = unknown == PlateCheck::kTurnY ? 'y' : 'z';
+      RigFinding finding;
+      finding.name = fmt::format("lidar turn {}", axis);
+      finding.in_words = fmt::format("lidar against the motor, about the head's {} axis", axis);
+      finding.unit = "rad";
+      finding.limit = limits_.lidar_turn_rad;
+      finding.value = finding.sigma = std::nan("");
+      if (check_.plate) {
+        finding.value = check_.plate->drift[unknown];
+        finding.sigma = check_.plate->Sigma(unknown);
+      }
+      Add(finding);
+    }
+  }
+
+  void JudgeStamps() {
+    RigFinding finding;
+    finding.name = "stamps";
+    finding.in_words = "the lidar's stamps against the encoder's";
+    finding.unit = "s";
+    finding.value = finding.sigma = finding.limit = std::nan("");
+    if (check_.plate && check_.plate->up_and_down) {
+      finding.limit = 0.5 * limits_.stamp_turn_rad / check_.plate->speed_rad_s;
+      finding.value = check_.plate->drift[PlateCheck::kStamp];
+      finding.sigma = check_.plate->Sigma(PlateCheck::kStamp);
+    }
+    Add(finding);
+  }
+
+  const RigFinding& Finding(const std::string& name) const {
+    return *std::find_if(check_.findings.begin(), check_.findings.end(),
+                         [&](const RigFinding& f) { return f.name == name; });
+  }
+
+  void SayWhatMoved() {
+    for (const RigFinding& finding : check_.findings)
+      if (finding.state == State::kDrifted) check_.drifted.push_back(InWords(finding));
+    const bool camera_drifted =
+        std::any_of(check_.findings.begin(), check_.findings.begin() + 3,
+                    [](const RigFinding& f) { return f.state == State::kDrifted; });
+    if (camera_drifted) check_.drifted.push_back(WhichOfBoth());
+  }
+
+  /// Edges say how camera and lidar stand to each other, planes how the lidar stands to the motor.
+  std::string WhichOfBoth() const {
+    const State about_y = Finding("lidar turn y").state, about_z = Finding("lidar turn z").state;
+    if (about_y == State::kDrifted || about_z == State::kDrifted)
+      return "the lidar moved against the motor: it is the lidar that turned";
+    const Eigen::Vector3d in_head = rig_.camera_from_head.Inverse().Rotate(check_.camera->turn_rad);
+    if (std::abs(in_head.x()) > in_head.tail<2>().norm())
+      return "which of both turned does not show: planes do not tell a turn about the motor's axis";
+    if (about_y == State::kFine && about_z == State::kFine)
+      return "the lidar still fits the motor: it is the camera that turned";
+    return "which of both turned does not show in this scan";
+  }
+
+  void SayWhatIsNotSeen() {
+    std::vector<std::string>& list = check_.cannot_see;
+    if (!check_.no_camera.empty())
+      list.push_back("camera against lidar: " + check_.no_camera);
+    else
+      SayNotSeen("camera turn", "more depth edges at other places of the image show it");
+    if (!check_.no_plate.empty())
+      list.push_back("lidar against the motor, and the stamps: " + check_.no_plate);
+    else
+      SayNotSeen("lidar turn", "walls at several angles, floor and ceiling show it");
+    if (check_.plate && !check_.plate->up_and_down)
+      list.emplace_back(
+          "the lidar's stamps against the encoder's: the scan sweeps one way; sweep up and down "
+          "(scan --passes 2)");
+    else if (check_.plate)
+      SayNotSeen("stamps", "a faster sweep before floor, ceiling or sloping surfaces shows it");
+    list.emplace_back(
+        "the motor's zero and the robot's frame: camera and lidar turn together with the plate; "
+        "compare with something whose place the robot knows");
+    list.emplace_back("the camera's lens: only boards show it");
+  }
+
+  void SayNotSeen(const std::string& start, const char* hint) {
+    for (const RigFinding& finding : check_.findings)
+      if (finding.state == State::kNotSeen && finding.name.starts_with(start))
+        check_.cannot_see.push_back(
+            fmt::format("{}: {}; {}", finding.in_words, AmountInWords(finding), hint));
+  }
+
+  const SensorRig& rig_;
+  const RigCheckLimits& limits_;
+  RigCheck check_;
+};
+
+}  // namespace
+
+const char* ToString(RigFinding::State state) {
+  switch (state) {
+    case State::kFine:
+      return "fine";
+    case State::kDrifted:
+      return "drifted";
+    case State::kNotSeen:
+      return "not seen";
+  }
+  return "";
+}
+
+std::string InWords(const RigFinding& finding) {
+  return fmt::format("{}: off by {}", finding.in_words, AmountInWords(finding));
+}
+
+bool RigCheck::SawAnything() const {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const RigFinding& f) { return f.state != State::kNotSeen; });
+}
+
+RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
+                  const Result<CameraCheck>& camera, const RigCheckLimits& limits) {
+  return Judge(rig, plate, camera, limits).Run();
+}
+
+Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
+                          const RunContext& context) {
+  FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(scan, context.Part(0.0, 0.1)));
+  const auto plate = CheckPlate(scan, cloud, options.plate);
+  const auto camera = CheckCamera(scan, cloud, options.camera, context.Part(0.2, 1.0));
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the check was cancelled");
+  return JudgeRig(scan.rig, plate, camera, options.limits);
+}
+
+}  // namespace foresight

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/selfcheck/flat_cells.h"
+
+namespace foresight {
+
+struct PlateCheckOptions {
+  FlatCellOptions cells;
+  CoplanarOptions planes;
+  double floor_m = 0.001;        ///< what a cell's mean is not better than: surfaces are not ideal
+  double shift_prior_m = 0.005;  ///< of the lidar against the plate
+  double range_prior_m = 0.010;  ///< of its ranges
+  double huber_sigmas = 2.0;
+  double tukey_sigmas = 4.7;
+  int least_planes = 2;
+};
+
+/// What the planes of one scan say of the way from the motor to the lidar: how the rig must be
+/// changed to make them flat, and both directions of the motor agree.
+struct PlateCheck {
+  enum Unknown { kTurnY, kTurnZ, kShiftY, kShiftZ, kRange, kStamp, kUnknowns };
+
+  /// Of the lidar on the plate, about and along the head's axes, the turn about the lidar's own
+  /// origin (rad, m); of its ranges (m); of its stamps (s). Turn and shift about and along x, the
+  /// motor's axis, are not among them: they move all planes alike.
+  Eigen::Matrix<double, kUnknowns, 1> drift;
+  Eigen::Matrix<double, kUnknowns, kUnknowns> covariance;
+  bool up_and_down = false;  ///< else the stamps stay what they are, with an infinite sigma
+  double speed_rad_s = 0.0;  ///< of the plate, rms: a stamp's offset shows as a turn by it
+  int planes = 0;
+  int cells = 0;
+  double residual_m = 0.0;  ///< rms of the cells about their planes, after the change
+
+  double Sigma(Unknown unknown) const { return std::sqrt(covariance(unknown, unknown)); }
+};
+
+/// Fails with kTooFewPoints where the scan shows too few planes.
+Result<PlateCheck> CheckPlate(const Scan& scan, const RegisteredScan& cloud,
+                              const PlateCheckOptions& options);
+
+}  // namespace foresight

@@ -1,0 +1,114 @@
+// What the measurements mean, in words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/geometry/angles.h"
+#include "core/selfcheck/check_rig.h"
+
+namespace foresight {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+CameraCheck GoodCamera() {
+  CameraCheck camera;
+  camera.turn_rad.setZero();
+  camera.covariance = std::pow(RadiansFromDegrees(0.02), 2) * Eigen::Matrix3d::Identity();
+  camera.gain_sigmas = 0.0;
+  camera.edges = 1000;
+  camera.images = 1;
+  return camera;
+}
+
+PlateCheck GoodPlate() {
+  PlateCheck plate;
+  plate.drift.setZero();
+  plate.covariance.setZero();
+  plate.covariance.diagonal().setConstant(std::pow(RadiansFromDegrees(0.01), 2));
+  plate.up_and_down = true;
+  plate.speed_rad_s = RadiansFromDegrees(20.0);
+  plate.planes = 6;
+  return plate;
+}
+
+RigCheck Judged(const Result<PlateCheck>& plate, const Result<CameraCheck>& camera) {
+  return JudgeRig(DefaultSensorRig(), plate, camera, RigCheckLimits());
+}
+
+TEST(JudgeRig, IsQuietWhereNothingDrifted) {
+  const RigCheck check = Judged(GoodPlate(), GoodCamera());
+  EXPECT_THAT(check.drifted, IsEmpty());
+  EXPECT_TRUE(check.SawAnything());
+  for (const RigFinding& finding : check.findings)
+    EXPECT_EQ(finding.state, RigFinding::State::kFine) << finding.name;
+}
+
+TEST(JudgeRig, AlwaysSaysThatTheMotorsZeroIsNotSeen) {
+  EXPECT_THAT(Judged(GoodPlate(), GoodCamera()).cannot_see, Contains(HasSubstr("motor's zero")));
+}
+
+TEST(JudgeRig, SaysByHowMuchTheCameraTurnedAndThatItWasTheCamera) {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.y() = RadiansFromDegrees(0.31);
+  camera.gain_sigmas = 8.0;
+  const RigCheck check = Judged(GoodPlate(), camera);
+  EXPECT_THAT(check.drifted, Contains(HasSubstr("camera's y axis: off by 0.31 deg +- 0.02 deg")));
+  EXPECT_THAT(check.drifted, Contains(HasSubstr("it is the camera that turned")));
+}
+
+TEST(JudgeRig, BlamesTheLidarWherePlanesBendToo) {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.y() = RadiansFromDegrees(0.31);
+  camera.gain_sigmas = 8.0;
+  PlateCheck plate = GoodPlate();
+  plate.drift[PlateCheck::kTurnY] = RadiansFromDegrees(0.3);
+  const RigCheck check = Judged(plate, camera);
+  EXPECT_THAT(check.drifted, Contains(HasSubstr("it is the lidar that turned")));
+  EXPECT_THAT(check.drifted, Not(Contains(HasSubstr("it is the camera"))));
+}
+
+TEST(JudgeRig, AboutTheMotorsAxisNobodyCanTellWhichOfThemTurned) {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.x() = RadiansFromDegrees(0.31);
+  camera.gain_sigmas = 8.0;
+  EXPECT_THAT(Judged(GoodPlate(), camera).drifted, Contains(HasSubstr("does not show")));
+}
+
+TEST(JudgeRig, AUncertainDriftIsNotSeenRatherThanFoundOrFine) {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.y() = RadiansFromDegrees(0.5);
+  camera.covariance(1, 1) = std::pow(RadiansFromDegrees(0.3), 2);
+  camera.gain_sigmas = 8.0;
+  const RigCheck check = Judged(GoodPlate(), camera);
+  EXPECT_THAT(check.drifted, IsEmpty());
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("camera's y axis")));
+}
+
+TEST(JudgeRig, ASweepOneWaySaysNothingOfTheStampsAndTellsWhatToDo) {
+  PlateCheck plate = GoodPlate();
+  plate.up_and_down = false;
+  const RigCheck check = Judged(plate, GoodCamera());
+  EXPECT_EQ(check.findings.back().state, RigFinding::State::kNotSeen);
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("--passes 2")));
+}
+
+TEST(JudgeRig, SaysAnOffsetOfTheStampsInMilliseconds) {
+  PlateCheck plate = GoodPlate();
+  plate.drift[PlateCheck::kStamp] = 0.0101;
+  EXPECT_THAT(Judged(plate, GoodCamera()).drifted, Contains(HasSubstr("off by 10.1 ms")));
+}
+
+TEST(JudgeRig, WhatWasNotMeasuredIsGivenWithItsReason) {
+  const RigCheck check = Judged(tl::unexpected<Error>(Error{ErrorCode::kTooFewPoints, "no planes"}),
+                                tl::unexpected<Error>(Error{ErrorCode::kTooFewPoints, "no image"}));
+  EXPECT_FALSE(check.SawAnything());
+  EXPECT_THAT(check.drifted, IsEmpty());
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("no planes")));
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("no image")));
+}
+
+}  // namespace
+}  // namespace foresight
