@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/base/version.h"
+#include "core/objects/marker_cells.h"
 
 namespace foresight {
 namespace {

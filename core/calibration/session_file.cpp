@@ -5,6 +5,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/parallel.h"
 #include "core/calibration/board_detector.h"
+#include "core/calibration/part_of_board.h"
 #include "core/calibration/session_index.h"
 #include "core/calibration/session_tables.h"
 #include "core/io/image_file.h"
@@ -126,6 +127,14 @@ Status LookAt(const fs::path& folder, const SensorRig& rig, ViewJob* job) {
   };
   find(job->a, &job->view.a);
   find(job->b, &job->view.b);
+  // Of the larger board, cut off by the image's border, as much may be left as the smaller one has.
+  std::optional<BoardView>&a = job->view.a, &b = job->view.b;
+  const auto part = [&](const CalibrationBoard& board, const BoardView& view,
+                        const CalibrationBoard& other) {
+    return MayBePartOf(board, view, other, image.width(), image.height());
+  };
+  if (job->b != nullptr && b && !a && part(*job->b, *b, *job->a)) b.reset();
+  if (job->b != nullptr && a && !b && part(*job->a, *a, *job->b)) a.reset();
   return {};
 }
 
