@@ -286,6 +286,7 @@ void AddCalibrateCommand(CLI::App& app, Invocation& invocation) {
   calibrate->require_subcommand(1);
   AddIntrinsicsCommand(*calibrate, invocation);
   AddCalibrateChainCommands(*calibrate, invocation);
+  AddCalibrateRecordCommand(*calibrate, invocation);
 }
 
 }  // namespace foresight

@@ -35,6 +35,7 @@ void AddTargetCommand(CLI::App& app, Invocation& invocation);
 void AddSimulateCommand(CLI::App& app, Invocation& invocation);
 /// `calibrate` is the command of that name.
 void AddCalibrateChainCommands(CLI::App& calibrate, Invocation& invocation);
+void AddCalibrateRecordCommand(CLI::App& calibrate, Invocation& invocation);
 
 /// For `map_error`: says which file a value in an error is of.
 inline auto Of(const std::string& file) {
