@@ -17,6 +17,8 @@ void AddEmulationOptions(CLI::App& command, CLI::Option* scene, EmulationArgumen
   add("--camera", arguments.camera,
       "Where the camera listens, ADDR; default: a free address of 127.0.0.0/8");
   add("--faults", arguments.faults, "What goes wrong (YAML); default: nothing");
+  add("--stand-place", arguments.stand_place,
+      "Where the scene's stand of boards is, from 1, 0 = away; default: its first place");
 }
 
 Result<std::unique_ptr<EmulatedDevices>> StartEmulation(const EmulationArguments& arguments) {
@@ -36,7 +38,10 @@ Result<std::unique_ptr<EmulatedDevices>> StartEmulation(const EmulationArguments
   if (!arguments.faults.empty()) {
     FORESIGHT_TRY(options.faults, LoadDeviceFaults(arguments.faults, arguments.seed));
   }
-  return EmulatedDevices::Start(std::make_shared<const Scene>(std::move(scene)), options);
+  FORESIGHT_TRY(auto devices,
+                EmulatedDevices::Start(std::make_shared<const Scene>(std::move(scene)), options));
+  if (arguments.stand_place) FORESIGHT_CHECK(devices->world()->MoveStand(*arguments.stand_place));
+  return devices;
 }
 
 HeadConfig ConfigFor(EmulatedDevices& devices) {

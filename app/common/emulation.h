@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "hardware/assembly/head_config.h"
@@ -14,10 +15,11 @@ struct EmulationArguments {
   std::string scene;
   std::string rig;  ///< the true head; empty = the built-in one
   std::uint64_t seed = 1;
-  std::string lidar;   ///< ADDR:PORT; empty = a free port of this computer
-  std::string motor;   ///< the same
-  std::string camera;  ///< ADDR; empty = a free address of this computer
-  std::string faults;  ///< file of a fault plan; empty = none
+  std::string lidar;               ///< ADDR:PORT; empty = a free port of this computer
+  std::string motor;               ///< the same
+  std::string camera;              ///< ADDR; empty = a free address of this computer
+  std::string faults;              ///< file of a fault plan; empty = none
+  std::optional<int> stand_place;  ///< World::MoveStand; not given: the scene's first
 };
 
 /// Adds the options for everything but the scene; they make sense only with `scene`.

@@ -8,44 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
-#include <thread>
 
-#include "app/common/interrupt_watcher.h"
+#include "app/common/wait_for_head.h"
 #include "hardware/head/scan_recorder.h"
 
 namespace foresight {
 namespace {
-
-constexpr std::chrono::milliseconds kPoll{5};
-
-/// Waits until the head leaves `states`, and stands for the operator meanwhile; a cancelled context
-/// aborts the scan and stops the motor.
-HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
-                     const RunContext& context) {
-  bool aborted = false;
-  for (;;) {
-    head.OperatorSeen();
-    const HeadStatus status = head.Status();
-    if (std::find(states.begin(), states.end(), status.state) == states.end()) return status;
-    if (context.Cancelled() && !aborted) {
-      aborted = true;
-      const std::string reason = InterruptReason();
-      head.EndScan(reason.empty() ? "the scan was cancelled" : reason);
-      if (status.state == HeadState::kHoming) head.StopMotor();
-    }
-    std::this_thread::sleep_for(kPoll);
-  }
-}
-
-Status HomeAndWait(SensorHead& head, const RunContext& context) {
-  head.OperatorSeen();
-  FORESIGHT_CHECK(head.Home());
-  const HeadStatus status = WaitWhile(head, {HeadState::kHoming}, context);
-  if (status.state != HeadState::kReady)
-    return Fail(ErrorCode::kDevice, "the head is not ready after homing: {}{}{}", InterruptReason(),
-                InterruptReason().empty() ? "" : "; ", status.message);
-  return {};
-}
 
 /// User and system time of this process.
 double CpuSeconds() {

@@ -5,7 +5,8 @@
 namespace foresight {
 
 Result<SimulatedBench> SetUpBench(const SimulationArguments& arguments) {
-  FORESIGHT_TRY(Scene scene, LoadScene(arguments.scene));
+  FORESIGHT_TRY(Scene loaded, LoadScene(arguments.scene));
+  const auto scene = std::make_shared<const Scene>(std::move(loaded));
   SimulatedHeadOptions options;
   if (!arguments.rig.empty()) {
     FORESIGHT_TRY(options.true_rig, LoadSensorRig(arguments.rig));
@@ -13,12 +14,11 @@ Result<SimulatedBench> SetUpBench(const SimulationArguments& arguments) {
   options.world.seed = arguments.seed;
   options.speed =
       arguments.real_time ? SimulationSpeed::kRealTime : SimulationSpeed::kAsFastAsPossible;
-  const auto shared = std::make_shared<const Scene>(std::move(scene));
   SimulatedBench bench;
-  bench.world = std::make_shared<const World>(shared, options.true_rig, options.world);
+  bench.world = std::make_shared<const World>(scene, options.true_rig, options.world);
   options.believed_rig = options.true_rig;
   options.believed_rig.angle_correction = bench.world->CalibratedCorrection();
-  FORESIGHT_TRY(bench.head, MakeSimulatedHead(shared, options));
+  FORESIGHT_TRY(bench.head, MakeSimulatedHead(bench.world, options));
   return bench;
 }
 

@@ -284,6 +284,7 @@ void AddCalibrateCommand(CLI::App& app, Invocation& invocation) {
   AddCalibrateChainCommands(*calibrate, invocation);
   AddCalibrateRobotCommand(*calibrate, invocation);
   AddCalibrateCheckCommand(*calibrate, invocation);
+  AddCalibrateRecordCommand(*calibrate, invocation);
 }
 
 }  // namespace foresight

@@ -39,6 +39,7 @@ void AddSimulateCommand(CLI::App& app, Invocation& invocation);
 void AddCalibrateChainCommands(CLI::App& calibrate, Invocation& invocation);
 void AddCalibrateCheckCommand(CLI::App& calibrate, Invocation& invocation);
 void AddCalibrateRobotCommand(CLI::App& calibrate, Invocation& invocation);
+void AddCalibrateRecordCommand(CLI::App& calibrate, Invocation& invocation);
 
 /// For `map_error`: says which file a value in an error is of.
 inline auto Of(const std::string& file) {

@@ -2,8 +2,10 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "core/base/atomic_file.h"
 #include "core/calibration/session_file.h"
 #include "core/evaluation/calibration_images.h"
+#include "core/evaluation/calibration_scene.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -13,6 +15,7 @@ struct SimulateArguments {
   std::string folder;
   std::string mount = "normal";
   bool images = false;
+  bool scene = false;
   CalibrationSimulation simulation;
   double prior_error_deg = DegreesFromRadians(CalibrationSimulation().prior_error_rad);
   double prior_error_mm = 1000.0 * CalibrationSimulation().prior_error_m;
@@ -27,9 +30,16 @@ const std::map<std::string, CameraMount> kMounts = {{"normal", CameraMount::kNor
                                                     {"portrait", CameraMount::kPortrait},
                                                     {"upside-down", CameraMount::kUpsideDown}};
 
+/// What a head can record the session in, in place of the session.
+Status WriteScene(const SimulatedCalibration& made, const std::filesystem::path& folder) {
+  FORESIGHT_CHECK(MakeOutputFolder(folder));
+  FORESIGHT_CHECK(WriteFileAtomically(folder / "scene.yaml", CalibrationSceneYaml(made)));
+  return SaveSensorRig(made.session.prior, folder / "prior.yaml");
+}
+
 Result<ExitCode> Simulate(const SimulateArguments& arguments, const RunContext& context) {
   CalibrationSimulation simulation = arguments.simulation;
-  simulation.distinct_boards = arguments.images;
+  simulation.distinct_boards = arguments.images || arguments.scene;
   simulation.mount = kMounts.at(arguments.mount);
   simulation.prior_error_rad = RadiansFromDegrees(arguments.prior_error_deg);
   simulation.prior_error_m = 1e-3 * arguments.prior_error_mm;
@@ -38,8 +48,11 @@ Result<ExitCode> Simulate(const SimulateArguments& arguments, const RunContext& 
   simulation.stamp_offset_s = 1e-3 * arguments.stamp_offset_ms;
   simulation.repeatability_rad = RadiansFromDegrees(arguments.repeatability_deg);
   simulation.dihedral_error_rad = RadiansFromDegrees(arguments.dihedral_error_deg);
-  FORESIGHT_TRY(const SimulatedCalibration made, SimulateCalibration(simulation));
-  if (arguments.images)
+  FORESIGHT_TRY(SimulatedCalibration made, SimulateCalibration(simulation));
+  if (arguments.scene) MarkBoards(&made.session.mount);
+  if (arguments.scene)
+    FORESIGHT_CHECK(WriteScene(made, arguments.folder));
+  else if (arguments.images)
     FORESIGHT_CHECK(WriteSimulatedImages(made, simulation.seed, arguments.folder, context));
   else
     FORESIGHT_CHECK(WriteCalibrationSession(made.session, arguments.folder));
@@ -66,6 +79,11 @@ void AddCalibration(CLI::App& simulate, Invocation& invocation) {
       ->capture_default_str();
   command->add_flag("--images", arguments->images,
                     "Painted images of the intrinsic views instead of their corners");
+  command
+      ->add_flag("--scene", arguments->scene,
+                 "A scene with the boards, the true head and the drawn one, in place of the "
+                 "session: for calibrate record")
+      ->excludes("--images");
   option("--views", s.intrinsic_views, "Images of a board for the camera alone");
   option("--poses", s.poses, "Poses of the stand of two boards");
   option("--first-stop", s.first_stop_deg, "Lowest stop of the motor, deg");

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/base/image.h"
-#include "core/calibration/calibration_board.h"
 #include "core/calibration/checkerboard_finder.h"
+#include "core/objects/calibration_board.h"
 
 namespace foresight {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/io/pdf_page.h"
+#include "core/objects/marker_cells.h"
 
 namespace foresight {
 namespace {

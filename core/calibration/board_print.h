@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/calibration/calibration_board.h"
+#include "core/objects/calibration_board.h"
 
 namespace foresight {
 
@@ -24,10 +24,5 @@ Result<std::string> BoardPdf(const CalibrationBoard& board, const Paper& paper);
 /// A drawing, for whoever builds it, of two boards at a right angle on one mount: sizes in mm, the
 /// hinge along the boards' short sides, and how to hold it. One A4 page, not to scale.
 Result<std::string> TwoBoardMountPdf(const CalibrationBoard& board);
-
-/// Whether a marker's cell is white: bits_a_side + 2 cells a side with the black border, row by
-/// row.
-std::vector<bool> MarkerCells(CalibrationBoard::Dictionary dictionary, int marker,
-                              int* cells_a_side);
 
 }  // namespace foresight

@@ -41,27 +41,6 @@ Status CheckStop(const CalibrationSession& session, const MotorStop& stop,
 
 }  // namespace
 
-Status BoardMount::Check() const {
-  FORESIGHT_CHECK(a.Check());
-  if (b) FORESIGHT_CHECK(b->Check());
-  return {};
-}
-
-BoardMount DefaultBoardMount() {
-  constexpr double kSquare_m = 0.050, kHinge_m = 0.065;  // the hinge from the nearest corners
-  CalibrationBoard board;
-  board.columns = 8;
-  board.rows = 6;
-  board.square_m = kSquare_m;
-  Eigen::Matrix3d turn;  // x of B towards the viewer, z of B along x of A
-  turn << 0, 0, 1,       //
-      0, 1, 0,           //
-      -1, 0, 0;
-  return {.a = board,
-          .b = board,
-          .a_from_b = {turn, Eigen::Vector3d(7 * kSquare_m + kHinge_m, 0.0, -kHinge_m)}};
-}
-
 Status CalibrationSession::Check() const {
   FORESIGHT_CHECK(mount.Check());
   FORESIGHT_CHECK(prior.Check());

@@ -4,35 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "core/calibration/calibration_board.h"
-#include "core/geometry/rigid.h"
+#include "core/objects/board_mount.h"
 #include "core/sensor/lidar_line.h"
 #include "core/sensor/motor_track.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
-
-/// The frame of board A seen from that of board B of one stand.
-using BoardFromBoard = Rigid<frame::Pattern, frame::Pattern>;
-
-/// Two boards on one stand, about perpendicular to each other (Section III-B). The stand's frame is
-/// that of board A.
-struct BoardMount {
-  CalibrationBoard a;
-  std::optional<CalibrationBoard> b;
-  BoardFromBoard a_from_b;  ///< as drawn; the true one is estimated
-
-  Status Check() const;
-  bool operator==(const BoardMount& other) const {
-    return a == other.a && b == other.b &&
-           a_from_b.rotation().coeffs() == other.a_from_b.rotation().coeffs() &&
-           a_from_b.translation() == other.a_from_b.translation();
-  }
-};
-
-/// A stand of two boards with 8 x 6 inner corners of 50 mm whose surfaces meet in a hinge along y,
-/// open towards the viewer like a book.
-BoardMount DefaultBoardMount();
 
 /// What the camera saw of a stand in one image; a board that was not found is missing.
 struct MountView {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/calibration/calibration_board.h"
 #include "core/calibration/lens_model.h"
+#include "core/objects/calibration_board.h"
 
 namespace foresight {
 

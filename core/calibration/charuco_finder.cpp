@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "core/calibration/corner_grid.h"
-#include "core/calibration/predefined_dictionary.h"
 #include "core/calibration/refine_corners.h"
+#include "core/objects/predefined_dictionary.h"
 
 namespace foresight {
 namespace {
@@ -111,7 +111,10 @@ std::optional<Eigen::Vector2d> FindCorner(const GrayImage& image, const MarkersB
       return std::nullopt;
   // The window must stay clear of the markers, whose corners are near.
   const double margin = 0.5 * (1.0 - board.marker_per_square);
-  const auto corner = RefineCorner(image, guess, margin * square_px);
+  auto corner = RefineCorner(image, guess, margin * square_px);
+  // In a near board that window is wide: its corner was up to 0.7 px off.
+  if (corner && margin * square_px > kLargestReach_px)
+    corner = RefineCorner(image, *corner, kLargestReach_px);
   if (!corner || (*corner - guess).norm() > kLargestDisagreement * square_px) return std::nullopt;
   const Eigen::Vector2d shift = *corner - marker.Pixel(x, y);
   if (!Alternates(image, marker, shift, x, y, 0.6 * margin, CalibrationBoard::IsBlack(column, row)))

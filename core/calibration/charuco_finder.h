@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/image.h"
-#include "core/calibration/calibration_board.h"
+#include "core/objects/calibration_board.h"
 
 namespace foresight {
 

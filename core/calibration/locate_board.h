@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/calibration/calibration_board.h"
 #include "core/geometry/rigid.h"
+#include "core/objects/calibration_board.h"
 #include "core/sensor/camera_model.h"
 
 namespace foresight {

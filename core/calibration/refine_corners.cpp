@@ -8,10 +8,9 @@
 namespace foresight {
 namespace {
 
-/// The window's half side: large windows average more noise, but the edges of a fisheye image bend.
+/// The window's half side: large windows average more noise.
 constexpr double kReachPerSpacing = 0.3;
 constexpr double kSmallestReach_px = 2.0;
-constexpr double kLargestReach_px = 8.0;
 
 /// Distance to the nearest of the (up to) four neighbours.
 double Spacing(const CornerGrid& grid, int column, int row) {

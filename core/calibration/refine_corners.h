@@ -4,6 +4,10 @@
 
 namespace foresight {
 
+/// Of a window that is good to hundredths of a pixel: in larger ones the edges of a fisheye image
+/// bend.
+inline constexpr double kLargestReach_px = 8.0;
+
 /// The corner of a checkerboard next to `guess`: the point at which the image's gradients in a
 /// window of +- reach_px pass by sideways; `guess` itself where there is none in the window.
 /// nullopt outside of the image.

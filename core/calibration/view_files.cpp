@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/calibration/board_detector.h"
+#include "core/calibration/part_of_board.h"
 #include "core/calibration/session_tables.h"
 #include "core/io/image_file.h"
 
@@ -62,6 +63,13 @@ Result<MountView> ReadView(const fs::path& folder, const SessionViewFiles& files
   };
   find(a, &view.a);
   find(b, &view.b);
+  // Of the larger board, cut off by the image's border, as much may be left as the smaller one has.
+  const auto part = [&](const CalibrationBoard& board, const BoardView& seen,
+                        const CalibrationBoard& other) {
+    return MayBePartOf(board, seen, other, image.width(), image.height());
+  };
+  if (a != nullptr && b != nullptr && view.b && !view.a && part(*b, *view.b, *a)) view.b.reset();
+  if (a != nullptr && b != nullptr && view.a && !view.b && part(*a, *view.a, *b)) view.a.reset();
   return view;
 }
 

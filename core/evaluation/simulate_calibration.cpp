@@ -146,11 +146,10 @@ void SessionMaker::MakeRig() {
   session_.name = truth_.name;
   session_.mount = DefaultBoardMount();
   if (options_.distinct_boards) {
-    session_.mount.a.columns = 9;
-    session_.mount.b->columns = 7;
-    const Eigen::Vector3d one_square = session_.mount.a.square_m * Eigen::Vector3d::UnitX();
-    session_.mount.a_from_b = {session_.mount.a_from_b.rotation(),
-                               session_.mount.a_from_b.translation() + one_square};
+    CalibrationBoard a = session_.mount.a, b = session_.mount.a;
+    a.columns = 9;
+    b.columns = 7;
+    session_.mount = HingedMount(a, b, kHinge_m);
   }
   session_.intrinsic_board = session_.mount.a;
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/geometry/angles.h"
+#include "core/sensor/exposure.h"
 
 namespace foresight {
 
@@ -22,11 +23,8 @@ Status ScanPlan::Check() const {
   if (!(speed_rad_s > 0.0 && speed_rad_s <= kMaxSpeed_rad_s + 1e-9))
     return Fail(ErrorCode::kInvalidOptions, "scan plan: speed {:.2f} deg/s is not in (0, {:.0f}]",
                 DegreesFromRadians(speed_rad_s), DegreesFromRadians(kMaxSpeed_rad_s));
-  if (!(exposure_s > 0.0 && exposure_s <= 1.0))
-    return Fail(ErrorCode::kInvalidOptions, "scan plan: exposure_s {} is not in (0, 1]",
-                exposure_s);
-  if (!(gain_db >= 0.0 && gain_db <= 48.0))
-    return Fail(ErrorCode::kInvalidOptions, "scan plan: gain_db {} is not in [0, 48]", gain_db);
+  if (const Status exposure = CheckExposure(exposure_s, gain_db); !exposure)
+    return Fail(ErrorCode::kInvalidOptions, "scan plan: {}", exposure.error().message);
   if (!(max_blur_px > 0.0 && max_blur_px <= 100.0))
     return Fail(ErrorCode::kInvalidOptions, "scan plan: max_blur_px {} is not in (0, 100]",
                 max_blur_px);

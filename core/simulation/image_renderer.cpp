@@ -29,6 +29,9 @@ int FirstMomentOf(int x, int y) {
 /// The sub-rays of one row that can be seen, pixel by pixel.
 struct ImageRenderer::Samples {
   std::vector<int> pixel;
+  std::vector<Eigen::Vector2d> place;  ///< of the sub-ray in the image
+  std::vector<std::size_t> moment;     ///< of the exposure
+  std::array<Eigen::Matrix3f, kMoments> rotations;
   std::vector<SceneRay> rays;
   std::vector<SceneHit> hits;
   std::vector<Eigen::Vector3f> albedo;
@@ -54,7 +57,7 @@ ImageRenderer::ImageRenderer(const RayCaster& caster, const CameraModel& camera,
 
 void ImageRenderer::AimRow(const CameraMotion& motion, int y, Samples& samples) const {
   const int per_pixel = samples_side_ * samples_side_;
-  std::array<Eigen::Matrix3f, kMoments> rotations;
+  std::array<Eigen::Matrix3f, kMoments>& rotations = samples.rotations;
   std::array<Eigen::Vector3f, kMoments> origins;
   for (std::size_t i = 0; i < kMoments; ++i) {
     rotations[i] = motion[i].RotationMatrix().cast<float>();
@@ -62,6 +65,8 @@ void ImageRenderer::AimRow(const CameraMotion& motion, int y, Samples& samples) 
   }
   const auto count = static_cast<std::size_t>(camera_.width * per_pixel);
   samples.pixel.clear();
+  samples.place.clear();
+  samples.moment.clear();
   samples.rays.clear();
   samples.pixel.reserve(count);
   samples.rays.reserve(count);
@@ -72,16 +77,44 @@ void ImageRenderer::AimRow(const CameraMotion& motion, int y, Samples& samples) 
   for (int x = 0; x < camera_.width; ++x) {
     const int first_moment = FirstMomentOf(x, y);
     for (int s = 0; s < per_pixel; ++s) {
-      const auto ray = rays_.At(Eigen::Vector2d(x, y) + offsets[static_cast<std::size_t>(s)]);
+      const Eigen::Vector2d place = Eigen::Vector2d(x, y) + offsets[static_cast<std::size_t>(s)];
+      const auto ray = rays_.At(place);
       if (!ray) continue;
       const auto moment =
           static_cast<std::size_t>((first_moment + s * kMoments / per_pixel) % kMoments);
       samples.pixel.push_back(x);
+      samples.place.push_back(place);
+      samples.moment.push_back(moment);
       samples.rays.push_back({origins[moment], rotations[moment] * ray->cast<float>()});
     }
   }
   samples.hits.resize(samples.rays.size());
   caster_.Cast(samples.rays, samples.hits);
+}
+
+/// A print is averaged over the sub-ray's part of the pixel: to a twentieth of a pixel its edges
+/// are where they are, not where the nearest sub-ray is.
+Eigen::Vector3f ImageRenderer::Albedo(std::size_t sample, Samples& samples) const {
+  const SceneHit& hit = samples.hits[sample];
+  const Eigen::Vector3f point = samples.Point(sample);
+  if (!color_.IsPrinted(hit.mesh, hit.normal))
+    return color_.At(hit.mesh, point, hit.normal, &samples.near);
+  const double half = 0.5 / samples_side_;
+  const Eigen::Vector3f& origin = samples.rays[sample].origin;
+  const float distance = (point - origin).dot(hit.normal);
+  std::array<Eigen::Vector3f, 4> around;
+  around.fill(point);
+  const std::array<Eigen::Vector2d, 4> corners = {
+      Eigen::Vector2d(-half, -half), {half, -half}, {half, half}, {-half, half}};
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const auto ray = rays_.At(samples.place[sample] + corners[i]);
+    if (!ray) continue;
+    const Eigen::Vector3f direction =
+        samples.rotations[samples.moment[sample]] * ray->cast<float>();
+    const float along = direction.dot(hit.normal);
+    if (along < -0.01f) around[i] = origin + distance / along * direction;
+  }
+  return color_.MeanOfPrint(hit.mesh, around);
 }
 
 void ImageRenderer::ShadeAmbient(Samples& samples) const {
@@ -97,7 +130,7 @@ void ImageRenderer::ShadeAmbient(Samples& samples) const {
       continue;
     }
     const Material& material = caster_.scene().meshes[static_cast<std::size_t>(hit.mesh)].material;
-    samples.albedo[i] = color_.At(hit.mesh, samples.Point(i), hit.normal, &samples.near);
+    samples.albedo[i] = Albedo(i, samples);
     // More light comes from above than from below, so that shadowed sides still show their shape.
     const float from_everywhere = ambient * (0.8f + 0.2f * hit.normal.z());
     samples.light[i] =

@@ -36,6 +36,7 @@ class ImageRenderer {
 
   void AimRow(const CameraMotion& motion, int y, Samples& samples) const;
   void ShadeAmbient(Samples& samples) const;
+  Eigen::Vector3f Albedo(std::size_t sample, Samples& samples) const;
   void AddLight(const Light& light, Samples& samples) const;
 
   const RayCaster& caster_;

@@ -2,26 +2,17 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "core/base/image.h"
 #include "core/base/result.h"
 #include "core/geometry/rigid.h"
 #include "core/objects/valve_model.h"
+#include "core/simulation/board_stand.h"
+#include "core/simulation/material.h"
 
 namespace foresight {
-
-/// How a surface answers light and laser.
-struct Material {
-  Eigen::Vector3d color = {0.6, 0.6, 0.6};  ///< linear reflectance, 0 to 1
-  enum class Pattern { kPlain, kChecker, kStripes, kNoise, kBrick } pattern = Pattern::kPlain;
-  Eigen::Vector3d color2 = {0.4, 0.4, 0.4};  ///< the pattern's other colour
-  double pattern_size_m = 0.1;
-  double lidar_reflectance = 0.5;  ///< at the laser's wavelength
-  double specular = 0.0;           ///< fraction that is mirrored away: such a return may be lost
-  double emission = 0.0;           ///< light of its own; 1 = as bright as white under light 1
-};
 
 /// One triangle mesh in the robot's frame; every solid of a scene is made into one.
 struct SceneMesh {
@@ -30,6 +21,9 @@ struct SceneMesh {
   std::vector<Eigen::Vector3i> triangles;
   Material material;
   Rigid<frame::Robot, frame::Object> robot_from_object;  ///< where the pattern is fixed
+  /// What is printed on the side that -z of the object looks from, in `color` (paper) and `color2`
+  /// (ink) in place of the material's pattern; nullptr = nothing.
+  std::shared_ptr<const BoardFace> face = {};
 };
 
 /// What a scene knows to be true of an object in it.
@@ -54,6 +48,13 @@ struct BlockTruth {
   Eigen::Vector3d size_m;
 };
 
+struct BoardTruth {
+  std::string name;
+  CalibrationBoard board;  ///< as drawn
+  Rigid<frame::Robot, frame::Pattern> robot_from_pattern;
+  std::vector<Eigen::Vector3d> corners;  ///< as printed, in pattern
+};
+
 struct Light {
   Eigen::Vector3d position_m = {0.0, 0.0, 2.5};  ///< in robot
   double intensity = 1.0;                        ///< 1 = a well lit room at 2 m
@@ -68,6 +69,10 @@ struct Scene {
   std::vector<ValveTruth> valves;
   std::vector<DrillTruth> drills;
   std::vector<BlockTruth> blocks;
+  std::vector<BoardTruth> boards;
+  // What somebody carries from place to place. None of it is in `meshes` before AtPlace.
+  std::vector<BoardStand> stands;
+  std::vector<StandPlace> places;
 };
 
 /// Reads a scene file, docs/simulation.md. Fails with kBadData, naming the file and the line; an

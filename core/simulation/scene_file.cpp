@@ -4,6 +4,7 @@
 #include "core/base/atomic_file.h"
 #include "core/geometry/angles.h"
 #include "core/io/yaml_reader.h"
+#include "core/simulation/board_stand.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/scene_objects.h"
 #include "core/simulation/shapes.h"
@@ -19,6 +20,7 @@ constexpr int kFormatVersion = 1;
 constexpr double kFarthest_m = 1000.0;
 /// Of lights and of what glows: 1 is a well lit room.
 constexpr double kBrightest = 1e6;
+constexpr std::size_t kMostPlaces = 1000;
 
 /// A number in (0, kFarthest_m]: lengths, and factors that make lengths.
 double Positive(YamlMap& map, const std::string& key) {
@@ -71,16 +73,54 @@ Eigen::Vector3d Color(YamlMap& map, const std::string& key, const Eigen::Vector3
   return value;
 }
 
+Eigen::Quaterniond RotationOf(YamlMap& map) {
+  const Eigen::Vector3d rpy_deg = map.Vector("rpy_deg", Eigen::Vector3d::Zero());
+  return Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.z()), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.y()), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.x()), Eigen::Vector3d::UnitX());
+}
+
 Pose PoseOf(YamlMap& map) {
   const Eigen::Vector3d position = map.Has("position_m")
                                        ? Place(map, "position_m")
                                        : map.Vector("position_m", Eigen::Vector3d::Zero());
-  const Eigen::Vector3d rpy_deg = map.Vector("rpy_deg", Eigen::Vector3d::Zero());
-  const Eigen::Quaterniond rotation =
-      Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.z()), Eigen::Vector3d::UnitZ()) *
-      Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.y()), Eigen::Vector3d::UnitY()) *
-      Eigen::AngleAxisd(RadiansFromDegrees(rpy_deg.x()), Eigen::Vector3d::UnitX());
-  return {rotation, position};
+  return {RotationOf(map), position};
+}
+
+/// `quaternion_wxyz` and `translation_m`.
+template <class To, class From>
+Rigid<To, From> RigidOf(YamlMap map) {
+  const std::vector<double> q = map.Numbers("quaternion_wxyz", 4);
+  const Eigen::Vector3d t = Place(map, "translation_m");
+  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(rotation.norm() - 1.0) <= 1e-3))
+    map.Fault(map.Node("quaternion_wxyz"), "'quaternion_wxyz' does not have length 1");
+  map.Finish();
+  return {rotation.normalized(), t};
+}
+
+PrintErrors PrintOf(YamlMap map) {
+  PrintErrors errors;
+  const auto two = [&](const char* key, const Eigen::Vector2d& fallback) {
+    if (!map.Has(key)) return fallback;
+    const std::vector<double> values = map.Numbers(key, 2);
+    return Eigen::Vector2d(values[0], values[1]);
+  };
+  errors.scale = two("scale", errors.scale);
+  errors.corner_jitter_m = 1e-3 * map.Number("corner_jitter_mm", 0.0);
+  errors.seed = static_cast<std::uint64_t>(std::max(0, map.Integer("seed", 1)));
+  const Eigen::Vector2d warp_m = 1e-3 * two("warp_mm", Eigen::Vector2d::Zero());
+  errors.warp = {warp_m.x(), warp_m.y()};
+  map.Finish();
+  return errors;
+}
+
+/// By the stand's middle and how it is turned, or as a pose of its first board.
+Rigid<frame::Robot, frame::Pattern> StandPoseOf(YamlMap& map, const BoardStand& stand) {
+  if (map.Has("robot_from_stand"))
+    return RigidOf<frame::Robot, frame::Pattern>(map.Map("robot_from_stand"));
+  const Eigen::Vector3d position_m = Place(map, "position_m");
+  return StandPose(stand, position_m, RotationOf(map));
 }
 
 Material::Pattern PatternOf(YamlMap& map) {
@@ -135,6 +175,11 @@ class SceneReader {
     ReadMaterials();
     for (YamlMap& entry : map_.List("solids")) ReadSolid(entry);
     for (YamlMap& entry : map_.List("objects")) ReadObject(entry);
+    for (YamlMap& entry : map_.List("stands")) {
+      scene_.stands.push_back(StandOf(entry));
+      entry.Finish();
+    }
+    for (YamlMap& entry : map_.List("places")) ReadPlace(entry);
     map_.Finish();
     return std::move(scene_);
   }
@@ -166,6 +211,9 @@ class SceneReader {
   void ReadValve(YamlMap& map);
   void ReadDrill(YamlMap& map);
   void ReadBlock(YamlMap& map);
+  BoardObject BoardOf(YamlMap& map, const std::string& key) const;
+  BoardStand StandOf(YamlMap& map) const;
+  void ReadPlace(YamlMap& map);
 
   YamlMap& map_;
   Scene scene_;
@@ -235,8 +283,13 @@ void SceneReader::ReadObject(YamlMap& map) {
     ReadDrill(map);
   } else if (kind == "block") {
     ReadBlock(map);
+  } else if (kind == "stand") {
+    const BoardStand stand = StandOf(map);
+    const Rigid<frame::Robot, frame::Pattern> pose = StandPoseOf(map, stand);
+    map.Finish();
+    AddStand(stand, pose, scene_);
   } else {
-    map.Fault(map.Node("kind"), "object '" + kind + "' is not valve, drill or block");
+    map.Fault(map.Node("kind"), "object '" + kind + "' is not valve, drill, block or stand");
   }
 }
 
@@ -289,6 +342,51 @@ void SceneReader::ReadBlock(YamlMap& map) {
   block.material = Named(map, "material");
   map.Finish();
   AddBlock(block, scene_);
+}
+
+BoardObject SceneReader::BoardOf(YamlMap& map, const std::string& key) const {
+  BoardObject object;
+  const auto board = CalibrationBoardFromText(map.Text(key));
+  if (!board) map.Fault(map.Node(key), board.error().message);
+  object.board = *board;
+  if (map.Has(key + "_print")) object.errors = PrintOf(map.Map(key + "_print"));
+  object.margin_m = 1e-3 * map.Number("margin_mm", 1e3 * object.margin_m);
+  object.material = Named(map, "material");
+  if (const Status status = object.Check(); !status)
+    map.Fault(map.Node(key), status.error().message);
+  return object;
+}
+
+BoardStand SceneReader::StandOf(YamlMap& map) const {
+  BoardStand stand;
+  stand.name = map.Text("name", "stand");
+  stand.a = BoardOf(map, "a");
+  if (!map.Has("b")) return stand;
+  stand.b = BoardOf(map, "b");
+  if (map.Has("a_from_b"))
+    stand.a_from_b = RigidOf<frame::Pattern, frame::Pattern>(map.Map("a_from_b"));
+  else
+    stand.a_from_b =
+        HingedMount(stand.a.board, stand.b->board, 1e-3 * map.Number("hinge_mm", 1e3 * kHinge_m))
+            .a_from_b;
+  if (!(stand.a_from_b.translation().norm() <= 10.0)) map.Fault("the boards are over 10 m apart");
+  return stand;
+}
+
+void SceneReader::ReadPlace(YamlMap& map) {
+  StandPlace place;
+  place.name = map.Text("name", fmt::format("place {}", scene_.places.size() + 1));
+  const std::string name = map.Text("stand");
+  const auto found = std::find_if(scene_.stands.begin(), scene_.stands.end(),
+                                  [&](const BoardStand& stand) { return stand.name == name; });
+  if (found == scene_.stands.end())
+    map.Fault(map.Node("stand"), "stand '" + name + "' is not among the stands");
+  place.stand = static_cast<int>(found - scene_.stands.begin());
+  place.robot_from_stand = StandPoseOf(map, *found);
+  map.Finish();
+  if (scene_.places.size() == kMostPlaces)
+    map.Fault(fmt::format("more than {} places", kMostPlaces));
+  scene_.places.push_back(std::move(place));
 }
 
 }  // namespace

@@ -90,14 +90,29 @@ SurfaceColor::SurfaceColor(const Scene& scene) {
                        material.color2.cast<float>(),
                        static_cast<float>(1.0 / material.pattern_size_m),
                        mesh.robot_from_object.RotationMatrix().transpose().cast<float>(),
-                       mesh.robot_from_object.translation().cast<float>()});
+                       mesh.robot_from_object.translation().cast<float>(), mesh.face.get()});
   }
+}
+
+bool SurfaceColor::IsPrinted(int mesh, const Eigen::Vector3f& normal) const {
+  const Paint& paint = paints_[static_cast<std::size_t>(mesh)];
+  return paint.face != nullptr && paint.object_from_robot.row(2).dot(normal) < 0.0f;
+}
+
+Eigen::Vector3f SurfaceColor::MeanOfPrint(int mesh,
+                                          const std::array<Eigen::Vector3f, 4>& points) const {
+  const Paint& paint = paints_[static_cast<std::size_t>(mesh)];
+  const float white = paint.face->WhiteIn({paint.OnFace(points[0]), paint.OnFace(points[1]),
+                                           paint.OnFace(points[2]), paint.OnFace(points[3])});
+  return white * paint.color + (1.0f - white) * paint.color2;
 }
 
 Eigen::Vector3f SurfaceColor::At(int mesh, const Eigen::Vector3f& point,
                                  const Eigen::Vector3f& normal, Neighbourhood* near) const {
   const Paint& paint = paints_[static_cast<std::size_t>(mesh)];
-  if (paint.pattern == Material::Pattern::kPlain) return paint.color;
+  if (IsPrinted(mesh, normal))
+    return paint.face->WhiteAt(paint.OnFace(point)) ? paint.color : paint.color2;
+  if (paint.face != nullptr || paint.pattern == Material::Pattern::kPlain) return paint.color;
   // Half a millimetre off the lattice: faces on a cell's border would flicker between both colours.
   const Eigen::Vector3f p = paint.per_metre * (paint.object_from_robot * (point - paint.origin) +
                                                Eigen::Vector3f::Constant(0.0005f));

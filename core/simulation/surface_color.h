@@ -8,7 +8,8 @@
 
 namespace foresight {
 
-/// The colours of a scene's surfaces, with their procedural patterns, ready for many look-ups.
+/// The colours of a scene's surfaces, with their procedural patterns and prints, ready for many
+/// look-ups. The scene outlives it.
 class SurfaceColor {
  public:
   explicit SurfaceColor(const Scene& scene);
@@ -28,6 +29,11 @@ class SurfaceColor {
   Eigen::Vector3f At(int mesh, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                      Neighbourhood* near) const;
 
+  /// Whether a mesh's print is on the side that `normal` points from.
+  bool IsPrinted(int mesh, const Eigen::Vector3f& normal) const;
+  /// The mean over a small quadrilateral of a printed side.
+  Eigen::Vector3f MeanOfPrint(int mesh, const std::array<Eigen::Vector3f, 4>& points) const;
+
  private:
   struct Paint {
     Material::Pattern pattern;
@@ -36,6 +42,11 @@ class SurfaceColor {
     float per_metre;  ///< pattern cells
     Eigen::Matrix3f object_from_robot;
     Eigen::Vector3f origin;  ///< of the object's frame, in robot
+    const BoardFace* face;   ///< of the scene; nullptr = no print
+
+    Eigen::Vector2f OnFace(const Eigen::Vector3f& point) const {
+      return (object_from_robot * (point - origin)).head<2>();
+    }
   };
   std::vector<Paint> paints_;
 };

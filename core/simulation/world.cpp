@@ -1,6 +1,7 @@
 #include "core/simulation/world.h"
 
 #include <limits>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -29,16 +30,29 @@ std::shared_ptr<const Scene> Checked(std::shared_ptr<const Scene> scene, const S
 
 }  // namespace
 
+/// The scene with its stand at one place, ready to be looked at.
+struct ShownScene {
+  ShownScene(const std::shared_ptr<const Scene>& from, int at, const SensorRig& rig,
+             const WorldOptions& options)
+      : place(at),
+        caster(at == 0 ? from : std::make_shared<const Scene>(AtPlace(*from, at))),
+        lidar(caster, rig, options.lidar, options.seed),
+        renderer(caster, rig.camera, options.camera.samples_side) {}
+
+  const int place;
+  RayCaster caster;
+  LidarSimulator lidar;
+  ImageRenderer renderer;
+};
+
 struct World::Impl {
   Impl(std::shared_ptr<const Scene> from, const SensorRig& true_rig, const WorldOptions& with)
       : scene(Checked(std::move(from), true_rig, with)),
         rig(true_rig),
         options(with),
-        caster(scene),
         motor(with.motor, with.seed),
-        lidar(caster, true_rig, with.lidar, with.seed),
-        renderer(caster, true_rig.camera, with.camera.samples_side),
-        sensor(true_rig.camera, with.camera, with.seed) {}
+        sensor(true_rig.camera, with.camera, with.seed),
+        shown(Show(scene->places.empty() ? 0 : 1)) {}
 
   double Jitter(NoisePurpose purpose, std::int64_t seq) const {
     if (!options.motor.enabled) return 0.0;
@@ -47,15 +61,21 @@ struct World::Impl {
   Rigid<frame::Robot, frame::Camera> RobotFromCamera(double plate_rad) const {
     return rig.robot_from_base * HeadFromBase(plate_rad).Inverse() * rig.camera_from_head.Inverse();
   }
+  std::shared_ptr<const ShownScene> Show(int place) const {
+    return std::make_shared<const ShownScene>(scene, place, rig, options);
+  }
+  std::shared_ptr<const ShownScene> Shown() const {
+    const std::lock_guard lock(mutex);
+    return shown;
+  }
 
   std::shared_ptr<const Scene> scene;
   SensorRig rig;
   WorldOptions options;
-  RayCaster caster;
   MotorSimulator motor;
-  LidarSimulator lidar;
-  ImageRenderer renderer;
   ImageSensor sensor;
+  mutable std::mutex mutex;  ///< guards what follows
+  mutable std::shared_ptr<const ShownScene> shown;
 };
 
 World::World(std::shared_ptr<const Scene> scene, const SensorRig& true_rig,
@@ -72,6 +92,21 @@ const SensorRig& World::true_rig() const {
 
 const WorldOptions& World::options() const {
   return impl_->options;
+}
+
+Status World::MoveStand(int place) const {
+  const auto places = static_cast<int>(impl_->scene->places.size());
+  if (place < 0 || place > places)
+    return Fail(ErrorCode::kInvalidInput, "scene '{}': there is no place {}; it has {}",
+                impl_->scene->name, place, places);
+  auto shown = impl_->Show(place);
+  const std::lock_guard lock(impl_->mutex);
+  impl_->shown = std::move(shown);
+  return {};
+}
+
+int World::StandAt() const {
+  return impl_->Shown()->place;
 }
 
 double World::PlateAngle(double motor_rad, bool moving_up) const {
@@ -92,7 +127,7 @@ LidarLine World::MeasureLine(std::int64_t seq, double time_s,
   const bool moving_up = motor_rad_at(time_s + lidar.BeamTime(lidar.beams - 1)) >=
                          motor_rad_at(time_s + lidar.BeamTime(0));
   const double jitter_rad = impl_->Jitter(NoisePurpose::kLidarJitter, seq);
-  return impl_->lidar.Measure(seq, time_s, [&](double beam_time_s) {
+  return impl_->Shown()->lidar.Measure(seq, time_s, [&](double beam_time_s) {
     return PlateAngle(motor_rad_at(beam_time_s), moving_up) + jitter_rad;
   });
 }
@@ -120,9 +155,10 @@ CameraFrame World::CaptureImage(std::int64_t seq, double time_s, double exposure
   const CameraModel& camera = impl_->rig.camera;
   const auto width = static_cast<std::size_t>(camera.width);
   ColorImage image(camera.width, camera.height);
+  const auto shown = impl_->Shown();
   const bool finished = ParallelFor(camera.height, context, [&](int y) {
     std::vector<Eigen::Vector3f> light(width);
-    impl_->renderer.RenderRow(motion, y, light);
+    shown->renderer.RenderRow(motion, y, light);
     impl_->sensor.ExposeRow(seq, y, exposure_s, gain_db, light, {image.row(y), width});
   });
   if (finished) frame.image = std::move(image);
@@ -133,8 +169,9 @@ DepthImage World::TrueDepth(double motor_rad, const RunContext& context) const {
   const CameraModel& camera = impl_->rig.camera;
   const auto robot_from_camera = impl_->RobotFromCamera(PlateAngle(motor_rad, true));
   DepthImage depth(camera.width, camera.height);
+  const auto shown = impl_->Shown();
   const bool finished = ParallelFor(camera.height, context, [&](int y) {
-    impl_->renderer.RenderDepthRow(robot_from_camera, y,
+    shown->renderer.RenderDepthRow(robot_from_camera, y,
                                    {depth.row(y), static_cast<std::size_t>(camera.width)});
   });
   return finished ? depth : DepthImage();
@@ -145,7 +182,8 @@ MaskImage World::SeenByLidar(const DepthImage& true_depth_m, double motor_rad, d
   const CameraModel& camera = impl_->rig.camera;
   FORESIGHT_EXPECTS(true_depth_m.width() == camera.width && true_depth_m.height() == camera.height,
                     "the true depth is of the head's camera");
-  const LidarView view(impl_->caster, impl_->rig, PlateAngle(from_rad, true),
+  const auto shown = impl_->Shown();
+  const LidarView view(shown->caster, impl_->rig, PlateAngle(from_rad, true),
                        PlateAngle(to_rad, true));
   const auto robot_from_camera = impl_->RobotFromCamera(PlateAngle(motor_rad, true));
   const Eigen::Vector3d nowhere =

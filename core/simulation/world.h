@@ -24,9 +24,16 @@ class World {
   /// is not used (the plate follows PlateAngle). Rig and options have passed their Check().
   World(std::shared_ptr<const Scene> scene, const SensorRig& true_rig, const WorldOptions& options);
 
+  /// As it was given: without stands.
   const Scene& scene() const;
   const SensorRig& true_rig() const;
   const WorldOptions& options() const;
+
+  /// Puts a stand to one of the scene's places, from 1, at once; 0 = all stands are away. All
+  /// copies see it; what is being measured is measured at one place. A scene with places begins at
+  /// the first. Fails with kInvalidInput where there is no such place.
+  Status MoveStand(int place) const;
+  int StandAt() const;
 
   /// Where the plate really is when the motor's shaft is at `motor_rad`, moving up or down.
   double PlateAngle(double motor_rad, bool moving_up) const;

@@ -1,5 +1,7 @@
 #include "hardware/api/live_view.h"
 
+#include "core/sensor/exposure.h"
+
 namespace foresight {
 
 Status LiveViewOptions::Check() const {
@@ -16,11 +18,7 @@ Status LiveViewOptions::Check() const {
     return Fail(ErrorCode::kInvalidOptions,
                 "part: {} x {} pixels at ({}, {}) is no part of an image", part->width,
                 part->height, part->left, part->top);
-  if (!(exposure_s > 0.0 && exposure_s <= 1.0))
-    return Fail(ErrorCode::kInvalidOptions, "exposure_s: {} is not within 0 to 1 s", exposure_s);
-  if (!(gain_db >= 0.0 && gain_db <= 48.0))
-    return Fail(ErrorCode::kInvalidOptions, "gain_db: {} is not within 0 to 48", gain_db);
-  return {};
+  return CheckExposure(exposure_s, gain_db);
 }
 
 }  // namespace foresight

@@ -1,5 +1,7 @@
 #include "hardware/api/stop_capture.h"
 
+#include "core/geometry/angles.h"
+#include "core/sensor/exposure.h"
 #include "core/sensor/scan_plan.h"
 
 namespace foresight {
@@ -12,16 +14,12 @@ Status StopPlan::Check() const {
     if (!(angle_rad >= ScanPlan::kMinAngle_rad && angle_rad <= ScanPlan::kMaxAngle_rad))
       return Fail(ErrorCode::kInvalidOptions,
                   "angles_rad: a stop at {:.2f} deg is not within -90 to 90",
-                  57.29577951308232 * angle_rad);
+                  DegreesFromRadians(angle_rad));
   if (lines < 0 || lines > kMostLines)
     return Fail(ErrorCode::kInvalidOptions, "lines: {} is not within 0 to {}", lines, kMostLines);
   if (lines == 0 && !image)
     return Fail(ErrorCode::kInvalidOptions, "lines: neither lines nor an image are asked for");
-  if (!(exposure_s > 0.0 && exposure_s <= 1.0))
-    return Fail(ErrorCode::kInvalidOptions, "exposure_s: {} is not within 0 to 1 s", exposure_s);
-  if (!(gain_db >= 0.0 && gain_db <= 48.0))
-    return Fail(ErrorCode::kInvalidOptions, "gain_db: {} is not within 0 to 48", gain_db);
-  return {};
+  return CheckExposure(exposure_s, gain_db);
 }
 
 }  // namespace foresight

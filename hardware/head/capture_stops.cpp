@@ -9,7 +9,6 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{5};
-constexpr double kStandstillTimeout_s = 10.0;
 /// A plate that moves by more between two captures at one stop is held by nothing.
 constexpr double kStands_rad = 0.0034906585039886592;  // 0.2 deg
 
@@ -21,7 +20,7 @@ CaptureStops::CaptureStops(HeadDevices& devices, const CaptureOptions& options,
     : devices_(devices),
       options_(options),
       plan_(plan),
-      encoder_(encoder),
+      moves_(devices, options, encoder),
       sink_(sink),
       hooks_(std::move(hooks)) {}
 
@@ -52,39 +51,17 @@ CaptureStops::Step CaptureStops::RunThrough() {
   }
   for (const double angle_rad : plan_.angles_rad) {
     if (Step end = GoTo(angle_rad)) return end;
-    if (Step end = StandFor(options_.settle_s)) return end;
     if (Step end = Capture(angle_rad)) return end;
   }
   return std::nullopt;
 }
 
+/// And stands there until nothing swings any more.
 CaptureStops::Step CaptureStops::GoTo(double angle_rad) {
-  encoder_.ExpectAnyMotion(options_.travel_speed_rad_s);
-  if (const Status moving = devices_.motor->StartMove(angle_rad, options_.travel_speed_rad_s);
-      !moving)
-    return DeviceFailed(moving.error().message);
-  const double longest_way = ScanPlan::kMaxAngle_rad - ScanPlan::kMinAngle_rad;
-  const double deadline_s =
-      Now() + kStandstillTimeout_s + 2.0 * longest_way / options_.travel_speed_rad_s;
-  for (;;) {
-    if (Step end = Look()) return end;
-    const Result<bool> moving = devices_.motor->Moving();
-    if (!moving) return DeviceFailed(moving.error().message);
-    if (!*moving) return std::nullopt;
-    if (Now() > deadline_s)
-      return DeviceFailed(fmt::format("{}: did not come to rest at {:.2f} deg",
-                                      devices_.motor->Describe(), DegreesFromRadians(angle_rad)));
-    devices_.clock->Sleep(kPoll);
-  }
-}
-
-CaptureStops::Step CaptureStops::StandFor(double seconds) {
-  const double end_s = Now() + seconds;
-  while (Now() < end_s) {
-    if (Step end = Look()) return end;
-    devices_.clock->Sleep(kPoll);
-  }
-  return std::nullopt;
+  const auto look = [this] { return Look(); };
+  if (Step failed = moves_.Start(angle_rad, options_.travel_speed_rad_s)) return failed;
+  if (Step end = moves_.WaitForStandstill(moves_.TravelTimeout(), look)) return end;
+  return moves_.StandFor(options_.settle_s, look);
 }
 
 CaptureStops::Step CaptureStops::Capture(double target_rad) {
@@ -183,9 +160,7 @@ CaptureStops::Step CaptureStops::TellStop(StopCapture* capture) {
 /// What is looked at all the time: whether to go on, and how the motor does.
 CaptureStops::Step CaptureStops::Look() {
   if (Step end = hooks_.interruption()) return end;
-  const Result<MotorSample> position = devices_.motor->Position();
-  if (!position) return DeviceFailed(position.error().message);
-  progress_.position = *position;
+  if (Step failed = moves_.ReadPosition(&progress_.position)) return failed;
   if (Step end = PumpTrack()) return end;
   progress_.state = HeadState::kSweeping;
   hooks_.report(progress_);
@@ -193,16 +168,10 @@ CaptureStops::Step CaptureStops::Look() {
 }
 
 CaptureStops::Step CaptureStops::PumpTrack() {
-  for (const MotorSample& sample : devices_.motor->TakeTrack()) {
-    if (const auto impossible = encoder_.Check(sample))
-      return DeviceFailed(fmt::format("{}: {}", devices_.motor->Describe(), *impossible));
-    if (sample.time_s >= stands_since_s_) standing_.push_back(sample);
-  }
-  return std::nullopt;
-}
-
-CaptureStops::Step CaptureStops::DeviceFailed(const std::string& message) const {
-  return SweepEnd{ScanState::kInterrupted, message, true, false};
+  return moves_.TakeTrack([this](const std::vector<MotorSample>& samples) {
+    for (const MotorSample& sample : samples)
+      if (sample.time_s >= stands_since_s_) standing_.push_back(sample);
+  });
 }
 
 }  // namespace foresight

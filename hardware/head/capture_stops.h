@@ -23,25 +23,25 @@ class CaptureStops {
   SweepEnd Run();
 
  private:
-  /// nullopt: go on.
-  using Step = std::optional<SweepEnd>;
+  using Step = MotorMoves::Step;
 
   Step RunThrough();
   Step GoTo(double angle_rad);
-  Step StandFor(double seconds);
   Step Capture(double target_rad);
   Step ReceiveLine(StopCapture* capture);
   void ReceiveImage(StopCapture* capture);
   Step TellStop(StopCapture* capture);
   Step Look();
   Step PumpTrack();
-  Step DeviceFailed(const std::string& message) const;
+  static SweepEnd DeviceFailed(const std::string& message) {
+    return MotorMoves::DeviceFailed(message);
+  }
   double Now() const { return devices_.clock->Now(); }
 
   HeadDevices& devices_;
   const CaptureOptions& options_;
   const StopPlan plan_;
-  EncoderWatch& encoder_;
+  MotorMoves moves_;
   StopSink& sink_;
   CaptureSweep::Hooks hooks_;
 

@@ -10,7 +10,6 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::microseconds kPoll{5000};
-constexpr double kStandstillTimeout_s = 10.0;
 /// The last lines still arrive after the motor has come to rest.
 constexpr double kLateLines_s = 0.3;
 /// A GigE camera that does not answer is given up after five tries of half a second, twice.
@@ -33,6 +32,7 @@ CaptureSweep::CaptureSweep(HeadDevices& devices, const CaptureOptions& options, 
       plan_(header.plan),
       header_(header),
       encoder_(encoder),
+      moves_(devices, options, encoder),
       sink_(sink),
       hooks_(std::move(hooks)),
       exposure_s_(ExposureOnHead(plan_, header.rig)),
@@ -88,21 +88,10 @@ CaptureSweep::Step CaptureSweep::CheckInterruption() {
   return std::nullopt;
 }
 
-CaptureSweep::Step CaptureSweep::StartMove(double angle_rad, double speed_rad_s) {
-  encoder_.ExpectAnyMotion(speed_rad_s);
-  if (const Status moving = devices_.motor->StartMove(angle_rad, speed_rad_s); !moving)
-    return DeviceFailed(moving.error().message);
-  return std::nullopt;
-}
-
 void CaptureSweep::StopLidar() {
   if (lidar_health_) return;
   lidar_health_ = devices_.lidar->Health();
   devices_.lidar->Stop();
-}
-
-SweepEnd CaptureSweep::DeviceFailed(const std::string& message) const {
-  return {ScanState::kInterrupted, message, true, false};
 }
 
 CaptureSweep::Step CaptureSweep::MoveToStart() {
@@ -110,33 +99,21 @@ CaptureSweep::Step CaptureSweep::MoveToStart() {
   const Status configured = devices_.camera->Configure({exposure_s_, plan_.gain_db});
   if (!configured) return DeviceFailed(configured.error().message);
   const double start = plan_.from_rad - sign_ * options_.RunUp(plan_.speed_rad_s);
-  if (Step failed = StartMove(start, options_.travel_speed_rad_s)) return failed;
-  return WaitForStandstill(TravelTimeout());
-}
-
-double CaptureSweep::TravelTimeout() const {
-  const double longest_way = ScanPlan::kMaxAngle_rad - ScanPlan::kMinAngle_rad;
-  return kStandstillTimeout_s + 2.0 * longest_way / options_.travel_speed_rad_s;
+  if (Step failed = moves_.Start(start, options_.travel_speed_rad_s)) return failed;
+  return WaitForStandstill(moves_.TravelTimeout());
 }
 
 CaptureSweep::Step CaptureSweep::WaitForStandstill(double timeout_s) {
-  const double deadline_s = Now() + timeout_s;
   const bool ending = progress_.state == HeadState::kStopping;
-  for (;;) {
+  return moves_.WaitForStandstill(timeout_s, [&]() -> Step {
     // On its way to rest nothing can stop the motor any sooner.
     if (!ending)
       if (Step end = CheckInterruption()) return end;
     if (const Step failed = CheckMotor()) return failed;
     if (const Step failed = PumpTrack(); failed && !ending) return failed;
-    const Result<bool> moving = devices_.motor->Moving();
-    if (!moving) return DeviceFailed(moving.error().message);
-    if (!*moving) return std::nullopt;
-    if (Now() > deadline_s)
-      return DeviceFailed(fmt::format("{}: did not come to rest within {:.0f} s",
-                                      devices_.motor->Describe(), timeout_s));
-    devices_.clock->Sleep(kPoll);
     Report(progress_.state);
-  }
+    return std::nullopt;
+  });
 }
 
 CaptureSweep::Step CaptureSweep::SweepThrough() {
@@ -159,7 +136,7 @@ CaptureSweep::Step CaptureSweep::SweepPass(int pass) {
   }
   const double run_out = sign_ * options_.RunUp(plan_.speed_rad_s);
   const double end = back ? plan_.from_rad - run_out : plan_.to_rad + run_out;
-  if (Step failed = StartMove(end, plan_.speed_rad_s)) return failed;
+  if (Step failed = moves_.Start(end, plan_.speed_rad_s)) return failed;
   encoder_.ExpectMotion(back ? -sign_ : sign_, plan_.speed_rad_s);
   pass_end_rad_ = end;
   stopped_since_s_.reset();
@@ -170,7 +147,7 @@ CaptureSweep::Step CaptureSweep::SweepPass(int pass) {
 
 /// Until the motor stands behind the scope. The lines of the turn belong to no pass.
 CaptureSweep::Step CaptureSweep::WaitForTurn() {
-  const double deadline_s = Now() + kStandstillTimeout_s;
+  const double deadline_s = Now() + MotorMoves::kStandstillTimeout_s;
   for (;;) {
     if (Step end = CheckInterruption()) return end;
     if (Step failed = CheckMotor()) return failed;
@@ -179,7 +156,8 @@ CaptureSweep::Step CaptureSweep::WaitForTurn() {
     if (!*moving) return std::nullopt;
     if (Now() > deadline_s)
       return DeviceFailed(fmt::format("{}: did not come to rest within {:.0f} s",
-                                      devices_.motor->Describe(), kStandstillTimeout_s));
+                                      devices_.motor->Describe(),
+                                      MotorMoves::kStandstillTimeout_s));
     if (Step end = ReceiveLine(std::chrono::duration<double>(kPoll).count())) return end;
     if (Step failed = PumpTrack()) return failed;
     HandOnLines();
@@ -205,10 +183,7 @@ CaptureSweep::Step CaptureSweep::SweepOnce() {
 }
 
 CaptureSweep::Step CaptureSweep::CheckMotor() {
-  const Result<MotorSample> position = devices_.motor->Position();
-  if (!position) return DeviceFailed(position.error().message);
-  progress_.position = *position;
-  return std::nullopt;
+  return moves_.ReadPosition(&progress_.position);
 }
 
 /// Takes the images whose angle the motor is passing; `free_s` is the time until the next one.
@@ -333,7 +308,7 @@ void CaptureSweep::DrainLines() {
 CaptureSweep::Step CaptureSweep::ComeToRest(Step end) {
   Report(HeadState::kStopping);
   if (end) devices_.motor->QuickStop();
-  const Step failed = WaitForStandstill(kStandstillTimeout_s);
+  const Step failed = WaitForStandstill(MotorMoves::kStandstillTimeout_s);
   return end ? end : failed;
 }
 
@@ -378,8 +353,8 @@ CaptureSweep::Step CaptureSweep::ShootAtRest(std::vector<std::size_t> images) {
 
 /// Waits for a camera that does not take the trigger; `taken` tells whether it did in the end.
 CaptureSweep::Step CaptureSweep::ShootAtRest(std::size_t image, bool* taken) {
-  if (Step failed = StartMove(images_.Angle(image), options_.travel_speed_rad_s)) return failed;
-  if (Step end = WaitForStandstill(TravelTimeout())) return end;
+  if (Step failed = moves_.Start(images_.Angle(image), options_.travel_speed_rad_s)) return failed;
+  if (Step end = WaitForStandstill(moves_.TravelTimeout())) return end;
   if (Step end = StandFor(options_.settle_s)) return end;
   const double deadline_s = Now() + options_.camera_timeout_s;
   while (!(*taken = images_.Trigger(image)) && Now() < deadline_s)
@@ -388,15 +363,13 @@ CaptureSweep::Step CaptureSweep::ShootAtRest(std::size_t image, bool* taken) {
 }
 
 CaptureSweep::Step CaptureSweep::StandFor(double seconds) {
-  const double end_s = Now() + seconds;
-  while (Now() < end_s) {
+  return moves_.StandFor(seconds, [&]() -> Step {
     if (Step end = CheckInterruption()) return end;
     if (Step failed = CheckMotor()) return failed;
-    devices_.clock->Sleep(kPoll);
     if (Step failed = PumpTrack()) return failed;
     Report(progress_.state);
-  }
-  return std::nullopt;
+    return std::nullopt;
+  });
 }
 
 /// Most of the lines that were planned must have come.
@@ -430,15 +403,10 @@ SweepEnd CaptureSweep::JudgeImages() {
   return end;
 }
 
-/// Fetches what the encoder said, up to what the motor cannot have done.
 CaptureSweep::Step CaptureSweep::PumpTrack() {
-  std::vector<MotorSample> samples = devices_.motor->TakeTrack();
-  std::optional<std::string> impossible;
-  for (std::size_t i = 0; i < samples.size() && !impossible; ++i)
-    if ((impossible = encoder_.Check(samples[i]))) samples.resize(i);
-  if (recording_ && !samples.empty()) KeepTrack(samples);
-  if (!impossible) return std::nullopt;
-  return DeviceFailed(fmt::format("{}: {}", devices_.motor->Describe(), *impossible));
+  return moves_.TakeTrack([this](const std::vector<MotorSample>& samples) {
+    if (recording_) KeepTrack(samples);
+  });
 }
 
 void CaptureSweep::KeepTrack(const std::vector<MotorSample>& samples) {

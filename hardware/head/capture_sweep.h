@@ -10,17 +10,10 @@
 #include "hardware/head/encoder_watch.h"
 #include "hardware/head/head_devices.h"
 #include "hardware/head/line_gate.h"
+#include "hardware/head/motor_moves.h"
 #include "hardware/head/sweep_images.h"
 
 namespace foresight {
-
-/// How a sweep came to its end.
-struct SweepEnd {
-  ScanState state = ScanState::kComplete;
-  std::string reason;
-  bool fault = false;          ///< a device failed: the head needs the operator
-  bool shutting_down = false;  ///< nothing may be waited for
-};
 
 /// What a running sweep tells its head.
 struct SweepProgress {
@@ -55,13 +48,11 @@ class CaptureSweep {
   SweepEnd Run();
 
  private:
-  /// nullopt: go on.
-  using Step = std::optional<SweepEnd>;
+  using Step = MotorMoves::Step;
 
   SweepEnd RunToTheEnd();
   Step MoveToStart();
   Step WaitForStandstill(double timeout_s);
-  double TravelTimeout() const;
   Step SweepThrough();
   Step SweepPass(int pass);
   Step SweepOnce();
@@ -71,7 +62,6 @@ class CaptureSweep {
   Step CheckStamp(const LidarLine& line);
   Step CheckArrival();
   Step CheckInterruption();
-  Step StartMove(double angle_rad, double speed_rad_s);
   void DrainLines();
   Step ComeToRest(Step end);
   Step CollectImages();
@@ -90,13 +80,16 @@ class CaptureSweep {
   void HandOnImages(bool all);
   void Report(HeadState state);
   double Now() const { return devices_.clock->Now(); }
-  SweepEnd DeviceFailed(const std::string& message) const;
+  static SweepEnd DeviceFailed(const std::string& message) {
+    return MotorMoves::DeviceFailed(message);
+  }
 
   HeadDevices& devices_;
   const CaptureOptions& options_;
   const ScanPlan plan_;
   const Scan& header_;
   EncoderWatch& encoder_;
+  MotorMoves moves_;
   ScanSink& sink_;
   Hooks hooks_;
 

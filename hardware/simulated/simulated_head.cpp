@@ -10,10 +10,13 @@ namespace foresight {
 Result<std::unique_ptr<SensorHead>> MakeSimulatedHead(std::shared_ptr<const Scene> scene,
                                                       const SimulatedHeadOptions& options) {
   FORESIGHT_CHECK(options.true_rig.Check());
+  return MakeSimulatedHead(
+      std::make_shared<const World>(std::move(scene), options.true_rig, options.world), options);
+}
+
+Result<std::unique_ptr<SensorHead>> MakeSimulatedHead(std::shared_ptr<const World> world,
+                                                      const SimulatedHeadOptions& options) {
   FORESIGHT_CHECK(options.believed_rig.Check());
-  const std::string scene_name = scene->name;
-  const auto world =
-      std::make_shared<const World>(std::move(scene), options.true_rig, options.world);
   const auto clock = std::make_shared<SimulatedClock>(options.speed);
   const auto shaft = std::make_shared<SimulatedShaft>(SimulatedMotor::kPowerOnAngle_rad);
   HeadDevices devices;
@@ -22,7 +25,8 @@ Result<std::unique_ptr<SensorHead>> MakeSimulatedHead(std::shared_ptr<const Scen
   devices.motor = std::make_unique<SimulatedMotor>(world, clock, shaft);
   devices.clock = clock;
   CaptureOptions capture;
-  capture.description = fmt::format("simulated: {}, seed {}", scene_name, options.world.seed);
+  capture.description =
+      fmt::format("simulated: {}, seed {}", world->scene().name, world->options().seed);
   capture.simulated = true;
   capture.acceleration_rad_s2 = SimulatedMotor::kAcceleration_rad_s2;
   capture.operator_timeout_s =

@@ -26,4 +26,9 @@ Result<std::unique_ptr<SensorHead>> MakeSimulatedHead(std::shared_ptr<const Scen
 Result<std::unique_ptr<SensorHead>> MakeSimulatedHead(const std::filesystem::path& scene_file,
                                                       const SimulatedHeadOptions& options);
 
+/// The same in a world that the caller keeps, e.g. to move its stand; the world's rig and options
+/// count, not those of `options`.
+Result<std::unique_ptr<SensorHead>> MakeSimulatedHead(std::shared_ptr<const World> world,
+                                                      const SimulatedHeadOptions& options);
+
 }  // namespace foresight

@@ -33,6 +33,25 @@ TEST(EmulateCommand, EndsByItselfWhenAsked) {
   EXPECT_THAT(result.output, testing::StartsWith("lidar 127.0.0.1:"));
 }
 
+TEST(EmulateCommand, MovesTheScenesStandAsItIsTold) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "scene.yaml";
+  std::ofstream(scene) << "foresight_scene: 1\nname: x\nmaterials: {paper: {}}\n"
+                          "stands: [{name: s, a: 'checkerboard:7x6:50', material: paper}]\n"
+                          "places: [{stand: s, position_m: [1, 0, 1]},\n"
+                          "         {stand: s, position_m: [2, 0, 1]}]\n";
+  const ProgramResult told = RunProgram(
+      "/bin/sh", {"-c", "printf 'place 2\nplace 3\njump\n' | " + std::string(FORESIGHTCTL) +
+                            " emulate " + scene + " --commands --seconds 1"});
+  EXPECT_EQ(told.exit_code, 0) << told.errors;
+  EXPECT_THAT(told.output, testing::HasSubstr("\nplace 2\nerror: scene 'x': there is no place 3; "
+                                              "it has 2\nerror: 'jump' is no command"));
+  const ProgramResult nowhere =
+      RunProgram(FORESIGHTCTL, {"emulate", scene, "--stand-place", "3", "--seconds", "0.05"});
+  EXPECT_EQ(nowhere.exit_code, 3);
+  EXPECT_THAT(nowhere.errors, testing::HasSubstr("no place 3"));
+}
+
 TEST(EmulateCommand, RefusesBadAddressesAndFaultPlans) {
   const TemporaryFolder folder;
   const std::string faults = folder / "faults.yaml";

@@ -2,7 +2,7 @@
 
 #include <QWidget>
 
-#include "core/calibration/calibration_board.h"
+#include "core/objects/calibration_board.h"
 
 class QComboBox;
 class QDoubleSpinBox;

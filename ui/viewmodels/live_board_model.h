@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/calibration/calibration_board.h"
+#include "core/objects/calibration_board.h"
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/task_runner.h"
 

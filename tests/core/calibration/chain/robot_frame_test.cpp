@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/atomic_file.h"
-#include "core/calibration/calibration_board.h"
+#include "core/objects/calibration_board.h"
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
 #include "tests/support/temporary_folder.h"

@@ -1,7 +1,8 @@
+#include "core/objects/marker_cells.h"
+
 #include <opencv2/aruco.hpp>
 
-#include "core/calibration/board_print.h"
-#include "core/calibration/predefined_dictionary.h"
+#include "core/objects/predefined_dictionary.h"
 
 namespace foresight {
 

@@ -3,7 +3,7 @@
 #include <opencv2/aruco.hpp>
 
 #include "core/base/contract.h"
-#include "core/calibration/calibration_board.h"
+#include "core/objects/calibration_board.h"
 
 namespace foresight {
 

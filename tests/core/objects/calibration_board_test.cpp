@@ -1,4 +1,4 @@
-#include "core/calibration/calibration_board.h"
+#include "core/objects/calibration_board.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

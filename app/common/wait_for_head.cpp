@@ -1,0 +1,44 @@
+#include "app/common/wait_for_head.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "app/common/interrupt_watcher.h"
+
+namespace foresight {
+namespace {
+
+constexpr std::chrono::milliseconds kPoll{5};
+
+}  // namespace
+
+HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
+                     const RunContext& context, const std::function<void()>& meanwhile) {
+  bool aborted = false;
+  for (;;) {
+    head.OperatorSeen();
+    const HeadStatus status = head.Status();
+    if (std::find(states.begin(), states.end(), status.state) == states.end()) return status;
+    if (context.Cancelled() && !aborted) {
+      aborted = true;
+      const std::string reason = InterruptReason();
+      head.EndScan(reason.empty() ? "the scan was cancelled" : reason);
+      if (status.state == HeadState::kHoming) head.StopMotor();
+    }
+    if (meanwhile) meanwhile();
+    std::this_thread::sleep_for(kPoll);
+  }
+}
+
+Status HomeAndWait(SensorHead& head, const RunContext& context) {
+  head.OperatorSeen();
+  FORESIGHT_CHECK(head.Home());
+  const HeadStatus status = WaitWhile(head, {HeadState::kHoming}, context);
+  if (status.state != HeadState::kReady)
+    return Fail(ErrorCode::kDevice, "the head is not ready after homing: {}{}{}", InterruptReason(),
+                InterruptReason().empty() ? "" : "; ", status.message);
+  return {};
+}
+
+}  // namespace foresight
