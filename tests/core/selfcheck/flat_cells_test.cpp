@@ -123,8 +123,10 @@ TEST(PlateCheck, FindsAnOffsetOfTheStampsFromUpAndDownAlone) {
 
 TEST(PlateCheck, AScanWithoutPlanesSaysSo) {
   Scan scan = ScanOfBox(DefaultSensorRig(), true);
-  for (std::size_t i = 0; i < scan.lines.size(); ++i)
-    std::fill(scan.lines.Edit(i).range_mm.begin(), scan.lines.Edit(i).range_mm.end(), 1);
+  for (std::size_t i = 0; i < scan.lines.size(); ++i) {
+    auto& ranges = scan.lines.Edit(i).range_mm;  // each call makes a copy
+    std::fill(ranges.begin(), ranges.end(), std::uint16_t{1});
+  }
   scan.lines.Edit(0).range_mm[540] = 2000;
   const auto check = Check(scan);
   ASSERT_FALSE(check);

@@ -70,8 +70,8 @@ void ExpectDerivatives(const ceres::CostFunction& cost, const std::vector<Parame
   ASSERT_TRUE(cost.Evaluate(Pointers(blocks).data(), residuals.data(), pointers.data()));
   ASSERT_GT(residuals.norm(), 0.1) << "a residual of 0 hides what scales with it";
   // Central differences of 1e-6: the cut-off error is 1e-12 of the third derivative, rounding
-  // 2e-16 / 1e-6 of the residuals, some times over.
-  constexpr double kStep = 1e-6, kRounding = 1e-9;
+  // 2e-16 / 1e-6 of coordinates that the residuals are some tens of times larger than.
+  constexpr double kStep = 1e-6, kRounding = 1e-8;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (Eigen::Index i = 0; i < blocks[b].StepSize(); ++i) {
       auto up = blocks, down = blocks;
