@@ -125,7 +125,7 @@ std::string NextPlace(const StandCoverage& coverage) {
   const auto add = [&text](const std::string& part) {
     if (!part.empty()) text += (text.empty() ? "the stand " : ", ") + part;
   };
-  add(SideWanted(coverage));
+  if (coverage.poses < kGoodPoses) add(SideWanted(coverage));
   add(HingeWanted(coverage));
   if (text.empty() && coverage.sweeps == 0)
     return "a sweep up and down where the stand is: it tells the offset of the lidar's time stamps";

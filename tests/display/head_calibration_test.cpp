@@ -72,7 +72,7 @@ TEST_F(HeadCalibrationDock, GoesFromASessionToARigInForceAndBackByClicks) {
   ASSERT_TRUE(Settled());
   ASSERT_TRUE(ClickOn("step2"));
   running.Settle();
-  auto* lamps = panel->findChild<StandLamps*>();
+  auto* lamps = Find<StandLamps>("recordLamps");
   const double green = FractionOf(lamps->grab().toImage(), [](const QColor& color) {
     return color.green() > color.red() + 60 && color.green() > color.blue();
   });

@@ -76,6 +76,7 @@ RecordPage::RecordPage(ChainCalibrationModel* model, QWidget* parent)
   images_->setAccessibleName(tr("Images for the camera alone"));
   images_->setToolTip(tr("Clear the mark of an image to leave it out; Ctrl+Z takes that back"));
   images_->setFixedHeight(120);
+  lamps_->setObjectName(QStringLiteral("recordLamps"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->setSpacing(6);
@@ -88,7 +89,7 @@ RecordPage::RecordPage(ChainCalibrationModel* model, QWidget* parent)
   row->setSpacing(6);
   row->addWidget(leave_out_, 0, 0);
   row->addWidget(leave_place_out_, 0, 1);
-  row->addWidget(again_, 0, 2);
+  row->addWidget(again_, 1, 0, 1, 2);
   layout->addLayout(row);
   layout->addWidget(images_title_);
   layout->addWidget(images_);

@@ -25,14 +25,15 @@ struct Limit {
   double limit;
   double scale;
   const char* unit;
+  bool over_all = false;  ///< root mean square of them, not the worst
 };
 const Limit kLimits[] = {
     {"axis turn", QT_TRANSLATE_NOOP("QObject", "The direction of the motor's axis"), 0.035,
      180.0 / M_PI, "deg"},
     {"axis shift", QT_TRANSLATE_NOOP("QObject", "The place of the motor's axis"), 0.8, 1000.0,
      "mm"},
-    {"plate angle", QT_TRANSLATE_NOOP("QObject", "The plate's angle at the worst stop"), 0.030,
-     180.0 / M_PI, "deg"},
+    {"plate angle", QT_TRANSLATE_NOOP("QObject", "Each angle of the plate"), 0.030, 180.0 / M_PI,
+     "deg", true},
     {"lidar turn", QT_TRANSLATE_NOOP("QObject", "The lidar's direction"), 0.100, 180.0 / M_PI,
      "deg"},
     {"lidar shift", QT_TRANSLATE_NOOP("QObject", "The lidar's place"), 2.0, 1000.0, "mm"},
@@ -42,15 +43,21 @@ const Limit kLimits[] = {
 
 void CheckDeviations(const ChainCovariance& covariance, std::vector<CalibrationCheck>* checks) {
   for (const Limit& limit : kLimits) {
-    double worst = -1.0;
-    for (std::size_t i = 0; i < covariance.unknowns.size(); ++i)
-      if (covariance.unknowns[i].name.starts_with(limit.prefix))
-        worst = std::max(worst, limit.scale * covariance.Sigma(static_cast<int>(i)));
-    if (worst < 0.0) continue;
-    checks->push_back({CalibrationCheck::LevelOf(worst, limit.limit, kUsable * limit.limit),
+    double worst = 0.0, squares = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < covariance.unknowns.size(); ++i) {
+      if (!covariance.unknowns[i].name.starts_with(limit.prefix)) continue;
+      const double sigma = limit.scale * covariance.Sigma(static_cast<int>(i));
+      worst = std::max(worst, sigma);
+      squares += sigma * sigma;
+      ++count;
+    }
+    if (count == 0) continue;
+    const double value = limit.over_all ? std::sqrt(squares / count) : worst;
+    checks->push_back({CalibrationCheck::LevelOf(value, limit.limit, kUsable * limit.limit),
                        QObject::tr("%1 is known to ± %2 %4 (limit: ± %3 %4).")
                            .arg(QObject::tr(limit.what))
-                           .arg(worst, 0, 'g', 2)
+                           .arg(value, 0, 'g', 2)
                            .arg(limit.limit)
                            .arg(QLatin1String(limit.unit))});
   }
