@@ -14,7 +14,7 @@ SimulatedCalibration Simulated(int poses) {
   options.seed = 3;
   options.poses = poses;
   options.intrinsic_views = 0;
-  options.scans_per_stop = 0;
+  options.scans_per_stop = 1;  // a stop without image and lines is none
   options.sweeps = 0;
   auto made = SimulateCalibration(options);
   EXPECT_TRUE(made) << made.error().message;
