@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/calibration/initial_motor.h"
+#include "core/calibration/locate_stand.h"
 #include "core/calibration/motor_graph.h"
 #include "core/geometry/angles.h"
 
@@ -109,13 +110,14 @@ Result<Rigid<frame::Camera, frame::Head>> InPaperGauge(
       camera_from_head.translation() + shift * axis);
 }
 
-Result<MotorCalibration> CalibrateMotor(const CalibrationSession& given, const CameraModel& camera,
+Result<MotorCalibration> CalibrateMotor(const CalibrationSession& all, const CameraModel& camera,
                                         const MotorCalibrationOptions& options,
                                         const RunContext& context) {
   FORESIGHT_CHECK(options.Check());
-  FORESIGHT_CHECK(given.Check());
+  FORESIGHT_CHECK(all.Check());
   FORESIGHT_CHECK(camera.Check());
   MotorCalibration result;
+  FORESIGHT_TRY(const CalibrationSession given, WithoutMisfits(all, camera, &result.notes));
   const MotorGraph graph = MakeMotorGraph(given);
   const std::string missing = graph.InWords(given);
   const bool leave_out =

@@ -4,151 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/locate_board.h"
+#include "core/calibration/locate_stand.h"
+#include "core/calibration/mean_pose.h"
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
 #include "core/geometry/rotation_between.h"
 
 namespace foresight {
 namespace {
-
-using CameraFromStand = Rigid<frame::Camera, frame::Pattern>;
-
-/// The boards of one image, located.
-struct LocatedView {
-  std::string source;
-  int pose = 0;
-  int stop = 0;
-  std::optional<CameraFromStand> a, b;
-  CameraFromStand stand;  ///< of board A
-};
-
-/// A board with too few corners is left out with a note; one that is mirrored is an error.
-Result<std::optional<CameraFromStand>> Locate(const CameraModel& camera,
-                                              const CalibrationBoard& board,
-                                              const std::optional<BoardView>& view,
-                                              const std::string& source,
-                                              std::vector<std::string>* notes) {
-  if (!view) return std::nullopt;
-  const auto located = LocateBoard(camera, board, *view, source);
-  if (located) return located->camera_from_board;
-  if (located.error().code != ErrorCode::kTooFewPoints) return tl::unexpected(located.error());
-  notes->push_back(located.error().message);
-  return std::nullopt;
-}
-
-std::string NameOf(const PatternPose& pose, const MotorStop& stop) {
-  const std::string image = stop.view.source.empty() ? "" : stop.view.source + ", ";
-  return fmt::format("{}{}, stop {:.6g} deg", image, pose.name, DegreesFromRadians(stop.motor_rad));
-}
-
-Result<std::vector<LocatedView>> LocateAll(const CalibrationSession& session,
-                                           const CameraModel& camera,
-                                           const std::vector<double>& stops_rad,
-                                           std::vector<std::string>* notes) {
-  std::vector<LocatedView> views;
-  for (std::size_t pose = 0; pose < session.poses.size(); ++pose)
-    for (const MotorStop& stop : session.poses[pose].stops) {
-      if (stop.view.empty()) continue;
-      LocatedView view;
-      view.source = NameOf(session.poses[pose], stop);
-      view.pose = static_cast<int>(pose);
-      view.stop = StopIndex(stops_rad, stop.motor_rad);
-      const std::string at = view.source + ", board ";
-      FORESIGHT_TRY(view.a, Locate(camera, session.mount.a, stop.view.a, at + "A", notes));
-      if (session.mount.b) {
-        FORESIGHT_TRY(view.b, Locate(camera, *session.mount.b, stop.view.b, at + "B", notes));
-      }
-      if (view.a || view.b) views.push_back(std::move(view));
-    }
-  return views;
-}
-
-struct Difference {
-  double turn_rad = 0.0;
-  double shift_m = 0.0;
-  bool Within(double most_turn_rad, double most_shift_m) const {
-    return turn_rad <= most_turn_rad && shift_m <= most_shift_m;
-  }
-};
-
-template <class To, class From>
-Difference DifferenceOf(const Rigid<To, From>& a, const Rigid<To, From>& b) {
-  const auto step = StepBetween(a, b);
-  return {step.template head<3>().norm(), step.template tail<3>().norm()};
-}
-
-/// The mean of rotations that lie close together, and of their translations.
-template <class To, class From>
-Rigid<To, From> MeanOf(const std::vector<Rigid<To, From>>& all) {
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  for (const auto& one : all) {
-    sum += one.rotation().coeffs() * one.rotation().coeffs().transpose();
-    translation += one.translation();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(sum);
-  return {Eigen::Quaterniond(Eigen::Vector4d(solver.eigenvectors().col(3))),
-          translation / static_cast<double>(all.size())};
-}
-
-/// Of all, the one that lies closest to the others.
-BoardFromBoard MedianOf(const std::vector<BoardFromBoard>& all) {
-  BoardFromBoard best = all.front();
-  double best_sum = std::numeric_limits<double>::infinity();
-  for (const auto& candidate : all) {
-    double sum = 0.0;
-    for (const auto& other : all) {
-      const Difference difference = DifferenceOf(candidate, other);
-      sum += difference.turn_rad + difference.shift_m;
-    }
-    if (sum < best_sum) best = candidate, best_sum = sum;
-  }
-  return best;
-}
-
-constexpr double kMostTurn_rad = 0.14;  // 8 deg; boards are located to a fraction of a degree
-constexpr double kMostShift_m = 0.060;
-
-/// Fails where the boards of an image do not stand as those of the others, or as drawn.
-Result<BoardFromBoard> LocateBoardB(const CalibrationSession& session,
-                                    const std::vector<LocatedView>& views,
-                                    std::vector<std::string>* notes) {
-  const BoardFromBoard& drawn = session.mount.a_from_b;
-  std::vector<BoardFromBoard> all;
-  for (const LocatedView& view : views)
-    if (view.a && view.b) all.push_back(view.a->Inverse() * *view.b);
-  if (all.empty()) {
-    if (session.mount.b)
-      notes->push_back("no image shows both boards of the stand: board B starts as drawn");
-    return drawn;
-  }
-  const BoardFromBoard median = MedianOf(all);
-  const Difference from_drawing = DifferenceOf(drawn, median);
-  if (!from_drawing.Within(kMostTurn_rad, kMostShift_m)) {
-    const bool exchanged =
-        DifferenceOf(drawn, median.Inverse()).Within(kMostTurn_rad, kMostShift_m);
-    return Fail(ErrorCode::kInvalidInput,
-                "board B of the stand is {:.1f} deg and {:.0f} mm from where the session says: {}",
-                DegreesFromRadians(from_drawing.turn_rad), 1000.0 * from_drawing.shift_m,
-                exchanged ? "boards A and B are exchanged"
-                          : "boards A and B may be exchanged, or the drawing is of another stand");
-  }
-  for (const LocatedView& view : views) {
-    if (!view.a || !view.b) continue;
-    const Difference difference = DifferenceOf(median, view.a->Inverse() * *view.b);
-    if (!difference.Within(kMostTurn_rad, kMostShift_m))
-      return Fail(ErrorCode::kInvalidInput,
-                  "{}: board B is {:.1f} deg and {:.0f} mm from where the other images have it: "
-                  "boards A and B are exchanged in this image, or a board moved",
-                  view.source, DegreesFromRadians(difference.turn_rad),
-                  1000.0 * difference.shift_m);
-  }
-  std::erase_if(all, [&median](const BoardFromBoard& one) {
-    return !DifferenceOf(median, one).Within(kMostTurn_rad, kMostShift_m);
-  });
-  return MeanOf(all);
-}
 
 /// Two stops that see one pose of the stand: what turned the stand in the camera's frame.
 struct Turn {
@@ -264,7 +127,7 @@ std::vector<CornerSet> MountCorners(const CalibrationSession& session,
             .visit = visit,
             .stop = StopIndex(stops_rad, stop.motor_rad),
             .on_b = on_b,
-            .source = NameOf(session.poses[pose], stop) + (on_b ? ", board B" : ", board A"),
+            .source = NameOfStop(session.poses[pose], stop) + (on_b ? ", board B" : ", board A"),
             .on_board = {},
             .pixels = view.pixels};
         for (const int id : view.corner_ids) corners.on_board.push_back(board.Corner(id));
@@ -286,7 +149,7 @@ Result<ChainState> InitialMotor(const CalibrationSession& session, const CameraM
   state.motor_rad = StopAngles(session);
   state.reference_stop = StopIndex(state.motor_rad, 0.0);
   state.jitter_rad.assign(static_cast<std::size_t>(VisitCount(session)), 0.0);
-  FORESIGHT_TRY(std::vector<LocatedView> views, LocateAll(session, camera, state.motor_rad, notes));
+  FORESIGHT_TRY(std::vector<LocatedView> views, LocateStand(session, camera, notes));
   FORESIGHT_TRY(state.a_from_b, LocateBoardB(session, views, notes));
   for (LocatedView& view : views)
     view.stand = view.a ? *view.a : *view.b * state.a_from_b.Inverse();

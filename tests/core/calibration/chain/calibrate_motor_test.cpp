@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/calibration/motor_graph.h"
 #include "core/evaluation/simulate_calibration.h"
 #include "core/geometry/angles.h"
@@ -120,16 +122,43 @@ TEST(CalibrateMotorRefusals, NameStopsThatAreNotTiedToTheReference) {
   EXPECT_THAT(found->notes.front(), ::testing::HasSubstr("left out"));
 }
 
-TEST(CalibrateMotorRefusals, NameTheImageWithExchangedBoards) {
+/// The first image of a pose that shows both boards.
+MotorStop& ImageOfBoth(CalibrationSession& session, std::size_t pose) {
+  auto& stops = session.poses[pose].stops;
+  return *std::find_if(stops.begin(), stops.end(),
+                       [](const MotorStop& stop) { return stop.view.a && stop.view.b; });
+}
+
+/// The session with some images spoilt is as good as without them, and says which it left out.
+void ExpectLeftOut(const CalibrationSession& session, const SensorRig& truth,
+                   const std::string& which, const std::string& why) {
+  const auto found = foresight::CalibrateMotor(session, truth.camera, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_THAT(found->notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr(which),
+                                                                 ::testing::HasSubstr("left out"),
+                                                                 ::testing::HasSubstr(why))));
+  const RigError error = CompareRigs(RigOf(*found, session.prior), truth);
+  EXPECT_LT(DegreesFromRadians(error.axis_rad), 0.06);  // the bar
+}
+
+TEST(CalibrateMotorMisfits, AnImageWithExchangedBoardsIsLeftOutByName) {
   auto made = SimulateCalibration(OnlyImages(2));
-  for (MotorStop& stop : made->session.poses[1].stops)
-    if (stop.view.a && stop.view.b) {
-      std::swap(stop.view.a, stop.view.b);
-      break;
-    }
-  const std::string message = MessageOf(made->session, made->truth.camera);
-  EXPECT_THAT(message, ::testing::HasSubstr("pose 2, stop"));
-  EXPECT_THAT(message, ::testing::HasSubstr("exchanged"));
+  MotorStop& stop = ImageOfBoth(made->session, 1);
+  std::swap(stop.view.a, stop.view.b);
+  ExpectLeftOut(made->session, made->truth, "pose 2, stop", "exchanged");
+}
+
+TEST(CalibrateMotorMisfits, AGridThatWasFoundAcrossBothBoardsIsLeftOut) {
+  auto made = SimulateCalibration(OnlyImages(2));
+  MotorStop& stop = ImageOfBoth(made->session, 2);
+  // Left half of the grid on board A, right half on board B.
+  BoardView across = *stop.view.a;
+  for (std::size_t i = 0; i < across.pixels.size() && i < stop.view.b->pixels.size(); ++i)
+    if (across.corner_ids[i] % made->session.mount.a.columns >= made->session.mount.a.columns / 2)
+      across.pixels[i] = stop.view.b->pixels[i];
+  stop.view.a = across;
+  stop.view.b.reset();
+  ExpectLeftOut(made->session, made->truth, "pose 3, stop", "do not lie in a plane");
 }
 
 TEST(CalibrateMotorRefusals, SayThatAllBoardsAreExchanged) {
