@@ -104,7 +104,7 @@ TEST(CalibrateRobotCommand, WritesARigWithTheRobotsFrame) {
   EXPECT_THAT(Ctl({"rig", "show", folder / "new.yaml"}).output, HasSubstr("surveyed places"));
 }
 
-TEST(RigCommand, TypesTheRobotsFrameFromCadAndSaysSo) {
+TEST(RigSetRobotFrame, IsTypedFromCadAndSaysSo) {
   const TemporaryFolder folder;
   ASSERT_TRUE(SaveSensorRig(DefaultSensorRig(), folder / "rig.yaml"));
   const std::vector<std::string> typed = {"rig",         "set-robot-frame",   folder / "rig.yaml",
