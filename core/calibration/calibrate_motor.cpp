@@ -51,18 +51,41 @@ double MedianRms(std::vector<ImageFit> images) {
   return middle->rms_px;
 }
 
-/// An image that fits several times worse than the others is not of the same stand.
-Status CheckImages(const std::vector<ImageFit>& images) {
+/// An image that fits several times worse than the others is not of the same stand; nullptr = none.
+const ImageFit* Misfit(const std::vector<ImageFit>& images) {
   constexpr double kMostTimesMedian = 8.0, kLeast_px = 3.0;
   const double limit = std::max(kMostTimesMedian * MedianRms(images), kLeast_px);
   const auto worst =
       std::max_element(images.begin(), images.end(),
                        [](const ImageFit& a, const ImageFit& b) { return a.rms_px < b.rms_px; });
-  if (worst == images.end() || worst->rms_px <= limit) return {};
-  return Fail(ErrorCode::kInvalidInput,
-              "{}: the corners are {:.1f} px (rms) from where the other images have the board. The "
-              "stand moved, boards are exchanged, or the image is of another stop",
-              worst->source, worst->rms_px);
+  return worst == images.end() || worst->rms_px <= limit ? nullptr : &*worst;
+}
+
+/// Solves without the worst image until none is a misfit. Fails where that is over one in ten.
+Status SolveWithoutMisfits(const ChainSolveOptions& solve, MotorCalibration* result,
+                           const RunContext& context) {
+  constexpr std::size_t kOneIn = 10;
+  const std::size_t most = result->data.corners.size() / kOneIn;
+  for (std::size_t left_out = 0;; ++left_out) {
+    const std::vector<ImageFit> images = FitsOfImages(result->state, result->data.corners);
+    const double most_usual_px = std::max(5.0, result->state.camera.width / 250.0);
+    if (!(MedianRms(images) <= most_usual_px))
+      return Fail(ErrorCode::kInvalidInput,
+                  "the images do not fit together: half of them are over {:.1f} px off. The stand "
+                  "moved in many of them, or stops and images do not belong together",
+                  MedianRms(images));
+    const ImageFit* misfit = Misfit(images);
+    if (misfit == nullptr) return {};
+    const std::string what = fmt::format(
+        "{}: the corners are {:.1f} px (rms) from where the other images have the board. The "
+        "stand moved, boards are exchanged, or the image is of another stop",
+        misfit->source, misfit->rms_px);
+    if (left_out == most) return Fail(ErrorCode::kInvalidInput, "{}", what);
+    std::erase_if(result->data.corners,
+                  [misfit](const CornerSet& corners) { return corners.source == misfit->source; });
+    result->notes.push_back("left out: " + what);
+    FORESIGHT_TRY(result->fit, SolveChain(result->data, solve, &result->state, context));
+  }
 }
 
 }  // namespace
@@ -141,7 +164,7 @@ Result<MotorCalibration> CalibrateMotor(const CalibrationSession& all, const Cam
   }
   FORESIGHT_TRY(result.fit, SolveChain(result.data, solve, &result.state, context));
   if (!options.as_in_the_paper) {
-    FORESIGHT_CHECK(CheckImages(FitsOfImages(result.state, result.data.corners)));
+    FORESIGHT_CHECK(SolveWithoutMisfits(solve, &result, context));
     constexpr double kMostSigmas = 5.0;  // of 10,000 good corners it costs one in a hundred
     const double sigma_px =
         std::max(options.noise.corner_px,

@@ -79,6 +79,32 @@ std::string MisfitOf(const LocatedView& view, double most_rms_px,
       DegreesFromRadians(difference.turn_rad), 1000.0 * difference.shift_m);
 }
 
+CameraFromStand StandOf(const LocatedView& view, const BoardFromBoard& a_from_b) {
+  return view.a ? *view.a : *view.b * a_from_b.Inverse();
+}
+
+/// Whether the stand turned between two images of a pose as far as the motor was told to.
+bool TurnsAsCommanded(const LocatedView& view, const LocatedView& other,
+                      const BoardFromBoard& a_from_b, const std::vector<double>& stops_rad) {
+  constexpr double kMost_rad = 0.07;  // 4 deg: a board is located to one, a motor turns to two
+  const auto moved = StandOf(view, a_from_b) * StandOf(other, a_from_b).Inverse();
+  const double commanded_rad = std::abs(stops_rad[static_cast<std::size_t>(view.stop)] -
+                                        stops_rad[static_cast<std::size_t>(other.stop)]);
+  return std::abs(RotationLog(moved.rotation()).norm() - commanded_rad) <= kMost_rad;
+}
+
+/// Whether most of the other images of its pose say that an image shows something else.
+bool TurnsUnlikeItsPose(const LocatedView& view, const std::vector<LocatedView>& views,
+                        const BoardFromBoard& a_from_b, const std::vector<double>& stops_rad) {
+  int others = 0, agree = 0;
+  for (const LocatedView& other : views) {
+    if (other.pose != view.pose || &other == &view) continue;
+    ++others;
+    agree += TurnsAsCommanded(view, other, a_from_b, stops_rad) ? 1 : 0;
+  }
+  return others >= 2 && 2 * agree < others;
+}
+
 double MedianRms(const std::vector<LocatedView>& views) {
   std::vector<double> all;
   for (const LocatedView& view : views) {
@@ -181,11 +207,17 @@ Result<CalibrationSession> WithoutMisfits(CalibrationSession session, const Came
   if (!both.empty()) usual = MedianOf(both);
   constexpr double kMostTimesMedian = 8.0, kLeast_px = 3.0;
   const double most_rms_px = std::max(kMostTimesMedian * MedianRms(views), kLeast_px);
+  const std::vector<double> stops_rad = StopAngles(session);
   constexpr std::size_t kOneIn = 5;
   std::vector<std::string> reasons;
   CalibrationSession kept = session;
   for (const LocatedView& view : views) {
-    const std::string misfit = MisfitOf(view, most_rms_px, usual);
+    std::string misfit = MisfitOf(view, most_rms_px, usual);
+    if (misfit.empty() &&
+        TurnsUnlikeItsPose(view, views, usual.value_or(session.mount.a_from_b), stops_rad))
+      misfit =
+          "the other images of this place have the stand turned otherwise: one board was "
+          "taken for the other, or the stand moved";
     if (misfit.empty()) continue;
     reasons.push_back(fmt::format("{}: left out: {}", view.source, misfit));
     kept.poses[static_cast<std::size_t>(view.pose)]
