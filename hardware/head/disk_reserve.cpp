@@ -17,8 +17,9 @@ Status DiskReserve::Take(const std::filesystem::path& folder, std::size_t bytes)
   const bool full = errno == ENOSPC || errno == EDQUOT;
   Release();
   if (!full) return {};
-  return Fail(ErrorCode::kIo, "{}: the disk is full ({} MB must be free to record; make room there)", where.string(),
-              bytes >> 20);
+  return Fail(ErrorCode::kIo,
+              "{}: the disk is full ({} MB must be free to record; make room there)",
+              where.string(), bytes >> 20);
 }
 
 void DiskReserve::Release() {

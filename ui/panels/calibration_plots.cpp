@@ -151,11 +151,10 @@ void ViewBars::paintEvent(QPaintEvent*) {
   const auto list = [](const auto& counts) {
     return std::vector<int>(counts.begin(), counts.end());
   };
-  const Bars all[] = {{tr("radius"),
-                       list(coverage_.rings),
-                       {tr("0"), QString(), QString(), QString(), tr("1")}},
-                      {tr("tilt, deg"), list(coverage_.tilts), {"0", "10", "20", "35"}},
-                      {tr("distance"), list(coverage_.distances), {"1", "1.3", "2"}}};
+  const Bars all[] = {
+      {tr("radius"), list(coverage_.rings), {tr("0"), QString(), QString(), QString(), tr("1")}},
+      {tr("tilt, deg"), list(coverage_.tilts), {"0", "10", "20", "35"}},
+      {tr("distance"), list(coverage_.distances), {"1", "1.3", "2"}}};
   constexpr int kGap = 12;
   const int each = (width() - 2 * kGap) / 3;
   for (int i = 0; i < 3; ++i)

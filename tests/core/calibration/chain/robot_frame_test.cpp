@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 
 #include "core/base/atomic_file.h"
-#include "core/objects/calibration_board.h"
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
+#include "core/objects/calibration_board.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
