@@ -47,6 +47,9 @@ int Parse(int argc, char** argv, Options* options) {
   AddSeedOption(app, "--seed", emulation.seed, "Seed of the simulated noise and faults");
   app.add_option("--faults", emulation.faults, "What goes wrong with emulated devices (YAML)")
       ->needs(emulate);
+  app.add_option("--stand-place", emulation.stand_place,
+                 "Place of the emulated scene's stand of boards, from 1; 0 = away; default: 1")
+      ->needs(emulate);
   app.add_flag("--fast", options->fast, "Let the simulated head's time run as fast as it can")
       ->excludes(emulate);
   CLI::Option* config =
