@@ -5,6 +5,7 @@
 
 #include "core/calibration/initial_motor.h"
 #include "core/calibration/locate_stand.h"
+#include "core/calibration/misfit_limit.h"
 #include "core/calibration/motor_graph.h"
 #include "core/geometry/angles.h"
 
@@ -43,18 +44,15 @@ int DropCorners(const ChainState& state, double most_px, std::vector<CornerSet>*
   return dropped;
 }
 
-double MedianRms(std::vector<ImageFit> images) {
-  if (images.empty()) return 0.0;
-  const auto middle = images.begin() + static_cast<std::ptrdiff_t>(images.size() / 2);
-  std::nth_element(images.begin(), middle, images.end(),
-                   [](const ImageFit& a, const ImageFit& b) { return a.rms_px < b.rms_px; });
-  return middle->rms_px;
+double UsualRms(const std::vector<ImageFit>& images) {
+  std::vector<double> rms_px;
+  for (const ImageFit& image : images) rms_px.push_back(image.rms_px);
+  return MedianRms(std::move(rms_px));
 }
 
 /// An image that fits several times worse than the others is not of the same stand; nullptr = none.
 const ImageFit* Misfit(const std::vector<ImageFit>& images) {
-  constexpr double kMostTimesMedian = 8.0, kLeast_px = 3.0;
-  const double limit = std::max(kMostTimesMedian * MedianRms(images), kLeast_px);
+  const double limit = MisfitLimit(UsualRms(images));
   const auto worst =
       std::max_element(images.begin(), images.end(),
                        [](const ImageFit& a, const ImageFit& b) { return a.rms_px < b.rms_px; });
@@ -69,11 +67,11 @@ Status SolveWithoutMisfits(const ChainSolveOptions& solve, MotorCalibration* res
   for (std::size_t left_out = 0;; ++left_out) {
     const std::vector<ImageFit> images = FitsOfImages(result->state, result->data.corners);
     const double most_usual_px = std::max(5.0, result->state.camera.width / 250.0);
-    if (!(MedianRms(images) <= most_usual_px))
+    if (const double usual_px = UsualRms(images); !(usual_px <= most_usual_px))
       return Fail(ErrorCode::kInvalidInput,
                   "the images do not fit together: half of them are over {:.1f} px off. The stand "
                   "moved in many of them, or stops and images do not belong together",
-                  MedianRms(images));
+                  usual_px);
     const ImageFit* misfit = Misfit(images);
     if (misfit == nullptr) return {};
     const std::string what = fmt::format(
@@ -168,7 +166,7 @@ Result<MotorCalibration> CalibrateMotor(const CalibrationSession& all, const Cam
     constexpr double kMostSigmas = 5.0;  // of 10,000 good corners it costs one in a hundred
     const double sigma_px =
         std::max(options.noise.corner_px,
-                 MedianRms(FitsOfImages(result.state, result.data.corners)) / std::sqrt(2.0));
+                 UsualRms(FitsOfImages(result.state, result.data.corners)) / std::sqrt(2.0));
     const int dropped = DropCorners(result.state, kMostSigmas * sigma_px, &result.data.corners);
     if (dropped > 0) {
       result.notes.push_back(fmt::format("{} corners lie over {:.1f} px off and are left out",

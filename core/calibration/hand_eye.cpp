@@ -182,6 +182,7 @@ Result<HandEyeCalibration> CalibrateSurveyed(const std::vector<SurveyedBoard>& b
   if (boards.empty())
     return Fail(ErrorCode::kTooFewPoints, "robot frame: no surveyed board was seen");
   std::vector<HandEyeSample> samples;
+  samples.reserve(boards.size());
   for (const SurveyedBoard& board : boards)
     samples.push_back({Rigid<frame::Robot, frame::Hand>(board.robot_from_board.rotation(),
                                                         board.robot_from_board.translation()),

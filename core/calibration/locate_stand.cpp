@@ -6,6 +6,7 @@
 
 #include "core/calibration/locate_board.h"
 #include "core/calibration/mean_pose.h"
+#include "core/calibration/misfit_limit.h"
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
 
@@ -57,9 +58,17 @@ BoardFromBoard MedianOf(const std::vector<BoardFromBoard>& all) {
 constexpr double kMostTurn_rad = 0.14;  // 8 deg; boards are located to a fraction of a degree
 constexpr double kMostShift_m = 0.060;
 
-/// Board A and B of one image.
+/// @pre the image shows both boards
 BoardFromBoard BetweenBoards(const LocatedView& view) {
   return view.a->Inverse() * *view.b;
+}
+
+/// Of each image that shows both boards.
+std::vector<BoardFromBoard> BetweenAllBoards(const std::vector<LocatedView>& views) {
+  std::vector<BoardFromBoard> all;
+  for (const LocatedView& view : views)
+    if (view.a && view.b) all.push_back(BetweenBoards(view));
+  return all;
 }
 
 /// Why an image cannot be of the stand; empty = it can.
@@ -105,16 +114,13 @@ bool TurnsUnlikeItsPose(const LocatedView& view, const std::vector<LocatedView>&
   return others >= 2 && 2 * agree < others;
 }
 
-double MedianRms(const std::vector<LocatedView>& views) {
+std::vector<double> RmsOfBoards(const std::vector<LocatedView>& views) {
   std::vector<double> all;
   for (const LocatedView& view : views) {
     if (view.a) all.push_back(view.rms_a_px);
     if (view.b) all.push_back(view.rms_b_px);
   }
-  if (all.empty()) return 0.0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
+  return all;
 }
 
 }  // namespace
@@ -161,9 +167,7 @@ Result<BoardFromBoard> LocateBoardB(const CalibrationSession& session,
                                     const std::vector<LocatedView>& views,
                                     std::vector<std::string>* notes) {
   const BoardFromBoard& drawn = session.mount.a_from_b;
-  std::vector<BoardFromBoard> all;
-  for (const LocatedView& view : views)
-    if (view.a && view.b) all.push_back(view.a->Inverse() * *view.b);
+  const std::vector<BoardFromBoard> all = BetweenAllBoards(views);
   if (all.empty()) {
     if (session.mount.b)
       notes->push_back("no image shows both boards of the stand: board B starts as drawn");
@@ -182,7 +186,7 @@ Result<BoardFromBoard> LocateBoardB(const CalibrationSession& session,
   }
   for (const LocatedView& view : views) {
     if (!view.a || !view.b) continue;
-    const Difference difference = DifferenceOf(median, view.a->Inverse() * *view.b);
+    const Difference difference = DifferenceOf(median, BetweenBoards(view));
     if (!difference.Within(kMostTurn_rad, kMostShift_m))
       return Fail(ErrorCode::kInvalidInput,
                   "{}: board B is {:.1f} deg and {:.0f} mm from where the other images have it: "
@@ -190,9 +194,6 @@ Result<BoardFromBoard> LocateBoardB(const CalibrationSession& session,
                   view.source, DegreesFromRadians(difference.turn_rad),
                   1000.0 * difference.shift_m);
   }
-  std::erase_if(all, [&median](const BoardFromBoard& one) {
-    return !DifferenceOf(median, one).Within(kMostTurn_rad, kMostShift_m);
-  });
   return MeanOf(all);
 }
 
@@ -200,13 +201,10 @@ Result<CalibrationSession> WithoutMisfits(CalibrationSession session, const Came
                                           std::vector<std::string>* notes) {
   std::vector<std::string> later;  // LocateStand's are given when the motor is located
   FORESIGHT_TRY(const std::vector<LocatedView> views, LocateStand(session, camera, &later));
-  std::vector<BoardFromBoard> both;
-  for (const LocatedView& view : views)
-    if (view.a && view.b) both.push_back(BetweenBoards(view));
+  const std::vector<BoardFromBoard> both = BetweenAllBoards(views);
   std::optional<BoardFromBoard> usual;
   if (!both.empty()) usual = MedianOf(both);
-  constexpr double kMostTimesMedian = 8.0, kLeast_px = 3.0;
-  const double most_rms_px = std::max(kMostTimesMedian * MedianRms(views), kLeast_px);
+  const double most_rms_px = MisfitLimit(MedianRms(RmsOfBoards(views)));
   const std::vector<double> stops_rad = StopAngles(session);
   constexpr std::size_t kOneIn = 5;
   std::vector<std::string> reasons;
