@@ -10,6 +10,7 @@
 #include "app/common/seed_option.h"
 #include "app/workstation/main_window.h"
 #include "app/workstation/quit_on_signal.h"
+#include "app/workstation/simulated_stand.h"
 #include "app/workstation/unattended.h"
 #include "core/base/log.h"
 #include "core/base/operator_text.h"
@@ -28,6 +29,7 @@ const QString kLastMission = QStringLiteral("recording/file");
 struct Options {
   std::string scene;             ///< empty: the valve scene that comes with the program
   EmulationArguments emulation;  ///< its scene, rig and seed; rig and seed are the simulation's too
+  std::string prior;             ///< what the simulated or emulated head believes of itself
   std::string head_config;       ///< of a real head, in place of a scene
   std::string open;              ///< a mission to review
   std::string mission;  ///< the file to record into; empty: a new one in the user's data folder
@@ -44,6 +46,9 @@ int Parse(int argc, char** argv, Options* options) {
                      "Scene file: emulate the devices in this process, on real sockets")
           ->excludes("--scene");
   app.add_option("--rig", emulation.rig, "Calibration file of the simulated or emulated head");
+  app.add_option("--prior", options->prior,
+                 "Calibration file that such a head has in force, as from CAD "
+                 "(default: as well calibrated as can be)");
   AddSeedOption(app, "--seed", emulation.seed, "Seed of the simulated noise and faults");
   app.add_option("--faults", emulation.faults, "What goes wrong with emulated devices (YAML)")
       ->needs(emulate);
@@ -55,7 +60,7 @@ int Parse(int argc, char** argv, Options* options) {
   CLI::Option* config =
       app.add_option("--head-config", options->head_config,
                      "A real head and its devices (YAML), in place of the simulated one");
-  for (const char* other : {"--scene", "--emulate", "--rig", "--seed", "--fast"})
+  for (const char* other : {"--scene", "--emulate", "--rig", "--prior", "--seed", "--fast"})
     config->excludes(other);
   app.add_option("--open", options->open, "Mission file to look at, beside the live session");
   app.add_option("--mission", options->mission,
@@ -86,13 +91,19 @@ struct Head {
   std::unique_ptr<EmulatedDevices> emulated;  ///< the devices behind the head, if they are here
   std::shared_ptr<SensorHead> head;
   SessionMode mode = SessionMode::kSimulation;
+  std::shared_ptr<MovingStand> stand = nullptr;
 };
 
 /// The drivers of a real head, through the sockets of this computer.
-Result<Head> MakeEmulatedHead(const EmulationArguments& arguments) {
+Result<Head> MakeEmulatedHead(const Options& options) {
   Head head;
-  FORESIGHT_TRY(head.emulated, StartEmulation(arguments));
-  head.head = MakeRealHead(ConfigFor(*head.emulated));
+  FORESIGHT_TRY(head.emulated, StartEmulation(options.emulation));
+  HeadConfig config = ConfigFor(*head.emulated);
+  if (!options.prior.empty()) {
+    FORESIGHT_TRY(config.rig, LoadSensorRig(options.prior));
+  }
+  head.head = MakeRealHead(config);
+  head.stand = StandIn(head.emulated->world());
   return head;
 }
 
@@ -105,14 +116,20 @@ Result<Head> MakeHeadOnScene(const Options& options) {
     FORESIGHT_TRY(simulation.true_rig, LoadSensorRig(options.emulation.rig));
     simulation.believed_rig = simulation.true_rig;
   }
-  const std::string scene = options.scene.empty() ? DefaultScene() : options.scene;
+  if (!options.prior.empty()) {
+    FORESIGHT_TRY(simulation.believed_rig, LoadSensorRig(options.prior));
+  }
+  FORESIGHT_TRY(Scene scene, LoadScene(options.scene.empty() ? DefaultScene() : options.scene));
+  const auto world = std::make_shared<const World>(std::make_shared<const Scene>(std::move(scene)),
+                                                   simulation.true_rig, simulation.world);
   Head head;
-  FORESIGHT_TRY(head.head, MakeSimulatedHead(scene, simulation));
+  FORESIGHT_TRY(head.head, MakeSimulatedHead(world, simulation));
+  head.stand = StandIn(world);
   return head;
 }
 
 Result<Head> MakeHead(const Options& options) {
-  if (!options.emulation.scene.empty()) return MakeEmulatedHead(options.emulation);
+  if (!options.emulation.scene.empty()) return MakeEmulatedHead(options);
   if (options.head_config.empty()) return MakeHeadOnScene(options);
   FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(options.head_config));
   return Head{nullptr, MakeRealHead(config),
@@ -141,7 +158,7 @@ int Run(int argc, char** argv) {
     return 1;
   }
   const SessionMode mode = head->mode;
-  Workbench bench(std::move(head->head), mode);
+  Workbench bench(std::move(head->head), mode, head->stand);
   const QuitOnSignal quit_on_signal([&bench] { bench.head.StopForGood(); });
   QSettings settings;
   bench.recording.OfferInterrupted(RecordingViewModel::DefaultFolder(),

@@ -4,7 +4,8 @@
 
 namespace foresight {
 
-Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
+Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
+                     std::shared_ptr<MovingStand> stand)
     : head(std::move(sensor_head)),
       live(mode, &tasks),
       review(SessionMode::kReplay, &tasks),
@@ -13,7 +14,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode)
       flow(&head, &live.session),
       live_depth(&head, &live.session),
       camera_calibration(&head, &live.session),
-      head_calibration(&head, &live.session) {
+      head_calibration(&head, &live.session, {}, std::move(stand)) {
   qRegisterMetaType<Notice>("foresight::Notice");
   head.SetRecorderSource([this] { return recording.Recorder(); });
   connect(&head, &HeadViewModel::scanStarted, this, [this] { log.close(kScanTopic); });

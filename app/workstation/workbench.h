@@ -22,8 +22,10 @@ class Workbench : public QObject {
   Q_OBJECT
 
  public:
-  /// `mode` is kLive or kSimulation.
-  Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode);
+  /// `mode` is kLive or kSimulation; `stand` is a calibration stand that moves by itself, or
+  /// nullptr.
+  Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
+            std::shared_ptr<MovingStand> stand = nullptr);
 
   TaskQueue tasks;
   LogModel log;

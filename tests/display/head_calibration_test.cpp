@@ -152,8 +152,8 @@ TEST_F(HeadCalibrationDock, CapturesAtTheHeadAreLampsAtOnce) {
   plan.last_deg = 5.0;
   plan.step_deg = 5.0;
   plan.lines = 4;
-  model.SetPlan(plan);
-  ASSERT_TRUE(WaitFor([&] { return model.WhyNotCapture().isEmpty(); }, kLimit_ms));
+  model.Recorder()->SetPlan(plan);
+  ASSERT_TRUE(WaitFor([&] { return model.Recorder()->WhyNotCapture().isEmpty(); }, kLimit_ms));
   ASSERT_TRUE(ClickOn("step2"));
   ASSERT_TRUE(ClickOn("captureStops"));
   ASSERT_TRUE(WaitFor(

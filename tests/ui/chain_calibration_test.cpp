@@ -187,10 +187,10 @@ TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfte
   StandPlan plan;
   plan.first_deg = 0.0;
   plan.last_deg = 10.0;
-  model.SetPlan(plan);
-  model.captureStops();
+  model.Recorder()->SetPlan(plan);
+  model.Recorder()->captureStops();
   ASSERT_EQ(head->stop_plan.angles_rad.size(), 2u);
-  EXPECT_FALSE(model.WhyNotCapture().isEmpty());
+  EXPECT_FALSE(model.Recorder()->WhyNotCapture().isEmpty());
   // The second stop never comes.
   head->stop_plan.angles_rad.pop_back();
   head->DeliverStops(DarkCapture, ScanState::kInterrupted, "the motor is stuck");
@@ -208,8 +208,8 @@ TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfte
   ASSERT_EQ(again.LastSession(), model.Folder());
   again.OpenSession(again.LastSession());
   ASSERT_TRUE(Settled(again));
-  again.SetPlan(plan);
-  again.captureStops();
+  again.Recorder()->SetPlan(plan);
+  again.Recorder()->captureStops();
   ASSERT_EQ(head->stop_plan.angles_rad.size(), 1u) << "only what is missing";
   EXPECT_NEAR(head->stop_plan.angles_rad[0], RadiansFromDegrees(10.0), 1e-9);
   head->DeliverStops(DarkCapture);
@@ -220,8 +220,8 @@ TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfte
 
 TEST_F(ChainCalibration, AHeadThatWasStoppedCapturesNothing) {
   head_model.stop();
-  model.captureStops();
-  ASSERT_FALSE(model.WhyNotCapture().isEmpty());
+  model.Recorder()->captureStops();
+  ASSERT_FALSE(model.Recorder()->WhyNotCapture().isEmpty());
   EXPECT_TRUE(head->stop_plan.angles_rad.empty());
 }
 
@@ -231,13 +231,13 @@ TEST_F(ChainCalibration, ASweepGoesThereAndBackAndIsKeptWithThePlace) {
   plan.first_deg = -1.0;
   plan.last_deg = 1.0;
   plan.step_deg = 1.0;
-  model.SetPlan(plan);
-  EXPECT_FALSE(model.WhyNotSweep().isEmpty()) << "there is no place yet";
-  model.captureStops();
+  model.Recorder()->SetPlan(plan);
+  EXPECT_FALSE(model.Recorder()->WhyNotSweep().isEmpty()) << "there is no place yet";
+  model.Recorder()->captureStops();
   head->DeliverStops(DarkCapture);
   head_model.Poll();
   ASSERT_TRUE(Settled());
-  model.captureSweep();
+  model.Recorder()->captureSweep();
   EXPECT_EQ(head->LastPlan().passes, 2);
   Scan scan;
   scan.rig = DefaultSensorRig();

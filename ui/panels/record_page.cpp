@@ -1,5 +1,6 @@
 #include "ui/panels/record_page.h"
 
+#include <QComboBox>
 #include <QGridLayout>
 #include <QLabel>
 #include <QListWidget>
@@ -81,6 +82,7 @@ RecordPage::RecordPage(ChainCalibrationModel* model, QWidget* parent)
   layout->setContentsMargins(8, 8, 8, 8);
   layout->setSpacing(6);
   layout->addWidget(next_);
+  if (model_->Recorder()->Stand() != nullptr) layout->addWidget(BuildStand());
   layout->addWidget(BuildCaptures());
   layout->addWidget(SectionTitle(tr("Places of the stand")));
   layout->addWidget(lamps_);
@@ -107,6 +109,27 @@ RecordPage::RecordPage(ChainCalibrationModel* model, QWidget* parent)
   Refresh();
 }
 
+QWidget* RecordPage::BuildStand() {
+  auto* box = new QWidget;
+  auto* grid = new QGridLayout(box);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(6);
+  stand_at_ = new QComboBox;
+  stand_at_->setObjectName(QStringLiteral("standAt"));
+  stand_at_->setAccessibleName(tr("Where the simulated stand is"));
+  stand_at_->addItem(tr("away"));
+  for (const MovingStand::Place& place : model_->Recorder()->Stand()->Places())
+    stand_at_->addItem(QString::fromStdString(place.name));
+  all_ = NarrowButton("captureAll", tr("Capture all places"));
+  grid->addWidget(new QLabel(tr("Simulated stand")), 0, 0);
+  grid->addWidget(stand_at_, 0, 1);
+  grid->addWidget(all_, 1, 0, 1, 2);
+  connect(stand_at_, QOverload<int>::of(&QComboBox::activated), this,
+          [this](int at) { model_->Recorder()->MoveStand(at - 1); });
+  connect(all_, &QPushButton::clicked, model_->Tour(), &StandTour::start);
+  return box;
+}
+
 QWidget* RecordPage::BuildCaptures() {
   auto* box = new QWidget;
   auto* grid = new QGridLayout(box);
@@ -122,11 +145,13 @@ QWidget* RecordPage::BuildCaptures() {
   grid->addWidget(place_, 0, 2);
   grid->addWidget(image_, 1, 0, 1, 2);
   grid->addWidget(end_, 1, 2);
-  connect(stops_, &QPushButton::clicked, model_, &ChainCalibrationModel::captureStops);
-  connect(sweep_, &QPushButton::clicked, model_, &ChainCalibrationModel::captureSweep);
-  connect(place_, &QPushButton::clicked, model_, &ChainCalibrationModel::newPlace);
-  connect(image_, &QPushButton::clicked, model_, &ChainCalibrationModel::captureBoardImage);
-  connect(end_, &QPushButton::clicked, model_->Captures(), &HeadCaptures::end);
+  CalibrationRecorder* recorder = model_->Recorder();
+  connect(stops_, &QPushButton::clicked, recorder, &CalibrationRecorder::captureStops);
+  connect(sweep_, &QPushButton::clicked, recorder, &CalibrationRecorder::captureSweep);
+  connect(place_, &QPushButton::clicked, recorder, &CalibrationRecorder::newPlace);
+  connect(image_, &QPushButton::clicked, recorder, &CalibrationRecorder::captureBoardImage);
+  connect(end_, &QPushButton::clicked, model_->Tour(), &StandTour::end);
+  connect(end_, &QPushButton::clicked, recorder->Captures(), &HeadCaptures::end);
   return box;
 }
 
@@ -157,16 +182,30 @@ void RecordPage::CaptureAgain() {
   model_->CaptureStopAgain(model_->SelectedPlace(), model_->SelectedStop());
 }
 
+void RecordPage::ShowStand() {
+  if (stand_at_ == nullptr) return;
+  stand_at_->setCurrentIndex(model_->Recorder()->Stand()->At() + 1);
+  stand_at_->setEnabled(model_->Recorder()->WhyNotMoveStand().isEmpty() &&
+                        !model_->Tour()->Running());
+  ShowPossible(all_,
+               tr("From where the stand is on: an image for the camera alone, or stops and a "
+                  "sweep, at each of its places"),
+               model_->Tour()->WhyNot());
+}
+
 void RecordPage::Refresh() {
+  ShowStand();
   next_->setText(model_->Next());
-  const QString why = model_->WhyNotCapture();
+  const QString why = model_->Recorder()->WhyNotCapture();
   ShowPossible(stops_,
                tr("Go to each stop that is not captured here yet: an image and lidar lines"), why);
-  ShowPossible(sweep_, tr("Sweep up and down, for the lidar's time stamps"), model_->WhyNotSweep());
-  ShowPossible(place_, tr("The stand was put to another place"), model_->WhyNotNewPlace());
+  ShowPossible(sweep_, tr("Sweep up and down, for the lidar's time stamps"),
+               model_->Recorder()->WhyNotSweep());
+  ShowPossible(place_, tr("The stand was put to another place"),
+               model_->Recorder()->WhyNotNewPlace());
   ShowPossible(image_, tr("One image of the board for the camera alone, where the head stands"),
-               model_->Captures()->WhyNot());
-  end_->setEnabled(model_->Captures()->Running());
+               model_->Recorder()->Captures()->WhyNot());
+  end_->setEnabled(model_->Recorder()->Capturing() || model_->Tour()->Running());
   lamps_->Show(model_->Places(), model_->SelectedPlace(), model_->SelectedStop());
   ShowSelected();
   ShowBoardImages();
@@ -177,7 +216,7 @@ void RecordPage::ShowSelected() {
   const bool there = lamp != nullptr && lamp->number >= 0;
   leave_out_->setEnabled(there);
   leave_place_out_->setEnabled(lamp != nullptr);
-  again_->setEnabled(there && model_->WhyNotCapture().isEmpty());
+  again_->setEnabled(there && model_->Recorder()->WhyNotCapture().isEmpty());
   selected_->setVisible(!model_->Places().empty());
   if (lamp == nullptr) {
     selected_->setText(tr("Click a lamp to look at a stop."));

@@ -4,6 +4,7 @@
 
 #include "ui/viewmodels/chain_calibration_model.h"
 
+class QComboBox;
 class QLabel;
 class QListWidget;
 class QPushButton;
@@ -23,16 +24,20 @@ class RecordPage : public QWidget {
   StandLamps* Lamps() { return lamps_; }
 
  private:
+  QWidget* BuildStand();
   QWidget* BuildCaptures();
   void ToggleSelected();
   void TogglePlace();
   void CaptureAgain();
   const StopLamp* Selected() const;
+  void ShowStand();
   void ShowSelected();
   void ShowBoardImages();
 
   ChainCalibrationModel* model_;
   QLabel* next_;
+  QComboBox* stand_at_ = nullptr;  ///< nullptr where the stand is moved by hand
+  QPushButton* all_ = nullptr;
   QPushButton* stops_ = nullptr;
   QPushButton* sweep_ = nullptr;
   QPushButton* place_ = nullptr;

@@ -10,7 +10,6 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
-#include "core/calibration/perpendicular_mount.h"
 #include "ui/panels/board_fields.h"
 #include "ui/widgets/dock_parts.h"
 
@@ -103,6 +102,9 @@ QWidget* StandPage::BuildPlan() {
   step_ = Number(0.5, 90.0, tr("°"), tr("Between stops"));
   speed_ = Number(1.0, 120.0, tr(" °/s"), tr("Speed of the sweep"));
   speed_->setToolTip(tr("50 °/s and more tell the offset of the lidar's time stamps"));
+  exposure_ = Number(0.1, 100.0, tr(" ms"), tr("Exposure"));
+  exposure_->setToolTip(
+      tr("Of all images of the calibration; white squares must not be saturated"));
   lines_ = new QSpinBox;
   lines_->setRange(1, StopPlan::kMostLines);
   lines_->setAccessibleName(tr("Lidar lines at a stop"));
@@ -111,8 +113,9 @@ QWidget* StandPage::BuildPlan() {
   form->addRow(tr("To"), last_stop_);
   form->addRow(tr("Step"), step_);
   form->addRow(tr("Lidar lines"), lines_);
+  form->addRow(tr("Exposure"), exposure_);
   form->addRow(tr("Sweep"), speed_);
-  for (QDoubleSpinBox* number : {first_, last_stop_, step_, speed_})
+  for (QDoubleSpinBox* number : {first_, last_stop_, step_, exposure_, speed_})
     connect(number, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
             [this] { TakePlan(); });
   connect(lines_, QOverload<int>::of(&QSpinBox::valueChanged), this, [this] { TakePlan(); });
@@ -121,7 +124,7 @@ QWidget* StandPage::BuildPlan() {
 
 void StandPage::TakeBoards() {
   const Status taken = model_->SetBoards(
-      PerpendicularMount(a_->Board(), b_->Board(), 1e-3 * hinge_mm_->value()), single_->Board());
+      HingedMount(a_->Board(), b_->Board(), 1e-3 * hinge_mm_->value()), single_->Board());
   fault_->setText(taken ? QString() : QString::fromStdString(taken.error().message));
 }
 
@@ -131,8 +134,9 @@ void StandPage::TakePlan() {
   plan.last_deg = last_stop_->value();
   plan.step_deg = step_->value();
   plan.lines = lines_->value();
+  plan.exposure_ms = exposure_->value();
   plan.sweep_speed_deg_s = speed_->value();
-  model_->SetPlan(plan);
+  model_->Recorder()->SetPlan(plan);
 }
 
 void StandPage::Refresh() {
@@ -143,11 +147,12 @@ void StandPage::Refresh() {
   hinge_mm_->setEnabled(mount.b.has_value());
   ShowValue(hinge_mm_, -1e3 * mount.a_from_b.translation().z());
   single_->Show(model_->SingleBoard());
-  const StandPlan& plan = model_->Plan();
+  const StandPlan& plan = model_->Recorder()->Plan();
   ShowValue(first_, plan.first_deg);
   ShowValue(last_stop_, plan.last_deg);
   ShowValue(step_, plan.step_deg);
   ShowValue(lines_, plan.lines);
+  ShowValue(exposure_, plan.exposure_ms);
   ShowValue(speed_, plan.sweep_speed_deg_s);
   fault_->setVisible(!fault_->text().isEmpty());
   folder_->setText(model_->Folder());

@@ -41,6 +41,7 @@ class StandPage : public QWidget {
   QDoubleSpinBox* last_stop_ = nullptr;
   QDoubleSpinBox* step_ = nullptr;
   QSpinBox* lines_ = nullptr;
+  QDoubleSpinBox* exposure_ = nullptr;
   QDoubleSpinBox* speed_ = nullptr;
 };
 

@@ -2,31 +2,19 @@
 
 #include <QObject>
 #include <QString>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/calibration/session_file.h"
-#include "core/calibration/session_folder.h"
+#include "ui/viewmodels/calibration_recorder.h"
 #include "ui/viewmodels/chain_solution.h"
-#include "ui/viewmodels/head_captures.h"
 #include "ui/viewmodels/live_board_model.h"
 #include "ui/viewmodels/rig_version_model.h"
 #include "ui/viewmodels/stand_place_row.h"
+#include "ui/viewmodels/stand_tour.h"
 
 namespace foresight {
-
-/// What the head does at each place of the stand.
-struct StandPlan {
-  double first_deg = -30.0;
-  double last_deg = 80.0;
-  double step_deg = 10.0;
-  int lines = 40;  ///< at each stop
-  double sweep_speed_deg_s = 50.0;
-
-  std::vector<double> StopAngles() const;
-};
 
 /// Calibrates camera, motor, lidar and time of a head from a stand of boards at several places: a
 /// wizard whose steps can be taken in any order. Everything that the head captures is in the
@@ -36,31 +24,26 @@ class ChainCalibrationModel : public QObject {
   Q_OBJECT
 
  public:
-  /// Sessions are folders in `folder`; empty = CameraCalibrationModel::DefaultFolder().
+  /// Sessions are folders in `folder`; empty = CameraCalibrationModel::DefaultFolder(). `stand` is
+  /// one that moves by itself, or nullptr.
   ChainCalibrationModel(HeadViewModel* head, SessionModel* session, const QString& folder = {},
-                        QObject* parent = nullptr);
+                        std::shared_ptr<MovingStand> stand = nullptr, QObject* parent = nullptr);
   ~ChainCalibrationModel() override;
 
   /// The folder of the session; empty until the first capture.
-  const QString& Folder() const { return folder_; }
+  const QString& Folder() const { return recorder_.Folder(); }
   /// The newest session there is but the one that is open; empty = none.
   QString LastSession() const;
   /// One that was made here, on a robot, or by `foresightctl simulate calibration`.
   void OpenSession(const QString& folder);
 
-  const BoardMount& Mount() const { return mount_; }
-  const CalibrationBoard& SingleBoard() const { return single_board_; }
+  CalibrationRecorder* Recorder() { return &recorder_; }
+  StandTour* Tour() { return &tour_; }
+  LiveBoardModel* Live() { return &live_; }
+  const BoardMount& Mount() const { return recorder_.Mount(); }
+  const CalibrationBoard& SingleBoard() const { return recorder_.SingleBoard(); }
   /// Looks for them in all images again. Fails with kInvalidOptions; nothing changes then.
   Status SetBoards(const BoardMount& mount, const CalibrationBoard& single_board);
-  const StandPlan& Plan() const { return plan_; }
-  void SetPlan(const StandPlan& plan);
-
-  HeadCaptures* Captures() { return &captures_; }
-  LiveBoardModel* Live() { return &live_; }
-  /// Why the head cannot capture now, as a sentence; empty when it can.
-  QString WhyNotCapture() const;
-  QString WhyNotSweep() const;
-  QString WhyNotNewPlace() const;
   /// Captures a stop of the present place once more; the earlier capture stays on the disk.
   void CaptureStopAgain(int place, int stop);
 
@@ -115,13 +98,6 @@ class ChainCalibrationModel : public QObject {
 
  public Q_SLOTS:
   void startNew();
-  /// One image of the single board, for the camera alone.
-  void captureBoardImage();
-  /// The stand was put to another place.
-  void newPlace();
-  /// The stops of the present place that are not captured yet; begins the first place.
-  void captureStops();
-  void captureSweep();
   void solve();
   void cancel();
 
@@ -129,8 +105,6 @@ class ChainCalibrationModel : public QObject {
   void changed();
 
  private:
-  using Holder = std::shared_ptr<std::optional<SessionFolder>>;
-  using Change = std::function<Result<SessionCapture>(SessionFolder&)>;
   struct Read {
     std::shared_ptr<const CalibrationSession> session;  ///< nullptr: see fault
     QString fault;
@@ -140,38 +114,19 @@ class ChainCalibrationModel : public QObject {
 
   QString Root() const;
   void Clear();
-  void MakeSession();
-  /// Writes something into the session's folder; what was written is read and shown then.
-  void Write(const QString& title, Change change, std::function<void(SessionCapture)> done = {});
-  void TakeIndex(const SessionIndex& index);
-  void TakeCapture(const std::shared_ptr<const StopCapture>& capture);
-  void TakeStopsEnd(bool complete, const QString& reason);
-  void TakeSweep(const std::shared_ptr<const Scan>& scan);
-  void ShowExcluded(const SessionCapture& capture, bool excluded);
-  void StartCapture(const std::vector<double>& angles_rad);
-  QString NameOf(const SessionCapture& capture) const;
+  void TakeKept();
   void Advance();
   void StartRead();
   void StartSolve();
   void TakeSolution(Result<ChainSolution> solution);
   void DropSolution();
   void MakeRows();
-  StopLamp LampOf(const SessionStopFiles& stop, int number) const;
   void Announce();
 
   HeadViewModel* head_;
   SessionModel* documents_;
   QString root_;
-  QString folder_;
-  BoardMount mount_ = DefaultBoardMount();
-  CalibrationBoard single_board_{.columns = 8, .rows = 6, .square_m = 0.050};
-  StandPlan plan_;
   CalibrationStage stage_ = CalibrationStage::kAll;
-  /// Touched by the writer's tasks only, one after the other.
-  Holder holder_;
-  SessionIndex index_;
-  int present_place_ = -1;  ///< that captures go to
-  bool capturing_board_image_ = false;
   int session_version_ = 0;
 
   /// Touched by the reader's tasks only; with the boards as they are.
@@ -195,13 +150,13 @@ class ChainCalibrationModel : public QObject {
   std::shared_ptr<const GrayImage> selected_image_ = std::make_shared<const GrayImage>();
 
   RigVersionModel rig_;
-  HeadCaptures captures_;
+  CalibrationRecorder recorder_;
+  StandTour tour_{&recorder_};
   LiveBoardModel live_;
   TaskRunner opener_{documents_->Tasks(), TaskPolicy::kReplace};
   TaskRunner reader_{documents_->Tasks(), TaskPolicy::kQueue};
   TaskRunner solver_{documents_->Tasks(), TaskPolicy::kReplace};
   TaskRunner viewer_{documents_->Tasks(), TaskPolicy::kReplace};
-  TaskRunner writer_{documents_->Tasks(), TaskPolicy::kNeverCancel};
 };
 
 }  // namespace foresight

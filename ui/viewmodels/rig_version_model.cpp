@@ -101,6 +101,7 @@ void RigVersionModel::Forget() {
 }
 
 void RigVersionModel::SetFolder(const QString& folder) {
+  if (folder == folder_) return;
   folder_ = folder;
   before_.reset();
   const QString file = QDir(folder).filePath(kBeforeFile);

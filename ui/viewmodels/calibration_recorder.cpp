@@ -1,0 +1,338 @@
+#include "ui/viewmodels/calibration_recorder.h"
+
+#include <QDateTime>
+#include <QDir>
+
+#include "core/geometry/angles.h"
+#include "ui/viewmodels/stand_rows.h"
+
+namespace foresight {
+namespace {
+
+/// Boards that can be told apart.
+BoardMount UsualMount() {
+  CalibrationBoard a{.columns = 9, .rows = 6, .square_m = 0.050};
+  CalibrationBoard b = a;
+  b.columns = 7;
+  return HingedMount(a, b, kHinge_m);
+}
+
+/// A folder of `root` that is not there yet.
+QString NewFolder(const QString& root) {
+  const QString now = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-HHmmss"));
+  QString folder = QDir(root).filePath(QStringLiteral("head-") + now);
+  for (int i = 2; QDir(folder).exists(); ++i)
+    folder = QDir(root).filePath(QStringLiteral("head-%1-%2").arg(now).arg(i));
+  return folder;
+}
+
+}  // namespace
+
+std::vector<double> StandPlan::StopAngles() const {
+  std::vector<double> angles;
+  constexpr int kMost = 100;
+  for (int i = 0; i < kMost; ++i) {
+    const double angle_deg = first_deg + i * step_deg;
+    if (!(step_deg > 0.0) || angle_deg > last_deg + 1e-6) break;
+    angles.push_back(RadiansFromDegrees(angle_deg));
+  }
+  return angles;
+}
+
+CalibrationRecorder::CalibrationRecorder(HeadViewModel* head, SessionModel* documents,
+                                         const QString& root, std::shared_ptr<MovingStand> stand,
+                                         QObject* parent)
+    : QObject(parent),
+      head_(head),
+      documents_(documents),
+      root_(root),
+      stand_(std::move(stand)),
+      mount_(stand_ ? stand_->Mount() : UsualMount()),
+      single_board_(stand_ ? stand_->SingleBoard() : mount_.a),
+      captures_(head) {
+  connect(&writer_, &TaskRunner::changed, this, &CalibrationRecorder::changed);
+  connect(&captures_, &HeadCaptures::changed, this, &CalibrationRecorder::changed);
+  connect(&captures_, &HeadCaptures::captured, this, &CalibrationRecorder::TakeCapture);
+  connect(&captures_, &HeadCaptures::stopsEnded, this, &CalibrationRecorder::TakeStopsEnd);
+  connect(&captures_, &HeadCaptures::sweepEnded, this, &CalibrationRecorder::TakeSweep);
+}
+
+void CalibrationRecorder::Forget() {
+  captures_.end();
+  ++version_;
+  folder_.clear();
+  holder_ = std::make_shared<std::optional<SessionFolder>>();
+  index_ = {};
+  present_place_ = -1;
+}
+
+void CalibrationRecorder::Take(const QString& folder, SessionFolder session) {
+  Forget();
+  folder_ = folder;
+  index_ = session.Index();
+  *holder_ = std::move(session);
+  mount_ = index_.mount;
+  if (index_.intrinsic_board) single_board_ = *index_.intrinsic_board;
+  present_place_ = static_cast<int>(index_.poses.size()) - 1;
+  Q_EMIT changed();
+}
+
+/// The first task of the writer makes the folder.
+void CalibrationRecorder::MakeSession() {
+  if (!folder_.isEmpty()) return;
+  folder_ = NewFolder(root_);
+  SessionSetup setup;
+  setup.prior = head_->Rig();
+  setup.name = setup.prior.name;
+  setup.mount = mount_;
+  setup.intrinsic_board = single_board_;
+  writer_.Run<bool>(
+      tr("Beginning the calibration"),
+      [holder = holder_, setup, folder = folder_.toStdString()](const RunContext&) -> Result<bool> {
+        FORESIGHT_TRY(SessionFolder made, SessionFolder::Create(folder, setup));
+        *holder = std::move(made);
+        return true;
+      },
+      [this](const Result<bool>& made) {
+        if (!made) documents_->Report(NoticeOf(tr("Beginning the calibration"), made.error()));
+      });
+}
+
+void CalibrationRecorder::Write(const QString& title, Change change,
+                                std::function<void(SessionCapture)> done) {
+  MakeSession();
+  struct Written {
+    SessionCapture capture;
+    SessionIndex index;
+  };
+  writer_.Run<Written>(
+      title,
+      [holder = holder_, change = std::move(change)](const RunContext&) -> Result<Written> {
+        if (!holder->has_value())
+          return Fail(ErrorCode::kIo, "the session's folder could not be made");
+        FORESIGHT_TRY(const SessionCapture capture, change(**holder));
+        return Written{capture, (*holder)->Index()};
+      },
+      [this, title, done = std::move(done), version = version_](const Result<Written>& written) {
+        if (version != version_) return;
+        if (!written) {
+          documents_->Report(NoticeOf(title, written.error()));
+          Q_EMIT changed();
+          return;
+        }
+        if (done) done(written->capture);
+        index_ = written->index;
+        Q_EMIT kept();
+      });
+}
+
+void CalibrationRecorder::SetBoards(const BoardMount& mount, const CalibrationBoard& single_board) {
+  mount_ = mount;
+  single_board_ = single_board;
+  if (folder_.isEmpty()) return;
+  Write(tr("Keeping the boards"),
+        [mount, single_board](SessionFolder& folder) -> Result<SessionCapture> {
+          FORESIGHT_CHECK(folder.SetBoards(mount, single_board));
+          return SessionCapture{};
+        });
+}
+
+void CalibrationRecorder::SetPlan(const StandPlan& plan) {
+  plan_ = plan;
+  Q_EMIT changed();
+}
+
+QString CalibrationRecorder::WhyNotMoveStand() const {
+  if (!stand_) return tr("The stand is moved by hand.");
+  if (captures_.Running()) return tr("The head is capturing.");
+  // Captures that are on their way belong to where the stand was.
+  return writer_.Busy() ? tr("A capture is being kept.") : QString();
+}
+
+void CalibrationRecorder::MoveStand(int place) {
+  if (const QString why = WhyNotMoveStand(); !why.isEmpty()) {
+    documents_->Report({Notice::Level::kInfo, tr("The stand cannot be moved now."), why});
+    return;
+  }
+  if (place == stand_->At()) return;
+  stand_->MoveTo(place);
+  present_place_ = -1;
+  Q_EMIT changed();
+}
+
+QString CalibrationRecorder::WhyNotCapture() const {
+  if (const QString why = captures_.WhyNot(); !why.isEmpty()) return why;
+  if (stand_ && stand_->At() >= 0 &&
+      !stand_->Places()[static_cast<std::size_t>(stand_->At())].mount)
+    return tr(
+        "The stand shows the board for the camera alone: take an image for the camera, or "
+        "move the stand on.");
+  return plan_.StopAngles().empty() ? tr("The plan has no stops.") : QString();
+}
+
+const SessionPoseFiles* CalibrationRecorder::PresentPose() const {
+  return present_place_ >= 0 && present_place_ < static_cast<int>(index_.poses.size())
+             ? &index_.poses[static_cast<std::size_t>(present_place_)]
+             : nullptr;
+}
+
+std::vector<double> CalibrationRecorder::MissingStops() const {
+  std::vector<double> angles = plan_.StopAngles();
+  if (const SessionPoseFiles* pose = PresentPose())
+    for (const SessionStopFiles& stop : pose->stops)
+      if (!stop.excluded)
+        std::erase_if(angles, [&](double angle) { return SameStop(stop.motor_rad, angle); });
+  return angles;
+}
+
+QString CalibrationRecorder::WhyNotSweep() const {
+  if (present_place_ < 0) return tr("Capture the stops of a place first.");
+  return captures_.WhyNot();
+}
+
+QString CalibrationRecorder::WhyNotNewPlace() const {
+  if (captures_.Running()) return captures_.WhyNot();
+  const SessionPoseFiles* pose = PresentPose();
+  if (pose == nullptr) return tr("Capture the stops; a place begins by itself.");
+  return pose->stops.empty() ? tr("Nothing is captured at the present place yet.") : QString();
+}
+
+void CalibrationRecorder::newPlace() {
+  BeginPlace(stand_ && stand_->At() >= 0
+                 ? stand_->Places()[static_cast<std::size_t>(stand_->At())].name
+                 : std::string());
+}
+
+void CalibrationRecorder::BeginPlace(const std::string& name) {
+  Write(
+      tr("Beginning a place"), [name](SessionFolder& folder) { return folder.AddPose(name); },
+      [this](const SessionCapture& place) { present_place_ = place.pose; });
+}
+
+void CalibrationRecorder::captureBoardImage() {
+  CaptureBoardImageAt(head_->LastStatus().angle_rad);
+}
+
+void CalibrationRecorder::CaptureBoardImageAt(double motor_rad) {
+  StopPlan plan;
+  plan.angles_rad = {motor_rad};
+  plan.lines = 0;
+  plan.exposure_s = 1e-3 * plan_.exposure_ms;
+  if (const Status started = captures_.StartStops(plan); !started) {
+    documents_->Report(NoticeOf(tr("Capturing an image"), started.error()));
+    return;
+  }
+  capturing_board_image_ = true;
+}
+
+void CalibrationRecorder::captureStops() {
+  if (const QString why = WhyNotCapture(); !why.isEmpty()) {
+    documents_->Report({Notice::Level::kInfo, tr("The stops cannot be captured now."), why});
+    return;
+  }
+  const std::vector<double> angles = MissingStops();
+  if (angles.empty()) {
+    documents_->Report({Notice::Level::kInfo, tr("All stops of this place are captured."),
+                        tr("Move the stand and choose New place.")});
+    return;
+  }
+  if (present_place_ < 0) newPlace();
+  StartCapture(angles);
+}
+
+void CalibrationRecorder::CaptureStopAgain(double motor_rad) {
+  StartCapture({motor_rad});
+}
+
+void CalibrationRecorder::StartCapture(const std::vector<double>& angles_rad) {
+  StopPlan plan;
+  plan.angles_rad = angles_rad;
+  plan.lines = plan_.lines;
+  plan.exposure_s = 1e-3 * plan_.exposure_ms;
+  capturing_board_image_ = false;
+  if (const Status started = captures_.StartStops(plan); !started)
+    documents_->Report(NoticeOf(tr("Capturing the stops"), started.error()));
+}
+
+void CalibrationRecorder::captureSweep() {
+  const std::vector<double> angles = plan_.StopAngles();
+  if (angles.empty() || present_place_ < 0) return;
+  ScanPlan plan;
+  plan.from_rad = angles.front();
+  plan.to_rad = angles.back();
+  plan.speed_rad_s = RadiansFromDegrees(plan_.sweep_speed_deg_s);
+  plan.image_angles_rad = {0.5 * (angles.front() + angles.back())};
+  plan.exposure_s = 1e-3 * plan_.exposure_ms;
+  plan.passes = 2;  // one way an offset in time is a turn of the lidar
+  if (const Status started = captures_.StartSweep(plan); !started)
+    documents_->Report(NoticeOf(tr("Starting the sweep"), started.error()));
+}
+
+void CalibrationRecorder::TakeCapture(const std::shared_ptr<const StopCapture>& capture) {
+  if (capturing_board_image_) {
+    if (!capture->image) return;
+    Write(tr("Keeping the image"), [capture](SessionFolder& folder) {
+      return folder.AddIntrinsicImage(capture->image->image, "the head's image");
+    });
+    return;
+  }
+  // The place's number is known when this is written: it may be on its way to the disk.
+  Write(tr("Keeping the stop"),
+        [capture, place = present_place_](SessionFolder& folder) -> Result<SessionCapture> {
+          const int last = static_cast<int>(folder.Index().poses.size()) - 1;
+          RecordedStop stop;
+          stop.commanded_rad = capture->target_rad;
+          stop.measured_rad = capture->position.angle_rad;
+          if (capture->image) stop.image = capture->image->image;
+          stop.lines = capture->lines;
+          return folder.AddStop(place >= 0 ? place : last, stop);
+        });
+}
+
+void CalibrationRecorder::TakeStopsEnd(bool complete, const QString& reason) {
+  capturing_board_image_ = false;
+  if (!complete || !reason.isEmpty())
+    documents_->Report({Notice::Level::kWarning, tr("The captures ended early: %1.").arg(reason),
+                        tr("What was captured is kept. Capture goes on with what is missing.")});
+  Q_EMIT captureEnded(complete && reason.isEmpty());
+  Q_EMIT changed();
+}
+
+void CalibrationRecorder::TakeSweep(const std::shared_ptr<const Scan>& scan) {
+  const bool complete = scan && scan->state == ScanState::kComplete;
+  if (complete)
+    Write(tr("Keeping the sweep"), [scan, place = present_place_](SessionFolder& folder) {
+      MountSweep sweep;
+      for (const LidarLine& line : scan->lines) sweep.lines.push_back(line);
+      sweep.track = scan->track;
+      return folder.AddSweep(place, sweep);
+    });
+  else
+    documents_->Report({Notice::Level::kWarning, tr("The sweep ended early and is not kept."),
+                        tr("Sweep again.")});
+  Q_EMIT captureEnded(complete);
+  Q_EMIT changed();
+}
+
+void CalibrationRecorder::SetExcluded(const SessionCapture& capture, bool excluded) {
+  Write(tr("Keeping the calibration"),
+        [capture, excluded](SessionFolder& folder) -> Result<SessionCapture> {
+          FORESIGHT_CHECK(folder.SetExcluded(capture, excluded));
+          return capture;
+        });
+}
+
+QString CalibrationRecorder::NameOf(const SessionCapture& capture) const {
+  using Kind = SessionCapture::Kind;
+  if (capture.kind == Kind::kIntrinsicImage)
+    return QString::fromStdString(
+        index_.intrinsic_views[static_cast<std::size_t>(capture.number)].File());
+  const SessionPoseFiles& pose = index_.poses[static_cast<std::size_t>(capture.pose)];
+  const QString name = QString::fromStdString(pose.name);
+  if (capture.kind == Kind::kPose) return name;
+  if (capture.kind == Kind::kSweep) return tr("%1, sweep").arg(name);
+  const double angle = pose.stops[static_cast<std::size_t>(capture.number)].motor_rad;
+  return tr("%1, %2°").arg(name, QString::number(DegreesFromRadians(angle), 'g', 4));
+}
+
+}  // namespace foresight

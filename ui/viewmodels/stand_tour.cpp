@@ -1,0 +1,81 @@
+#include "ui/viewmodels/stand_tour.h"
+
+#include <algorithm>
+
+namespace foresight {
+
+StandTour::StandTour(CalibrationRecorder* recorder, QObject* parent)
+    : QObject(parent), recorder_(recorder) {
+  connect(recorder_, &CalibrationRecorder::captureEnded, this, [this](bool complete) {
+    if (running_ && !complete) end();
+  });
+  connect(recorder_, &CalibrationRecorder::changed, this, &StandTour::Advance);
+}
+
+QString StandTour::WhyNot() const {
+  if (recorder_->Stand() == nullptr) return tr("The stand is moved by hand.");
+  if (running_) return tr("The head is capturing.");
+  return recorder_->Captures()->WhyNot();
+}
+
+void StandTour::start() {
+  if (!WhyNot().isEmpty()) return;
+  using Task = Step::Task;
+  const auto& places = recorder_->Stand()->Places();
+  steps_.clear();
+  for (int i = std::max(0, recorder_->Stand()->At()); i < static_cast<int>(places.size()); ++i)
+    if (places[static_cast<std::size_t>(i)].mount) {
+      steps_.push_back({i, Task::kStops});
+      steps_.push_back({i, Task::kSweep});
+    } else {
+      steps_.push_back({i, Task::kImage});
+    }
+  running_ = true;
+  Advance();
+  Q_EMIT changed();
+}
+
+void StandTour::end() {
+  if (!running_) return;
+  running_ = false;
+  steps_.clear();
+  recorder_->Captures()->end();
+  Q_EMIT changed();
+}
+
+/// Goes on when the last capture is on the disk.
+void StandTour::Advance() {
+  if (!running_ || taking_ || recorder_->Capturing() || recorder_->Writing()) return;
+  taking_ = true;
+  bool took = false;
+  while (!steps_.empty() && !took) {
+    const Step step = steps_.front();
+    steps_.pop_front();
+    if (step.place != recorder_->Stand()->At()) recorder_->MoveStand(step.place);
+    const bool done_before = step.task == Step::Task::kStops && recorder_->MissingStops().empty();
+    if (done_before) continue;
+    took = Take(step);
+    if (!took) steps_.clear();  // why was told
+  }
+  taking_ = false;
+  if (took) return;
+  running_ = false;
+  Q_EMIT changed();
+}
+
+bool StandTour::Take(const Step& step) {
+  switch (step.task) {
+    case Step::Task::kImage:
+      recorder_->CaptureBoardImageAt(0.0);
+      break;
+    case Step::Task::kStops:
+      recorder_->captureStops();
+      break;
+    case Step::Task::kSweep:
+      recorder_->captureSweep();
+      break;
+  }
+  return recorder_->Capturing();
+}
+
+}  // namespace foresight
