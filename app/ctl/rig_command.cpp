@@ -4,6 +4,7 @@
 #include "app/ctl/command.h"
 #include "core/base/atomic_file.h"
 #include "core/calibration/camera_formats.h"
+#include "core/calibration/compare_rigs.h"
 #include "core/geometry/angles.h"
 #include "core/sensor/rig_id.h"
 #include "core/sensor/sensor_rig.h"
@@ -13,6 +14,7 @@ namespace {
 
 struct RigArguments {
   std::string file;
+  std::string other;
   std::string format;
   std::string rig;
   std::string out;
@@ -161,6 +163,44 @@ Result<ExitCode> ShowRig(const RigArguments& arguments) {
   return ExitCode::kDone;
 }
 
+std::string Describe(const RigError& error) {
+  return fmt::format(
+      "camera         {:.3f} px rms over the image, {:.3f} px most\n"
+      "motor's axis   {:.4f} deg, {:.3f} mm\n"
+      "plate's angles {:.4f} deg rms, {:.4f} deg most\n"
+      "lidar          {:.4f} deg, {:.3f} mm\n"
+      "range offset   {:+.2f} mm\n"
+      "stamp offset   {:+.3f} ms",
+      error.camera_rms_px, error.camera_most_px, DegreesFromRadians(error.axis_rad),
+      1e3 * error.axis_m, DegreesFromRadians(error.angles_rms_rad),
+      DegreesFromRadians(error.angles_most_rad), DegreesFromRadians(error.lidar_rad),
+      1e3 * error.lidar_m, 1e3 * error.range_offset_m, 1e3 * error.stamp_offset_s);
+}
+
+nlohmann::ordered_json ToJson(const RigError& error) {
+  return {{"camera_rms_px", Finite(error.camera_rms_px)},
+          {"camera_most_px", Finite(error.camera_most_px)},
+          {"axis_deg", DegreesFromRadians(error.axis_rad)},
+          {"axis_mm", 1e3 * error.axis_m},
+          {"angles_rms_deg", DegreesFromRadians(error.angles_rms_rad)},
+          {"angles_most_deg", DegreesFromRadians(error.angles_most_rad)},
+          {"lidar_deg", DegreesFromRadians(error.lidar_rad)},
+          {"lidar_mm", 1e3 * error.lidar_m},
+          {"range_offset_mm", 1e3 * error.range_offset_m},
+          {"stamp_offset_ms", 1e3 * error.stamp_offset_s}};
+}
+
+Result<ExitCode> CompareRigFiles(const RigArguments& arguments) {
+  FORESIGHT_TRY(const SensorRig rig, LoadSensorRig(arguments.file));
+  FORESIGHT_TRY(const SensorRig other, LoadSensorRig(arguments.other));
+  FORESIGHT_TRY(const RigError error, CompareRigs(rig, other));
+  if (arguments.json)
+    PrintJson(ToJson(error));
+  else
+    PrintLine(Describe(error));
+  return ExitCode::kDone;
+}
+
 Result<ExitCode> ExportRig(const RigArguments& arguments) {
   FORESIGHT_TRY(const CameraFormat format, CameraFormatFromText(arguments.format));
   FORESIGHT_TRY(const SensorRig rig, LoadSensorRig(arguments.file));
@@ -279,6 +319,16 @@ void AddRigCommand(CLI::App& app, Invocation& invocation) {
   show->add_flag("--json", arguments->json, "Print all values as JSON");
   show->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext&) { return ShowRig(*arguments); };
+  });
+  CLI::App* compare = rig->add_subcommand(
+      "compare",
+      "How one rig differs from another, such as the truth of a simulation, in what does not "
+      "depend on the choice of frames");
+  compare->add_option("file", arguments->file, "The rig (YAML)")->required();
+  compare->add_option("other", arguments->other, "The other rig (YAML)")->required();
+  compare->add_flag("--json", arguments->json, "Print the differences as JSON");
+  compare->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext&) { return CompareRigFiles(*arguments); };
   });
   AddSetRobotFrame(*rig, invocation, arguments);
   constexpr const char* kFormats = "opencv, ros (camera_info), kalibr (camchain), colmap";

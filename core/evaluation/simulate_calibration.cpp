@@ -446,35 +446,6 @@ Result<SimulatedCalibration> SimulateCalibration(const CalibrationSimulation& op
   return SessionMaker(options).Make();
 }
 
-RigError CompareRigs(const SensorRig& rig, const SensorRig& truth) {
-  RigError error;
-  error.focal_px = std::max(std::abs(rig.camera.fx - truth.camera.fx),
-                            std::abs(rig.camera.fy - truth.camera.fy));
-  const auto axis_of = [](const SensorRig& r) {
-    return r.camera_from_head.Rotate(Eigen::Vector3d::UnitX());
-  };
-  const auto nearest = [&](const SensorRig& r) {  // point of the axis next to the camera
-    const Eigen::Vector3d t = r.camera_from_head.translation();
-    return Eigen::Vector3d(t - axis_of(r) * axis_of(r).dot(t));
-  };
-  error.axis_rad = std::asin(std::min(1.0, axis_of(rig).cross(axis_of(truth)).norm()));
-  error.axis_m = (nearest(rig) - nearest(truth)).norm();
-  for (const auto& knot : rig.angle_correction.knots()) {
-    const double e = std::abs(knot.plate_rad - truth.angle_correction.PlateAngle(knot.motor_rad));
-    error.angles_rms_rad += e * e;
-    error.angles_most_rad = std::max(error.angles_most_rad, e);
-  }
-  const auto knots = static_cast<double>(rig.angle_correction.knots().size());
-  // The reference's angle is 0 by definition and does not count.
-  error.angles_rms_rad = std::sqrt(error.angles_rms_rad / std::max(1.0, knots - 1.0));
-  const auto step = StepBetween(truth.camera_from_lidar, rig.camera_from_lidar);
-  error.lidar_rad = step.head<3>().norm();
-  error.lidar_m = step.tail<3>().norm();
-  error.range_offset_m = rig.lidar.range_offset_m - truth.lidar.range_offset_m;
-  error.stamp_offset_s = rig.lidar.stamp_offset_s - truth.lidar.stamp_offset_s;
-  return error;
-}
-
 Eigen::VectorXd DeviationsFromTruth(const ChainCalibration& found,
                                     const SimulatedCalibration& truth) {
   FORESIGHT_EXPECTS(found.covariance.has_value(), "a joint calibration");

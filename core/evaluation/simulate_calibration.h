@@ -63,20 +63,6 @@ struct SimulatedCalibration {
 /// second.
 Result<SimulatedCalibration> SimulateCalibration(const CalibrationSimulation& options);
 
-/// How a calibrated rig differs from the true one, in what does not depend on the gauge.
-struct RigError {
-  double focal_px = 0.0;        ///< the larger one of fx and fy
-  double axis_rad = 0.0;        ///< direction of the motor's axis in camera
-  double axis_m = 0.0;          ///< distance of the axes next to the camera
-  double angles_rms_rad = 0.0;  ///< plate angles at the knots of the rig
-  double angles_most_rad = 0.0;
-  double lidar_rad = 0.0;  ///< camera_from_lidar
-  double lidar_m = 0.0;
-  double range_offset_m = 0.0;  ///< signed
-  double stamp_offset_s = 0.0;  ///< signed
-};
-RigError CompareRigs(const SensorRig& rig, const SensorRig& truth);
-
 /// How far each unknown of the covariance is from the truth, in its order and units: what the
 /// covariance is a covariance of. @pre found.covariance
 Eigen::VectorXd DeviationsFromTruth(const ChainCalibration& found,

@@ -4,7 +4,7 @@
 
 #include <QPushButton>
 
-#include "hardware/simulated/simulated_head.h"
+#include "app/workstation/simulated_stand.h"
 #include "tests/display/mouse.h"
 #include "tests/ui/wait_for.h"
 
@@ -13,15 +13,27 @@ namespace {
 
 constexpr int kScanLimit_ms = 60'000;  // the simulated camera and the depth take seconds each
 
-}  // namespace
+std::shared_ptr<const World> RoomWithTheValve() {
+  Scene scene = LoadScene(FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml").value();
+  return std::make_shared<const World>(std::make_shared<const Scene>(std::move(scene)),
+                                       DefaultSensorRig(), WorldOptions());
+}
 
-RunningWindow::RunningWindow() {
-  const std::string file = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
-  scene_ = LoadScene(file).value();
+SimulatedHeadOptions AsFastAsPossible() {
   SimulatedHeadOptions options;
   options.speed = SimulationSpeed::kAsFastAsPossible;
-  std::shared_ptr<SensorHead> head = MakeSimulatedHead(file, options).value();
-  bench_ = std::make_unique<Workbench>(std::move(head), SessionMode::kSimulation);
+  return options;
+}
+
+}  // namespace
+
+RunningWindow::RunningWindow() : RunningWindow(RoomWithTheValve(), AsFastAsPossible()) {}
+
+RunningWindow::RunningWindow(std::shared_ptr<const World> world,
+                             const SimulatedHeadOptions& options)
+    : world_(std::move(world)) {
+  std::shared_ptr<SensorHead> head = MakeSimulatedHead(world_, options).value();
+  bench_ = std::make_unique<Workbench>(std::move(head), SessionMode::kSimulation, StandIn(world_));
   EXPECT_TRUE(bench_->recording.BeginInFolder(missions_.path()));
   window_ = std::make_unique<MainWindow>(bench_.get());
   window_->show();
@@ -44,7 +56,7 @@ bool RunningWindow::ScanWithTheMouse() {
 }
 
 Eigen::Vector3d RunningWindow::ValveInRobot() const {
-  return scene_.valves.at(0).robot_from_object.translation();
+  return world_->scene().valves.at(0).robot_from_object.translation();
 }
 
 std::pair<Eigen::Vector2d, Eigen::Vector2d> RunningWindow::AroundValve() {
@@ -53,7 +65,7 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> RunningWindow::AroundValve() {
       scan.rig.CameraFromBase(bench_->live.session.CurrentImage()->motor_angle_rad) *
       scan.rig.robot_from_base.Inverse();
   const Eigen::Vector3d center = camera_from_robot * ValveInRobot();
-  const double radius_m = 1.35 * scene_.valves.at(0).model.rim_radius_m;
+  const double radius_m = 1.35 * world_->scene().valves.at(0).model.rim_radius_m;
   return {*scan.rig.camera.Project(center - Eigen::Vector3d(radius_m, radius_m, 0.0)),
           *scan.rig.camera.Project(center + Eigen::Vector3d(radius_m, radius_m, 0.0))};
 }

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/workstation/main_window.h"
-#include "core/simulation/scene.h"
+#include "hardware/simulated/simulated_head.h"
 #include "tests/display/stall_meter.h"
 
 namespace foresight {
@@ -14,6 +14,8 @@ namespace foresight {
 class RunningWindow {
  public:
   RunningWindow();
+  /// On another world; the world's rig and options count, not those of `options`.
+  RunningWindow(std::shared_ptr<const World> world, const SimulatedHeadOptions& options);
   ~RunningWindow();
 
   Workbench& bench() { return *bench_; }
@@ -31,7 +33,7 @@ class RunningWindow {
 
  private:
   QTemporaryDir missions_;
-  Scene scene_;
+  std::shared_ptr<const World> world_;
   std::unique_ptr<Workbench> bench_;
   std::unique_ptr<MainWindow> window_;
   StallMeter stalls_;

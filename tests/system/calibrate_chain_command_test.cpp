@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
+#include "core/calibration/compare_rigs.h"
 #include "core/evaluation/simulate_calibration.h"
 #include "core/geometry/angles.h"
 #include "tests/support/run_program.h"
@@ -28,7 +29,7 @@ class CalibrateChainCommand : public testing::Test {
     const auto found = LoadSensorRig(rig);
     const auto truth = LoadSensorRig(session + "/truth.yaml");
     EXPECT_TRUE(found && truth);
-    return found && truth ? CompareRigs(*found, *truth) : RigError();
+    return found && truth ? CompareRigs(*found, *truth).value() : RigError();
   }
 
   TemporaryFolder folder_;

@@ -8,6 +8,7 @@
 
 #include "app/common/record_calibration.h"
 #include "app/common/wait_for_head.h"
+#include "core/calibration/compare_rigs.h"
 #include "core/calibration/session_file.h"
 #include "core/evaluation/calibration_scene.h"
 #include "core/geometry/angles.h"
@@ -103,7 +104,7 @@ class RecordedCalibration : public testing::Test {
     solve_s_ = SecondsSince(solve);
     views_ = static_cast<int>(session->intrinsic_views.size());
     found_ = *found;
-    error_ = CompareRigs(found_.rig, TrueRig());
+    error_ = CompareRigs(found_.rig, TrueRig()).value();
     std::cout << fmt::format(
         "{} views; focal {:.2f} px, axis {:.4f} deg {:.2f} mm, angles rms {:.4f} deg, lidar {:.3f} "
         "deg {:.2f} mm, range offset {:.2f} mm, stamps {:.3f} ms; chi2 {:.3f}; boards {:.1f} s, "

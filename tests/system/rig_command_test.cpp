@@ -95,5 +95,32 @@ TEST_F(RigCommand, AFileThatIsNotThereIsBadDataAndNoFileAUsageError) {
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"rig"}).exit_code, 2);
 }
 
+TEST_F(RigCommand, ComparesTwoRigsInWhatDoesNotDependOnTheGauge) {
+  const std::string other_file = folder_ / "other.yaml";
+  SensorRig other = rig_;
+  other.camera.cx += 0.5;
+  other.lidar.stamp_offset_s += 0.002;
+  // Along the motor's axis, where the head's origin is a choice.
+  const Eigen::Vector3d along = rig_.camera_from_head.Rotate(Eigen::Vector3d::UnitX());
+  other.camera_from_head = {rig_.camera_from_head.rotation(),
+                            rig_.camera_from_head.translation() + 0.1 * along};
+  ASSERT_TRUE(SaveSensorRig(rig_, file_));
+  ASSERT_TRUE(SaveSensorRig(other, other_file));
+  const ProgramResult result =
+      RunProgram(FORESIGHTCTL, {"rig", "compare", file_, other_file, "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto json = nlohmann::json::parse(result.output);
+  EXPECT_NEAR(json["camera_rms_px"].get<double>(), 0.5, 1e-6);
+  EXPECT_NEAR(json["axis_mm"].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(json["axis_deg"].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(json["stamp_offset_ms"].get<double>(), -2.0, 1e-6);
+
+  other.camera.width += 2;
+  ASSERT_TRUE(SaveSensorRig(other, other_file));
+  const ProgramResult wrong = RunProgram(FORESIGHTCTL, {"rig", "compare", file_, other_file});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_THAT(wrong.errors, HasSubstr("different heads"));
+}
+
 }  // namespace
 }  // namespace foresight

@@ -73,6 +73,12 @@ QString HeadCaptures::WhyNot() const {
   return Running() ? tr("The head is capturing.") : head_->WhyNoCapture();
 }
 
+bool HeadCaptures::HeadMoves() const {
+  const HeadState state = head_->LastStatus().state;
+  return state == HeadState::kSweeping || state == HeadState::kStopping ||
+         state == HeadState::kHoming;
+}
+
 Status HeadCaptures::StartStops(const StopPlan& plan) {
   if (Running()) return Fail(ErrorCode::kState, "the head is capturing");
   auto relay = std::make_shared<Relay>(this);

@@ -21,6 +21,8 @@ class HeadCaptures : public QObject {
   bool Running() const { return relay_ != nullptr; }
   /// Why nothing can start now, as a sentence; empty when it can.
   QString WhyNot() const;
+  /// Of what was started here or elsewhere; the head tells a moment after the last capture.
+  bool HeadMoves() const;
 
   Status StartStops(const StopPlan& plan);
   /// One image where the head stands now.

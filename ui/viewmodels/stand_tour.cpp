@@ -43,9 +43,10 @@ void StandTour::end() {
   Q_EMIT changed();
 }
 
-/// Goes on when the last capture is on the disk.
+/// Goes on when the last capture is on the disk and the head stands.
 void StandTour::Advance() {
   if (!running_ || taking_ || recorder_->Capturing() || recorder_->Writing()) return;
+  if (recorder_->Captures()->HeadMoves()) return;
   taking_ = true;
   bool took = false;
   while (!steps_.empty() && !took) {

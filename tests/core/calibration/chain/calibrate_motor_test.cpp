@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/calibration/compare_rigs.h"
 #include "core/calibration/motor_graph.h"
 #include "core/evaluation/simulate_calibration.h"
 #include "core/geometry/angles.h"
@@ -43,7 +44,8 @@ Accuracy AccuracyOf(const CalibrationSimulation& options,
   const auto found = CalibrateMotor(made->session, made->truth.camera, motor, {});
   EXPECT_TRUE(found) << "seed " << options.seed << ": " << found.error().message;
   if (!found) return {};
-  return {CompareRigs(RigOf(*found, made->session.prior), made->truth), found->mean_error_px};
+  return {CompareRigs(RigOf(*found, made->session.prior), made->truth).value(),
+          found->mean_error_px};
 }
 
 std::string MessageOf(const CalibrationSession& session, const CameraModel& camera,
@@ -137,7 +139,7 @@ void ExpectLeftOut(const CalibrationSession& session, const SensorRig& truth,
   EXPECT_THAT(found->notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr(which),
                                                                  ::testing::HasSubstr("left out"),
                                                                  ::testing::HasSubstr(why))));
-  const RigError error = CompareRigs(RigOf(*found, session.prior), truth);
+  const RigError error = CompareRigs(RigOf(*found, session.prior), truth).value();
   EXPECT_LT(DegreesFromRadians(error.axis_rad), 0.06);  // the bar
 }
 

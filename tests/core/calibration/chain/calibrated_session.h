@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/calibration/calibrate_chain.h"
+#include "core/calibration/compare_rigs.h"
 #include "core/evaluation/simulate_calibration.h"
 
 namespace foresight::testing {
@@ -26,7 +27,7 @@ inline CalibratedSession CalibrateSimulated(const CalibrationSimulation& options
   EXPECT_TRUE(found) << "seed " << options.seed << ": " << found.error().message;
   if (!found) return session;
   session.found = std::move(*found);
-  session.error = CompareRigs(session.found.rig, session.made.truth);
+  session.error = CompareRigs(session.found.rig, session.made.truth).value();
   return session;
 }
 
