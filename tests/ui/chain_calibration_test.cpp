@@ -251,5 +251,118 @@ TEST_F(ChainCalibration, ASweepGoesThereAndBackAndIsKeptWithThePlace) {
   EXPECT_EQ(session.CurrentScan(), nullptr) << "it is no scan of the mission";
 }
 
+TEST_F(ChainCalibration, BoardsThatAreInNoImageAreCalledWrong) {
+  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  StandPlan plan;
+  plan.first_deg = 0.0;
+  plan.last_deg = 20.0;
+  model.Recorder()->SetPlan(plan);
+  model.Recorder()->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(Settled());
+  EXPECT_THAT(model.StateText().toStdString(),
+              HasSubstr("None of 3 images shows a checkerboard with 9 x 6 inner corners or"));
+}
+
+/// Two places: the single board, then the mount.
+class FakeStand : public MovingStand {
+ public:
+  const BoardMount& Mount() const override { return mount_; }
+  const CalibrationBoard& SingleBoard() const override { return mount_.a; }
+  const std::vector<Place>& Places() const override { return places_; }
+  int At() const override { return at; }
+  void MoveTo(int place) override { at = place; }
+
+  int at = 0;
+
+ private:
+  BoardMount mount_ = DefaultBoardMount();
+  std::vector<Place> places_ = {{"view", false}, {"upright", true}, {"level", true}};
+};
+
+struct MovingStandCalibration : ChainCalibration {
+  std::shared_ptr<FakeStand> stand = std::make_shared<FakeStand>();
+  ChainCalibrationModel moving{&head_model, &session, folder.filePath("moving"), stand};
+  CalibrationRecorder* recorder = moving.Recorder();
+
+  MovingStandCalibration() {
+    EXPECT_TRUE(head->SetRig(RigOfSmallCamera()));
+    StandPlan plan;
+    plan.first_deg = 0.0;
+    plan.last_deg = 10.0;
+    recorder->SetPlan(plan);
+  }
+  void DeliverSweep() {
+    Scan scan;
+    scan.rig = DefaultSensorRig();
+    scan.lines = DarkCapture(0.0).lines;
+    scan.track = *MotorTrack::FromSamples({{0.0, -0.01}, {1.0, 0.01}});
+    head->Deliver(scan, scan.lines.size());
+    head->Finish(scan, ScanState::kComplete);
+  }
+  /// The head does all that it is asked for, until the tour ends; `stops` of them complete.
+  bool ServeTour(int stops = 1000) {
+    return WaitFor([&] {
+      if (head->WaitsForStops()) {
+        const bool complete = stops-- > 0;
+        head->DeliverStops(DarkCapture, complete ? ScanState::kComplete : ScanState::kInterrupted,
+                           complete ? "" : "the motor is stuck");
+      } else if (head->WaitsForScan()) {
+        DeliverSweep();
+      }
+      head_model.Poll();
+      return !moving.Tour()->Running();
+    });
+  }
+};
+
+TEST_F(MovingStandCalibration, ATourCapturesAllPlacesAndNamesThem) {
+  EXPECT_EQ(recorder->Mount(), DefaultBoardMount()) << "the stand's";
+  EXPECT_FALSE(recorder->WhyNotCapture().isEmpty()) << "the stand shows the single board";
+  moving.Tour()->start();
+  EXPECT_FALSE(recorder->WhyNotMoveStand().isEmpty());
+  ASSERT_TRUE(ServeTour());
+  EXPECT_EQ(stand->at, 2);
+  const SessionIndex& index = recorder->Index();
+  EXPECT_EQ(index.intrinsic_views.size(), 1u);
+  ASSERT_EQ(index.poses.size(), 2u);
+  EXPECT_EQ(index.poses[0].name, "upright");
+  EXPECT_EQ(index.poses[1].name, "level");
+  for (const SessionPoseFiles& pose : index.poses) {
+    EXPECT_EQ(pose.stops.size(), 2u);
+    EXPECT_EQ(pose.sweeps.size(), 1u);
+  }
+}
+
+TEST_F(MovingStandCalibration, ATourThatIsInterruptedGoesOnWhereTheStandIs) {
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour(2));  // the image and the stops of the first place
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(stand->at, 2);
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour());
+  EXPECT_EQ(recorder->Index().intrinsic_views.size(), 1u) << "not taken once more";
+  ASSERT_EQ(recorder->Index().poses.size(), 2u);
+  EXPECT_EQ(recorder->Index().poses[1].sweeps.size(), 1u);
+}
+
+TEST_F(MovingStandCalibration, AStandThatIsMovedBeginsAPlace) {
+  recorder->MoveStand(1);
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(WaitFor([&] { return recorder->WhyNotMoveStand().isEmpty(); }));
+  recorder->MoveStand(2);
+  EXPECT_FALSE(recorder->WhyNotSweep().isEmpty()) << "nothing is captured here yet";
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(WaitFor([&] { return recorder->WhyNotMoveStand().isEmpty(); }));
+  ASSERT_EQ(recorder->Index().poses.size(), 2u);
+  EXPECT_EQ(recorder->Index().poses[0].name, "upright");
+  EXPECT_EQ(recorder->Index().poses[1].stops.size(), 2u);
+}
+
 }  // namespace
 }  // namespace foresight

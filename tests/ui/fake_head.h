@@ -66,6 +66,8 @@ class FakeHead : public SensorHead {
     stop_sink_.reset();
     status_.state = HeadState::kReady;
   }
+  bool WaitsForStops() const { return stop_sink_ != nullptr; }
+  bool WaitsForScan() const { return sink_ != nullptr; }
   void OperatorSeen() override { ++operator_seen_; }
 
   /// Plays a finished scan into the sink, up to its `lines`-th line.

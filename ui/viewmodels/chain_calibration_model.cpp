@@ -19,6 +19,14 @@ QString Sentence(const std::string& text) {
   return sentence + QLatin1Char('.');
 }
 
+/// "checkerboard with 9 x 6 inner corners"
+QString InWords(const CalibrationBoard& board) {
+  const QString words = board.kind == CalibrationBoard::Kind::kCharuco
+                            ? ChainCalibrationModel::tr("ChArUco board with %1 x %2 inner corners")
+                            : ChainCalibrationModel::tr("checkerboard with %1 x %2 inner corners");
+  return words.arg(board.columns).arg(board.rows);
+}
+
 }  // namespace
 
 ChainCalibrationModel::ChainCalibrationModel(HeadViewModel* head, SessionModel* session,
@@ -281,8 +289,26 @@ QString ChainCalibrationModel::StateText() const {
     return tr("Calibrated from %1 images and %2 lidar lines.")
         .arg(solution_->found.images.size())
         .arg(solution_->found.lines.size());
+  if (const QString none = NoBoardFound(); !none.isEmpty()) return none;
   const QString why = WhyNotSolve();
   return why.isEmpty() ? tr("Not calibrated yet.") : why;
+}
+
+/// Where the boards that were typed are in none of some images, they are the wrong ones.
+QString ChainCalibrationModel::NoBoardFound() const {
+  constexpr int kSome = 3;
+  int without = 0;
+  for (const StandPlaceRow& row : places_)
+    for (const StopLamp& lamp : row.stops) {
+      if (lamp.state == StopLamp::State::kOneBoard || lamp.state == StopLamp::State::kBothBoards)
+        return {};
+      without += lamp.state == StopLamp::State::kNoBoard ? 1 : 0;
+    }
+  if (without < kSome) return {};
+  return tr("None of %1 images shows %2: check the boards in step 1, and what the camera sees.")
+      .arg(without)
+      .arg(Mount().b ? tr("a %1 or a %2").arg(InWords(Mount().a), InWords(*Mount().b))
+                     : tr("a %1").arg(InWords(Mount().a)));
 }
 
 std::vector<CalibrationCheck> ChainCalibrationModel::Verdict() const {

@@ -121,6 +121,7 @@ class ChainCalibrationModel : public QObject {
   void TakeSolution(Result<ChainSolution> solution);
   void DropSolution();
   void MakeRows();
+  QString NoBoardFound() const;
   void Announce();
 
   HeadViewModel* head_;
