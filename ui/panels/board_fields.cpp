@@ -6,9 +6,17 @@
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSpinBox>
+#include <algorithm>
+#include <array>
 
 namespace foresight {
 namespace {
+
+using Dictionary = CalibrationBoard::Dictionary;
+constexpr std::array kDictionaries = {
+    Dictionary::k4x4_50, Dictionary::k4x4_100, Dictionary::k4x4_250,
+    Dictionary::k5x5_50, Dictionary::k5x5_100, Dictionary::k5x5_250,
+    Dictionary::k6x6_50, Dictionary::k6x6_100, Dictionary::k6x6_250};
 
 QSpinBox* CornerNumber(const QString& name) {
   auto* box = new QSpinBox;
@@ -32,7 +40,10 @@ BoardFields::BoardFields(QWidget* parent)
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(3, 1);
-  kind_->addItems({tr("Checkerboard"), tr("ChArUco, 5x5_250")});
+  kind_->addItem(tr("Checkerboard"));
+  for (const CalibrationBoard::Dictionary dictionary : kDictionaries)
+    kind_->addItem(
+        tr("ChArUco, %1").arg(QString::fromStdString(std::string(ToString(dictionary)))));
   kind_->setAccessibleName(tr("Kind of board"));
   kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   kind_->setMinimumContentsLength(6);
@@ -58,7 +69,10 @@ BoardFields::BoardFields(QWidget* parent)
 void BoardFields::Show(const CalibrationBoard& board) {
   shown_ = board;
   const QSignalBlocker quiet_columns(columns_), quiet_rows(rows_), quiet_square(square_mm_);
-  kind_->setCurrentIndex(board.kind == CalibrationBoard::Kind::kCheckerboard ? 0 : 1);
+  const auto at = std::find(kDictionaries.begin(), kDictionaries.end(), board.dictionary);
+  kind_->setCurrentIndex(board.kind == CalibrationBoard::Kind::kCheckerboard
+                             ? 0
+                             : 1 + static_cast<int>(at - kDictionaries.begin()));
   if (!columns_->hasFocus()) columns_->setValue(board.columns);
   if (!rows_->hasFocus()) rows_->setValue(board.rows);
   if (!square_mm_->hasFocus()) square_mm_->setValue(1e3 * board.square_m);
@@ -66,8 +80,9 @@ void BoardFields::Show(const CalibrationBoard& board) {
 
 CalibrationBoard BoardFields::Board() const {
   CalibrationBoard board = shown_;
-  board.kind = kind_->currentIndex() == 0 ? CalibrationBoard::Kind::kCheckerboard
-                                          : CalibrationBoard::Kind::kCharuco;
+  const int kind = kind_->currentIndex();
+  board.kind = kind == 0 ? CalibrationBoard::Kind::kCheckerboard : CalibrationBoard::Kind::kCharuco;
+  if (kind > 0) board.dictionary = kDictionaries[static_cast<std::size_t>(kind - 1)];
   board.columns = columns_->value();
   board.rows = rows_->value();
   board.square_m = 1e-3 * square_mm_->value();

@@ -25,6 +25,7 @@ void FillWithScroll(QWidget* panel, QWidget* content) {
 QLabel* SectionTitle(const QString& text) {
   auto* label = new QLabel(text);
   label->setObjectName(QStringLiteral("sectionTitle"));
+  label->setWordWrap(true);  // a long title must not push what stands below out of a narrow dock
   return label;
 }
 
