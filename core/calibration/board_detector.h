@@ -31,9 +31,10 @@ struct BoardDetection {
 };
 
 /// Finds a board and rates the image. A checkerboard must be seen whole but for a tenth of its
-/// corners, which are left out; a ChArUco board may be seen in part (6 corners, not in one row). Corner 0 of a checkerboard that can be told from its
-/// opposite (CalibrationBoard::LooksSameUpsideDown) is the one beside the black square; of the
-/// others, either. @pre board.Check()
+/// corners, which are left out; a ChArUco board may be seen in part (6 corners, not in one row).
+/// Corner 0 of a checkerboard that can be told from its opposite
+/// (CalibrationBoard::LooksSameUpsideDown) is the one beside the black square; of the others,
+/// either. @pre board.Check()
 BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board,
                            SearchEffort effort = SearchEffort::kThorough);
 /// The same of an image whose checkerboards were looked for.

@@ -43,11 +43,14 @@ bool CornersPass(const GrayImage& image, const CornerGrid& grid) {
   return passed >= kCornersThatPass * grid.columns * grid.rows;
 }
 
-/// Whether most of the edges between each two neighbouring rows and columns are there.
+/// Whether most of the edges between each two neighbouring rows and columns are there, blurred ones
+/// too.
 bool HangsTogether(const GrayImage& image, const CornerGrid& grid, double contrast) {
+  constexpr double kBlurredEdgeContrast = 0.1;
   const auto joined = [&](int count, const auto& from, const auto& to) {
     int edges = 0;
-    for (int i = 0; i < count; ++i) edges += IsEdge(image, from(i), to(i), contrast) ? 1 : 0;
+    for (int i = 0; i < count; ++i)
+      edges += IsEdge(image, from(i), to(i), kBlurredEdgeContrast * contrast) ? 1 : 0;
     return 2 * edges >= count;
   };
   for (int column = 0; column + 1 < grid.columns; ++column)

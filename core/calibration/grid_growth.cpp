@@ -86,7 +86,7 @@ Extension Extended(const GrayImage& image, const CornerGrid& grid, const Side& s
         IsCorner(image, wider, column + shift_x, row + shift_y, turned) &&
         IsCorner(image, wider, column + shift_x, row + shift_y, turned, kNearReach) &&
         IsEdge(image, grid.At(last_column, last_row), wider.At(column + shift_x, row + shift_y),
-               contrast);
+               kEdgeContrast * std::abs(contrast));
     extension.passed += is_corner ? 1 : 0;
   }
   return extension;

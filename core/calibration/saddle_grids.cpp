@@ -16,9 +16,7 @@ namespace {
 
 constexpr int kNone = -1;
 constexpr double kLeastCosine = 0.93;  // 21 deg: edges of a fisheye image bend
-/// Fraction of the corners' contrast that the edge between them has.
-constexpr double kEdgeContrast = 0.35;
-constexpr int kTries = 4;  // of the nearest points in a direction
+constexpr int kTries = 4;              // of the nearest points in a direction
 
 /// Light on which side of the way from one to the other: 1 = on the side that angles grow to, -1 =
 /// on the other, 0 = neither, or not all along.
@@ -179,7 +177,7 @@ std::optional<CornerGrid> LargestRectangle(const Places& places,
 
 bool IsEdge(const GrayImage& image, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
             double least_contrast) {
-  return LightSide(image, from, to, kEdgeContrast * std::abs(least_contrast)) != 0;
+  return LightSide(image, from, to, least_contrast) != 0;
 }
 
 std::vector<CornerGrid> FindSaddleGrids(const GrayImage& image) {

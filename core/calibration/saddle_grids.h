@@ -6,6 +6,9 @@
 
 namespace foresight {
 
+/// Fraction of the corners' contrast that a sharp edge between them has all along.
+inline constexpr double kEdgeContrast = 0.35;
+
 /// Whether two neighbouring corners of a grid have an edge between squares all along between them,
 /// as those of one board do; across the gap between two boards there is none.
 bool IsEdge(const GrayImage& image, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
