@@ -79,6 +79,7 @@ std::vector<Eigen::Vector2d> RandomCover(const CalibrationBoard& board, Random& 
     const Eigen::Vector2d middle(random.Uniform(-square, right), random.Uniform(-square, bottom));
     const double radius = random.Uniform(0.6, 2.0) * square;
     std::vector<Eigen::Vector2d> disc;
+    disc.reserve(16);
     for (int i = 0; i < 16; ++i)
       disc.push_back(middle +
                      radius * Eigen::Vector2d(std::cos(i * M_PI / 8.0), std::sin(i * M_PI / 8.0)));
