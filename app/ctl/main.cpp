@@ -20,6 +20,7 @@ int Main(int argc, char** argv) {
   AddUpsampleCommand(app, invocation);
   AddEvaluateCommand(app, invocation);
   AddEvaluateFitsCommand(app, invocation);
+  AddEvaluateBoardsCommand(app, invocation);
   AddEvaluateCheckCommand(app, invocation);
   AddVerdictCommand(app, invocation);
   AddRenderCommand(app, invocation);

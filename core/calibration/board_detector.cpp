@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "core/base/contract.h"
 #include "core/calibration/charuco_finder.h"
 #include "core/calibration/checkerboard_finder.h"
+#include "core/calibration/grid_checks.h"
 #include "core/calibration/image_rating.h"
 
 namespace foresight {
@@ -45,10 +46,10 @@ std::string WhyNotFound(const GrayImage& image, const CalibrationBoard& board,
                    image);
 }
 
-BoardDetection DetectCheckerboard(const GrayImage& image, const CalibrationBoard& board,
-                                  SearchEffort effort) {
+BoardDetection DetectCheckerboard(const GrayImage& image, const std::vector<CornerGrid>& grids,
+                                  const CalibrationBoard& board, SearchEffort effort) {
   BoardDetection detection;
-  CheckerboardSearch search = FindCheckerboard(image, board.columns, board.rows, effort);
+  CheckerboardSearch search = FindCheckerboard(image, grids, board.columns, board.rows, effort);
   if (!search.grid) {
     detection.rejection = WhyNotFound(image, board, search);
     return detection;
@@ -59,9 +60,12 @@ BoardDetection DetectCheckerboard(const GrayImage& image, const CalibrationBoard
   detection.rating = RateImage(image, *search.grid);
   detection.rejection = RatingFault(detection.rating);
   if (!detection.rejection.empty()) return detection;
-  detection.view.pixels = std::move(search.grid->pixels);
-  detection.view.corner_ids.resize(detection.view.pixels.size());
-  std::iota(detection.view.corner_ids.begin(), detection.view.corner_ids.end(), 0);
+  const std::vector<int> uncertain = UncertainCorners(image, *search.grid);
+  for (int id = 0; id < board.CornerCount(); ++id) {
+    if (std::binary_search(uncertain.begin(), uncertain.end(), id)) continue;
+    detection.view.corner_ids.push_back(id);
+    detection.view.pixels.push_back(search.grid->pixels[static_cast<std::size_t>(id)]);
+  }
   return detection;
 }
 
@@ -100,9 +104,17 @@ BoardDetection DetectCharuco(const GrayImage& image, const CalibrationBoard& boa
 
 BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board,
                            SearchEffort effort) {
+  const bool checkerboard = board.kind == CalibrationBoard::Kind::kCheckerboard;
+  return DetectBoard(image, checkerboard ? FindGrids(image) : std::vector<CornerGrid>(), board,
+                     effort);
+}
+
+BoardDetection DetectBoard(const GrayImage& image, const std::vector<CornerGrid>& grids,
+                           const CalibrationBoard& board, SearchEffort effort) {
   FORESIGHT_EXPECTS(board.Check().has_value(), "a board that can be");
-  return board.kind == CalibrationBoard::Kind::kCharuco ? DetectCharuco(image, board)
-                                                        : DetectCheckerboard(image, board, effort);
+  return board.kind == CalibrationBoard::Kind::kCharuco
+             ? DetectCharuco(image, board)
+             : DetectCheckerboard(image, grids, board, effort);
 }
 
 }  // namespace foresight

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/base/image.h"
 #include "core/calibration/checkerboard_finder.h"
@@ -29,11 +30,15 @@ struct BoardDetection {
   ImageRating rating;     ///< as far as it could be measured
 };
 
-/// Finds a board and rates the image. A checkerboard must be seen whole, a ChArUco board may be
-/// seen in part (6 corners, not in one row). Corner 0 of a checkerboard that can be told from its
-/// opposite (CalibrationBoard::LooksSameUpsideDown) is the one beside the black square; of the
-/// others, either. @pre board.Check()
+/// Finds a board and rates the image. A checkerboard must be seen whole but for a tenth of its
+/// corners, which are left out; a ChArUco board may be seen in part (6 corners, not in one row).
+/// Corner 0 of a checkerboard that can be told from its opposite
+/// (CalibrationBoard::LooksSameUpsideDown) is the one beside the black square; of the others,
+/// either. @pre board.Check()
 BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board,
                            SearchEffort effort = SearchEffort::kThorough);
+/// The same of an image whose checkerboards were looked for.
+BoardDetection DetectBoard(const GrayImage& image, const std::vector<CornerGrid>& grids,
+                           const CalibrationBoard& board, SearchEffort effort);
 
 }  // namespace foresight

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/calibration/corner_grid.h"
 
@@ -17,21 +18,21 @@ struct CheckerboardSearch {
 
 /// How much time a search may take where there is no board.
 enum class SearchEffort {
-  kThorough,  ///< some seconds; says what is there instead
-  kQuick,     ///< tenths of a second: for many images of which most show the board, or none
-  kLive,      ///< as kQuick, and says what is there instead: for small images that go by
+  kThorough,  ///< up to some seconds: for blurred, noisy and very curved boards too
+  kQuick,     ///< hundredths of a second: for many images of which some show no board
 };
 
-/// The inner corners of a checkerboard of columns x rows, refined below a pixel, in any rotation.
-/// Two detectors of OpenCV at several scales, then growth from a part that one of them found: the
-/// squares of a fisheye image are curved and of very different sizes. What is found is checked:
-/// black and white squares must alternate around the corners, and the board must end beyond the
-/// outer ones. Up to some seconds where there is no board.
-CheckerboardSearch FindCheckerboard(const GrayImage& image, int columns, int rows,
-                                    SearchEffort effort = SearchEffort::kThorough);
+/// All checkerboards of an image, of whatever size, as far as they are seen: refined below a pixel,
+/// 3 x 3 inner corners at least, black and white squares alternate around them. Hundredths of a
+/// second.
+std::vector<CornerGrid> FindGrids(const GrayImage& image);
 
-/// Whether black and white squares alternate around the corner at a place of the grid, or where the
-/// grid would have one beyond its border; `contrast` as MeasureLevels has it.
-bool IsCorner(const GrayImage& image, const CornerGrid& grid, int column, int row, double contrast);
+/// The inner corners of a checkerboard of columns x rows, refined below a pixel, in any rotation:
+/// one of the image's `grids`; with kThorough, two detectors of OpenCV are asked at several scales
+/// where none fits, as the squares of a fisheye image are curved and of very different sizes. What
+/// is found is checked: black and white squares must alternate around the corners, edges must join
+/// them, and the board must end beyond the outer ones.
+CheckerboardSearch FindCheckerboard(const GrayImage& image, const std::vector<CornerGrid>& grids,
+                                    int columns, int rows, SearchEffort effort);
 
 }  // namespace foresight

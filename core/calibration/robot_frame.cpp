@@ -90,7 +90,8 @@ Result<std::optional<Rigid<frame::Base, frame::Pattern>>> Located(
     const fs::path& folder, const SampleEntry& entry, const CalibrationBoard& board,
     const SensorRig& rig, std::vector<std::string>* left_out) {
   FORESIGHT_TRY(const MountView view,
-                ReadView(folder, entry.view, rig.camera, &board, nullptr, SearchEffort::kThorough));
+                ReadView(folder, entry.view, rig.camera, {.a = board, .b = {}, .a_from_b = {}},
+                         SearchEffort::kThorough));
   if (!view.a) {
     left_out->push_back(view.source + ": the board was not found");
     return std::nullopt;

@@ -100,8 +100,7 @@ class Writer {
 /// One image, or file of corners, and what is in it.
 struct ViewJob {
   SessionViewFiles files;
-  const CalibrationBoard* a = nullptr;
-  const CalibrationBoard* b = nullptr;
+  const BoardMount* mount = nullptr;
   SearchEffort effort = SearchEffort::kThorough;
   std::map<std::string, MountView>* found = nullptr;
   MountView view = {};
@@ -132,17 +131,16 @@ class Loader {
  private:
   /// Images are looked at on all threads.
   Status LoadViews() {
+    intrinsic_mount_.a = session_.intrinsic_board;
     for (const SessionViewFiles& view : index_.intrinsic_views)
       if (!view.excluded)
-        jobs_.push_back({view, &session_.intrinsic_board, nullptr, SearchEffort::kThorough,
-                         &found_->intrinsic});
+        jobs_.push_back({view, &intrinsic_mount_, SearchEffort::kThorough, &found_->intrinsic});
     const std::size_t views = jobs_.size();
-    const CalibrationBoard* b = session_.mount.b ? &*session_.mount.b : nullptr;
     for (const SessionPoseFiles& pose : index_.poses)
       for (const SessionStopFiles& stop : pose.stops)
         // At many stops no board is in sight, and nobody wants to know what is there instead.
         if (!pose.excluded && HasView(stop))
-          jobs_.push_back({stop.view, &session_.mount.a, b, SearchEffort::kQuick, &found_->stops});
+          jobs_.push_back({stop.view, &session_.mount, SearchEffort::kQuick, &found_->stops});
     FORESIGHT_CHECK(RunJobs());
     for (next_job_ = 0; next_job_ < views; ++next_job_) {
       const MountView& view = jobs_[next_job_].view;
@@ -164,7 +162,7 @@ class Loader {
     const int count = static_cast<int>(open.size());
     const bool finished = ParallelFor(count, context_, [&](int i) {
       ViewJob& job = *open[static_cast<std::size_t>(i)];
-      auto view = ReadView(folder_, job.files, session_.prior.camera, job.a, job.b, job.effort);
+      auto view = ReadView(folder_, job.files, session_.prior.camera, *job.mount, job.effort);
       if (view)
         job.view = std::move(*view);
       else
@@ -209,6 +207,7 @@ class Loader {
   const RunContext& context_;
   FoundViews* found_;
   SessionIndex index_;
+  BoardMount intrinsic_mount_;  ///< one board
   std::vector<ViewJob> jobs_;
   std::size_t next_job_ = 0;
   CalibrationSession session_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/calibration/board_detector.h"
-#include "core/calibration/part_of_board.h"
+#include "core/calibration/mount_detector.h"
 #include "core/calibration/session_tables.h"
 #include "core/io/image_file.h"
 
@@ -42,34 +42,25 @@ SessionViewFiles ViewFromYaml(YamlMap& map) {
 }
 
 Result<MountView> ReadView(const fs::path& folder, const SessionViewFiles& files,
-                           const CameraModel& camera, const CalibrationBoard* a,
-                           const CalibrationBoard* b, SearchEffort effort) {
+                           const CameraModel& camera, const BoardMount& mount,
+                           SearchEffort effort) {
   MountView view;
   if (!files.corners.empty()) {
     FORESIGHT_TRY(view, ReadCorners(folder / files.corners));
     view.source = files.corners;
     return view;
   }
-  view.source = files.image;
   const fs::path file = folder / files.image;
   FORESIGHT_TRY(const GrayImage image, ReadImageGray(file));
   if (image.width() != camera.width || image.height() != camera.height)
     return Fail(ErrorCode::kBadData, "{}: {} x {} pixels, the rig's camera has {} x {}",
                 file.string(), image.width(), image.height(), camera.width, camera.height);
-  const auto find = [&](const CalibrationBoard* board, std::optional<BoardView>* found) {
-    if (board == nullptr) return;
-    BoardDetection detection = DetectBoard(image, *board, effort);
-    if (detection.rejection.empty()) *found = std::move(detection.view);
-  };
-  find(a, &view.a);
-  find(b, &view.b);
-  // Of the larger board, cut off by the image's border, as much may be left as the smaller one has.
-  const auto part = [&](const CalibrationBoard& board, const BoardView& seen,
-                        const CalibrationBoard& other) {
-    return MayBePartOf(board, seen, other, image.width(), image.height());
-  };
-  if (a != nullptr && b != nullptr && view.b && !view.a && part(*b, *view.b, *a)) view.b.reset();
-  if (a != nullptr && b != nullptr && view.a && !view.b && part(*a, *view.a, *b)) view.a.reset();
+  if (mount.b) {
+    view = DetectMount(image, mount, camera);
+  } else if (BoardDetection found = DetectBoard(image, mount.a, effort); found.rejection.empty()) {
+    view.a = std::move(found.view);
+  }
+  view.source = files.image;
   return view;
 }
 

@@ -30,10 +30,9 @@ Rigid<To, From> PoseFromYaml(YamlMap map) {
   return {rotation, t};
 }
 
-/// Reads the corners, or looks for the boards in the image; what is not wanted is null. Fails with
+/// Reads the corners, or looks for the boards in the image, for two with DetectMount. Fails with
 /// kIo, and with kBadData, naming the file; an image has the size of the camera.
 Result<MountView> ReadView(const std::filesystem::path& folder, const SessionViewFiles& files,
-                           const CameraModel& camera, const CalibrationBoard* a,
-                           const CalibrationBoard* b, SearchEffort effort);
+                           const CameraModel& camera, const BoardMount& mount, SearchEffort effort);
 
 }  // namespace foresight

@@ -131,7 +131,7 @@ LiveBoardModel::Found LiveBoardModel::LookFor(const std::vector<CalibrationBoard
   QStringList texts;
   for (const CalibrationBoard& board : boards) {
     if (!board.Check()) continue;
-    BoardDetection detection = DetectBoard(gray, board, SearchEffort::kLive);
+    BoardDetection detection = DetectBoard(gray, board, SearchEffort::kQuick);
     if (detection.rejection.empty()) {
       texts << tr("Found: %1 x %2.").arg(board.columns).arg(board.rows);
       found.corners.push_back(std::move(detection.view.pixels));

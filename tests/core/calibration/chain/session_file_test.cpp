@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "core/base/atomic_file.h"
-#include "core/calibration/part_of_board.h"
 #include "core/evaluation/simulate_calibration.h"
 #include "core/io/png.h"
 #include "tests/support/temporary_folder.h"
@@ -121,25 +120,6 @@ TEST_F(SessionFile, RefusesAnImageOfAnotherCamera) {
   ASSERT_TRUE(WritePng(path_ / "small.png", GrayImage(64, 48, 128)));
   Replace("session.yaml", "corners: intrinsic/001.csv", "image: small.png");
   EXPECT_THAT(Message(), HasSubstr("64 x 48 pixels, the rig's camera has 1288 x 964"));
-}
-
-/// A grid of corners 20 px apart, the first one at (left, 100).
-BoardView GridFrom(const CalibrationBoard& board, double left) {
-  BoardView view;
-  for (int id = 0; id < board.CornerCount(); ++id) {
-    view.corner_ids.push_back(id);
-    view.pixels.emplace_back(left + 20.0 * (id % board.columns),
-                             100.0 + 20.0 * (id / board.columns));
-  }
-  return view;
-}
-
-TEST(PartOfABoard, IsSuspectedWhereTheImageCutsTheSquaresAround) {
-  const CalibrationBoard small{.columns = 7, .rows = 6, .square_m = 0.05},
-      large{.columns = 9, .rows = 6, .square_m = 0.05};
-  EXPECT_TRUE(MayBePartOf(small, GridFrom(small, 12.0), large, 640, 480));
-  EXPECT_FALSE(MayBePartOf(small, GridFrom(small, 30.0), large, 640, 480));
-  EXPECT_FALSE(MayBePartOf(large, GridFrom(large, 12.0), small, 640, 480)) << "it is too small";
 }
 
 TEST_F(SessionFile, RefusesAnotherVersion) {

@@ -1,0 +1,170 @@
+#include "core/calibration/mount_detector.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/calibration/board_detector.h"
+#include "core/calibration/board_pose.h"
+#include "core/calibration/grid_growth.h"
+#include "core/calibration/tangent.h"
+
+namespace foresight {
+namespace {
+
+using Kind = CalibrationBoard::Kind;
+
+/// A grid of the image that can be a board.
+struct Candidate {
+  std::size_t grid = 0;
+  BoardView view;
+  bool has_margin = false;
+  std::optional<CameraFromPattern> pose;
+};
+
+std::vector<Candidate> CandidatesFor(const CalibrationBoard& board, const GrayImage& image,
+                                     const std::vector<CornerGrid>& grids,
+                                     const CameraModel& camera) {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    BoardDetection found = DetectBoard(image, {grids[i]}, board, SearchEffort::kQuick);
+    if (!found.rejection.empty()) continue;
+    Candidate candidate{i, std::move(found.view), HasMargin(image, grids[i]), {}};
+    if (const auto pose = FindBoardPose(board, candidate.view, camera))
+      candidate.pose = pose->camera_from_pattern;
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+/// Whether a part of a board can have the corners of another one.
+bool Contains(const CalibrationBoard& large, const CalibrationBoard& small) {
+  const auto [short_side, long_side] = std::minmax(small.columns, small.rows);
+  const auto [low, high] = std::minmax(large.columns, large.rows);
+  return short_side <= low && long_side <= high;
+}
+
+/// How far two grids are from standing to each other as drawn, in parts of what a roughly known
+/// camera makes of it: above 1 they do not.
+double MisfitOf(const Candidate& a, const Candidate& b, const BoardMount& mount) {
+  constexpr double kMostTurn_rad = 0.6, kMostShift_m = 0.05, kMostShiftRatio = 0.35;
+  if (!a.pose || !b.pose) return std::numeric_limits<double>::infinity();
+  const auto step = StepBetween(mount.a_from_b, a.pose->Inverse() * *b.pose);
+  return std::max(step.head<3>().norm() / kMostTurn_rad,
+                  step.tail<3>().norm() /
+                      (kMostShift_m + kMostShiftRatio * mount.a_from_b.translation().norm()));
+}
+
+/// The two that stand to each other best, as drawn; `second` is the misfit of the next best two.
+struct Pair {
+  const Candidate* a = nullptr;
+  const Candidate* b = nullptr;
+  double misfit = std::numeric_limits<double>::infinity();
+  double second = std::numeric_limits<double>::infinity();
+};
+
+Pair BestPair(const std::vector<Candidate>& all_a, const std::vector<Candidate>& all_b,
+              const BoardMount& mount) {
+  Pair best;
+  for (const Candidate& a : all_a)
+    for (const Candidate& b : all_b) {
+      if (a.grid == b.grid) continue;
+      const double misfit = MisfitOf(a, b, mount);
+      best.second = std::min(best.second, std::max(misfit, best.misfit));
+      if (misfit < best.misfit) best = {&a, &b, misfit, best.second};
+    }
+  return best;
+}
+
+/// Whether most of a grid lies where a board is.
+bool LiesOn(const CornerGrid& grid, const CalibrationBoard& board,
+            const CameraFromPattern& camera_from_board, const CameraModel& camera) {
+  const auto board_from_camera = camera_from_board.Inverse();
+  const Eigen::Vector3d& from = board_from_camera.translation();
+  const double beside_m = 2.0 * board.square_m;  // the outer squares, and what the camera is off by
+  int inside = 0;
+  for (const Eigen::Vector2d& pixel : grid.pixels) {
+    const auto ray = camera.Unproject(pixel);
+    if (!ray) continue;
+    const Eigen::Vector3d direction = board_from_camera.Rotate(*ray);
+    const double distance = -from.z() / direction.z();
+    if (!(distance > 0.0) || !(direction.z() > 0.0)) continue;  // or seen from behind
+    const Eigen::Vector3d p = from + distance * direction;
+    inside += p.x() > -beside_m && p.y() > -beside_m &&
+                      p.x() < (board.columns - 1) * board.square_m + beside_m &&
+                      p.y() < (board.rows - 1) * board.square_m + beside_m
+                  ? 1
+                  : 0;
+  }
+  return 2 * inside > static_cast<int>(grid.pixels.size());
+}
+
+/// A board of a mount, and where the other one is, seen from it.
+struct Side {
+  const CalibrationBoard& board;
+  const CalibrationBoard& other;
+  BoardFromBoard board_from_other;
+};
+
+/// Whether a grid can be the board without the other board being found. Where it could be a part of
+/// that, the margin must be seen, and other grids must lie where the other board is then.
+bool CanBeAlone(const Candidate& candidate, const Side& side, const std::vector<CornerGrid>& grids,
+                const CameraModel& camera) {
+  if (!Contains(side.other, side.board)) return true;
+  if (!candidate.has_margin || !candidate.pose) return false;
+  const CameraFromPattern camera_from_other = *candidate.pose * side.board_from_other;
+  for (std::size_t i = 0; i < grids.size(); ++i)
+    if (i != candidate.grid && !LiesOn(grids[i], side.other, camera_from_other, camera))
+      return false;
+  return true;
+}
+
+/// The only one that can be; empty where there are more.
+std::optional<BoardView> AloneIn(const std::vector<Candidate>& candidates, const Side& side,
+                                 const std::vector<CornerGrid>& grids, const CameraModel& camera) {
+  std::optional<BoardView> only;
+  for (const Candidate& candidate : candidates) {
+    if (!CanBeAlone(candidate, side, grids, camera)) continue;
+    if (only) return std::nullopt;
+    only = candidate.view;
+  }
+  return only;
+}
+
+MountView DetectCheckerboards(const GrayImage& image, const BoardMount& mount,
+                              const CameraModel& camera) {
+  MountView view;
+  const CalibrationBoard& b = *mount.b;
+  const bool a_in_b = Contains(b, mount.a), b_in_a = Contains(mount.a, b);
+  if (a_in_b && b_in_a && b.LooksSameUpsideDown()) return view;  // a stand that is its own opposite
+  const std::vector<CornerGrid> grids = FindGrids(image);
+  const auto all_a = CandidatesFor(mount.a, image, grids, camera);
+  const auto all_b = CandidatesFor(b, image, grids, camera);
+  constexpr double kClearlyBetter = 2.0;
+  const Pair pair = BestPair(all_a, all_b, mount);
+  if (pair.misfit <= 1.0 && kClearlyBetter * pair.misfit < pair.second) {
+    view.a = pair.a->view;
+    view.b = pair.b->view;
+    return view;
+  }
+  if (a_in_b && b_in_a) return view;
+  view.a = AloneIn(all_a, {mount.a, b, mount.a_from_b}, grids, camera);
+  view.b = AloneIn(all_b, {b, mount.a, mount.a_from_b.Inverse()}, grids, camera);
+  return view;
+}
+
+}  // namespace
+
+MountView DetectMount(const GrayImage& image, const BoardMount& mount, const CameraModel& camera) {
+  if (mount.b && mount.a.kind == Kind::kCheckerboard && mount.b->kind == Kind::kCheckerboard)
+    return DetectCheckerboards(image, mount, camera);
+  MountView view;
+  const auto find = [&](const CalibrationBoard& board, std::optional<BoardView>* found) {
+    BoardDetection detection = DetectBoard(image, board, SearchEffort::kQuick);
+    if (detection.rejection.empty()) *found = std::move(detection.view);
+  };
+  find(mount.a, &view.a);
+  if (mount.b) find(*mount.b, &view.b);
+  return view;
+}
+
+}  // namespace foresight

@@ -1,0 +1,145 @@
+// Two checkerboards of one stand in an image: which is which, and what is only a part of one.
+#include "core/calibration/mount_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "core/evaluation/calibration_images.h"
+
+namespace foresight {
+namespace {
+
+using CameraFromBoard = Rigid<frame::Camera, frame::Pattern>;
+
+const CalibrationBoard kA{.columns = 9, .rows = 6, .square_m = 0.05};
+const CalibrationBoard kB{.columns = 7, .rows = 6, .square_m = 0.05};
+
+CameraModel Fisheye() {
+  return {.width = 966,
+          .height = 723,
+          .fx = 451.0,
+          .fy = 451.0,
+          .cx = 482.0,
+          .cy = 361.0,
+          .lens = FisheyeLens{0.9413}};
+}
+
+/// A stand whose hinge's middle is at a place, `turn` about the hinge and `roll` about the way to
+/// the camera.
+struct Stand {
+  BoardMount mount = HingedMount(kA, kB, kHinge_m);
+  CameraFromBoard camera_from_a;
+
+  Stand(const Eigen::Vector3d& hinge, double turn_rad, double roll_rad) {
+    const Eigen::Quaterniond rotation =
+        Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()) *
+        Eigen::Quaterniond(Eigen::AngleAxisd(-turn_rad, Eigen::Vector3d::UnitY()));
+    const Eigen::Vector3d hinge_in_a((kA.columns - 1) * kA.square_m + kHinge_m, 0.125, 0.0);
+    camera_from_a = {rotation, hinge - rotation * hinge_in_a};
+  }
+  CameraFromBoard CameraFromB() const { return camera_from_a * mount.a_from_b; }
+  GrayImage Image(std::vector<BoardPainter::PlacedBoard> more = {}) const {
+    more.push_back({kA, camera_from_a});
+    more.push_back({kB, CameraFromB()});
+    return BoardPainter(Fisheye()).Paint(more, 1.0, 1);
+  }
+};
+
+/// Farthest corner from where it is; -1 = not found.
+double WorstOf(const std::optional<BoardView>& view, const CalibrationBoard& board,
+               const CameraFromBoard& pose) {
+  if (!view) return -1.0;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < view->corner_ids.size(); ++i)
+    worst = std::max(
+        worst,
+        (*Fisheye().Project(pose * board.Corner(view->corner_ids[i])) - view->pixels[i]).norm());
+  return worst;
+}
+
+void Cover(GrayImage* image, int left, int right, std::uint8_t grey) {
+  for (int v = 0; v < image->height(); ++v)
+    for (int u = std::max(0, left); u < std::min(right, image->width()); ++u) (*image)(u, v) = grey;
+}
+
+int ColumnOf(const Stand& stand, double column) {
+  const auto pixel =
+      Fisheye().Project(stand.camera_from_a * Eigen::Vector3d(column * kA.square_m, 0.125, 0.0));
+  return static_cast<int>(std::lround(pixel->x()));
+}
+
+// Squares are 8 px and wider; a grid that is one square off would be farther off than this.
+constexpr double kRight_px = 1.0;
+
+TEST(MountDetector, FindsBothBoardsWhereverTheyMeet) {
+  for (const double roll : {0.0, 0.8, 1.57, 3.1})
+    for (const double turn : {0.5, 0.8, 1.05}) {  // the larger, how far A is turned away
+      SCOPED_TRACE(testing::Message() << "roll " << roll << ", turn " << turn);
+      const Stand stand({0.05, 0.0, 1.1}, turn, roll);
+      const MountView view = DetectMount(stand.Image(), stand.mount, Fisheye());
+      EXPECT_GE(WorstOf(view.a, kA, stand.camera_from_a), 0.0) << "A was not found";
+      EXPECT_GE(WorstOf(view.b, kB, stand.CameraFromB()), 0.0) << "B was not found";
+      EXPECT_LT(WorstOf(view.a, kA, stand.camera_from_a), kRight_px);
+      EXPECT_LT(WorstOf(view.b, kB, stand.CameraFromB()), kRight_px);
+    }
+}
+
+TEST(MountDetector, TakesNoPartOfTheLargerBoardForTheSmallerOne) {
+  const Stand stand({0.05, 0.0, 1.1}, 0.5, 0.0);
+  const BoardMount mount = stand.mount;
+  const auto only_a = [&] {
+    return BoardPainter(Fisheye()).Paint({{kA, stand.camera_from_a}}, 1.0, 1);
+  };
+  // Of nine columns of corners two are hidden, and parts of the squares beside them.
+  for (const double column : {1.2, 1.5, 1.8})
+    for (const int grey : {10, 110, 220}) {
+      SCOPED_TRACE(testing::Message() << "column " << column << ", grey " << grey);
+      GrayImage image = only_a();
+      Cover(&image, 0, ColumnOf(stand, column), static_cast<std::uint8_t>(grey));
+      const MountView view = DetectMount(image, mount, Fisheye());
+      EXPECT_FALSE(view.a);
+      EXPECT_FALSE(view.b);
+    }
+}
+
+TEST(MountDetector, FindsTheSmallerBoardBesideAPartOfTheLargerOne) {
+  const Stand stand({0.05, 0.0, 1.1}, 0.5, 0.0);
+  GrayImage image = stand.Image();
+  Cover(&image, 0, ColumnOf(stand, 1.5), 110);
+  const MountView view = DetectMount(image, stand.mount, Fisheye());
+  EXPECT_FALSE(view.a);
+  EXPECT_GE(WorstOf(view.b, kB, stand.CameraFromB()), 0.0);
+  EXPECT_LT(WorstOf(view.b, kB, stand.CameraFromB()), kRight_px);
+}
+
+TEST(MountDetector, FindsTheSmallerBoardAloneByItsMargin) {
+  const Stand stand({0.05, 0.0, 1.1}, 0.8, 0.0);
+  const GrayImage image = BoardPainter(Fisheye()).Paint({{kB, stand.CameraFromB()}}, 1.0, 1);
+  const MountView view = DetectMount(image, stand.mount, Fisheye());
+  EXPECT_FALSE(view.a);
+  EXPECT_GE(WorstOf(view.b, kB, stand.CameraFromB()), 0.0);
+  EXPECT_LT(WorstOf(view.b, kB, stand.CameraFromB()), kRight_px);
+}
+
+TEST(MountDetector, PrefersTheBoardThatStandsAsDrawn) {
+  const Stand stand({0.25, 0.0, 1.2}, 0.8, 0.0);
+  const CameraFromBoard elsewhere(
+      Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX())),
+      Eigen::Vector3d(-0.80, -0.2, 1.0));
+  const MountView view = DetectMount(stand.Image({{kA, elsewhere}}), stand.mount, Fisheye());
+  EXPECT_GE(WorstOf(view.a, kA, stand.camera_from_a), 0.0);
+  EXPECT_LT(WorstOf(view.a, kA, stand.camera_from_a), kRight_px);
+}
+
+// Turned upside down, such a stand looks as before.
+TEST(MountDetector, DoesNotGuessBetweenTwoEqualBoards) {
+  const CalibrationBoard equal{.columns = 8, .rows = 6, .square_m = 0.05};
+  const Stand stand({0.05, 0.0, 1.1}, 0.8, 0.0);
+  const GrayImage image = BoardPainter(Fisheye()).Paint(
+      {{equal, stand.camera_from_a}, {equal, stand.CameraFromB()}}, 1.0, 1);
+  EXPECT_TRUE(DetectMount(image, HingedMount(equal, equal, kHinge_m), Fisheye()).empty());
+}
+
+}  // namespace
+}  // namespace foresight
