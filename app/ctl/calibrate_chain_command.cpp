@@ -87,6 +87,8 @@ Result<ExitCode> Calibrate(const ChainArguments& arguments, CalibrationStage sta
   FORESIGHT_TRY(const CalibrationSession session,
                 ReadCalibrationSession(arguments.session, context.Part(0.0, 0.5)));
   FORESIGHT_TRY(ChainCalibration found, CalibrateChain(session, options, context.Part(0.5, 0.8)));
+  for (const std::string& image : session.unusable_images)
+    found.notes.push_back("not used: " + image);
   found.rig.name = session.name;
   found.rig.date_utc = UtcDateNow();
   found.rig.parent_id = RigId(session.prior);

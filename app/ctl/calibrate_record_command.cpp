@@ -121,7 +121,7 @@ const BoardStand* StandOf(const RecordingBench& bench, bool two_boards) {
 Result<BoardMount> MountFrom(const RecordArguments& arguments, const RecordingBench& bench) {
   if (arguments.mount.empty()) {
     if (const BoardStand* stand = StandOf(bench, true)) return stand->Mount();
-    return DefaultBoardMount();
+    return UsualBoardMount();
   }
   const std::size_t comma = arguments.mount.find(',');
   FORESIGHT_TRY(const CalibrationBoard a,

@@ -16,6 +16,8 @@ struct MountView {
   std::string source;  ///< the image, for messages
   std::optional<BoardView> a;
   std::optional<BoardView> b;
+  /// Why a board is missing, where the image says it: "overexposed: ...".
+  std::string fault = {};
 
   bool empty() const { return !a && !b; }
 };
@@ -56,6 +58,8 @@ struct CalibrationSession {
   /// What was known before: image size and start of the camera, the lidar, the CAD poses of camera
   /// and lidar (5 deg and 100 mm off are no harm), and the table of angles in use.
   SensorRig prior;
+  /// Images that could not be used and why, a sentence each: "view 3.png: blurred: ...".
+  std::vector<std::string> unusable_images = {};
 
   /// Fails with kInvalidInput, naming pose, stop and what is wrong there.
   Status Check() const;

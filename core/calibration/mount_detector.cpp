@@ -6,6 +6,7 @@
 #include "core/calibration/board_detector.h"
 #include "core/calibration/board_pose.h"
 #include "core/calibration/grid_growth.h"
+#include "core/calibration/image_rating.h"
 #include "core/calibration/tangent.h"
 
 namespace foresight {
@@ -23,11 +24,14 @@ struct Candidate {
 
 std::vector<Candidate> CandidatesFor(const CalibrationBoard& board, const GrayImage& image,
                                      const std::vector<CornerGrid>& grids,
-                                     const CameraModel& camera) {
+                                     const CameraModel& camera, std::string* fault) {
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     BoardDetection found = DetectBoard(image, {grids[i]}, board, SearchEffort::kQuick);
-    if (!found.rejection.empty()) continue;
+    if (!found.rejection.empty()) {
+      if (found.rating.light_level > 0.0) *fault = found.rejection;  // the board was there
+      continue;
+    }
     Candidate candidate{i, std::move(found.view), HasMargin(image, grids[i]), {}};
     if (const auto pose = FindBoardPose(board, candidate.view, camera))
       candidate.pose = pose->camera_from_pattern;
@@ -135,15 +139,15 @@ MountView DetectCheckerboards(const GrayImage& image, const BoardMount& mount,
   MountView view;
   const CalibrationBoard& b = *mount.b;
   const bool a_in_b = Contains(b, mount.a), b_in_a = Contains(mount.a, b);
-  if (a_in_b && b_in_a && b.LooksSameUpsideDown()) return view;  // a stand that is its own opposite
   const std::vector<CornerGrid> grids = FindGrids(image);
-  const auto all_a = CandidatesFor(mount.a, image, grids, camera);
-  const auto all_b = CandidatesFor(b, image, grids, camera);
+  const auto all_a = CandidatesFor(mount.a, image, grids, camera, &view.fault);
+  const auto all_b = CandidatesFor(b, image, grids, camera, &view.fault);
   constexpr double kClearlyBetter = 2.0;
   const Pair pair = BestPair(all_a, all_b, mount);
   if (pair.misfit <= 1.0 && kClearlyBetter * pair.misfit < pair.second) {
     view.a = pair.a->view;
     view.b = pair.b->view;
+    view.fault.clear();
     return view;
   }
   if (a_in_b && b_in_a) return view;
@@ -152,11 +156,11 @@ MountView DetectCheckerboards(const GrayImage& image, const BoardMount& mount,
   return view;
 }
 
-}  // namespace
+bool AreCheckerboards(const BoardMount& mount) {
+  return mount.b && mount.a.kind == Kind::kCheckerboard && mount.b->kind == Kind::kCheckerboard;
+}
 
-MountView DetectMount(const GrayImage& image, const BoardMount& mount, const CameraModel& camera) {
-  if (mount.b && mount.a.kind == Kind::kCheckerboard && mount.b->kind == Kind::kCheckerboard)
-    return DetectCheckerboards(image, mount, camera);
+MountView DetectEach(const GrayImage& image, const BoardMount& mount) {
   MountView view;
   const auto find = [&](const CalibrationBoard& board, std::optional<BoardView>* found) {
     BoardDetection detection = DetectBoard(image, board, SearchEffort::kQuick);
@@ -165,6 +169,39 @@ MountView DetectMount(const GrayImage& image, const BoardMount& mount, const Cam
   find(mount.a, &view.a);
   if (mount.b) find(*mount.b, &view.b);
   return view;
+}
+
+}  // namespace
+
+MountView DetectMount(const GrayImage& image, const BoardMount& mount, const CameraModel& camera) {
+  if (!CheckInImages(mount)) return {};
+  MountView view = AreCheckerboards(mount) ? DetectCheckerboards(image, mount, camera)
+                                           : DetectEach(image, mount);
+  if (view.empty() && view.fault.empty()) view.fault = ImageFault(image);
+  return view;
+}
+
+Status CheckInImages(const BoardMount& mount) {
+  FORESIGHT_CHECK(mount.Check());
+  if (!mount.b) return {};
+  const CalibrationBoard& a = mount.a;
+  const CalibrationBoard& b = *mount.b;
+  if (AreCheckerboards(mount)) {
+    if (!Contains(a, b) || !Contains(b, a) || !b.LooksSameUpsideDown()) return {};
+    return Fail(
+        ErrorCode::kInvalidOptions,
+        "both boards of the stand are checkerboards of {} x {} inner corners: an image does "
+        "not tell which is which; take 9 x 6 and 7 x 6, or ChArUco boards of two "
+        "dictionaries",
+        b.columns, b.rows);
+  }
+  if (a.kind == Kind::kCharuco && b.kind == Kind::kCharuco && a.dictionary == b.dictionary)
+    return Fail(
+        ErrorCode::kInvalidOptions,
+        "both boards of the stand have markers of the dictionary {}: an image does not tell "
+        "which is which; take boards of two dictionaries",
+        ToString(a.dictionary));
+  return {};
 }
 
 }  // namespace foresight

@@ -9,9 +9,15 @@ namespace foresight {
 /// missing. Of two checkerboards all grids of the image are looked at together: grids that stand to
 /// each other as the boards were drawn are preferred, and a grid that could be what is left of the
 /// other board, cut off by the image's border or covered, is taken only where the other board is
-/// found too or a white margin shows that no square is missing. Two that look the same are not
-/// found. `camera` may be known roughly.
+/// found too or a white margin shows that no square is missing. A board
+/// that is blurred or overexposed is not taken, and the view says so; so it does of an image
+/// without a board that is itself dark, overexposed or blurred. `camera` may be known roughly.
+/// Where CheckInImages fails nothing is found.
 /// @pre mount.Check()
 MountView DetectMount(const GrayImage& image, const BoardMount& mount, const CameraModel& camera);
+
+/// Whether images tell which board of a mount is which, and which way up. Fails with
+/// kInvalidOptions, saying which boards do.
+Status CheckInImages(const BoardMount& mount);
 
 }  // namespace foresight

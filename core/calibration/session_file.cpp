@@ -1,10 +1,12 @@
 #include "core/calibration/session_file.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "core/base/atomic_file.h"
 #include "core/base/parallel.h"
 #include "core/base/sha256.h"
+#include "core/calibration/mount_detector.h"
 #include "core/calibration/session_index.h"
 #include "core/calibration/session_tables.h"
 #include "core/calibration/view_files.h"
@@ -141,11 +143,19 @@ class Loader {
         // At many stops no board is in sight, and nobody wants to know what is there instead.
         if (!pose.excluded && HasView(stop))
           jobs_.push_back({stop.view, &session_.mount, SearchEffort::kQuick, &found_->stops});
+    if (std::any_of(jobs_.begin() + static_cast<std::ptrdiff_t>(views), jobs_.end(),
+                    [](const ViewJob& job) { return !job.files.image.empty(); }))
+      if (const Status told = CheckInImages(session_.mount); !told)
+        return Fail(ErrorCode::kBadData, "{}: {}", (folder_ / "session.yaml").string(),
+                    told.error().message);
     FORESIGHT_CHECK(RunJobs());
     for (next_job_ = 0; next_job_ < views; ++next_job_) {
       const MountView& view = jobs_[next_job_].view;
       if (view.a) session_.intrinsic_views.push_back({view.source, *view.a});
     }
+    for (const ViewJob& job : jobs_)
+      if (!job.view.fault.empty())
+        session_.unusable_images.push_back(fmt::format("{}: {}", job.view.source, job.view.fault));
     return {};
   }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/contract.h"
+#include "core/calibration/mount_detector.h"
 #include "core/calibration/session_tables.h"
 #include "core/geometry/angles.h"
 #include "core/io/image_file.h"
@@ -107,6 +108,7 @@ SessionFolder::SessionFolder(fs::path folder, SessionIndex index, SensorRig prio
 
 Result<SessionFolder> SessionFolder::Create(const fs::path& folder, const SessionSetup& setup) {
   FORESIGHT_CHECK(setup.prior.Check());
+  FORESIGHT_CHECK(CheckInImages(setup.mount));
   SessionIndex index;
   index.name = setup.name;
   index.mount = setup.mount;
@@ -125,6 +127,7 @@ Result<SessionFolder> SessionFolder::Open(const fs::path& folder) {
 }
 
 Status SessionFolder::SetBoards(const BoardMount& mount, const CalibrationBoard& intrinsic_board) {
+  FORESIGHT_CHECK(CheckInImages(mount));
   SessionIndex index = index_;
   index.mount = mount;
   index.intrinsic_board = intrinsic_board;

@@ -46,8 +46,8 @@ struct RecordedStop {
 /// disk.
 class SessionFolder {
  public:
-  /// `folder` is made where it is not there. Fails with kInvalidInput, kInvalidOptions; with kIo
-  /// where it has files.
+  /// `folder` is made where it is not there. Fails with kInvalidInput, kInvalidOptions (also for
+  /// boards that images do not tell apart); with kIo where it has files.
   static Result<SessionFolder> Create(const std::filesystem::path& folder,
                                       const SessionSetup& setup);
   /// Goes on with a session. Its files are not looked at. Fails with kIo, kBadData.

@@ -59,6 +59,8 @@ Result<MountView> ReadView(const fs::path& folder, const SessionViewFiles& files
     view = DetectMount(image, mount, camera);
   } else if (BoardDetection found = DetectBoard(image, mount.a, effort); found.rejection.empty()) {
     view.a = std::move(found.view);
+  } else {
+    view.fault = std::move(found.rejection);
   }
   view.source = files.image;
   return view;

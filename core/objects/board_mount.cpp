@@ -27,4 +27,14 @@ BoardMount DefaultBoardMount() {
   return HingedMount(board, board, kHinge_m);
 }
 
+BoardMount UsualBoardMount() {
+  CalibrationBoard a;
+  a.columns = 9;
+  a.rows = 6;
+  a.square_m = 0.050;
+  CalibrationBoard b = a;
+  b.columns = 7;
+  return HingedMount(a, b, kHinge_m);
+}
+
 }  // namespace foresight

@@ -277,7 +277,7 @@ class FakeStand : public MovingStand {
   int at = 0;
 
  private:
-  BoardMount mount_ = DefaultBoardMount();
+  BoardMount mount_ = UsualBoardMount();
   std::vector<Place> places_ = {{"view", false}, {"upright", true}, {"level", true}};
 };
 
@@ -318,7 +318,7 @@ struct MovingStandCalibration : ChainCalibration {
 };
 
 TEST_F(MovingStandCalibration, ATourCapturesAllPlacesAndNamesThem) {
-  EXPECT_EQ(recorder->Mount(), DefaultBoardMount()) << "the stand's";
+  EXPECT_EQ(recorder->Mount(), UsualBoardMount()) << "the stand's";
   EXPECT_FALSE(recorder->WhyNotCapture().isEmpty()) << "the stand shows the single board";
   moving.Tour()->start();
   EXPECT_FALSE(recorder->WhyNotMoveStand().isEmpty());

@@ -48,7 +48,8 @@ QString TextOf(const BoardImageRow& row) {
     case State::kLooking:
       return RecordPage::tr("%1: looking for the board").arg(row.file);
     case State::kNoBoard:
-      return RecordPage::tr("%1: no board found").arg(row.file);
+      return row.fault.isEmpty() ? RecordPage::tr("%1: no board found").arg(row.file)
+                                 : RecordPage::tr("%1: %2").arg(row.file, row.fault);
     case State::kLeftOut:
       return RecordPage::tr("%1: contradicts the others, not used").arg(row.file);
     case State::kExcluded:
@@ -228,6 +229,7 @@ void RecordPage::ShowSelected() {
                      .arg(DegreesFromRadians(lamp->motor_rad), 0, 'g', 4)
                      .arg(InWords(lamp->state));
   if (std::isfinite(lamp->rms_px)) text += tr(", rms %1 px").arg(lamp->rms_px, 0, 'f', 2);
+  if (!lamp->fault.isEmpty()) text += tr(" (%1)").arg(lamp->fault);
   if (lamp->stands_out) text += tr("; it fits much worse than the others");
   selected_->setText(text + QLatin1Char('.'));
   leave_out_->setText(lamp->state == StopLamp::State::kExcluded ? tr("Take stop in")

@@ -9,14 +9,6 @@
 namespace foresight {
 namespace {
 
-/// Boards that can be told apart.
-BoardMount UsualMount() {
-  CalibrationBoard a{.columns = 9, .rows = 6, .square_m = 0.050};
-  CalibrationBoard b = a;
-  b.columns = 7;
-  return HingedMount(a, b, kHinge_m);
-}
-
 /// A folder of `root` that is not there yet.
 QString NewFolder(const QString& root) {
   const QString now = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-HHmmss"));
@@ -47,7 +39,7 @@ CalibrationRecorder::CalibrationRecorder(HeadViewModel* head, SessionModel* docu
       documents_(documents),
       root_(root),
       stand_(std::move(stand)),
-      mount_(stand_ ? stand_->Mount() : UsualMount()),
+      mount_(stand_ ? stand_->Mount() : UsualBoardMount()),
       single_board_(stand_ ? stand_->SingleBoard() : mount_.a),
       captures_(head) {
   connect(&writer_, &TaskRunner::changed, this, &CalibrationRecorder::changed);

@@ -2,6 +2,7 @@
 
 #include <QDir>
 
+#include "core/calibration/mount_detector.h"
 #include "core/io/image_file.h"
 #include "ui/viewmodels/camera_calibration_model.h"
 #include "ui/viewmodels/stand_rows.h"
@@ -118,7 +119,7 @@ void ChainCalibrationModel::TakeKept() {
 
 Status ChainCalibrationModel::SetBoards(const BoardMount& mount,
                                         const CalibrationBoard& single_board) {
-  FORESIGHT_CHECK(mount.Check());
+  FORESIGHT_CHECK(CheckInImages(mount));
   FORESIGHT_CHECK(single_board.Check());
   if (mount == Mount() && single_board == SingleBoard()) return {};
   DropSolution();

@@ -29,6 +29,7 @@ StopLamp LampOf(const StandRowsSource& source, const SessionStopFiles& stop, int
     return lamp;
   }
   const bool whole = view->a && (view->b || !source.index->mount.b);
+  lamp.fault = QString::fromStdString(view->fault);
   lamp.state = view->empty() ? State::kNoBoard : whole ? State::kBothBoards : State::kOneBoard;
   if (source.solution != nullptr)
     if (const auto rms = source.solution->rms_px.find(view->source);
@@ -114,6 +115,7 @@ std::vector<BoardImageRow> BoardImageRows(const StandRowsSource& source) {
       row.state = State::kExcluded;
     else if (found != nullptr)
       row.state = found->a ? State::kUsed : State::kNoBoard;
+    if (row.state == State::kNoBoard) row.fault = QString::fromStdString(found->fault);
     if (source.solution != nullptr && row.state == State::kUsed) {
       const auto rms = source.solution->rms_px.find(found->source);
       if (rms != source.solution->rms_px.end())

@@ -1,6 +1,7 @@
 // Two checkerboards of one stand in an image: which is which, and what is only a part of one.
 #include "core/calibration/mount_detector.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +11,7 @@
 namespace foresight {
 namespace {
 
+using testing::HasSubstr;
 using CameraFromBoard = Rigid<frame::Camera, frame::Pattern>;
 
 const CalibrationBoard kA{.columns = 9, .rows = 6, .square_m = 0.05};
@@ -139,6 +141,41 @@ TEST(MountDetector, DoesNotGuessBetweenTwoEqualBoards) {
   const GrayImage image = BoardPainter(Fisheye()).Paint(
       {{equal, stand.camera_from_a}, {equal, stand.CameraFromB()}}, 1.0, 1);
   EXPECT_TRUE(DetectMount(image, HingedMount(equal, equal, kHinge_m), Fisheye()).empty());
+}
+
+TEST(MountDetector, SaysWhichMountsImagesCannotTell) {
+  CalibrationBoard a{.columns = 8, .rows = 6, .square_m = 0.05};
+  CalibrationBoard b = a;
+  const auto told = [&] { return CheckInImages(HingedMount(a, b, kHinge_m)); };
+  ASSERT_FALSE(told());
+  EXPECT_THAT(told().error().message, HasSubstr("checkerboards of 8 x 6 inner corners"));
+  b.columns = 7;
+  EXPECT_TRUE(told());
+  a = b;
+  EXPECT_TRUE(told()) << "7 x 6 has an upper side";
+  a.kind = b.kind = CalibrationBoard::Kind::kCharuco;
+  ASSERT_FALSE(told());
+  EXPECT_THAT(told().error().message, HasSubstr("dictionary 5x5_250"));
+  b.dictionary = CalibrationBoard::Dictionary::k4x4_50;
+  EXPECT_TRUE(told());
+}
+
+TEST(MountDetector, SaysThatAnImageIsOverexposedOrDark) {
+  const Stand stand({0.05, 0.0, 1.1}, 0.8, 0.0);
+  GrayImage image = stand.Image();
+  EXPECT_EQ(DetectMount(image, stand.mount, Fisheye()).fault, "");
+  GrayImage bright = image, dark = image;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      bright(x, y) = static_cast<std::uint8_t>(std::min(255, 150 + 3 * image(x, y)));
+      dark(x, y) = static_cast<std::uint8_t>(image(x, y) / 16);
+    }
+  const MountView too_bright = DetectMount(bright, stand.mount, Fisheye());
+  EXPECT_TRUE(too_bright.empty());
+  EXPECT_THAT(too_bright.fault, HasSubstr("overexposed"));
+  const MountView too_dark = DetectMount(dark, stand.mount, Fisheye());
+  EXPECT_TRUE(too_dark.empty());
+  EXPECT_NE(too_dark.fault, "");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class SessionFolderTest : public ::testing::Test {
  protected:
   SessionFolderTest() {
     setup_.name = "a \"stand\"";
-    setup_.mount = DefaultBoardMount();
+    setup_.mount = UsualBoardMount();
     setup_.intrinsic_board = {.columns = 7, .rows = 6, .square_m = 0.03};
     setup_.prior = SmallCameraRig();
     setup_.prior.lidar.beams = 11;
