@@ -235,7 +235,7 @@ CalibrationSimulation FullSession(std::uint64_t seed) {
 
 TEST_F(CalibrationEndToEnd, AShortSessionGivesAUsableRig) {
   CalibrationSimulation options = FullSession(3);
-  options.intrinsic_views = 10;
+  options.intrinsic_views = 8;
   options.poses = 4;
   options.first_stop_deg = -20.0;
   options.stop_step_deg = 20.0;
@@ -243,7 +243,7 @@ TEST_F(CalibrationEndToEnd, AShortSessionGivesAUsableRig) {
   options.most_distance_m = 1.1;
   ASSERT_NO_FATAL_FAILURE(Open(options, 0.5));
   ASSERT_NO_FATAL_FAILURE(CalibrateByClicks());
-  ASSERT_NO_FATAL_FAILURE(ScanTheValve(2));
+  ASSERT_NO_FATAL_FAILURE(ScanTheValve(1));
   ExpectAsGoodAsTheTrueRig(3.0);
 }
 

@@ -22,7 +22,7 @@ struct StopLamp {
   State state = State::kWaiting;
   bool has_lines = false;
   double rms_px = std::numeric_limits<double>::quiet_NaN();  ///< under the solution
-  QString fault;            ///< why a board is missing, where the image says it
+  QString fault = {};       ///< why a board is missing, where the image says it
   bool stands_out = false;  ///< its rms is far above that of the others
 };
 
@@ -43,7 +43,7 @@ struct BoardImageRow {
   QString file;
   QString origin;
   State state = State::kLooking;
-  QString fault;  ///< why the board is missing, where the image says it
+  QString fault = {};  ///< why the board is missing, where the image says it
   double rms_px = std::numeric_limits<double>::quiet_NaN();
 };
 
