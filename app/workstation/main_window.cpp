@@ -33,6 +33,7 @@
 #include "ui/views/cloud_pane.h"
 #include "ui/views/depth_pane.h"
 #include "ui/views/image_pane.h"
+#include "ui/widgets/wheel_guard.h"
 
 namespace foresight {
 namespace {
@@ -69,6 +70,7 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
   AddWindowCommands();
   actions_ = new Actions(&bench_->commands, this);
   new KeysEverywhere(&bench_->commands, this);
+  new WheelGuard(this);
   BuildMenus();
   BuildCentre();
   BuildDocks();

@@ -11,6 +11,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <QToolButton>
+#include <QWheelEvent>
 
 #include "core/detection/candidates.h"
 #include "tests/display/mouse.h"
@@ -383,6 +384,28 @@ TEST_F(Workstation, AnEarlierScanIsLookedAtInReviewAndTheLiveSessionStaysAsItIs)
   running->Settle();
   EXPECT_TRUE(running->window().Image()->isVisible());
   EXPECT_EQ(bench.live.session.Objects().size(), live_objects);
+}
+
+TEST_F(Workstation, TheWheelScrollsADockAndChangesNoNumberThatItPasses) {
+  auto* speed = running->window().findChild<QDoubleSpinBox*>(QStringLiteral("speed"));
+  ASSERT_NE(speed, nullptr);
+  running->window().setFocus();
+  const auto turn = [&] {
+    const QPoint middle = speed->rect().center();
+    QWheelEvent event(middle, speed->mapToGlobal(middle), {}, {0, -120}, Qt::NoButton,
+                      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(speed, &event);
+    return speed->value();
+  };
+  const double before = speed->value();
+  EXPECT_EQ(turn(), before);
+  EXPECT_FALSE(speed->hasFocus());
+  running->window().activateWindow();
+  speed->setFocus();
+  ASSERT_TRUE(WaitFor([&] { return speed->hasFocus(); }));
+  EXPECT_NE(turn(), before) << "a field that was clicked takes the wheel";
+  speed->setValue(before);
+  running->window().setFocus();
 }
 
 TEST_F(Workstation, ShowingAThresholdDoesNotRoundIt) {

@@ -70,6 +70,7 @@ QWidget* HeadPanel::BuildPlan() {
   AddField(form, tr("From"), -9999, 9999, 5, tr("°"), &PlanFields::from_deg);
   AddField(form, tr("To"), -9999, 9999, 5, tr("°"), &PlanFields::to_deg);
   speed_ = AddField(form, tr("Speed"), 0, 9999, 1, tr(" °/s"), &PlanFields::speed_deg_s);
+  speed_->setObjectName(QStringLiteral("speed"));
   fastest_button_ = new QPushButton;
   fastest_button_->setObjectName(QStringLiteral("fastestButton"));
   fastest_button_->setToolTip(

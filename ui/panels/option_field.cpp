@@ -3,7 +3,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QCoreApplication>
-#include <QEvent>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -54,8 +53,6 @@ QWidget* OptionField::Build() {
     case OptionType::kChoice:
       choice_ = new QComboBox;
       choice_->setAccessibleName(title);
-      choice_->setFocusPolicy(Qt::StrongFocus);
-      choice_->installEventFilter(this);
       for (const std::string& word : row_.info.words)
         choice_->addItem(OptionsModel::tr(word.c_str()), Text(word));
       connect(choice_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) {
@@ -140,15 +137,6 @@ void OptionField::Take(const Result<OptionValue>& value) {
       value.and_then([this](const OptionValue& wanted) { return model_->Set(Key(), wanted); });
   fault_->setVisible(!taken.has_value());
   if (!taken) fault_->setText(Text(taken.error().message));
-}
-
-bool OptionField::eventFilter(QObject* watched, QEvent* event) {
-  // The wheel scrolls the panel; it does not change what the pointer happens to be over.
-  if (event->type() == QEvent::Wheel && watched == choice_ && !choice_->hasFocus()) {
-    event->ignore();
-    return true;
-  }
-  return QWidget::eventFilter(watched, event);
 }
 
 }  // namespace foresight

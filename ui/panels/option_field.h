@@ -30,7 +30,6 @@ class OptionField : public QWidget {
   QCheckBox* Switch() const { return switch_; }
 
  protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   QWidget* Build();

@@ -287,7 +287,7 @@ QString ChainCalibrationModel::StateText() const {
   }
   if (!failure_.isEmpty()) return failure_;
   if (solution_)
-    return tr("Calibrated from %1 images and %2 lidar lines.")
+    return tr("Calibrated from %1 views of boards and %2 lidar lines.")
         .arg(solution_->found.images.size())
         .arg(solution_->found.lines.size());
   if (const QString none = NoBoardFound(); !none.isEmpty()) return none;
