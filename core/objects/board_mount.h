@@ -32,8 +32,8 @@ inline constexpr double kHinge_m = 0.065;
 /// corners of both, open towards the viewer like a book.
 BoardMount HingedMount(const CalibrationBoard& a, const CalibrationBoard& b, double hinge_m);
 
-/// The same of two boards with 8 x 6 inner corners of 50 mm, as the paper's; images of checkerboards
-/// do not tell which is which.
+/// The same of two boards with 8 x 6 inner corners of 50 mm, as the paper's; images of
+/// checkerboards do not tell which is which.
 BoardMount DefaultBoardMount();
 /// The same of checkerboards that images tell apart: 9 x 6 and 7 x 6 inner corners of 50 mm.
 BoardMount UsualBoardMount();
