@@ -28,8 +28,9 @@ std::string Summary(const DeviceDiagnosis& diagnosis, const std::string& numbers
 
 }  // namespace
 
-ScanRecorder::ScanRecorder(std::shared_ptr<MissionFile> mission)
+ScanRecorder::ScanRecorder(std::shared_ptr<MissionFile> mission, std::shared_ptr<ScanSink> then)
     : mission_(std::move(mission)),
+      then_(std::move(then)),
       outcome_(Fail(ErrorCode::kState, "no scan has been recorded yet")) {
   FORESIGHT_EXPECTS(mission_ != nullptr, "a recorder has a mission file");
   thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
@@ -39,9 +40,10 @@ ScanRecorder::~ScanRecorder() {
   thread_.request_stop();
   thread_.join();
   if (!running_) return;
-  const Status ended = mission_->EndScan(*running_, ScanState::kInterrupted,
-                                         "the recorder was closed before the scan ended");
+  const End end{ScanState::kInterrupted, "the recorder was closed before the scan ended"};
+  const Status ended = mission_->EndScan(*running_, end.state, end.reason);
   if (!ended) LogError("{}", ended.error().message);
+  HandOn(end);
 }
 
 std::optional<std::string> ScanRecorder::Failure() const {
@@ -71,19 +73,7 @@ void ScanRecorder::OnFrame(const CameraFrame& frame) {
 }
 
 void ScanRecorder::OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) {
-  const HeadDiagnosis diagnosis = Diagnose(at_end, at_start);
-  const bool well = diagnosis.Worst() == DeviceCondition::kWell;
-  EventRecord event;
-  event.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                     std::chrono::system_clock::now().time_since_epoch())
-                     .count();
-  event.source = "head";
-  event.severity = well ? "info" : "warning";
-  event.text = "lidar: " + Summary(diagnosis.lidar, Describe(at_end.lidar)) +
-               "; camera: " + Summary(diagnosis.camera, Describe(at_end.camera)) +
-               "; motor: " + Summary(diagnosis.motor, Describe(at_end.motor));
-  event.json = ToJson(at_end);
-  Push(std::move(event), 0);
+  Push(Health{at_start, at_end}, 0);
 }
 
 void ScanRecorder::OnScanEnded(ScanState state, const std::string& reason) {
@@ -129,30 +119,39 @@ void ScanRecorder::Work(const std::stop_token& stop) {
     try {
       WriteAll(pieces);
     } catch (const std::exception& error) {
-      GiveUp({ErrorCode::kIo, fmt::format("{}: {}", mission_->path().string(), error.what())});
+      HandOn(
+          GiveUp({ErrorCode::kIo, fmt::format("{}: {}", mission_->path().string(), error.what())}));
     }
   }
 }
 
-/// Everything that waited goes to the disk in one commit.
-void ScanRecorder::WriteAll(std::deque<Piece>& pieces) {
+/// Everything that waited goes to the disk in one commit, and is handed on after it.
+void ScanRecorder::WriteAll(const std::deque<Piece>& pieces) {
   std::optional<std::int64_t> last = running_;
+  std::deque<Piece> ends;  // of scans that were given up
+  std::vector<const Piece*> on_disk;
   const Status status = mission_->Batch([&]() -> Status {
     for (const Piece& piece : pieces) {
-      if (const Status written = Write(piece); !written) GiveUp(written.error());
+      if (!running_ && !std::holds_alternative<Scan>(piece)) continue;  // given up, and told
+      if (const Status written = Write(piece))
+        on_disk.push_back(&piece);
+      else
+        on_disk.push_back(&ends.emplace_back(GiveUp(written.error())));
       if (running_) last = running_;
     }
     return {};
   });
-  if (status) return;
+  if (status) {
+    for (const Piece* piece : on_disk) HandOn(*piece);
+    return;
+  }
   // An end that was in the batch has not reached the disk either.
   running_ = last;
-  GiveUp(status.error());
+  HandOn(GiveUp(status.error()));
 }
 
 Status ScanRecorder::Write(const Piece& piece) {
   if (const auto* header = std::get_if<Scan>(&piece)) return WriteHeader(*header);
-  if (!running_) return {};  // it was given up, and that was told
   const std::int64_t id = *running_;
   return std::visit(
       Overloaded{[](const Scan&) -> Status { return {}; },
@@ -161,12 +160,7 @@ Status ScanRecorder::Write(const Piece& piece) {
                    return mission_->AppendMotorSamples(id, samples);
                  },
                  [&](const CameraFrame& frame) { return mission_->AppendFrame(id, frame); },
-                 [&](const EventRecord& event) -> Status {
-                   EventRecord named = event;
-                   named.text = fmt::format("scan {}: {}", id, event.text);
-                   FORESIGHT_CHECK(mission_->AddEvent(named));
-                   return {};
-                 },
+                 [&](const Health& health) { return WriteHealth(id, health); },
                  [&](const End& end) {
                    running_.reset();
                    return mission_->EndScan(id, end.state, end.reason);
@@ -187,7 +181,25 @@ Status ScanRecorder::WriteHeader(const Scan& header) {
   return {};
 }
 
-void ScanRecorder::GiveUp(const Error& error) {
+Status ScanRecorder::WriteHealth(std::int64_t scan_id, const Health& health) {
+  const HeadDiagnosis diagnosis = Diagnose(health.at_end, health.at_start);
+  const bool well = diagnosis.Worst() == DeviceCondition::kWell;
+  EventRecord event;
+  event.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                     std::chrono::system_clock::now().time_since_epoch())
+                     .count();
+  event.source = "head";
+  event.severity = well ? "info" : "warning";
+  event.text = fmt::format("scan {}: lidar: {}; camera: {}; motor: {}", scan_id,
+                           Summary(diagnosis.lidar, Describe(health.at_end.lidar)),
+                           Summary(diagnosis.camera, Describe(health.at_end.camera)),
+                           Summary(diagnosis.motor, Describe(health.at_end.motor)));
+  event.json = ToJson(health.at_end);
+  FORESIGHT_CHECK(mission_->AddEvent(event));
+  return {};
+}
+
+ScanRecorder::End ScanRecorder::GiveUp(const Error& error) {
   reserve_.Release();
   Error told = error;
   if (running_) {
@@ -200,6 +212,26 @@ void ScanRecorder::GiveUp(const Error& error) {
   const std::lock_guard lock(mutex_);
   if (begun_ == started_) failure_ = told.message;
   outcome_ = tl::unexpected(told);
+  return {ScanState::kInterrupted, told.message};
+}
+
+void ScanRecorder::HandOn(const Piece& piece) {
+  if (!then_) return;
+  if (std::holds_alternative<Scan>(piece)) then_hears_ = true;
+  if (!then_hears_) return;
+  std::visit(
+      Overloaded{
+          [&](const Scan& header) { then_->OnScanStarted(header); },
+          [&](const LidarLine& line) { then_->OnLine(line); },
+          [&](const std::vector<MotorSample>& samples) { then_->OnMotorSamples(samples); },
+          [&](const CameraFrame& frame) { then_->OnFrame(frame); },
+          [&](const Health& health) { then_->OnDeviceHealth(health.at_start, health.at_end); },
+          [&](const End& end) {
+            then_hears_ = false;
+            then_->OnScanEnded(end.state, end.reason);
+          },
+          [](const Error&) {}},
+      piece);
 }
 
 /// What the file itself says: a failed write takes others with it.

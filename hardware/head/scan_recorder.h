@@ -18,9 +18,14 @@ namespace foresight {
 /// Writes scans into a mission file from a thread of its own, so the lidar never waits for the
 /// disk. After the first failure nothing more of that scan is written; what is on the disk stays
 /// readable and says how many lines were kept, and Failure() tells the head to end the sweep.
+///
+/// `then`, where there is one, hears the scan as the file has it: each piece when it is on the
+/// disk, nothing of what was not written, and the end that the file states. From the recorder's
+/// thread.
 class ScanRecorder final : public ScanSink {
  public:
-  explicit ScanRecorder(std::shared_ptr<MissionFile> mission);
+  explicit ScanRecorder(std::shared_ptr<MissionFile> mission,
+                        std::shared_ptr<ScanSink> then = nullptr);
   /// Writes what is waiting; a scan that has not ended becomes interrupted.
   ~ScanRecorder() override;
 
@@ -43,23 +48,31 @@ class ScanRecorder final : public ScanSink {
     ScanState state;
     std::string reason;
   };
+  struct Health {
+    HeadHealth at_start;
+    HeadHealth at_end;
+  };
   using Piece =
-      std::variant<Scan, LidarLine, std::vector<MotorSample>, CameraFrame, EventRecord, End, Error>;
+      std::variant<Scan, LidarLine, std::vector<MotorSample>, CameraFrame, Health, End, Error>;
 
   void Push(Piece piece, std::size_t bytes);
   void Work(const std::stop_token& stop);
-  void WriteAll(std::deque<Piece>& pieces);
+  void WriteAll(const std::deque<Piece>& pieces);
   Status Write(const Piece& piece);
   Status WriteHeader(const Scan& header);
-  void GiveUp(const Error& error);
+  Status WriteHealth(std::int64_t scan_id, const Health& health);
+  End GiveUp(const Error& error);
+  void HandOn(const Piece& piece);
   std::string WhatWasKept(std::int64_t id) const;
 
-  std::shared_ptr<MissionFile> mission_;
+  const std::shared_ptr<MissionFile> mission_;
+  const std::shared_ptr<ScanSink> then_;  ///< may be null
 
   // The writing thread's own:
   std::optional<std::int64_t> running_;
   int planned_lines_ = 0;
-  int begun_ = 0;  ///< scans whose header was written, or was to be
+  int begun_ = 0;            ///< scans whose header was written, or was to be
+  bool then_hears_ = false;  ///< it heard the start of a scan and not its end
   DiskReserve reserve_;
 
   mutable std::mutex mutex_;            ///< guards what follows

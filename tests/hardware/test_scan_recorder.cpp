@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "hardware/head/scan_assembler.h"
 #include "hardware/head/scan_recorder.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/hardware/tiny_head.h"
@@ -42,6 +43,30 @@ TEST(ScanRecorder, TheMissionFileHoldsWhatTheAssemblerSaw) {
   ASSERT_TRUE(scan);
   const std::int64_t id = recorder->WaitUntilWritten().value();
   EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), *scan));
+}
+
+TEST(ScanRecorder, HandsOnWhatIsOnTheDisk) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  const auto then = std::make_shared<ScanAssembler>();
+  ScanRecorder recorder(mission, then);
+  Send(recorder, SampleScan(1));
+  ASSERT_TRUE(recorder.WaitUntilWritten());
+  EXPECT_TRUE(SameButForTheRig(*then->Snapshot(), SampleScan(1)));
+}
+
+TEST(ScanRecorder, HandsOnNothingThatIsNotInTheFile) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  const auto then = std::make_shared<ScanAssembler>();
+  ScanRecorder recorder(mission, then);
+  Scan scan = SampleScan(1);
+  scan.lines.Edit(5).seq = 0;  // backwards
+  Send(recorder, scan);
+  ASSERT_FALSE(recorder.WaitUntilWritten());
+  EXPECT_EQ(then->Snapshot()->lines.size(), 5u);
+  EXPECT_EQ(then->Snapshot()->state, ScanState::kInterrupted);
+  EXPECT_THAT(then->Snapshot()->reason, HasSubstr("line 0 comes after line 4"));
 }
 
 TEST(ScanRecorder, WritesOneScanAfterTheOther) {
