@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/base/result.h"
 #include "hardware/api/camera_health.h"
 #include "hardware/api/lidar_health.h"
 #include "hardware/api/motor_health.h"
@@ -24,5 +25,7 @@ std::string Describe(const MotorHealth& motor);
 
 /// All members as one line of JSON, named as here; what is not known is null.
 std::string ToJson(const HeadHealth& health);
+/// The reverse; what the text does not have stays at its default. Fails with kBadData.
+Result<HeadHealth> HeadHealthFromJson(const std::string& text);
 
 }  // namespace foresight

@@ -156,5 +156,25 @@ TEST(ScanRecorder, TroubleDuringAScanIsAWarningInTheMission) {
   EXPECT_THAT(events[0].text, HasSubstr("(lines lost: 4)"));
 }
 
+TEST(HeadHealth, ComesBackFromItsJson) {
+  HeadHealth health = WellHead();
+  health.lidar.trouble = "37 of 40 lines had a bad check sum";
+  health.lidar.lines = std::int64_t{1} << 40;
+  health.camera.temperature_c = std::numeric_limits<double>::quiet_NaN();
+  health.motor.last_error = 0x8611;
+  const HeadHealth back = HeadHealthFromJson(ToJson(health)).value();
+  EXPECT_EQ(back.lidar.trouble, health.lidar.trouble);
+  EXPECT_EQ(back.lidar.lines, health.lidar.lines);
+  EXPECT_TRUE(std::isnan(back.camera.temperature_c));
+  EXPECT_EQ(back.motor.last_error, health.motor.last_error);
+  EXPECT_EQ(ToJson(back), ToJson(health));
+}
+
+TEST(HeadHealth, TextThatIsNoHealthIsRefused) {
+  for (const char* text : {"", "{", "[]", "{}", R"({"lidar": 1, "camera": {}, "motor": {}})",
+                           R"({"lidar": {"lines": "many"}, "camera": {}, "motor": {}})"})
+    EXPECT_FALSE(HeadHealthFromJson(text)) << text;
+}
+
 }  // namespace
 }  // namespace foresight
