@@ -1,0 +1,208 @@
+#include "hardware/link/server/head_desk.h"
+
+#include <algorithm>
+
+#include "core/base/contract.h"
+#include "core/base/log.h"
+#include "core/base/version.h"
+#include "core/mission/plan_json.h"
+#include "core/sensor/rig_id.h"
+#include "hardware/link/protocol/messages.h"
+
+namespace foresight {
+
+Status CheckId(const char* what, const std::string& id) {
+  const bool good = !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+  });
+  if (good) return {};
+  return Fail(ErrorCode::kInvalidInput, "{}: not 1 to 64 letters, digits and dashes", what);
+}
+
+HeadDesk::HeadDesk(std::shared_ptr<SensorHead> head, ScanShelf& shelf, const Options& options)
+    : head_(std::move(head)),
+      shelf_(shelf),
+      options_(options),
+      boot_id_(NewUuid()),
+      start_(std::chrono::steady_clock::now()),
+      lease_(options.lease_s) {
+  FORESIGHT_EXPECTS(head_ != nullptr, "a desk has a head");
+  rig_id_ = RigId(head_->Rig());
+}
+
+double HeadDesk::Time() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+link::GreetReply HeadDesk::Greet(const Peer& peer) const {
+  link::GreetReply reply;
+  reply.set_protocol(kLinkProtocol);
+  reply.set_program(std::string("foresight-head ") + ProgramVersion());
+  reply.set_description(head_->Describe());
+  *reply.mutable_motion() = ToMessage(head_->Motion());
+  reply.set_your_name(peer.name);
+  reply.set_may_operate(peer.may_operate);
+  reply.set_boot_id(boot_id_);
+  reply.set_simulated(options_.simulated);
+  reply.set_desk_time_s(Time());
+  const std::lock_guard lock(names_);
+  reply.set_rig_id(rig_id_);
+  return reply;
+}
+
+namespace {
+
+link::ControlReply ToMessage(const ControlLease::Answer& answer, double lease_s) {
+  link::ControlReply reply;
+  reply.set_granted(answer.granted);
+  reply.set_token(answer.token);
+  reply.set_holder(answer.holder);
+  reply.set_reason(answer.reason);
+  reply.set_lease_s(lease_s);
+  return reply;
+}
+
+}  // namespace
+
+link::ControlReply HeadDesk::TakeControl(const link::ControlRequest& request, const Peer& peer) {
+  if (!request.hand_over_to().empty())
+    return ToMessage(lease_.HandOver(request.token(), request.hand_over_to(), Time()),
+                     lease_.lease_s());
+  if (!peer.may_operate)
+    return ToMessage(
+        ControlLease::Answer{false, "", Holder(),
+                             "an observer's certificate cannot take control: use an operator's"},
+        lease_.lease_s());
+  const ControlLease::Answer answer = lease_.Take(peer.name, Time());
+  if (answer.granted) LogInfo("{} has control", peer.name);
+  return ToMessage(answer, lease_.lease_s());
+}
+
+link::ControlReply HeadDesk::ReleaseControl(const link::ReleaseRequest& request) {
+  return ToMessage(lease_.Release(request.token(), Time()), lease_.lease_s());
+}
+
+bool HeadDesk::SignOfLife(const std::string& token) {
+  if (!lease_.Renew(token, Time())) return false;
+  head_->OperatorSeen();
+  return true;
+}
+
+Status HeadDesk::Check(const link::Command& command, const Peer& peer) const {
+  if (!peer.may_operate)
+    return Fail(ErrorCode::kState, "{} is an observer, who cannot command the head", peer.name);
+  if (!lease_.Holds(command.control_token(), Time())) {
+    const std::string holder = Holder();
+    return Fail(ErrorCode::kState, "{} does not have control: {}", peer.name,
+                holder.empty() ? "take it first" : holder + " has it");
+  }
+  if (command.boot_id() != boot_id_)
+    return Fail(ErrorCode::kState,
+                "the head's program was started anew since: look at its state and command again");
+  if (!(command.void_after_s() >= Time()))
+    return Fail(ErrorCode::kState,
+                "the command came {:.1f} s too late and was not carried out: command again",
+                Time() - command.void_after_s());
+  return {};
+}
+
+link::Outcome HeadDesk::Execute(const link::Command& command, const Peer& peer) {
+  const std::lock_guard lock(commands_);
+  if (const Status id = CheckId("command_id", command.command_id()); !id) return ToMessage(id);
+  if (auto before = log_.Find(command.command_id())) {
+    before->set_repeated(true);
+    return *before;
+  }
+  Status done = Check(command, peer);
+  if (done) {
+    lease_.Renew(command.control_token(), Time());
+    head_->OperatorSeen();
+    done = Carry(command);
+  }
+  if (!done) LogWarning("{}: command refused: {}", peer.name, done.error().message);
+  link::Outcome outcome = ToMessage(done);
+  *outcome.mutable_status() = Now(false);
+  outcome.set_desk_time_s(Time());
+  log_.Keep(command.command_id(), outcome);
+  return outcome;
+}
+
+Status HeadDesk::Carry(const link::Command& command) {
+  switch (command.what_case()) {
+    case link::Command::kHome:
+      return head_->Home();
+    case link::Command::kStartScan:
+      return StartScan(command.start_scan());
+    case link::Command::kEndScan:
+      return EndScan(command.end_scan());
+    case link::Command::kSetRig:
+      return SetRig(command.set_rig());
+    default:
+      return Fail(ErrorCode::kInvalidInput, "the head does not know this command");
+  }
+}
+
+Status HeadDesk::StartScan(const link::StartScan& start) {
+  FORESIGHT_CHECK(CheckId("scan_id", start.scan_id()));
+  FORESIGHT_TRY(const ScanPlan plan, PlanFromJson(start.plan_json(), "the station's plan"));
+  FORESIGHT_TRY(const ScanPrediction expected, PredictScan(plan, head_->Rig(), head_->Motion()));
+  FORESIGHT_TRY(const auto sink, shelf_.Begin(start.scan_id(), expected));
+  if (const Status started = head_->StartScan(plan, sink); !started) {
+    shelf_.Withdraw(start.scan_id());
+    return started;
+  }
+  const std::lock_guard lock(names_);
+  scan_id_ = start.scan_id();
+  return {};
+}
+
+Status HeadDesk::EndScan(const link::EndScan& end) {
+  std::string running;
+  {
+    const std::lock_guard lock(names_);
+    running = scan_id_;
+  }
+  if (!end.scan_id().empty() && end.scan_id() != running)
+    return Fail(ErrorCode::kState, "scan {} does not run, so it was not ended", end.scan_id());
+  head_->EndScan(end.reason().empty() ? "the operator ended the scan" : end.reason());
+  return {};
+}
+
+Status HeadDesk::SetRig(const link::SetRig& set) {
+  FORESIGHT_TRY(const SensorRig rig, SensorRigFromYaml(set.yaml(), "the station's calibration"));
+  FORESIGHT_CHECK(head_->SetRig(rig));
+  const std::lock_guard lock(names_);
+  rig_id_ = RigId(head_->Rig());
+  return {};
+}
+
+link::Outcome HeadDesk::Stop(const Peer& peer) {
+  link::Outcome outcome;
+  if (peer.may_operate) {
+    head_->StopMotor();
+    LogInfo("{} stopped the head", peer.name);
+  } else {
+    outcome = ToMessage(
+        Status(Fail(ErrorCode::kState, "{} is an observer, who cannot stop the head", peer.name)));
+  }
+  *outcome.mutable_status() = Now(false);
+  outcome.set_desk_time_s(Time());
+  return outcome;
+}
+
+link::Status HeadDesk::Now(bool with_health) const {
+  link::Status status = ToMessage(head_->Status(), with_health);
+  status.set_free_bytes(shelf_.FreeBytes());
+  const std::lock_guard lock(names_);
+  status.set_scan_id(scan_id_);
+  status.set_rig_id(rig_id_);
+  return status;
+}
+
+Result<std::string> HeadDesk::RigYaml(const std::string& rig_id) const {
+  const SensorRig rig = head_->Rig();
+  if (rig_id.empty() || RigId(rig) == rig_id) return SensorRigToYaml(rig);
+  return Fail(ErrorCode::kInvalidInput, "calibration {} is not in force here", rig_id.substr(0, 8));
+}
+
+}  // namespace foresight

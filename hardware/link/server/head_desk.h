@@ -1,0 +1,79 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "hardware/api/sensor_head.h"
+#include "hardware/link/server/command_log.h"
+#include "hardware/link/server/control_lease.h"
+#include "hardware/link/server/scan_shelf.h"
+#include "sensor_head.pb.h"
+
+namespace foresight {
+
+/// Takes the stations' commands for a head, whatever brings them. It decides whether a command is
+/// carried out: the sender has control, the command is in time and for this run of the program, and
+/// it did not come before. Safe from any thread.
+class HeadDesk {
+ public:
+  struct Options {
+    double lease_s = ControlLease::kUsualLease_s;
+    bool simulated = false;
+  };
+
+  /// `shelf` outlives the desk.
+  HeadDesk(std::shared_ptr<SensorHead> head, ScanShelf& shelf, const Options& options);
+
+  /// What the desk knows of who calls, from the certificate.
+  struct Peer {
+    std::string name;
+    bool may_operate = false;
+  };
+
+  link::GreetReply Greet(const Peer& peer) const;
+  link::ControlReply TakeControl(const link::ControlRequest& request, const Peer& peer);
+  link::ControlReply ReleaseControl(const link::ReleaseRequest& request);
+  link::Outcome Execute(const link::Command& command, const Peer& peer);
+  /// Any operator may stop the head, with control or without.
+  link::Outcome Stop(const Peer& peer);
+  /// Renews the lease; the head hears that somebody is there. False for who has no control.
+  bool SignOfLife(const std::string& token);
+
+  link::Status Now(bool with_health) const;
+  std::string Holder() const { return lease_.Holder(Time()); }
+  bool HasControl(const std::string& token) const { return lease_.Holds(token, Time()); }
+  /// The rig in force; fails with kInvalidInput where `rig_id` is another one's and not empty.
+  Result<std::string> RigYaml(const std::string& rig_id) const;
+  /// Seconds since the desk was made.
+  double Time() const;
+
+  ScanShelf& shelf() { return shelf_; }
+  SensorHead& head() { return *head_; }
+
+ private:
+  Status Check(const link::Command& command, const Peer& peer) const;
+  Status Carry(const link::Command& command);
+  Status StartScan(const link::StartScan& start);
+  Status EndScan(const link::EndScan& end);
+  Status SetRig(const link::SetRig& set);
+
+  const std::shared_ptr<SensorHead> head_;
+  ScanShelf& shelf_;
+  const Options options_;
+  const std::string boot_id_;
+  const std::chrono::steady_clock::time_point start_;
+  ControlLease lease_;
+
+  std::mutex commands_;  ///< one command at a time; guards the log
+  CommandLog<link::Outcome> log_;
+  mutable std::mutex names_;  ///< guards what follows
+  std::string scan_id_;       ///< of the running or last scan
+  std::string rig_id_;
+};
+
+/// Fails with kInvalidInput where it is not 1 to 64 letters, digits and dashes.
+Status CheckId(const char* what, const std::string& id);
+
+}  // namespace foresight

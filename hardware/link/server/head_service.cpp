@@ -1,0 +1,149 @@
+#include "hardware/link/server/head_service.h"
+
+#include "core/base/contract.h"
+#include "core/base/log.h"
+#include "hardware/link/protocol/messages.h"
+#include "hardware/link/server/watch_stream.h"
+
+namespace foresight {
+namespace {
+
+/// One of a limited number of streams; empty where there is none left.
+class Place {
+ public:
+  Place(std::atomic<int>& taken, int most) : taken_(taken), has_(++taken <= most) {}
+  ~Place() { --taken_; }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  explicit operator bool() const { return has_; }
+
+ private:
+  std::atomic<int>& taken_;
+  const bool has_;
+};
+
+grpc::Status TooMany(const char* what, int most) {
+  return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+          fmt::format("{} {} are open already: close one", most, what)};
+}
+
+grpc::Status ToGrpc(const Error& error) {
+  return {grpc::StatusCode::FAILED_PRECONDITION, error.message};
+}
+
+/// The station's version of the protocol; 0 where it did not say.
+int ProtocolOf(const grpc::ServerContext& context) {
+  const auto& metadata = context.client_metadata();
+  const auto found = metadata.find(kProtocolKey);
+  if (found == metadata.end() || found->second.size() > 9) return 0;
+  int number = 0;
+  for (const char c : found->second) {
+    if (c < '0' || c > '9') return 0;
+    number = 10 * number + (c - '0');
+  }
+  return number;
+}
+
+}  // namespace
+
+HeadService::HeadService(HeadDesk& desk, PeerReader peer) : desk_(desk), peer_(std::move(peer)) {
+  FORESIGHT_EXPECTS(peer_ != nullptr, "a service knows who calls");
+}
+
+void HeadService::Close() {
+  closing_ = true;
+}
+
+Result<HeadDesk::Peer> HeadService::Admit(const grpc::ServerContext& context,
+                                          grpc::Status* refusal) const {
+  auto peer = peer_(context);
+  if (!peer) {
+    LogWarning("{}: refused: {}", context.peer(), peer.error().message);
+    *refusal = {grpc::StatusCode::UNAUTHENTICATED, peer.error().message};
+    return peer;
+  }
+  if (const int theirs = ProtocolOf(context); theirs != kLinkProtocol) {
+    const Error error{ErrorCode::kState,
+                      fmt::format("the station speaks version {} of the protocol and the head "
+                                  "version {}: install the same Foresight on both",
+                                  theirs, kLinkProtocol)};
+    *refusal = ToGrpc(error);
+    return tl::unexpected(error);
+  }
+  return peer;
+}
+
+grpc::Status HeadService::Greet(grpc::ServerContext* context, const link::GreetRequest* /*request*/,
+                                link::GreetReply* reply) {
+  const auto peer = peer_(*context);
+  if (!peer) return {grpc::StatusCode::UNAUTHENTICATED, peer.error().message};
+  *reply = desk_.Greet(*peer);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::Watch(grpc::ServerContext* context, WatchStream::Stream* stream) {
+  grpc::Status refusal;
+  if (!Admit(*context, &refusal)) return refusal;
+  const Place place(watches_, kMostWatches);
+  if (!place) return TooMany("streams of the status", kMostWatches);
+  WatchStream(desk_, *context, *stream).Run(closing_);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::TakeControl(grpc::ServerContext* context,
+                                      const link::ControlRequest* request,
+                                      link::ControlReply* reply) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  *reply = desk_.TakeControl(*request, *peer);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::ReleaseControl(grpc::ServerContext* context,
+                                         const link::ReleaseRequest* request,
+                                         link::ControlReply* reply) {
+  grpc::Status refusal;
+  if (!Admit(*context, &refusal)) return refusal;
+  *reply = desk_.ReleaseControl(*request);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::Execute(grpc::ServerContext* context, const link::Command* command,
+                                  link::Outcome* outcome) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  *outcome = desk_.Execute(*command, *peer);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::Stop(grpc::ServerContext* context, const link::StopRequest* /*request*/,
+                               link::Outcome* outcome) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  *outcome = desk_.Stop(*peer);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::GetRig(grpc::ServerContext* context, const link::RigRequest* request,
+                                 link::RigReply* reply) {
+  grpc::Status refusal;
+  if (!Admit(*context, &refusal)) return refusal;
+  const auto yaml = desk_.RigYaml(request->rig_id());
+  if (!yaml) return ToGrpc(yaml.error());
+  reply->set_yaml(*yaml);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::ListScans(grpc::ServerContext* context,
+                                    const link::ListScansRequest* /*request*/,
+                                    link::ListScansReply* reply) {
+  grpc::Status refusal;
+  if (!Admit(*context, &refusal)) return refusal;
+  for (const ShelvedScan& scan : desk_.shelf().List()) *reply->add_scans() = ToMessage(scan);
+  return grpc::Status::OK;
+}
+
+}  // namespace foresight

@@ -1,0 +1,172 @@
+#include "hardware/link/server/head_desk.h"
+
+#include <gmock/gmock.h>
+
+#include "core/sensor/rig_id.h"
+#include "hardware/link/protocol/messages.h"
+#include "tests/hardware/link/fake_head.h"
+#include "tests/support/temporary_folder.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+class HeadDeskTest : public testing::Test {
+ protected:
+  HeadDeskTest() : shelf(ScanShelf::Open({folder / "scans", 0.9}).value()), desk(head, *shelf, {}) {
+    link::ControlRequest take;
+    token = desk.TakeControl(take, anna).token();
+  }
+
+  link::Command Command(const std::string& id) const {
+    link::Command command;
+    command.set_command_id(id);
+    command.set_control_token(token);
+    command.set_boot_id(desk.Greet(anna).boot_id());
+    command.set_void_after_s(desk.Time() + 10.0);
+    return command;
+  }
+  link::Command Home(const std::string& id) const {
+    link::Command command = Command(id);
+    command.mutable_home();
+    return command;
+  }
+  link::Command Scan(const std::string& id, const std::string& uuid) const {
+    link::Command command = Command(id);
+    command.mutable_start_scan()->set_scan_id(uuid);
+    command.mutable_start_scan()->set_plan_json(PlanToJson(ScanPlan()));
+    return command;
+  }
+
+  const HeadDesk::Peer anna{"anna", true};
+  const HeadDesk::Peer ben{"ben", true};
+  const HeadDesk::Peer eve{"eve", false};
+  const TemporaryFolder folder;
+  const std::shared_ptr<FakeHead> head = std::make_shared<FakeHead>();
+  const std::unique_ptr<ScanShelf> shelf;
+  HeadDesk desk;
+  std::string token;
+};
+
+TEST_F(HeadDeskTest, ACommandThatComesTwiceIsCarriedOutOnce) {
+  EXPECT_EQ(desk.Execute(Home("1"), anna).error(), link::NONE);
+  const link::Outcome again = desk.Execute(Home("1"), anna);
+  EXPECT_EQ(again.error(), link::NONE);
+  EXPECT_TRUE(again.repeated());
+  EXPECT_EQ(head->homings, 1);
+}
+
+TEST_F(HeadDeskTest, ARefusalIsRepeatedToo) {
+  const link::Outcome first = desk.Execute(Scan("1", "a"), anna);  // not homed
+  EXPECT_EQ(first.error(), link::WRONG_STATE);
+  desk.Execute(Home("2"), anna);
+  EXPECT_EQ(desk.Execute(Scan("1", "a"), anna).error(), link::WRONG_STATE)
+      << "a command that was refused does not begin to work later";
+  EXPECT_EQ(head->scans, 0);
+}
+
+TEST_F(HeadDeskTest, ACommandThatWaitedOutABlackoutIsRefused) {
+  link::Command late = Home("1");
+  late.set_void_after_s(desk.Time() - 3.0);
+  const link::Outcome outcome = desk.Execute(late, anna);
+  EXPECT_EQ(outcome.error(), link::WRONG_STATE);
+  EXPECT_THAT(outcome.message(), HasSubstr("came 3.0 s too late"));
+  EXPECT_EQ(head->homings, 0);
+  late.set_command_id("2");
+  late.set_void_after_s(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(desk.Execute(late, anna).error(), link::NONE);
+  EXPECT_EQ(head->homings, 0);
+}
+
+TEST_F(HeadDeskTest, ACommandForAnEarlierRunOfTheProgramIsRefused) {
+  link::Command command = Home("1");
+  command.set_boot_id("another one");
+  EXPECT_THAT(desk.Execute(command, anna).message(), HasSubstr("started anew"));
+  EXPECT_EQ(head->homings, 0);
+}
+
+TEST_F(HeadDeskTest, OnlyWhoHasControlCommands) {
+  link::Command command = Home("1");
+  command.clear_control_token();
+  EXPECT_THAT(desk.Execute(command, ben).message(), HasSubstr("ben does not have control"));
+  EXPECT_THAT(desk.Execute(Home("2"), eve).message(), HasSubstr("eve is an observer"));
+  EXPECT_EQ(head->homings, 0);
+  EXPECT_FALSE(desk.TakeControl({}, ben).granted());
+  EXPECT_FALSE(desk.TakeControl({}, eve).granted());
+}
+
+TEST_F(HeadDeskTest, AnyOperatorStopsTheHeadAndAnObserverDoesNot) {
+  EXPECT_EQ(desk.Stop(ben).error(), link::NONE);
+  EXPECT_EQ(head->stops, 1);
+  EXPECT_NE(desk.Stop(eve).error(), link::NONE);
+  EXPECT_EQ(head->stops, 1);
+}
+
+TEST_F(HeadDeskTest, AScanIsKeptUnderTheStationsName) {
+  desk.Execute(Home("1"), anna);
+  const link::Outcome started = desk.Execute(Scan("2", "scan-7"), anna);
+  ASSERT_EQ(started.error(), link::NONE) << started.message();
+  EXPECT_EQ(started.status().scan_id(), "scan-7");
+  EXPECT_TRUE(shelf->Find("scan-7"));
+  head->Play(SampleScan(4));
+}
+
+TEST_F(HeadDeskTest, AScanThatTheHeadRefusesLeavesNothingOnTheShelf) {
+  EXPECT_EQ(desk.Execute(Scan("1", "scan-7"), anna).error(), link::WRONG_STATE);
+  EXPECT_FALSE(shelf->Find("scan-7"));
+}
+
+TEST_F(HeadDeskTest, NamesThatAreNoneAreRefused) {
+  desk.Execute(Home("1"), anna);
+  int command = 2;
+  for (const char* name : {"", "../../etc/passwd", "a b", "a\nb"})
+    EXPECT_EQ(desk.Execute(Scan(std::to_string(command++), name), anna).error(),
+              link::INVALID_INPUT);
+  EXPECT_EQ(desk.Execute(Home(std::string(65, 'a')), anna).error(), link::INVALID_INPUT);
+  EXPECT_EQ(head->scans, 0);
+}
+
+TEST_F(HeadDeskTest, APlanThatNoHeadExecutesIsRefused) {
+  desk.Execute(Home("1"), anna);
+  link::Command command = Scan("2", "a");
+  command.mutable_start_scan()->set_plan_json("{\"from_rad\": 1e308}");
+  EXPECT_EQ(desk.Execute(command, anna).error(), link::BAD_DATA);
+  EXPECT_EQ(desk.Execute(Command("3"), anna).error(), link::INVALID_INPUT) << "no command at all";
+}
+
+TEST_F(HeadDeskTest, OnlyTheScanThatIsMeantIsEnded) {
+  desk.Execute(Home("1"), anna);
+  desk.Execute(Scan("2", "a"), anna);
+  link::Command end = Command("3");
+  end.mutable_end_scan()->set_scan_id("b");
+  EXPECT_THAT(desk.Execute(end, anna).message(), HasSubstr("scan b does not run"));
+  EXPECT_EQ(head->EndReason(), "");
+  end.set_command_id("4");
+  end.mutable_end_scan()->set_scan_id("a");
+  end.mutable_end_scan()->set_reason("seen enough");
+  EXPECT_EQ(desk.Execute(end, anna).error(), link::NONE);
+  EXPECT_EQ(head->EndReason(), "seen enough");
+  head->Play(SampleScan(4));
+}
+
+TEST_F(HeadDeskTest, ARigIsPutInForceAndReadBack) {
+  SensorRig rig = DefaultSensorRig();
+  rig.lidar.range_offset_m = 0.012;
+  link::Command command = Command("1");
+  command.mutable_set_rig()->set_yaml(SensorRigToYaml(rig));
+  EXPECT_EQ(desk.Execute(command, anna).error(), link::NONE);
+  EXPECT_EQ(desk.Now(false).rig_id(), RigId(rig));
+  EXPECT_EQ(desk.RigYaml("").value(), SensorRigToYaml(rig));
+  EXPECT_FALSE(desk.RigYaml(RigId(DefaultSensorRig())));
+}
+
+TEST_F(HeadDeskTest, SignsOfLifeOfWhoHasControlReachTheHead) {
+  EXPECT_TRUE(desk.SignOfLife(token));
+  EXPECT_EQ(head->signs, 1);
+  EXPECT_FALSE(desk.SignOfLife("a guess"));
+  EXPECT_EQ(head->signs, 1);
+}
+
+}  // namespace
+}  // namespace foresight
