@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace foresight {
+
+/// How the connection to a head at the far end of a link does. Times are of this computer's own
+/// clock, so an age grows when everything else is dead.
+struct LinkHealth {
+  bool connected = false;         ///< words come; false while the link is lost or was never there
+  double age_s = 0.0;             ///< since the last word of the head
+  double round_trip_s = 0.0;      ///< of the last sign of life that was answered; 0 = none yet
+  double down_bytes_per_s = 0.0;  ///< over the last seconds
+  std::int64_t left_bytes = 0;    ///< of scans that are on their way
+  double left_s = 0.0;            ///< at that rate; infinite where nothing comes
+  bool has_control = false;
+  std::string holder;   ///< who has control; empty = nobody
+  std::string address;  ///< of the head
+  std::string trouble;  ///< what is wrong and what to do; empty when all is well
+};
+
+}  // namespace foresight

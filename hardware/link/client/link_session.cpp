@@ -1,0 +1,101 @@
+#include "hardware/link/client/link_session.h"
+
+#include <grpcpp/channel.h>
+
+#include "core/base/version.h"
+
+namespace foresight {
+
+LinkSession::LinkSession(std::shared_ptr<grpc::Channel> channel, std::string address)
+    : address_(std::move(address)), stub_(link::SensorHead::NewStub(channel)) {}
+
+double LinkSession::Now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::unique_ptr<grpc::ClientContext> LinkSession::Context(std::chrono::milliseconds timeout) {
+  auto context = std::make_unique<grpc::ClientContext>();
+  context->AddMetadata(kProtocolKey, std::to_string(kLinkProtocol));
+  if (timeout.count() > 0) context->set_deadline(std::chrono::system_clock::now() + timeout);
+  return context;
+}
+
+Error LinkSession::ToError(const grpc::Status& status, const char* what) const {
+  switch (status.error_code()) {
+    case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return {
+          ErrorCode::kDevice,
+          fmt::format("{}: no connection to the head ({}): is foresight-head running there, and "
+                      "are the keys of one CA? {}",
+                      address_, what, status.error_message())};
+    case grpc::StatusCode::FAILED_PRECONDITION:
+      return {ErrorCode::kState, fmt::format("{}: {}", address_, status.error_message())};
+    default:
+      return {ErrorCode::kDevice,
+              fmt::format("{}: {} failed: {}", address_, what, status.error_message())};
+  }
+}
+
+Status LinkSession::Begin(std::chrono::milliseconds timeout) {
+  link::GreetRequest request;
+  request.set_protocol(kLinkProtocol);
+  request.set_program(std::string("foresight ") + ProgramVersion());
+  link::GreetReply reply;
+  if (const grpc::Status called = stub_->Greet(Context(timeout).get(), request, &reply);
+      !called.ok())
+    return tl::unexpected(ToError(called, "greeting"));
+  if (reply.protocol() != kLinkProtocol)
+    return Fail(ErrorCode::kState,
+                "{}: the head speaks version {} of the protocol ({}) and this program version {}: "
+                "install the same Foresight on both",
+                address_, reply.protocol(), reply.program(), kLinkProtocol);
+  {
+    const std::lock_guard lock(mutex_);
+    if (reply.boot_id() != greeting_.boot_id()) clock_.Forget();
+    clock_.Add(reply.desk_time_s(), Now());
+    greeting_ = reply;
+  }
+  if (!reply.may_operate()) return {};
+  return TakeControl(timeout);
+}
+
+/// That somebody else has control is no failure: this station looks on.
+Status LinkSession::TakeControl(std::chrono::milliseconds timeout) {
+  link::ControlReply reply;
+  if (const grpc::Status called =
+          stub_->TakeControl(Context(timeout).get(), link::ControlRequest(), &reply);
+      !called.ok())
+    return tl::unexpected(ToError(called, "taking control"));
+  const std::lock_guard lock(mutex_);
+  token_ = reply.granted() ? reply.token() : "";
+  holder_ = reply.holder();
+  return {};
+}
+
+link::GreetReply LinkSession::Greeting() const {
+  const std::lock_guard lock(mutex_);
+  return greeting_;
+}
+
+std::string LinkSession::Token() const {
+  const std::lock_guard lock(mutex_);
+  return token_;
+}
+
+std::string LinkSession::Holder() const {
+  const std::lock_guard lock(mutex_);
+  return holder_;
+}
+
+void LinkSession::Heard(double desk_time_s) {
+  const std::lock_guard lock(mutex_);
+  clock_.Add(desk_time_s, Now());
+}
+
+double LinkSession::DeskTime() const {
+  const std::lock_guard lock(mutex_);
+  return clock_.Known() ? clock_.At(Now()) : 0.0;
+}
+
+}  // namespace foresight

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "hardware/link/client/desk_clock.h"
+#include "hardware/link/protocol/messages.h"
+#include "sensor_head.grpc.pb.h"
+
+namespace foresight {
+
+/// What all threads of a station's end share: the way to the head, and who we are there. Safe from
+/// any thread.
+class LinkSession {
+ public:
+  LinkSession(std::shared_ptr<grpc::Channel> channel, std::string address);
+
+  link::SensorHead::Stub& stub() { return *stub_; }
+  const std::string& address() const { return address_; }
+
+  /// A call's context: the protocol's version, and where `timeout` is positive a deadline.
+  static std::unique_ptr<grpc::ClientContext> Context(std::chrono::milliseconds timeout);
+  /// What gRPC says of a call that failed, in words that name the head.
+  Error ToError(const grpc::Status& status, const char* what) const;
+
+  /// Greets the head and takes control, where the certificate may operate and nobody else has it.
+  Status Begin(std::chrono::milliseconds timeout);
+  Status TakeControl(std::chrono::milliseconds timeout);
+
+  link::GreetReply Greeting() const;
+  std::string Token() const;
+  std::string Holder() const;
+  /// The desk's time of a message that just came.
+  void Heard(double desk_time_s);
+  double DeskTime() const;
+  /// Seconds of this computer's clock.
+  static double Now();
+
+ private:
+  const std::string address_;
+  const std::unique_ptr<link::SensorHead::Stub> stub_;
+  mutable std::mutex mutex_;
+  link::GreetReply greeting_;
+  std::string token_;
+  std::string holder_;
+  DeskClock clock_;
+};
+
+}  // namespace foresight

@@ -1,0 +1,56 @@
+#include "hardware/link/client/stop_sender.h"
+
+#include "core/base/log.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kGiveUp_s = 60.0;
+constexpr std::chrono::milliseconds kTry{1500};
+constexpr std::chrono::milliseconds kPause{100};
+
+}  // namespace
+
+StopSender::StopSender(LinkSession& session) : session_(session) {
+  thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+}
+
+void StopSender::Stop() {
+  const std::lock_guard lock(mutex_);
+  ++asked_;
+  wake_.notify_all();
+}
+
+bool StopSender::Answered() const {
+  const std::lock_guard lock(mutex_);
+  return asked_ == answered_;
+}
+
+void StopSender::Work(const std::stop_token& stop) {
+  for (;;) {
+    int asked = 0;
+    {
+      std::unique_lock lock(mutex_);
+      if (!wake_.wait(lock, stop, [this] { return asked_ != answered_; })) return;
+      asked = asked_;
+    }
+    const double end_s = LinkSession::Now() + kGiveUp_s;
+    for (bool answered = false; !answered;) {
+      link::Outcome outcome;
+      const grpc::Status called =
+          session_.stub().Stop(LinkSession::Context(kTry).get(), link::StopRequest(), &outcome);
+      answered = called.ok() || stop.stop_requested();
+      if (!called.ok() && LinkSession::Now() > end_s) {
+        LogError("{}", session_.ToError(called, "stopping the head").message);
+        answered = true;
+      }
+      std::unique_lock lock(mutex_);
+      if (answered)
+        answered_ = asked;
+      else
+        wake_.wait_for(lock, stop, kPause, [&] { return asked_ != asked; });
+    }
+  }
+}
+
+}  // namespace foresight

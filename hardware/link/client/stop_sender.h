@@ -1,0 +1,34 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "hardware/link/client/link_session.h"
+
+namespace foresight {
+
+/// The stop button's own way to the head: nothing is queued before it, and what was pressed is
+/// sent until the head has answered or a minute is over (by then the head stops by itself, because
+/// nobody is there). A stop that comes late stops; it starts nothing.
+class StopSender {
+ public:
+  /// `session` outlives it.
+  explicit StopSender(LinkSession& session);
+
+  void Stop();
+  /// Whether the last stop was answered.
+  bool Answered() const;
+
+ private:
+  void Work(const std::stop_token& stop);
+
+  LinkSession& session_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  int asked_ = 0;
+  int answered_ = 0;
+  std::jthread thread_;  ///< last: starts when everything else is there
+};
+
+}  // namespace foresight
