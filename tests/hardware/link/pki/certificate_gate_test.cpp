@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <atomic>
-
 #include "core/base/log.h"
 #include "tests/support/link_keys.h"
 
@@ -35,7 +33,7 @@ class Gate : public testing::Test {
   LinkKeys keys_{kNow};
   std::filesystem::path head_ = keys_.Head();
   std::string anna_ = Pem(keys_.Operator());
-  std::atomic<std::int64_t> now_ = kNow;
+  std::int64_t now_ = kNow;
   std::string log_;
 };
 
