@@ -135,6 +135,17 @@ void RoundTrip(benchmark::State& state, Transport transport) {
   state.counters["p99_ms"] = at(0.99);
 }
 
+/// What the gate costs at a handshake and at each call.
+void Gate(benchmark::State& state, bool handshake) {
+  LinkKeys keys;
+  const auto gate = CertificateGate::Open(LoadTlsFiles(keys.Head()).value()).value();
+  const std::string pem = ReadFile(keys.Operator() / kCertificateFile).value();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(handshake ? gate->Admit(pem) : gate->CheckStillGood(pem));
+}
+BENCHMARK_CAPTURE(Gate, AtHandshake, true)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Gate, AtEachCall, false)->Unit(benchmark::kMicrosecond);
+
 constexpr std::int64_t kChunk = 64'000;
 BENCHMARK_CAPTURE(Stream, MutualTls64kB, Transport::kMutualTls, kChunk)
     ->UseRealTime()

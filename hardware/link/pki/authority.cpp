@@ -132,11 +132,13 @@ Result<LinkCertificate> CertificateAuthority::Renew(const std::string& name,
                                                     std::int64_t utc_s) {
   FORESIGHT_TRY(const IssuedCertificate present, CurrentOf(name));
   const LinkCertificate& certificate = present.certificate;
-  FORESIGHT_TRY(const Validity validity, ValidityFor(options.days, utc_s));
+  FORESIGHT_TRY(Validity validity, ValidityFor(options.days, utc_s));
+  // The latest of a name is the one that begins last, also where two were made in one second.
+  validity.from_utc_s = std::max(validity.from_utc_s, certificate.from_utc_s + 1);
   CertificateRequest request{certificate.identity, options.addresses, validity,
                              certificate.public_key_pem};
   if (!request.addresses.empty() && certificate.identity.role != LinkRole::kHead)
-    return Fail(ErrorCode::kInvalidOptions, "--address: {} is an {}; only heads have addresses",
+    return Fail(ErrorCode::kInvalidOptions, "--address: {} is the name of an {}; only heads have addresses",
                 name, ToString(certificate.identity.role));
   if (request.addresses.empty() && !certificate.addresses.empty())  // the first is the stable one
     request.addresses.assign(certificate.addresses.begin() + 1, certificate.addresses.end());

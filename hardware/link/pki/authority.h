@@ -67,7 +67,7 @@ class CertificateAuthority {
   /// The same list with a new date and number, in all folders of machines.
   Status MakeRevocationsAnew(int days, std::int64_t utc_s);
 
-  /// By name, then by end.
+  /// By name, then by begin.
   Result<std::vector<IssuedCertificate>> List() const;
 
  private:

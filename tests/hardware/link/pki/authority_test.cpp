@@ -132,6 +132,18 @@ TEST(CertificateAuthority, RenewingKeepsTheKeyAndTheAddresses) {
   EXPECT_TRUE(all[1].current);
 }
 
+TEST(CertificateAuthority, TheLatestIsCurrentAlsoWithinOneSecondAndWithAnEarlierEnd) {
+  LinkKeys keys(kNow);
+  keys.Head("left", {"10.0.0.2"});
+  for (const char* address : {"10.0.0.3", "10.0.0.4", "10.0.0.5"})
+    ASSERT_TRUE(keys.ca().Renew("left", {{address}, 30}, kNow));
+  const auto all = keys.ca().List().value();
+  ASSERT_THAT(all, SizeIs(4));
+  EXPECT_TRUE(all[3].current);
+  EXPECT_THAT(all[3].certificate.addresses, ElementsAre("left.foresight.internal", "10.0.0.5"));
+  EXPECT_EQ(keys.ca().Renew("left", {{}, 30}, kNow)->addresses, all[3].certificate.addresses);
+}
+
 TEST(CertificateAuthority, RevokingANameRevokesWhatWasRenewedToo) {
   LinkKeys keys(kNow);
   const auto folder = keys.Operator();
