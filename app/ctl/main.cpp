@@ -29,6 +29,7 @@ int Main(int argc, char** argv) {
   AddHealthCommand(app, invocation);
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);
+  AddPkiCommand(app, invocation);
   AddCalibrateCommand(app, invocation);
   AddTargetCommand(app, invocation);
   AddSimulateCommand(app, invocation);

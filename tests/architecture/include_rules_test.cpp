@@ -232,6 +232,30 @@ TEST(IncludeRules, AravisIsKnownInOnePlace) {
   });
 }
 
+TEST(IncludeRules, KeysOfTheLinkKnowNoTransport) {
+  ExpectNoBreach([](const Include& include) -> Opinion {
+    if (!StartsWith(include.file, "hardware/link/pki/")) return std::nullopt;
+    if (StartsWithAny(include.target, {"grpc", "google/"})) return "hardware/link/wire knows gRPC";
+    if (!IsOurs(include.target)) return std::nullopt;
+    return BreachIf(!StartsWithAny(include.target, {"hardware/link/pki/", "core/base/"}),
+                    "keys are files and certificates, nothing else");
+  });
+}
+
+TEST(IncludeRules, OpenSslIsKnownWhereHashesAndKeysAre) {
+  ExpectNoBreach([](const Include& include) -> Opinion {
+    const std::string handles = "hardware/link/pki/openssl_handles.h";
+    if (include.target == handles)
+      return BreachIf(include.header || FolderOf(include.file) != "hardware/link/pki",
+                      "belongs into a .cpp of the keys");
+    if (!StartsWith(include.target, "openssl/")) return std::nullopt;
+    return BreachIf(include.file != handles &&
+                        (include.header || (include.file != "core/base/sha256.cpp" &&
+                                            FolderOf(include.file) != "hardware/link/pki")),
+                    "goes through core/base/sha256.h or hardware/link/pki/");
+  });
+}
+
 TEST(IncludeRules, CodecsOfTheLidarKnowNoSockets) {
   ExpectNoBreach([](const Include& include) -> Opinion {
     if (!IsCodec(include.file) || !StartsWith(include.file, "hardware/scip/")) return std::nullopt;
