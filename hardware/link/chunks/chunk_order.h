@@ -38,4 +38,8 @@ inline constexpr double kFineCloudBelowBytesPerS = 160'000.0;
 std::optional<ItemId> NextItem(const ScanToSend& source, const ItemCounts& counts,
                                const ChunkSet& done, const TransferWishes& wishes);
 
+/// Whether the item is one that NextItem may still return.
+bool MayTravel(const ItemId& id, const ItemCounts& counts, const ChunkSet& done,
+               const TransferWishes& wishes);
+
 }  // namespace foresight

@@ -15,6 +15,7 @@ namespace foresight {
 struct CloudStep {
   int lines = 32;
   int beams = 8;
+  bool operator==(const CloudStep&) const = default;
 };
 inline constexpr int kLinesPerCloudBlock = 64;
 inline constexpr CloudStep kCoarseStep{32, 8};

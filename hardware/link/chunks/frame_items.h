@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -15,15 +16,14 @@ inline constexpr int kFullQuality = 90;
 
 /// An image of a frame as it travels, with what is known of the frame.
 struct FrameItem {
-  CameraFrame frame;  ///< without its image
+  std::shared_ptr<const CameraFrame> frame;  ///< its image is of the size that travelled
   int full_width = 0;
   int full_height = 0;
-  std::string jpeg;
 };
 
 /// `largest_side_px` 0 = the full size. Fails with kInvalidInput for an image without pixels.
 Result<std::string> EncodeFrameJpeg(const CameraFrame& frame, int largest_side_px, int quality);
-/// Fails with kBadData. The JPEG itself is not decoded.
+/// Fails with kBadData.
 Result<FrameItem> DecodeFrameJpeg(std::string_view bytes);
 
 /// The frame with its image, lossless (lossless_image.h).
