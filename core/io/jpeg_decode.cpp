@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/io/image_file.h"
+#include "core/io/jpeg.h"
 
 namespace foresight {
 namespace {
@@ -52,7 +53,7 @@ struct Decoder {
   std::array<char, JMSG_LENGTH_MAX> message{};
 };
 
-bool Start(Decoder& decoder, std::string_view bytes) {
+bool Start(Decoder& decoder, std::string_view bytes, J_COLOR_SPACE color_space) {
   if (setjmp(decoder.jump) != 0) return false;
   jpeg_create_decompress(&decoder.jpeg);
   decoder.created = true;
@@ -60,7 +61,7 @@ bool Start(Decoder& decoder, std::string_view bytes) {
   jpeg_mem_src(&decoder.jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
                static_cast<unsigned long>(bytes.size()));
   jpeg_read_header(&decoder.jpeg, TRUE);
-  decoder.jpeg.out_color_space = JCS_GRAYSCALE;
+  decoder.jpeg.out_color_space = color_space;
   jpeg_calc_output_dimensions(&decoder.jpeg);
   return true;
 }
@@ -75,32 +76,44 @@ bool ReadRows(Decoder& decoder, JSAMPROW* rows) {
   return true;
 }
 
-}  // namespace
-
-Result<GrayImage> DecodeJpegGray(std::string_view bytes, const std::string& source) {
+template <class Pixel>
+Result<Image<Pixel>> Decode(std::string_view bytes, const std::string& source,
+                            J_COLOR_SPACE color_space, std::uint64_t most_pixels) {
   Decoder decoder;
   const auto fail = [&] {
     return Fail(ErrorCode::kBadData, "{}: damaged JPEG: {}", source, decoder.message.data());
   };
-  if (!Start(decoder, bytes)) return fail();
+  if (!Start(decoder, bytes, color_space)) return fail();
   const JDIMENSION width = decoder.jpeg.output_width, height = decoder.jpeg.output_height;
   const std::uint64_t pixels = std::uint64_t{width} * height;
-  if (width > kMaxSide || height > kMaxSide || pixels > kMostPixels)
-    return Fail(ErrorCode::kBadData, "{}: {} x {} pixels are more than {} a side or {} million",
-                source, width, height, kMaxSide, kMostPixels / 1'000'000);
+  if (width > kMaxSide || height > kMaxSide || pixels > most_pixels)
+    return Fail(ErrorCode::kBadData, "{}: {} x {} pixels are more than {} a side or {} in all",
+                source, width, height, kMaxSide, most_pixels);
   if (pixels > bytes.size() * kMostPixelsPerByte)
     return Fail(ErrorCode::kBadData, "{}: {} bytes cannot hold an image of {} x {}", source,
                 bytes.size(), width, height);
   try {
-    GrayImage image(static_cast<int>(width), static_cast<int>(height));
+    Image<Pixel> image(static_cast<int>(width), static_cast<int>(height));
     std::vector<JSAMPROW> rows(height);
-    for (JDIMENSION y = 0; y < height; ++y) rows[y] = image.row(static_cast<int>(y));
+    for (JDIMENSION y = 0; y < height; ++y)
+      rows[y] = reinterpret_cast<JSAMPROW>(image.row(static_cast<int>(y)));
     if (!ReadRows(decoder, rows.data())) return fail();
     return image;
   } catch (const std::bad_alloc&) {
     return Fail(ErrorCode::kIo, "{}: its {} x {} pixels do not fit into memory", source, width,
                 height);
   }
+}
+
+}  // namespace
+
+Result<GrayImage> DecodeJpegGray(std::string_view bytes, const std::string& source) {
+  return Decode<std::uint8_t>(bytes, source, JCS_GRAYSCALE, kMostPixels);
+}
+
+Result<ColorImage> DecodeJpeg(std::string_view bytes, const std::string& source,
+                              std::int64_t most_pixels) {
+  return Decode<Rgb8>(bytes, source, JCS_RGB, static_cast<std::uint64_t>(most_pixels));
 }
 
 }  // namespace foresight
