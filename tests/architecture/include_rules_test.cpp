@@ -202,6 +202,28 @@ TEST(IncludeRules, TheHeadKnowsNoConcreteDevice) {
   });
 }
 
+TEST(IncludeRules, TheLinkKnowsNoConcreteDevice) {
+  ExpectNoBreach([](const Include& include) -> Opinion {
+    if (!StartsWith(include.file, "hardware/link/") || !IsOurs(include.target)) return std::nullopt;
+    return BreachIf(!StartsWithAny(include.target, {"hardware/api/", "hardware/head/",
+                                                    "hardware/link/", "hardware/net/", "core/"}),
+                    "a link carries any head");
+  });
+}
+
+TEST(IncludeRules, ChunksKeysAndPosesKnowNoTransport) {
+  ExpectNoBreach([](const Include& include) -> Opinion {
+    if (!StartsWithAny(include.file,
+                       {"hardware/link/chunks/", "hardware/link/pki/", "hardware/link/robot/"}))
+      return std::nullopt;
+    if (StartsWith(include.target, "hardware/link/"))
+      return BreachIf(FolderOf(include.target) != FolderOf(include.file), "stands alone");
+    return BreachIf(
+        StartsWith(include.target, "grpc") || include.target.find(".pb.h") != std::string::npos,
+        "gRPC is for the server and the client");
+  });
+}
+
 /// Files of a protocol that only turn messages into bytes and back: driver and emulator share them.
 bool IsCodec(const std::string& target) {
   return StartsWithAny(target, {"hardware/scip/scip_codec", "hardware/scip/scip_encoding",

@@ -51,6 +51,11 @@ TEST(Libraries, TheDriversNeedOnlyCore) {
   EXPECT_EQ(OursNeededBy(FORESIGHT_HARDWARE_FILE), std::set<std::string>({"foresight_core"}));
 }
 
+TEST(Libraries, TheLinkNeedsTheHeadsInterfaceAndNoEmulators) {
+  EXPECT_EQ(OursNeededBy(FORESIGHT_LINK_FILE),
+            std::set<std::string>({"foresight_core", "foresight_hardware"}));
+}
+
 TEST(Libraries, WhatPlaysDevicesNeedsTheSimulationAndNotThePopulations) {
   const std::set<std::string> needed = OursNeededBy(FORESIGHT_EMULATOR_FILE);
   EXPECT_TRUE(needed.contains("foresight_simulation"));

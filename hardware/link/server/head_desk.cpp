@@ -73,8 +73,9 @@ link::ControlReply HeadDesk::TakeControl(const link::ControlRequest& request, co
         ControlLease::Answer{false, "", Holder(),
                              "an observer's certificate cannot take control: use an operator's"},
         lease_.lease_s());
+  const std::string before = Holder();
   const ControlLease::Answer answer = lease_.Take(peer.name, Time());
-  if (answer.granted) LogInfo("{} has control", peer.name);
+  if (answer.granted && before != peer.name) LogInfo("{} has control", peer.name);
   return ToMessage(answer, lease_.lease_s());
 }
 
@@ -137,6 +138,8 @@ Status HeadDesk::Carry(const link::Command& command) {
       return EndScan(command.end_scan());
     case link::Command::kSetRig:
       return SetRig(command.set_rig());
+    case link::Command::kStartStops:
+      return StartStops(command.start_stops());
     default:
       return Fail(ErrorCode::kInvalidInput, "the head does not know this command");
   }
@@ -174,6 +177,41 @@ Status HeadDesk::SetRig(const link::SetRig& set) {
   const std::lock_guard lock(names_);
   rig_id_ = RigId(head_->Rig());
   return {};
+}
+
+Status HeadDesk::StartStops(const link::StartStops& start) {
+  FORESIGHT_CHECK(CheckId("stops_id", start.stops_id()));
+  FORESIGHT_TRY(const StopPlan plan, FromMessage(start));
+  auto stops = std::make_shared<StopShelf>(start.stops_id());
+  FORESIGHT_CHECK(head_->StartStops(plan, stops));
+  const std::lock_guard lock(names_);
+  stops_ = std::move(stops);
+  return {};
+}
+
+std::shared_ptr<StopShelf> HeadDesk::Stops(const std::string& id) const {
+  const std::lock_guard lock(names_);
+  return stops_ && stops_->id() == id ? stops_ : nullptr;
+}
+
+Status HeadDesk::StartLiveView(const LiveViewOptions& options, std::shared_ptr<LiveViewSink> sink) {
+  const LiveViewSink* raw = sink.get();
+  const std::lock_guard lock(names_);
+  FORESIGHT_CHECK(head_->StartLiveView(options, std::move(sink)));
+  shown_to_ = raw;
+  return {};
+}
+
+bool HeadDesk::ShowsTo(const LiveViewSink* sink) const {
+  const std::lock_guard lock(names_);
+  return shown_to_ == sink;
+}
+
+void HeadDesk::StopLiveView(const LiveViewSink* sink) {
+  const std::lock_guard lock(names_);
+  if (shown_to_ != sink) return;
+  shown_to_ = nullptr;
+  head_->StopLiveView();
 }
 
 link::Outcome HeadDesk::Stop(const Peer& peer) {

@@ -9,6 +9,7 @@
 #include "hardware/link/server/command_log.h"
 #include "hardware/link/server/control_lease.h"
 #include "hardware/link/server/scan_shelf.h"
+#include "hardware/link/server/stop_shelf.h"
 #include "sensor_head.pb.h"
 
 namespace foresight {
@@ -41,6 +42,14 @@ class HeadDesk {
   /// Renews the lease; the head hears that somebody is there. False for who has no control.
   bool SignOfLife(const std::string& token);
 
+  /// Puts the live view in place of another station's.
+  Status StartLiveView(const LiveViewOptions& options, std::shared_ptr<LiveViewSink> sink);
+  bool ShowsTo(const LiveViewSink* sink) const;
+  /// Unless another one has replaced it.
+  void StopLiveView(const LiveViewSink* sink);
+  /// Of the last run of stops; nullptr where there was another one since, or none.
+  std::shared_ptr<StopShelf> Stops(const std::string& id) const;
+
   link::Status Now(bool with_health) const;
   std::string Holder() const { return lease_.Holder(Time()); }
   bool HasControl(const std::string& token) const { return lease_.Holds(token, Time()); }
@@ -58,6 +67,7 @@ class HeadDesk {
   Status StartScan(const link::StartScan& start);
   Status EndScan(const link::EndScan& end);
   Status SetRig(const link::SetRig& set);
+  Status StartStops(const link::StartStops& start);
 
   const std::shared_ptr<SensorHead> head_;
   ScanShelf& shelf_;
@@ -71,6 +81,8 @@ class HeadDesk {
   mutable std::mutex names_;  ///< guards what follows
   std::string scan_id_;       ///< of the running or last scan
   std::string rig_id_;
+  const LiveViewSink* shown_to_ = nullptr;
+  std::shared_ptr<StopShelf> stops_;
 };
 
 /// Fails with kInvalidInput where it is not 1 to 64 letters, digits and dashes.

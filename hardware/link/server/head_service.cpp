@@ -3,10 +3,15 @@
 #include "core/base/contract.h"
 #include "core/base/log.h"
 #include "hardware/link/protocol/messages.h"
+#include "hardware/link/protocol/stop_messages.h"
+#include "hardware/link/server/look_stream.h"
+#include "hardware/link/server/transfer_stream.h"
 #include "hardware/link/server/watch_stream.h"
 
 namespace foresight {
 namespace {
+
+constexpr std::chrono::milliseconds kTick{100};
 
 /// One of a limited number of streams; empty where there is none left.
 class Place {
@@ -134,6 +139,50 @@ grpc::Status HeadService::GetRig(grpc::ServerContext* context, const link::RigRe
   const auto yaml = desk_.RigYaml(request->rig_id());
   if (!yaml) return ToGrpc(yaml.error());
   reply->set_yaml(*yaml);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::Transfer(grpc::ServerContext* context, TransferStream::Stream* stream) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  const Place place(transfers_, kMostTransfers);
+  if (!place) return TooMany("transfers of scans", kMostTransfers);
+  return TransferStream(desk_.shelf(), *peer, *context, *stream).Run(closing_);
+}
+
+grpc::Status HeadService::Look(grpc::ServerContext* context, const link::LiveViewRequest* request,
+                               LookStream::Stream* stream) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  if (!peer->may_operate && !desk_.Holder().empty())
+    return {grpc::StatusCode::PERMISSION_DENIED,
+            desk_.Holder() + " has control, and the camera: an observer would take it away"};
+  const Place place(looks_, kMostLooks);
+  if (!place) return TooMany("live views", kMostLooks);
+  return LookStream(desk_, *context, *stream).Run(*request, closing_);
+}
+
+grpc::Status HeadService::FetchStops(grpc::ServerContext* context,
+                                     const link::StopsRequest* request,
+                                     grpc::ServerWriter<link::StopEvent>* stream) {
+  grpc::Status refusal;
+  if (!Admit(*context, &refusal)) return refusal;
+  const Place place(looks_, kMostLooks);
+  if (!place) return TooMany("live views and captures", kMostLooks);
+  const auto stops = desk_.Stops(request->stops_id());
+  if (!stops || request->from() < 0)
+    return {grpc::StatusCode::NOT_FOUND, "the head does not have these captures any more"};
+  for (int number = request->from(); !closing_ && !context->IsCancelled();) {
+    const StopShelf::News news = stops->Wait(static_cast<std::size_t>(number), kTick);
+    if (!news.capture && !news.end) continue;
+    const auto event = news.capture ? ToMessage(number, *news.capture)
+                                    : ToMessage(number, news.end->state, news.end->reason);
+    if (!event) return ToGrpc(event.error());
+    if (!stream->Write(*event) || news.end) break;
+    ++number;
+  }
   return grpc::Status::OK;
 }
 

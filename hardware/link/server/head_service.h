@@ -20,6 +20,7 @@ class HeadService final : public link::SensorHead::Service {
   /// leave threads for the operator's calls.
   static constexpr int kMostWatches = 32;
   static constexpr int kMostTransfers = 16;
+  static constexpr int kMostLooks = 8;
 
   HeadService(HeadDesk& desk, PeerReader peer);
   void Close();
@@ -38,6 +39,13 @@ class HeadService final : public link::SensorHead::Service {
                     link::Outcome* outcome) override;
   grpc::Status GetRig(grpc::ServerContext* context, const link::RigRequest* request,
                       link::RigReply* reply) override;
+  grpc::Status Transfer(
+      grpc::ServerContext* context,
+      grpc::ServerReaderWriter<link::Chunk, link::TransferRequest>* stream) override;
+  grpc::Status Look(grpc::ServerContext* context, const link::LiveViewRequest* request,
+                    grpc::ServerWriter<link::LiveViewImage>* stream) override;
+  grpc::Status FetchStops(grpc::ServerContext* context, const link::StopsRequest* request,
+                          grpc::ServerWriter<link::StopEvent>* stream) override;
   grpc::Status ListScans(grpc::ServerContext* context, const link::ListScansRequest* request,
                          link::ListScansReply* reply) override;
 
@@ -49,6 +57,7 @@ class HeadService final : public link::SensorHead::Service {
   std::atomic<bool> closing_{false};
   std::atomic<int> watches_{0};
   std::atomic<int> transfers_{0};
+  std::atomic<int> looks_{0};
 };
 
 }  // namespace foresight

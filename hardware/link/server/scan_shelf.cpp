@@ -51,7 +51,13 @@ bool OlderThan(const ShelvedScan& a, const ShelvedScan& b) {
 /// One scan on its way to the disk. What the recorder hands on comes here, from its thread.
 class ScanShelf::Recording final : public ScanSink {
  public:
-  Recording(ScanShelf& shelf, std::string uuid) : shelf_(shelf), uuid_(std::move(uuid)) {}
+  Recording(ScanShelf& shelf, std::string uuid) : shelf_(&shelf), uuid_(std::move(uuid)) {}
+
+  /// The shelf is gone; a head may still hold the sink.
+  void Leave() {
+    const std::lock_guard lock(mutex_);
+    shelf_ = nullptr;
+  }
 
   void OnScanStarted(const Scan& header) override {
     assembler_.OnScanStarted(header);
@@ -78,9 +84,7 @@ class ScanShelf::Recording final : public ScanSink {
   }
   /// What the file says counts: the tidier reads it when it is closed.
   void OnScanEnded(ScanState /*state*/, const std::string& /*reason*/) override {
-    const std::lock_guard lock(shelf_.mutex_);
-    ended_ = true;
-    shelf_.changed_.notify_all();
+    Tell([this](Entry&) { ended_ = true; });
   }
 
   bool Ended() const { return ended_; }
@@ -92,14 +96,17 @@ class ScanShelf::Recording final : public ScanSink {
  private:
   template <class Change>
   void Tell(const Change& change) {
-    const std::lock_guard lock(shelf_.mutex_);
-    const auto found = shelf_.entries_.find(uuid_);
-    if (found == shelf_.entries_.end()) return;
+    const std::lock_guard here(mutex_);
+    if (shelf_ == nullptr) return;
+    const std::lock_guard lock(shelf_->mutex_);
+    const auto found = shelf_->entries_.find(uuid_);
+    if (found == shelf_->entries_.end()) return;
     change(found->second);
-    shelf_.Changed(found->second);
+    shelf_->Changed(found->second);
   }
 
-  ScanShelf& shelf_;
+  std::mutex mutex_;
+  ScanShelf* shelf_;  ///< null = gone
   const std::string uuid_;
   ScanAssembler assembler_;
   bool ended_ = false;  ///< guarded by the shelf's mutex
@@ -116,6 +123,7 @@ class NamedScan final : public ScanSink {
   void OnScanStarted(const Scan& header) override {
     Scan named = header;
     named.uuid = uuid_;
+    named.state = ScanState::kRunning;
     recorder_->OnScanStarted(named);
   }
   void OnLine(const LidarLine& line) override { recorder_->OnLine(line); }
@@ -160,8 +168,11 @@ Result<std::unique_ptr<ScanShelf>> ScanShelf::Open(const Options& options) {
 /// A scan that runs on is interrupted, as the end of its recorder makes it.
 ScanShelf::~ScanShelf() {
   tidier_ = {};
-  for (auto& [uuid, entry] : entries_)
-    if (entry.recording) entry.recording->recorder.reset();
+  for (auto& [uuid, entry] : entries_) {
+    if (!entry.recording) continue;
+    entry.recording->recorder.reset();
+    entry.recording->Leave();
+  }
 }
 
 /// Opening for writing ends a scan that a crash left running.

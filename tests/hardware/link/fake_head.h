@@ -86,6 +86,13 @@ class FakeHead final : public SensorHead {
     const std::lock_guard lock(mutex_);
     return live_sink_;
   }
+  /// As when its program dies.
+  void Forget() {
+    const std::lock_guard lock(mutex_);
+    sink_.reset();
+    stop_sink_.reset();
+    live_sink_.reset();
+  }
   std::string EndReason() const {
     const std::lock_guard lock(mutex_);
     return end_reason_;

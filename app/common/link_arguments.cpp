@@ -1,0 +1,98 @@
+#include "app/common/link_arguments.h"
+
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <grpcpp/support/channel_arguments.h>
+
+#include <cstdlib>
+
+#include "hardware/link/wire/channel_arguments.h"
+#include "hardware/link/wire/credentials.h"
+#include "hardware/link/wire/grpc_log.h"
+
+namespace foresight {
+namespace {
+
+constexpr std::chrono::milliseconds kConnect{15'000};
+
+/// The host of HOST:PORT, without the brackets of an IPv6 address.
+std::string HostOf(const std::string& address) {
+  std::string host = address.substr(0, address.rfind(':'));
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']')
+    host = host.substr(1, host.size() - 2);
+  return host;
+}
+
+std::filesystem::path SpoolFolder() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  if (state != nullptr && *state != '\0') return std::filesystem::path(state) / "foresight/link";
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home != nullptr ? home : "/tmp") / ".local/state/foresight/link";
+}
+
+Result<std::shared_ptr<grpc::ChannelCredentials>> CredentialsFor(const LinkArguments& arguments,
+                                                                 const std::string& address) {
+  if (arguments.plaintext) return PlaintextStationCredentials(HostOf(address));
+  FORESIGHT_TRY(const TlsFiles files, LoadTlsFiles(arguments.keys.empty() ? KeyFolderOfStation()
+                                                                          : arguments.keys));
+  FORESIGHT_TRY(auto gate, CertificateGate::Open(files));
+  return StationCredentials(files, std::move(gate));
+}
+
+}  // namespace
+
+Result<std::string> LinkAddress(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  const std::size_t bracket = text.rfind(']');
+  const bool has_port =
+      colon != std::string::npos && (bracket == std::string::npos || colon > bracket) &&
+      (bracket != std::string::npos || text.find(':') == colon);
+  if (text.empty() || (!has_port && bracket == std::string::npos && colon != std::string::npos))
+    return Fail(ErrorCode::kInvalidOptions,
+                "--head '{}': is no HOST or HOST:PORT (an IPv6 address stands in brackets)", text);
+  if (!has_port) return fmt::format("{}:{}", text, kLinkPort);
+  const std::string port = text.substr(colon + 1);
+  const bool digits = !port.empty() && port.size() <= 5 &&
+                      port.find_first_not_of("0123456789") == std::string::npos;
+  if (colon == 0 || !digits || std::stoi(port) < 1 || std::stoi(port) > 65535)
+    return Fail(ErrorCode::kInvalidOptions, "--head '{}': '{}' is no port (1 to 65535)", text,
+                port);
+  return text;
+}
+
+CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments) {
+  CLI::Option* head = command.add_option(
+      "--head", arguments.head, "A head at the far end of a link, HOST or HOST:PORT (port 47130)");
+  CLI::Option* keys =
+      command.add_option("--link-keys", arguments.keys,
+                         "Folder of this station's keys (default: ~/.config/foresight/link)")
+          ->needs(head);
+  command
+      .add_flag("--plaintext", arguments.plaintext,
+                "Without encryption, for a head on this computer only")
+      ->needs(head)
+      ->excludes(keys);
+  command
+      .add_flag("--thin-link", arguments.thin, "The path carries some kilobits a second at most")
+      ->needs(head);
+  return head;
+}
+
+Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
+                                                std::shared_ptr<ScanArchive> archive,
+                                                const std::string& spool) {
+  FORESIGHT_TRY(const std::string address, LinkAddress(arguments.head));
+  FORESIGHT_TRY(const auto credentials, CredentialsFor(arguments, address));
+  SendGrpcLogToOurs();
+  grpc::ChannelArguments channel;
+  SetStationArguments(channel, arguments.thin ? LinkPath::kThin : LinkPath::kBursts);
+  RemoteHead::Options options;
+  options.address = address;
+  options.status_rate_hz = arguments.thin ? 0.5 : 10.0;
+  options.spool = spool.empty() ? SpoolFolder() : std::filesystem::path(spool);
+  options.archive = std::move(archive);
+  return RemoteHead::Connect(grpc::CreateCustomChannel(address, credentials, channel), options,
+                             kConnect);
+}
+
+}  // namespace foresight

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "hardware/link/client/remote_head.h"
+
+namespace foresight {
+
+/// How to reach a head over the link, as the command line says it.
+struct LinkArguments {
+  std::string head;        ///< HOST or HOST:PORT; empty = no link
+  std::string keys;        ///< folder; empty = the user's
+  bool plaintext = false;  ///< on this computer only
+  bool thin = false;       ///< the path carries some kilobits a second
+};
+
+/// A head listens there unless it is told otherwise.
+inline constexpr int kLinkPort = 47130;
+
+/// "host" -> "host:47130"; "[::1]" and "[::1]:5" too. Fails with kInvalidOptions.
+Result<std::string> LinkAddress(const std::string& text);
+
+/// --head and what goes with it; returns the option --head.
+CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments);
+
+/// Connects to the head. `spool` is the folder for what has come of scans that are not whole; empty
+/// = the user's.
+Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
+                                                std::shared_ptr<ScanArchive> archive,
+                                                const std::string& spool = "");
+
+}  // namespace foresight

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "hardware/api/sensor_head.h"
+#include "hardware/link/client/command_sender.h"
+#include "hardware/link/client/head_mirror.h"
+#include "hardware/link/client/look_client.h"
+#include "hardware/link/client/scan_fetcher.h"
+#include "hardware/link/client/stop_sender.h"
+#include "hardware/link/client/stops_client.h"
+#include "hardware/link/client/watch_client.h"
+
+namespace foresight {
+
+/// A head at the far end of a link (ADR 0015). What it shows is what the head said last; Link() has
+/// how old that is. Calls that make the head act return at once, and show in Status(); but SetRig
+/// waits for the head's answer, so a window calls it from a task.
+class RemoteHead final : public SensorHead {
+ public:
+  struct Options {
+    std::string address;                   ///< for messages
+    double status_rate_hz = 10.0;          ///< of a head that moves; 1 suits a thin path
+    double command_good_s = 8.0;           ///< what the head did not get by then is void
+    std::filesystem::path spool;           ///< folder for what has come of scans that are not whole
+    std::shared_ptr<ScanArchive> archive;  ///< may be null: sinks are all there is
+  };
+
+  /// Greets the head and fetches its rig. Fails with kDevice where nobody answers in time, kState
+  /// where the head speaks another version of the protocol.
+  static Result<std::shared_ptr<RemoteHead>> Connect(std::shared_ptr<grpc::Channel> channel,
+                                                     const Options& options,
+                                                     std::chrono::milliseconds timeout);
+  ~RemoteHead() override;
+
+  std::string Describe() const override;
+  HeadStatus Status() const override;
+  SensorRig Rig() const override;
+  foresight::Status SetRig(const SensorRig& rig) override;
+  std::optional<LinkHealth> Link() const override;
+  HeadMotion Motion() const override;
+  foresight::Status Home() override;
+  foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
+  foresight::Status StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink) override;
+  foresight::Status StartLiveView(const LiveViewOptions& options,
+                                  std::shared_ptr<LiveViewSink> sink) override;
+  void StopLiveView() override;
+  void EndScan(const std::string& reason) override;
+  void StopMotor() override;
+  void OperatorSeen() override;
+
+  bool Simulated() const { return session_.Greeting().simulated(); }
+  ScanFetcher& Scans() { return *fetcher_; }
+
+ private:
+  RemoteHead(std::shared_ptr<grpc::Channel> channel, const Options& options);
+  foresight::Status FetchRig();
+  foresight::Status MayAct(const char* what) const;
+  void OnBegin();
+  void OnEvent(const link::Event& event);
+
+  const Options options_;
+  mutable LinkSession session_;
+  HeadMirror mirror_;
+  mutable std::mutex mutex_;  ///< guards what follows
+  SensorRig rig_;
+  std::string rig_yaml_;
+  std::string rig_id_;
+  HeadMotion motion_;
+  std::string boot_id_;
+  std::shared_ptr<StopsClient> stops_;
+  std::unique_ptr<LookClient> look_;
+  // Last: their threads use what is above.
+  std::unique_ptr<ScanFetcher> fetcher_;
+  std::unique_ptr<StopSender> stopper_;
+  std::unique_ptr<CommandSender> commands_;
+  std::unique_ptr<WatchClient> watch_;
+};
+
+}  // namespace foresight

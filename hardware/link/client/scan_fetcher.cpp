@@ -1,0 +1,426 @@
+#include "hardware/link/client/scan_fetcher.h"
+
+#include <deque>
+
+#include "core/base/log.h"
+#include "hardware/link/chunks/chunk_order.h"
+
+namespace foresight {
+namespace {
+
+constexpr std::chrono::milliseconds kTick{100};
+constexpr double kRetry_s = 0.25;     ///< after the link broke
+constexpr double kRetryDisk_s = 2.0;  ///< after this computer's disk did not take something
+constexpr double kEarlyEvery_s = 0.3;
+constexpr double kConfirm_s = 5.0;  ///< for the head's answer that it heard of the end
+/// A sign of life and its answer, 300 bytes with all that is around them, take 0.25 s at 9600
+/// bit/s.
+constexpr double kWideRoundTrip_s = 0.12;
+
+Chunk FromMessage(link::Chunk& message) {
+  Chunk chunk;
+  chunk.id.kind = static_cast<ChunkKind>(message.id().kind());
+  chunk.id.item = message.id().item();
+  chunk.id.part = message.id().part();
+  chunk.parts = message.parts();
+  chunk.item_crc = message.item_crc();
+  chunk.crc = message.crc();
+  chunk.bytes = std::move(*message.mutable_bytes());
+  return chunk;
+}
+
+}  // namespace
+
+/// What the reading thread brings, until the stream ends.
+class ScanFetcher::Inbox {
+ public:
+  void Push(link::Chunk message) {
+    const std::lock_guard lock(mutex_);
+    left_bytes_ = message.left_bytes();
+    if (IsChunkKind(message.id().kind())) chunks_.push_back(FromMessage(message));
+    wake_.notify_all();
+  }
+  void Close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    wake_.notify_all();
+  }
+  /// All that has come, waiting a little for the first.
+  std::vector<Chunk> TakeAll() {
+    std::unique_lock lock(mutex_);
+    wake_.wait_for(lock, kTick, [this] { return closed_ || !chunks_.empty(); });
+    return std::exchange(chunks_, {});
+  }
+  bool Closed() const {
+    const std::lock_guard lock(mutex_);
+    return closed_ && chunks_.empty();
+  }
+  std::int64_t LeftBytes() const {
+    const std::lock_guard lock(mutex_);
+    return left_bytes_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<Chunk> chunks_;
+  std::int64_t left_bytes_ = 0;
+  bool closed_ = false;
+};
+
+ScanFetcher::ScanFetcher(LinkSession& session, Options options)
+    : session_(session), options_(std::move(options)) {
+  if (options_.archive) TakeInSpools();
+  thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+}
+
+ScanFetcher::~ScanFetcher() {
+  thread_ = {};
+  for (auto& [id, scan] : scans_)
+    EndSink(*scan, ScanState::kInterrupted,
+            "the program ended before all of the scan had come: the rest is at the head");
+}
+
+/// What an earlier run left is fetched behind everything new.
+void ScanFetcher::TakeInSpools() {
+  const auto spools = ListSpools(options_.spool);
+  if (!spools) return LogError("{}", spools.error().message);
+  for (const SpoolSummary& spool : *spools) {
+    auto scan = std::make_shared<Fetched>();
+    scan->header.uuid = scan->state.scan_id = spool.scan_id;
+    scan->command = Fetched::Command::kDoubtful;
+    scans_.emplace(spool.scan_id, std::move(scan));
+  }
+}
+
+void ScanFetcher::Expect(const Scan& header, std::shared_ptr<ScanSink> sink) {
+  const std::lock_guard lock(mutex_);
+  auto scan = std::make_shared<Fetched>();
+  scan->header = header;
+  scan->sink = std::move(sink);
+  scan->order = ++order_;
+  scan->state.scan_id = header.uuid;
+  if (const auto planned = PredictScan(header.plan, header.rig))
+    scan->state.expected_lines = planned->lines;
+  scans_[header.uuid] = std::move(scan);
+  region_.reset();
+  images_first_.clear();
+  early_.reset();
+}
+
+void ScanFetcher::Started(const std::string& scan_id) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = scans_.find(scan_id); found != scans_.end())
+    found->second->command = Fetched::Command::kTaken;
+  wake_.notify_all();
+}
+
+void ScanFetcher::Refuse(const std::string& scan_id, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  const auto found = scans_.find(scan_id);
+  if (found == scans_.end()) return;
+  found->second->command = Fetched::Command::kRefused;
+  found->second->refusal = reason;
+  wake_.notify_all();
+}
+
+void ScanFetcher::Doubt(const std::string& scan_id) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = scans_.find(scan_id); found != scans_.end())
+    found->second->command = Fetched::Command::kDoubtful;
+}
+
+void ScanFetcher::Heard(const std::vector<link::ScanOnHead>& scans, bool all) {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, const link::ScanOnHead*> on_head;
+  for (const link::ScanOnHead& scan : scans) on_head[scan.scan_id()] = &scan;
+  for (auto& [id, scan] : scans_) {
+    const auto found = on_head.find(id);
+    if (found != on_head.end()) {
+      if (scan->command == Fetched::Command::kDoubtful) scan->command = Fetched::Command::kTaken;
+      scan->state.expected_lines = found->second->expected_lines();
+    } else if (all && scan->command == Fetched::Command::kDoubtful && scan->sink) {
+      scan->command = Fetched::Command::kRefused;
+      scan->refusal = "the command was lost on the link and the head did not start the scan";
+    } else if (all && !scan->done && scan->command != Fetched::Command::kSent) {
+      scan->state.trouble = "the head does not have this scan any more";
+    }
+  }
+  wake_.notify_all();
+}
+
+std::vector<TransferState> ScanFetcher::Transfers() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<TransferState> states;
+  for (const auto& [id, scan] : scans_)
+    if (!scan->done && scan->command != Fetched::Command::kRefused) states.push_back(scan->state);
+  return states;
+}
+
+double ScanFetcher::DownBytesPerS() const {
+  const std::lock_guard lock(mutex_);
+  return rate_.BytesPerS(LinkSession::Now());
+}
+
+std::shared_ptr<const PartialScan> ScanFetcher::EarlyLook() const {
+  const std::lock_guard lock(mutex_);
+  return early_;
+}
+
+void ScanFetcher::SetRegion(std::optional<NumberSet::Interval> lines) {
+  const std::lock_guard lock(mutex_);
+  region_ = lines;
+  ++wishes_changed_;
+}
+
+void ScanFetcher::WishImage(std::int64_t position) {
+  const std::lock_guard lock(mutex_);
+  images_first_.push_back(position);
+  ++wishes_changed_;
+}
+
+void ScanFetcher::Pause(const std::string& scan_id, bool paused) {
+  const std::lock_guard lock(mutex_);
+  const auto found = scans_.find(scan_id);
+  if (found == scans_.end()) return;
+  found->second->paused = found->second->state.paused = paused;
+  wake_.notify_all();
+}
+
+/// With the mutex held.
+bool ScanFetcher::MayBeFetched(const Fetched& scan) const {
+  return scan.command == Fetched::Command::kTaken && !scan.confirmed && !scan.paused &&
+         LinkSession::Now() >= scan.not_before_s;
+}
+
+std::shared_ptr<ScanFetcher::Fetched> ScanFetcher::Next(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  std::shared_ptr<Fetched> next;
+  const auto find = [&] {
+    next.reset();
+    for (const auto& [id, scan] : scans_) {
+      const bool refused = scan->command == Fetched::Command::kRefused && scan->sink;
+      if (refused || (MayBeFetched(*scan) && (!next || scan->order > next->order))) next = scan;
+      if (refused) break;
+    }
+    return next != nullptr;
+  };
+  wake_.wait_for(lock, stop, kTick, find);
+  return next;
+}
+
+bool ScanFetcher::Superseded(const Fetched& scan) const {
+  const std::lock_guard lock(mutex_);
+  if (!MayBeFetched(scan)) return true;
+  for (const auto& [id, other] : scans_)
+    if (other->order > scan.order && MayBeFetched(*other)) return true;
+  return false;
+}
+
+void ScanFetcher::Work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    const auto scan = Next(stop);
+    if (!scan) continue;
+    if (scan->command == Fetched::Command::kRefused) {
+      EndSink(*scan, ScanState::kAborted, scan->refusal);
+      continue;
+    }
+    if (scan->sink) EndSinksOfOthers(*scan);
+    const Status fetched = Fetch(*scan, stop);
+    const bool disk = !fetched && fetched.error().code == ErrorCode::kIo;
+    if (disk) LogError("{}", fetched.error().message);
+    const std::lock_guard lock(mutex_);
+    if (!fetched) scan->state.trouble = fetched.error().message;
+    scan->not_before_s = LinkSession::Now() + (disk ? kRetryDisk_s : kRetry_s);
+  }
+}
+
+void ScanFetcher::EndSinksOfOthers(const Fetched& newest) {
+  std::vector<std::shared_ptr<Fetched>> others;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, scan] : scans_)
+      if (scan->order < newest.order && scan->sink) others.push_back(scan);
+  }
+  for (const auto& scan : others)
+    EndSink(*scan, ScanState::kInterrupted,
+            "another scan began before all of this one had come: the rest follows");
+}
+
+void ScanFetcher::EndSink(Fetched& scan, ScanState state, const std::string& reason) {
+  if (!scan.sink) return;
+  const bool heard_start = scan.transfer && scan.transfer->builder().delivered().started;
+  if (!heard_start) scan.sink->OnScanStarted(scan.header);
+  scan.sink->OnScanEnded(state, reason);
+  const std::lock_guard lock(mutex_);
+  scan.sink.reset();
+}
+
+link::TransferStart ScanFetcher::StartOf(const Fetched& scan) {
+  link::TransferStart start;
+  start.set_scan_id(scan.header.uuid);
+  if (scan.transfer) start.set_have(scan.transfer->Have().Encode());
+  thin_ = false;
+  {
+    const std::lock_guard lock(mutex_);
+    rate_.Begin(LinkSession::Now());
+    start.set_credit_bytes(rate_.credit());
+  }
+  *start.mutable_wishes() = Wishes();
+  if (scan.done) start.mutable_wishes()->set_pause(true);
+  return start;
+}
+
+/// Until the scan is whole, the link breaks, or something else goes first.
+Status ScanFetcher::Fetch(Fetched& scan, const std::stop_token& stop) {
+  if (!scan.transfer && !scan.done) {
+    const std::string rig = options_.rig_yaml ? options_.rig_yaml() : "";
+    FORESIGHT_TRY(scan.transfer, ScanTransfer::Open(options_.spool, scan.header.uuid, rig));
+  }
+  const auto context = LinkSession::Context(std::chrono::milliseconds(0));
+  const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
+  const auto stream = session_.stub().Transfer(context.get());
+  link::TransferRequest request;
+  *request.mutable_start() = StartOf(scan);
+  if (!stream->Write(request)) return tl::unexpected(session_.ToError(stream->Finish(), "a scan"));
+  Inbox inbox;
+  Status received;
+  {
+    const std::jthread reader([&] {
+      link::Chunk message;
+      while (stream->Read(&message)) inbox.Push(std::move(message));
+      inbox.Close();
+    });
+    if (!scan.done) received = Receive(scan, *stream, inbox);
+    if (received && scan.done) SayThatAllIsHere(*stream, inbox);
+    if (!inbox.Closed()) context->TryCancel();
+  }
+  const grpc::Status ended = stream->Finish();
+  FORESIGHT_CHECK(received);
+  if (ended.ok()) {
+    const std::lock_guard lock(mutex_);
+    scan.confirmed = scan.done;
+    return {};
+  }
+  if (ended.error_code() == grpc::StatusCode::CANCELLED) return {};
+  return tl::unexpected(session_.ToError(ended, "a scan"));
+}
+
+/// Waits until the head has heard it, which ends the stream: then it may delete the scan.
+void ScanFetcher::SayThatAllIsHere(Stream& stream, Inbox& inbox) {
+  link::TransferRequest request;
+  request.mutable_acknowledge()->set_all(true);
+  stream.Write(request);
+  stream.WritesDone();
+  const double end_s = LinkSession::Now() + kConfirm_s;
+  while (!inbox.Closed() && LinkSession::Now() < end_s) inbox.TakeAll();
+}
+
+Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
+  std::int64_t wishes_sent = 0;
+  while (!inbox.Closed() && !Superseded(scan)) {
+    FORESIGHT_CHECK(TakeIn(scan, stream, inbox.TakeAll(), inbox.LeftBytes()));
+    if (scan.done || !scan.transfer || scan.transfer->TakeMistakenRig()) return {};
+    link::TransferRequest request;
+    const bool was_thin = thin_;
+    *request.mutable_wishes() = Wishes();
+    std::int64_t changed = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      changed = wishes_changed_;
+    }
+    if (changed == wishes_sent && was_thin == thin_) continue;
+    wishes_sent = changed;
+    if (!stream.Write(request)) break;
+  }
+  return {};
+}
+
+Status ScanFetcher::TakeIn(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
+                           std::int64_t left_bytes) {
+  std::int64_t bytes = 0;
+  for (const Chunk& chunk : chunks) bytes += static_cast<std::int64_t>(chunk.bytes.size());
+  link::TransferRequest request;
+  link::Acknowledge& acknowledge = *request.mutable_acknowledge();
+  if (!chunks.empty()) {
+    FORESIGHT_TRY(const std::vector<ChunkId> kept, scan.transfer->Take(std::move(chunks)));
+    for (const ChunkId& id : kept) {
+      link::ChunkId& message = *acknowledge.add_chunks();
+      message.set_kind(static_cast<int>(id.kind));
+      message.set_item(id.item);
+      message.set_part(id.part);
+    }
+    if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    rate_.Received(bytes, left_bytes, LinkSession::Now());
+    acknowledge.set_credit_bytes(rate_.credit());
+  }
+  Show(scan, left_bytes);
+  if (bytes > 0 && !stream.Write(request)) return {};
+  if (scan.transfer->builder().Progress().complete) FORESIGHT_CHECK(Finish(scan));
+  return {};
+}
+
+/// Everything is here: it is kept for good, and the spool is not needed any more.
+Status ScanFetcher::Finish(Fetched& scan) {
+  const Result<Scan> whole = scan.transfer->builder().Whole();
+  if (!whole) {
+    LogError("scan {}: {}: it is fetched again", scan.header.uuid, whole.error().message);
+    const Status removed = scan.transfer->Remove();
+    scan.transfer.reset();
+    FORESIGHT_CHECK(removed);
+    return tl::unexpected(whole.error());
+  }
+  if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
+  if (options_.archive) FORESIGHT_CHECK(options_.archive->Keep(*whole));
+  FORESIGHT_CHECK(scan.transfer->Remove());
+  const std::lock_guard lock(mutex_);
+  scan.transfer.reset();
+  scan.sink.reset();
+  scan.done = true;
+  scan.state.trouble.clear();
+  scan.state.left_bytes = 0;
+  return {};
+}
+
+void ScanFetcher::Show(Fetched& scan, std::int64_t left_bytes) {
+  ScanBuilder& builder = scan.transfer->builder();
+  const ScanProgress progress = builder.Progress();
+  const double now_s = LinkSession::Now();
+  std::shared_ptr<const PartialScan> early;
+  const bool more_than_delivered = progress.lines > builder.delivered().lines;
+  if (scan.sink && more_than_delivered && now_s - early_s_ > kEarlyEvery_s) {
+    early_s_ = now_s;
+    if (auto partial = builder.Partial())
+      early = std::make_shared<const PartialScan>(std::move(*partial));
+  }
+  const std::lock_guard lock(mutex_);
+  scan.state.progress = progress;
+  scan.state.left_bytes = left_bytes;
+  scan.state.trouble.clear();
+  if (early) early_ = std::move(early);
+  if (scan.sink && !more_than_delivered) early_.reset();
+}
+
+link::Wishes ScanFetcher::Wishes() {
+  const std::lock_guard lock(mutex_);
+  link::Wishes wishes;
+  const auto rate = rate_.PathBytesPerS(LinkSession::Now());
+  if (rate && *rate < kThinBytesPerS) thin_ = true;
+  // A thin path that has nothing more to carry shows by its round trip that it became wide.
+  const double round_trip_s = options_.round_trip ? options_.round_trip() : 0.0;
+  if ((rate && *rate > 2.0 * kThinBytesPerS) ||
+      (round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s))
+    thin_ = false;
+  if (thin_) wishes.set_bytes_per_s(static_cast<std::int64_t>(kThinBytesPerS) - 1);
+  if (region_) {
+    wishes.mutable_lines_first()->set_first(region_->first);
+    wishes.mutable_lines_first()->set_last(region_->last);
+  }
+  for (const std::int64_t position : images_first_) wishes.add_images_first(position);
+  return wishes;
+}
+
+}  // namespace foresight

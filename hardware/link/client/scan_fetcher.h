@@ -1,0 +1,123 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hardware/api/sensor_head.h"
+#include "hardware/link/client/link_session.h"
+#include "hardware/link/client/scan_archive.h"
+#include "hardware/link/client/scan_transfer.h"
+#include "hardware/link/client/transfer_rate.h"
+
+namespace foresight {
+
+/// A scan on its way, for a list of them.
+struct TransferState {
+  std::string scan_id;
+  ScanProgress progress;
+  int expected_lines = 0;
+  std::int64_t left_bytes = 0;
+  bool paused = false;
+  std::string trouble;  ///< e.g. a full disk; empty when all is well
+};
+
+/// Brings scans from a head to this station, from a thread of its own, which also calls the sinks:
+/// the newest scan first, for which the operator waits, then those that an earlier run left in the
+/// spool. When another scan begins, the sink of the one before hears an end, and the rest of that
+/// scan goes to the archive when it comes.
+class ScanFetcher {
+ public:
+  struct Options {
+    std::filesystem::path spool;            ///< folder of what has come and is not whole
+    std::shared_ptr<ScanArchive> archive;   ///< may be null: sinks are all there is
+    std::function<std::string()> rig_yaml;  ///< that is in force on the head, if known
+    std::function<double()> round_trip;     ///< of the link, s; 0 = not known
+  };
+
+  /// `session` outlives it.
+  ScanFetcher(LinkSession& session, Options options);
+  /// Sinks hear that their scans are interrupted; the spool keeps what has come.
+  ~ScanFetcher();
+
+  /// A scan was asked for; the sink hears of it when it begins, and of its end whatever happens.
+  /// `header` is the station's, for a scan that the head refuses.
+  void Expect(const Scan& header, std::shared_ptr<ScanSink> sink);
+  /// The head took the command.
+  void Started(const std::string& scan_id);
+  /// The head will not make the scan: its sink hears a start and this end.
+  void Refuse(const std::string& scan_id, const std::string& reason);
+  /// Nobody knows whether the head took the command; its list of scans will tell.
+  void Doubt(const std::string& scan_id);
+  /// What the head says of its scans. `all` = it has no others.
+  void Heard(const std::vector<link::ScanOnHead>& scans, bool all);
+
+  std::vector<TransferState> Transfers() const;
+  double DownBytesPerS() const;
+  /// What of the newest scan is there, where that is more than its sink has heard; else nullptr.
+  std::shared_ptr<const PartialScan> EarlyLook() const;
+  /// seq of lines that go first, of the newest scan; nullopt = none.
+  void SetRegion(std::optional<NumberSet::Interval> lines);
+  void Pause(const std::string& scan_id, bool paused);
+  /// The lossless image of the newest scan at this position goes first.
+  void WishImage(std::int64_t position);
+
+ private:
+  struct Fetched {
+    Scan header;
+    std::shared_ptr<ScanSink> sink;  ///< null = for the archive alone
+    std::int64_t order = 0;          ///< the highest is fetched first
+    enum class Command { kSent, kTaken, kDoubtful, kRefused } command = Command::kSent;
+    std::string refusal;
+    bool paused = false;
+    bool done = false;          ///< all of it is here, and kept
+    bool confirmed = false;     ///< the head knows that
+    double not_before_s = 0.0;  ///< after a failure
+    TransferState state;
+    std::unique_ptr<ScanTransfer> transfer;  ///< of the thread alone
+  };
+
+  class Inbox;
+  using Stream = grpc::ClientReaderWriter<link::TransferRequest, link::Chunk>;
+
+  void TakeInSpools();
+  void Work(const std::stop_token& stop);
+  std::shared_ptr<Fetched> Next(const std::stop_token& stop);
+  bool MayBeFetched(const Fetched& scan) const;
+  bool Superseded(const Fetched& scan) const;
+  void EndSinksOfOthers(const Fetched& newest);
+  void EndSink(Fetched& scan, ScanState state, const std::string& reason);
+  Status Fetch(Fetched& scan, const std::stop_token& stop);
+  link::TransferStart StartOf(const Fetched& scan);
+  Status Receive(Fetched& scan, Stream& stream, Inbox& inbox);
+  Status TakeIn(Fetched& scan, Stream& stream, std::vector<Chunk> chunks, std::int64_t left_bytes);
+  Status Finish(Fetched& scan);
+  static void SayThatAllIsHere(Stream& stream, Inbox& inbox);
+  void Show(Fetched& scan, std::int64_t left_bytes);
+  link::Wishes Wishes();
+
+  LinkSession& session_;
+  const Options options_;
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::condition_variable_any wake_;
+  std::map<std::string, std::shared_ptr<Fetched>> scans_;
+  std::int64_t order_ = 0;
+  std::int64_t wishes_changed_ = 0;
+  std::optional<NumberSet::Interval> region_;
+  std::vector<std::int64_t> images_first_;
+  std::shared_ptr<const PartialScan> early_;
+  TransferRate rate_;
+  double early_s_ = 0.0;  ///< of the thread alone, as what follows
+  bool thin_ = false;     ///< the path was measured, and only what is small may travel
+  std::jthread thread_;   ///< last: starts when everything else is there
+};
+
+}  // namespace foresight

@@ -1,0 +1,58 @@
+#include "hardware/link/client/scan_transfer.h"
+
+#include "core/base/log.h"
+
+namespace foresight {
+
+Result<std::unique_ptr<ScanTransfer>> ScanTransfer::Open(const std::filesystem::path& spool,
+                                                         const std::string& scan_id,
+                                                         const std::string& rig_yaml) {
+  auto transfer = std::unique_ptr<ScanTransfer>(new ScanTransfer(scan_id, rig_yaml));
+  const auto read = [&](const Chunk& chunk) {
+    if (const auto taken = transfer->builder_.Take(chunk); !taken)
+      LogWarning("scan {}: in its spool: {}", scan_id, taken.error().message);
+  };
+  FORESIGHT_TRY(transfer->spool_, SpoolFile::Open(spool, scan_id, read));
+  transfer->TryRig();
+  return transfer;
+}
+
+/// The rig of the station is used once the header says that it is the scan's.
+void ScanTransfer::TryRig() {
+  if (rig_yaml_.empty() || !builder_.header() || builder_.Have().Has({ChunkKind::kRig, 0})) return;
+  if (builder_.UseRig(rig_yaml_)) return;
+  mistaken_rig_ = true;
+  rig_yaml_.clear();
+}
+
+ChunkSet ScanTransfer::Have() const {
+  ChunkSet have = builder_.Have();
+  if (!rig_yaml_.empty()) have.Add(ItemId{ChunkKind::kRig, 0});
+  return have;
+}
+
+bool ScanTransfer::TakeMistakenRig() {
+  return std::exchange(mistaken_rig_, false);
+}
+
+Result<std::vector<ChunkId>> ScanTransfer::Take(std::vector<Chunk> chunks) {
+  std::erase_if(chunks, [&](const Chunk& chunk) {
+    const Status good = CheckChunk(chunk);
+    if (!good) LogWarning("scan {}: {}", builder_.scan_id(), good.error().message);
+    return !good;
+  });
+  FORESIGHT_CHECK(spool_->Append(chunks));
+  std::vector<ChunkId> kept;
+  for (const Chunk& chunk : chunks) {
+    if (const auto taken = builder_.Take(chunk); !taken) {
+      LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
+      continue;
+    }
+    taken_bytes_ += static_cast<std::int64_t>(chunk.bytes.size());
+    kept.push_back(chunk.id);
+  }
+  TryRig();
+  return kept;
+}
+
+}  // namespace foresight

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hardware/link/chunks/scan_builder.h"
+#include "hardware/link/chunks/spool_file.h"
+
+namespace foresight {
+
+/// One scan on its way to this station: what has come is in its spool, and becomes the scan. Not
+/// for several threads at a time.
+class ScanTransfer {
+ public:
+  /// With what an earlier run kept. `rig_yaml` is a rig that is probably the scan's; empty = none.
+  static Result<std::unique_ptr<ScanTransfer>> Open(const std::filesystem::path& spool,
+                                                    const std::string& scan_id,
+                                                    const std::string& rig_yaml);
+
+  /// Keeps the chunks, then takes them in; returns those that the head may forget. A damaged chunk
+  /// is left out, so it comes again. Fails with kIo where the disk does not take them: none is
+  /// acknowledged then.
+  Result<std::vector<ChunkId>> Take(std::vector<Chunk> chunks);
+
+  /// What the head need not send: what is here, and the rig where we hope to know it.
+  ChunkSet Have() const;
+  /// The scan has another rig than was hoped: Have() changed.
+  bool TakeMistakenRig();
+
+  ScanBuilder& builder() { return builder_; }
+  /// Bytes that came since the program started.
+  std::int64_t TakenBytes() const { return taken_bytes_; }
+  /// The whole scan is kept elsewhere.
+  Status Remove() { return spool_->Remove(); }
+
+ private:
+  ScanTransfer(const std::string& scan_id, std::string rig_yaml)
+      : builder_(scan_id), rig_yaml_(std::move(rig_yaml)) {}
+  void TryRig();
+
+  ScanBuilder builder_;
+  std::unique_ptr<SpoolFile> spool_;
+  std::string rig_yaml_;
+  bool mistaken_rig_ = false;
+  std::int64_t taken_bytes_ = 0;
+};
+
+}  // namespace foresight

@@ -1,0 +1,178 @@
+#include "hardware/link/server/transfer_stream.h"
+
+#include <thread>
+
+#include "core/base/log.h"
+
+namespace foresight {
+namespace {
+
+constexpr std::chrono::milliseconds kTick{100};
+constexpr int kMostImagesFirst = 1000;
+
+grpc::Status Refusal(const Error& error) {
+  return {grpc::StatusCode::FAILED_PRECONDITION, error.message};
+}
+
+/// A chunk is never larger than this on the wire, so that any credit lets at least one go.
+std::int64_t Cost(const Chunk& chunk) {
+  constexpr std::int64_t kAround = 40;
+  return static_cast<std::int64_t>(chunk.bytes.size()) + kAround;
+}
+
+link::Chunk ToMessage(Chunk chunk) {
+  link::Chunk message;
+  link::ChunkId& id = *message.mutable_id();
+  id.set_kind(static_cast<int>(chunk.id.kind));
+  id.set_item(chunk.id.item);
+  id.set_part(chunk.id.part);
+  message.set_parts(chunk.parts);
+  message.set_item_crc(chunk.item_crc);
+  message.set_crc(chunk.crc);
+  message.set_bytes(std::move(chunk.bytes));
+  return message;
+}
+
+}  // namespace
+
+grpc::Status TransferStream::Run(const std::atomic<bool>& closing) {
+  link::TransferRequest first;
+  if (!stream_.Read(&first) || !first.has_start())
+    return {grpc::StatusCode::INVALID_ARGUMENT, "a transfer starts with the scan that is wanted"};
+  if (const grpc::Status begun = Begin(first.start()); !begun.ok()) return begun;
+  grpc::Status sent;
+  {
+    const std::jthread reader([this] { Read(); });
+    sent = Send(closing);
+    if (!sent.ok()) LogWarning("{}: scan {}: {}", peer_.name, scan_id_, sent.error_message());
+    // The reader waits for a station that has nothing more to say.
+    bool gone = false;
+    {
+      const std::lock_guard lock(mutex_);
+      gone = gone_;
+    }
+    if (!gone) context_.TryCancel();
+  }
+  return sent;
+}
+
+grpc::Status TransferStream::Begin(const link::TransferStart& start) {
+  scan_id_ = start.scan_id();
+  if (const auto found = shelf_.Find(scan_id_); !found) return Refusal(found.error());
+  auto have = ChunkSet::Decode(start.have());
+  if (!have) return {grpc::StatusCode::INVALID_ARGUMENT, have.error().message};
+  credit_ = start.credit_bytes();
+  TakeWishes(start.wishes());
+  // A scan that was asked for this moment may not have begun.
+  for (int i = 0; i < 100; ++i) {
+    const std::int64_t news = shelf_.News();
+    const auto scan = shelf_.Snapshot(scan_id_);
+    if (scan) {
+      source_.emplace(ScanToSend{**scan, shelf_.DeviceHealthJson(scan_id_)}, std::move(*have));
+      news_ = news;
+      return grpc::Status::OK;
+    }
+    if (scan.error().code != ErrorCode::kState) return Refusal(scan.error());
+    shelf_.WaitForNews(news, kTick);
+    if (context_.IsCancelled()) break;
+  }
+  return {grpc::StatusCode::UNAVAILABLE, "the scan has not begun yet: ask again"};
+}
+
+void TransferStream::Read() {
+  link::TransferRequest request;
+  while (stream_.Read(&request)) {
+    const std::lock_guard lock(mutex_);
+    if (request.has_wishes()) TakeWishes(request.wishes());
+    if (request.has_acknowledge()) TakeAcknowledge(request.acknowledge());
+    wake_.notify_all();
+  }
+  const std::lock_guard lock(mutex_);
+  gone_ = true;
+  wake_.notify_all();
+}
+
+void TransferStream::TakeWishes(const link::Wishes& wishes) {
+  TransferWishes taken;
+  taken.bytes_per_s = static_cast<double>(std::max<std::int64_t>(0, wishes.bytes_per_s()));
+  if (wishes.has_lines_first() && wishes.lines_first().first() <= wishes.lines_first().last())
+    taken.lines_first =
+        NumberSet::Interval{wishes.lines_first().first(), wishes.lines_first().last()};
+  if (wishes.images_first_size() <= kMostImagesFirst)
+    taken.images_first.assign(wishes.images_first().begin(), wishes.images_first().end());
+  paused_ = wishes.pause();
+  wishes_ = std::move(taken);
+}
+
+void TransferStream::TakeAcknowledge(const link::Acknowledge& acknowledge) {
+  for (const link::ChunkId& id : acknowledge.chunks()) {
+    const auto found = sent_.find({static_cast<ChunkKind>(id.kind()), id.item(), id.part()});
+    if (found == sent_.end()) continue;
+    in_flight_ -= found->second;
+    sent_.erase(found);
+  }
+  if (acknowledge.credit_bytes() > 0) credit_ = acknowledge.credit_bytes();
+  if (acknowledge.all()) confirmed_ = true;
+}
+
+/// Takes over what the scan has gained.
+Status TransferStream::Refresh() {
+  const std::int64_t news = shelf_.News();
+  if (news == news_) return {};
+  FORESIGHT_TRY(const auto scan, shelf_.Snapshot(scan_id_));
+  source_->Update(ScanToSend{*scan, shelf_.DeviceHealthJson(scan_id_)});
+  news_ = news;
+  return {};
+}
+
+/// Waits a little where nothing may be sent.
+bool TransferStream::MaySend() {
+  std::unique_lock lock(mutex_);
+  const auto may = [this] {
+    return gone_ || confirmed_ || (!paused_ && (in_flight_ == 0 || in_flight_ < credit_));
+  };
+  return wake_.wait_for(lock, kTick, may);
+}
+
+grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
+  while (!closing && !context_.IsCancelled()) {
+    const bool may = MaySend();
+    {
+      const std::lock_guard lock(mutex_);
+      if (confirmed_) return Confirm();
+      if (gone_) return grpc::Status::OK;
+      if (wishes_) source_->SetWishes(*std::exchange(wishes_, std::nullopt));
+    }
+    if (!may) continue;
+    if (const Status fresh = Refresh(); !fresh) return Refusal(fresh.error());
+    auto chunk = source_->Next();
+    if (!chunk) {
+      LogError("scan {}: {}", scan_id_, chunk.error().message);
+      continue;
+    }
+    if (!*chunk) {
+      shelf_.WaitForNews(news_, std::chrono::milliseconds(20));
+      continue;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      in_flight_ += Cost(**chunk);
+      sent_[(*chunk)->id] = Cost(**chunk);
+    }
+    link::Chunk message = ToMessage(std::move(**chunk));
+    message.set_left_bytes(source_->LeftBytes());
+    if (!stream_.Write(message)) return grpc::Status::OK;
+  }
+  return grpc::Status::OK;
+}
+
+/// With the mutex held.
+grpc::Status TransferStream::Confirm() {
+  if (!peer_.may_operate) return grpc::Status::OK;
+  const Status confirmed = shelf_.Confirm(scan_id_, peer_.name);
+  if (!confirmed) return Refusal(confirmed.error());
+  LogInfo("{} has all of scan {}", peer_.name, scan_id_);
+  return grpc::Status::OK;
+}
+
+}  // namespace foresight

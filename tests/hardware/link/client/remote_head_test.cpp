@@ -1,0 +1,304 @@
+#include "hardware/link/client/remote_head.h"
+
+#include <gmock/gmock.h>
+
+#include "core/sensor/rig_id.h"
+#include "hardware/head/scan_assembler.h"
+#include "hardware/link/chunks/scan_digest.h"
+#include "tests/hardware/link/head_bench.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+/// Collects a scan, and says when it has ended.
+class Collector final : public ScanSink {
+ public:
+  void OnScanStarted(const Scan& header) override {
+    assembler_.OnScanStarted(header);
+    started = true;
+  }
+  void OnLine(const LidarLine& line) override { assembler_.OnLine(line); }
+  void OnMotorSamples(std::span<const MotorSample> samples) override {
+    assembler_.OnMotorSamples(samples);
+  }
+  void OnFrame(const CameraFrame& frame) override { assembler_.OnFrame(frame); }
+  void OnScanEnded(ScanState state, const std::string& reason) override {
+    assembler_.OnScanEnded(state, reason);
+    ended = true;
+  }
+  Scan Get() const { return *assembler_.Snapshot(); }
+
+  std::atomic<bool> started{false};
+  std::atomic<bool> ended{false};
+
+ private:
+  ScanAssembler assembler_;
+};
+
+class Archive final : public ScanArchive {
+ public:
+  Status Keep(const Scan& whole) override {
+    const std::lock_guard lock(mutex_);
+    scans_.push_back(whole);
+    return {};
+  }
+  std::vector<Scan> Scans() const {
+    const std::lock_guard lock(mutex_);
+    return scans_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<Scan> scans_;
+};
+
+class RemoteHeadTest : public testing::Test {
+ protected:
+  std::shared_ptr<RemoteHead> Ready(std::shared_ptr<ScanArchive> archive = nullptr) {
+    auto remote = bench.Connect(std::move(archive)).value();
+    head->SetState(HeadState::kReady);
+    EXPECT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
+    return remote;
+  }
+  /// The head measures so many lines, with the motor's samples; the scan runs on.
+  bool PlayLines(int count) {
+    if (!Eventually([&] { return head->Sink() != nullptr; })) return false;
+    const Scan sample = SampleScan(6);
+    Scan header = sample;
+    header.lines.clear();
+    header.frames.clear();
+    header.track = {};
+    head->Sink()->OnScanStarted(header);
+    LidarLine line = sample.lines[0];
+    for (int i = 0; i < count; ++i, ++line.seq, line.time_s += 0.025) head->Sink()->OnLine(line);
+    return Eventually([&] { return bench.shelf().List().back().lines == count; });
+  }
+  /// What the head has of the newest scan.
+  Scan OnHead() { return *bench.shelf().Snapshot(bench.shelf().List().back().uuid).value(); }
+  bool Confirmed() {
+    return Eventually([&] {
+      const auto scans = bench.shelf().List();
+      return !scans.empty() && scans.back().confirmed;
+    });
+  }
+
+  const std::shared_ptr<FakeHead> head = std::make_shared<FakeHead>();
+  HeadBench bench{head};
+};
+
+TEST_F(RemoteHeadTest, KnowsTheHeadAndItsRig) {
+  const auto remote = bench.Connect().value();
+  EXPECT_THAT(remote->Describe(), HasSubstr("fake head at 127.0.0.1:"));
+  EXPECT_EQ(RigId(remote->Rig()), RigId(DefaultSensorRig()));
+  EXPECT_TRUE(remote->Simulated());
+  EXPECT_TRUE(Eventually([&] { return remote->Link()->connected; }));
+  EXPECT_TRUE(remote->Link()->has_control);
+}
+
+TEST_F(RemoteHeadTest, ACommandShowsInTheStatus) {
+  const auto remote = bench.Connect().value();
+  EXPECT_TRUE(Eventually([&] { return remote->Link()->connected; }));
+  ASSERT_TRUE(remote->Home());
+  EXPECT_EQ(remote->Status().state, HeadState::kHoming) << "before the head has answered";
+  EXPECT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
+  EXPECT_EQ(head->homings, 1);
+}
+
+TEST_F(RemoteHeadTest, AScanArrivesAsTheHeadHasIt) {
+  const auto remote = Ready();
+  const auto sink = std::make_shared<Collector>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  EXPECT_EQ(remote->Status().state, HeadState::kSweeping);
+  ASSERT_TRUE(Eventually([&] { return head->Sink() != nullptr; }));
+  head->Play(SampleScan(6));
+  ASSERT_TRUE(Eventually([&] { return sink->ended.load(); }));
+  EXPECT_EQ(ScanDigest(sink->Get()), ScanDigest(OnHead()));
+  EXPECT_EQ(sink->Get().lines.size(), SampleScan(6).lines.size());
+  EXPECT_TRUE(Confirmed());
+  EXPECT_TRUE(std::filesystem::is_empty(bench.folder / "spool"));
+  EXPECT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
+}
+
+TEST_F(RemoteHeadTest, LinesComeWhileTheScanRuns) {
+  const auto remote = Ready();
+  const auto sink = std::make_shared<Collector>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(PlayLines(24));
+  // Blocks of eight lines; the motor's track comes with them.
+  EXPECT_TRUE(Eventually([&] {
+    const auto transfers = remote->Scans().Transfers();
+    return transfers.size() == 1 && transfers[0].progress.complete_lines == 24;
+  }));
+  EXPECT_TRUE(Eventually([&] { return sink->started && sink->Get().lines.size() == 24u; }));
+  EXPECT_FALSE(sink->ended);
+  head->Sink()->OnScanEnded(ScanState::kAborted, "enough");
+  ASSERT_TRUE(Eventually([&] { return sink->ended.load(); }));
+  EXPECT_EQ(sink->Get().reason, "enough");
+}
+
+TEST_F(RemoteHeadTest, AHeadThatDiesInBetweenLosesNothing) {
+  const auto remote = Ready();
+  const auto sink = std::make_shared<Collector>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(PlayLines(20));
+  bench.StopHead();
+  head->Forget();
+  EXPECT_TRUE(Eventually([&] { return !remote->Link()->connected; }));
+  EXPECT_FALSE(remote->StartScan(ScanPlan(), std::make_shared<Collector>()));
+  bench.StartHead();
+  ASSERT_TRUE(Eventually([&] { return sink->ended.load(); }));
+  EXPECT_EQ(sink->Get().state, ScanState::kInterrupted);
+  EXPECT_EQ(sink->Get().lines.size(), 20u);
+  EXPECT_EQ(ScanDigest(sink->Get()), ScanDigest(OnHead()));
+  EXPECT_TRUE(Confirmed());
+}
+
+TEST_F(RemoteHeadTest, AStationThatDiesInBetweenGetsTheRestForItsArchive) {
+  const auto archive = std::make_shared<Archive>();
+  auto remote = Ready(archive);
+  const auto sink = std::make_shared<Collector>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(PlayLines(20));
+  ASSERT_TRUE(Eventually([&] { return !remote->Scans().Transfers().empty(); }));
+  remote.reset();
+  EXPECT_TRUE(sink->ended) << "the sink hears an end whatever happens";
+  EXPECT_EQ(sink->Get().state, ScanState::kInterrupted);
+  head->Sink()->OnScanEnded(ScanState::kComplete, "");
+  remote = bench.Connect(archive).value();
+  ASSERT_TRUE(Eventually([&] { return archive->Scans().size() == 1; }));
+  EXPECT_EQ(ScanDigest(archive->Scans()[0]), ScanDigest(OnHead()));
+  EXPECT_TRUE(Confirmed());
+}
+
+TEST_F(RemoteHeadTest, ARefusedScanHasAnEndThatSaysWhy) {
+  const auto remote = Ready();
+  // The head goes out of ready while the station does not know it yet.
+  bench.peer.may_operate = false;
+  const auto sink = std::make_shared<Collector>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(Eventually([&] { return sink->ended.load(); }));
+  EXPECT_EQ(sink->Get().state, ScanState::kAborted);
+  EXPECT_THAT(sink->Get().reason, HasSubstr("anna is an observer"));
+  EXPECT_EQ(head->scans, 0);
+  EXPECT_THAT(remote->Status().message, HasSubstr("no scan: anna is an observer"));
+}
+
+TEST_F(RemoteHeadTest, AScanThatWasAskedForInABlackoutDoesNotStartLater) {
+  const auto remote = Ready();
+  bench.StopHead();
+  const auto sink = std::make_shared<Collector>();
+  if (!remote->StartScan(ScanPlan(), sink)) return;              // the loss was noticed already
+  std::this_thread::sleep_for(std::chrono::milliseconds(3500));  // longer than the command is good
+  bench.StartHead();
+  ASSERT_TRUE(Eventually([&] { return sink->ended.load(); }));
+  EXPECT_EQ(sink->Get().state, ScanState::kAborted);
+  EXPECT_EQ(head->scans, 0);
+}
+
+TEST_F(RemoteHeadTest, StopReachesTheHeadAlsoAfterABlackout) {
+  const auto remote = Ready();
+  remote->StopMotor();
+  EXPECT_TRUE(Eventually([&] { return head->stops == 1; }));
+  bench.StopHead();
+  remote->StopMotor();
+  bench.StartHead();
+  EXPECT_TRUE(Eventually([&] { return head->stops == 2; }));
+}
+
+TEST_F(RemoteHeadTest, AnotherRigIsReadBack) {
+  const auto remote = Ready();
+  SensorRig rig = DefaultSensorRig();
+  rig.lidar.range_offset_m = 0.02;
+  ASSERT_TRUE(remote->SetRig(rig));
+  EXPECT_EQ(RigId(remote->Rig()), RigId(rig));
+  EXPECT_EQ(RigId(head->Rig()), RigId(rig));
+}
+
+TEST_F(RemoteHeadTest, SignsOfLifeStopWhenNobodyIsThere) {
+  const auto remote = Ready();
+  const int before = head->signs;
+  remote->OperatorSeen();
+  EXPECT_TRUE(Eventually([&] {
+    remote->OperatorSeen();
+    return head->signs > before;
+  }));
+}
+
+TEST_F(RemoteHeadTest, TheLiveViewShowsWhatTheCameraSees) {
+  class View final : public LiveViewSink {
+   public:
+    void OnLiveImage(const LiveImage& image) override {
+      width = image.image.width();
+      ++images;
+    }
+    void OnLiveViewTrouble(const std::string&) override { ++troubles; }
+    std::atomic<int> images{0}, troubles{0}, width{0};
+  };
+  const auto remote = Ready();
+  const auto view = std::make_shared<View>();
+  ASSERT_TRUE(remote->StartLiveView({}, view));
+  ASSERT_TRUE(Eventually([&] { return head->LiveSink() != nullptr; }));
+  LiveImage image;
+  image.image = ColorImage(40, 30);
+  image.full_width = 40;
+  image.full_height = 30;
+  head->LiveSink()->OnLiveImage(image);
+  EXPECT_TRUE(Eventually([&] { return view->images == 1; }));
+  EXPECT_EQ(view->width, 40);
+  head->LiveSink()->OnLiveViewTrouble("no image");
+  EXPECT_TRUE(Eventually([&] { return view->troubles == 1; }));
+  remote->StopLiveView();
+  EXPECT_TRUE(Eventually([&] { return head->LiveSink() == nullptr; }));
+}
+
+TEST_F(RemoteHeadTest, CapturesAtStopsArriveExactly) {
+  class Stops final : public StopSink {
+   public:
+    void OnStop(const StopCapture& capture) override {
+      const std::lock_guard lock(mutex);
+      captures.push_back(capture);
+    }
+    void OnStopsEnded(ScanState state, const std::string& why) override {
+      reason = why;
+      ended = state;
+    }
+    std::mutex mutex;
+    std::string reason;
+    std::vector<StopCapture> captures;
+    std::atomic<ScanState> ended{ScanState::kRunning};
+  };
+  const auto remote = Ready();
+  const auto stops = std::make_shared<Stops>();
+  StopPlan plan;
+  plan.angles_rad = {0.1, 0.2};
+  ASSERT_TRUE(remote->StartStops(plan, stops));
+  ASSERT_TRUE(Eventually([&] { return head->Stops() != nullptr; }));
+  StopCapture capture;
+  capture.target_rad = 0.1;
+  capture.position = {1.25, 0.1001};
+  capture.lines = {SampleScan(6).lines[0], SampleScan(6).lines[1]};
+  capture.image = SampleScan(6).frames.front();
+  head->Stops()->OnStop(capture);
+  capture.image.reset();
+  head->Stops()->OnStop(capture);
+  head->Stops()->OnStopsEnded(ScanState::kComplete, "");
+  ASSERT_TRUE(Eventually([&] { return stops->ended != ScanState::kRunning; }));
+  ASSERT_EQ(stops->ended, ScanState::kComplete) << stops->reason;
+  ASSERT_EQ(stops->captures.size(), 2u);
+  EXPECT_EQ(stops->captures[0].lines, capture.lines);
+  EXPECT_EQ(stops->captures[0].position, capture.position);
+  EXPECT_EQ(*stops->captures[0].image, SampleScan(6).frames.front());
+  EXPECT_FALSE(stops->captures[1].image);
+}
+
+TEST_F(RemoteHeadTest, NobodyThereIsAnErrorThatSaysWhatToDo) {
+  bench.StopHead();
+  const auto remote = bench.Connect();
+  ASSERT_FALSE(remote);
+  EXPECT_THAT(remote.error().message, HasSubstr("is foresight-head running there"));
+}
+
+}  // namespace
+}  // namespace foresight
