@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 #include "app/common/wait_for_head.h"
+#include "hardware/head/scan_fanout.h"
 #include "hardware/head/scan_recorder.h"
 
 namespace foresight {
@@ -42,6 +47,33 @@ bool HoldsNothing(const std::string& path) {
          head[103] == 0 && head[104] == 0;
 }
 
+/// Waits for the end of a scan: over a link it comes after the sweep's.
+class EndOfScan final : public ScanSink {
+ public:
+  void OnScanStarted(const Scan& /*header*/) override {}
+  void OnLine(const LidarLine& /*line*/) override {}
+  void OnMotorSamples(std::span<const MotorSample> /*samples*/) override {}
+  void OnFrame(const CameraFrame& /*frame*/) override {}
+  void OnScanEnded(ScanState /*state*/, const std::string& /*reason*/) override { ended_ = true; }
+
+  /// False where it was cancelled, and does not come in a while either.
+  bool Wait(SensorHead& head, const RunContext& context) const {
+    constexpr std::chrono::seconds kPatience{10};
+    std::optional<std::chrono::steady_clock::time_point> cancelled;
+    while (!ended_) {
+      head.OperatorSeen();
+      const auto now = std::chrono::steady_clock::now();
+      if (context.Cancelled() && !cancelled) cancelled = now;
+      if (cancelled && now - *cancelled > kPatience) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+
+ private:
+  std::atomic<bool> ended_{false};
+};
+
 }  // namespace
 
 RemoveUnlessUsed::RemoveUnlessUsed(std::string path)
@@ -70,12 +102,19 @@ Result<ExecutedScan> ExecuteScan(SensorHead& head, const ScanPlan& plan,
   const auto recorder = std::make_shared<ScanRecorder>(std::move(mission));
   const auto start = std::chrono::steady_clock::now();
   const double cpu_before_s = CpuSeconds();
-  FORESIGHT_CHECK(head.StartScan(plan, recorder));
+  const auto end = std::make_shared<EndOfScan>();
+  FORESIGHT_CHECK(head.StartScan(
+      plan, std::make_shared<ScanFanout>(std::vector<std::shared_ptr<ScanSink>>{recorder, end})));
   const HeadStatus status = WaitWhile(head, {HeadState::kSweeping, HeadState::kStopping}, context);
+  const bool came = end->Wait(head, context);
   ExecutedScan executed;
   executed.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   executed.cpu_fraction = (CpuSeconds() - cpu_before_s) / executed.seconds;
+  if (!came)
+    return Fail(ErrorCode::kCancelled,
+                "the scan's end did not come over the link: the head keeps the scan, and what came "
+                "is in the mission file");
   FORESIGHT_TRY(executed.id, recorder->WaitUntilWritten());
   if (status.state == HeadState::kFault) return Fail(ErrorCode::kDevice, "{}", status.message);
   return executed;

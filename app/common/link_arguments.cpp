@@ -33,8 +33,9 @@ std::filesystem::path SpoolFolder() {
 Result<std::shared_ptr<grpc::ChannelCredentials>> CredentialsFor(const LinkArguments& arguments,
                                                                  const std::string& address) {
   if (arguments.plaintext) return PlaintextStationCredentials(HostOf(address));
-  FORESIGHT_TRY(const TlsFiles files, LoadTlsFiles(arguments.keys.empty() ? KeyFolderOfStation()
-                                                                          : arguments.keys));
+  const std::filesystem::path keys =
+      arguments.keys.empty() ? KeyFolderOfStation() : std::filesystem::path(arguments.keys);
+  FORESIGHT_TRY(const TlsFiles files, LoadTlsFiles(keys));
   FORESIGHT_TRY(auto gate, CertificateGate::Open(files));
   return StationCredentials(files, std::move(gate));
 }
@@ -44,9 +45,9 @@ Result<std::shared_ptr<grpc::ChannelCredentials>> CredentialsFor(const LinkArgum
 Result<std::string> LinkAddress(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   const std::size_t bracket = text.rfind(']');
-  const bool has_port =
-      colon != std::string::npos && (bracket == std::string::npos || colon > bracket) &&
-      (bracket != std::string::npos || text.find(':') == colon);
+  const bool has_port = colon != std::string::npos &&
+                        (bracket == std::string::npos || colon > bracket) &&
+                        (bracket != std::string::npos || text.find(':') == colon);
   if (text.empty() || (!has_port && bracket == std::string::npos && colon != std::string::npos))
     return Fail(ErrorCode::kInvalidOptions,
                 "--head '{}': is no HOST or HOST:PORT (an IPv6 address stands in brackets)", text);
@@ -64,8 +65,9 @@ CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments) {
   CLI::Option* head = command.add_option(
       "--head", arguments.head, "A head at the far end of a link, HOST or HOST:PORT (port 47130)");
   CLI::Option* keys =
-      command.add_option("--link-keys", arguments.keys,
-                         "Folder of this station's keys (default: ~/.config/foresight/link)")
+      command
+          .add_option("--link-keys", arguments.keys,
+                      "Folder of this station's keys (default: ~/.config/foresight/link)")
           ->needs(head);
   command
       .add_flag("--plaintext", arguments.plaintext,

@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/common/link_arguments.h"
 #include "app/common/record_scan.h"
 #include "app/common/seed_option.h"
 #include "app/common/simulated_bench.h"
@@ -14,6 +15,7 @@ namespace {
 struct ScanCommandArguments {
   SimulationArguments simulation;
   std::string head_config;  ///< of a real head, in place of the simulation
+  LinkArguments link;       ///< to a head elsewhere
   std::string calibration;  ///< in place of the head's own; empty = that
   double from_deg = -30.0;
   double to_deg = 30.0;
@@ -87,6 +89,11 @@ Result<ExitCode> ScanOnBench(const ScanCommandArguments& arguments, const RunCon
     return RecordScan(*head, PlanFrom(arguments, config.exposure), arguments.out, arguments.json,
                       context);
   }
+  if (!arguments.link.head.empty()) {
+    FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, nullptr));
+    FORESIGHT_CHECK(PutCalibrationInForce(*head, arguments.calibration));
+    return RecordScan(*head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
+  }
   FORESIGHT_TRY(const SimulatedBench bench, SetUpBench(arguments.simulation));
   FORESIGHT_CHECK(PutCalibrationInForce(*bench.head, arguments.calibration));
   return RecordScan(*bench.head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
@@ -112,6 +119,9 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
       ->excludes("--rig")
       ->excludes("--seed")
       ->excludes("--real-time");
+  CLI::Option* head = AddLinkOptions(*command, arguments->link);
+  for (const char* other : {"--scene", "--rig", "--seed", "--real-time", "--head-config"})
+    head->excludes(other);
   command->add_option("--calibration", arguments->calibration,
                       "Calibration to put in force (YAML), in place of the head's");
   AddOption(*command, "--from", arguments->from_deg,
@@ -134,8 +144,10 @@ void AddScanCommand(CLI::App& app, Invocation& invocation) {
   command->add_flag("--predict", arguments->predict, "Only say what the plan would cost and give");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->callback([&invocation, arguments] {
-    const bool no_head = arguments->simulation.scene.empty() && arguments->head_config.empty();
-    if (!arguments->predict && no_head) throw CLI::RequiredError("--scene or --head-config");
+    const bool no_head = arguments->simulation.scene.empty() && arguments->head_config.empty() &&
+                         arguments->link.head.empty();
+    if (!arguments->predict && no_head)
+      throw CLI::RequiredError("--scene, --head-config or --head");
     if (!arguments->predict && arguments->out.empty()) throw CLI::RequiredError("--out");
     invocation = [arguments](const RunContext& context) {
       return ScanOnBench(*arguments, context);

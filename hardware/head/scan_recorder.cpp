@@ -215,10 +215,21 @@ ScanRecorder::End ScanRecorder::GiveUp(const Error& error) {
   return {ScanState::kInterrupted, told.message};
 }
 
+/// What goes wrong there is no fault of the file, and must not end the thread that writes it.
 void ScanRecorder::HandOn(const Piece& piece) {
   if (!then_) return;
   if (std::holds_alternative<Scan>(piece)) then_hears_ = true;
   if (!then_hears_) return;
+  try {
+    Tell(piece);
+  } catch (const std::exception& error) {
+    then_hears_ = false;
+    LogError("{}: who follows the recording hears no more of this scan: {}",
+             mission_->path().string(), error.what());
+  }
+}
+
+void ScanRecorder::Tell(const Piece& piece) {
   std::visit(
       Overloaded{
           [&](const Scan& header) { then_->OnScanStarted(header); },

@@ -63,6 +63,7 @@ class ScanRecorder final : public ScanSink {
   Status WriteHealth(std::int64_t scan_id, const Health& health);
   End GiveUp(const Error& error);
   void HandOn(const Piece& piece);
+  void Tell(const Piece& piece);
   std::string WhatWasKept(std::int64_t id) const;
 
   const std::shared_ptr<MissionFile> mission_;

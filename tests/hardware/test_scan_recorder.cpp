@@ -69,6 +69,25 @@ TEST(ScanRecorder, HandsOnNothingThatIsNotInTheFile) {
   EXPECT_THAT(then->Snapshot()->reason, HasSubstr("line 0 comes after line 4"));
 }
 
+TEST(ScanRecorder, WritesOnWhenWhoFollowsFails) {
+  class Failing final : public ScanSink {
+   public:
+    void OnScanStarted(const Scan&) override {}
+    void OnLine(const LidarLine&) override { throw std::runtime_error("no memory"); }
+    void OnMotorSamples(std::span<const MotorSample>) override {}
+    void OnFrame(const CameraFrame&) override {}
+    void OnScanEnded(ScanState, const std::string&) override { throw std::runtime_error("again"); }
+  };
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  ScanRecorder recorder(mission, std::make_shared<Failing>());
+  Send(recorder, SampleScan(1));
+  const auto id = recorder.WaitUntilWritten();
+  ASSERT_TRUE(id);
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(*id).value(), SampleScan(1)));
+  EXPECT_EQ(recorder.Failure(), std::nullopt);
+}
+
 TEST(ScanRecorder, WritesOneScanAfterTheOther) {
   const TemporaryFolder folder;
   const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();

@@ -50,6 +50,11 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::shared_ptr<grpc::Ch
   head->fetcher_ = std::make_unique<ScanFetcher>(head->session_, std::move(fetching));
   head->watch_ =
       std::make_unique<WatchClient>(head->session_, options.status_rate_hz, std::move(hooks));
+  while (!head->mirror_.Connected() && LinkSession::Now() < end_s)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  if (!head->mirror_.Connected())
+    return Fail(ErrorCode::kDevice, "{}: the head was greeted and then says nothing",
+                options.address);
   return head;
 }
 

@@ -34,6 +34,8 @@ Result<std::unique_ptr<HeadServer>> HeadServer::Start(
   return server;
 }
 
+HeadServer::HeadServer(HeadDesk& desk, PeerReader peer) : service_(desk, std::move(peer)) {}
+
 HeadServer::~HeadServer() {
   service_.Close();
   if (server_) server_->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(2));

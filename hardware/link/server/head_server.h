@@ -26,7 +26,7 @@ class HeadServer {
   int port() const { return port_; }
 
  private:
-  HeadServer(HeadDesk& desk, PeerReader peer) : service_(desk, std::move(peer)) {}
+  HeadServer(HeadDesk& desk, PeerReader peer);
 
   HeadService service_;
   int port_ = 0;

@@ -1,0 +1,80 @@
+#include "app/head/listen.h"
+
+#include <grpcpp/security/auth_context.h>
+#include <grpcpp/security/server_credentials.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "app/common/output.h"
+#include "hardware/link/server/head_server.h"
+#include "hardware/link/wire/credentials.h"
+#include "hardware/link/wire/grpc_log.h"
+#include "hardware/link/wire/peer.h"
+
+namespace foresight {
+namespace {
+
+std::filesystem::path ScansFolder() {
+  const char* data = std::getenv("XDG_DATA_HOME");
+  if (data != nullptr && *data != '\0') return std::filesystem::path(data) / "foresight/head";
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home != nullptr ? home : "/tmp") / ".local/share/foresight/head";
+}
+
+/// The host of HOST:PORT, without the brackets of an IPv6 address.
+std::string HostOf(const std::string& address) {
+  std::string host = address.substr(0, address.rfind(':'));
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']')
+    host = host.substr(1, host.size() - 2);
+  return host;
+}
+
+struct Door {
+  std::shared_ptr<grpc::ServerCredentials> credentials;
+  PeerReader peer;
+};
+
+Result<Door> MakeDoor(const ListenArguments& arguments) {
+  Door door;
+  std::shared_ptr<CertificateGate> gate;
+  if (arguments.plaintext) {
+    FORESIGHT_TRY(door.credentials, PlaintextHeadCredentials(HostOf(arguments.address)));
+  } else {
+    const std::filesystem::path keys =
+        arguments.keys.empty() ? KeyFolderOfHead() : std::filesystem::path(arguments.keys);
+    FORESIGHT_TRY(const TlsFiles files, LoadTlsFiles(keys));
+    FORESIGHT_TRY(gate, CertificateGate::Open(files));
+    door.credentials = HeadCredentials(files, gate);
+  }
+  door.peer = [gate](const grpc::ServerContext& context) -> Result<HeadDesk::Peer> {
+    FORESIGHT_TRY(const LinkIdentity identity, CheckPeer(*context.auth_context(), gate.get()));
+    return HeadDesk::Peer{identity.name, identity.role == LinkRole::kOperator};
+  };
+  return door;
+}
+
+}  // namespace
+
+Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
+                        const ListenArguments& arguments, const RunContext& context) {
+  SendGrpcLogToOurs();
+  FORESIGHT_TRY(const Door door, MakeDoor(arguments));
+  const std::filesystem::path folder =
+      arguments.scans.empty() ? ScansFolder() : std::filesystem::path(arguments.scans);
+  FORESIGHT_TRY(const auto shelf, ScanShelf::Open({folder, arguments.disk_ratio}));
+  HeadDesk desk(head, *shelf, {arguments.lease_s, simulated});
+  FORESIGHT_TRY(const auto server,
+                HeadServer::Start(desk, arguments.address, door.credentials, door.peer));
+  const std::string host = arguments.address.substr(0, arguments.address.rfind(':'));
+  PrintNote("{}: listening on {}:{}{}; scans in {}", head->Describe(), host, server->port(),
+            arguments.plaintext ? " without encryption" : "", folder.string());
+  if (arguments.json)
+    PrintJson({{"address", fmt::format("{}:{}", host, server->port())}, {"pid", getpid()}});
+  while (!context.Cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  PrintNote("{}: no longer listening", head->Describe());
+  return ExitCode::kDone;
+}
+
+}  // namespace foresight

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/common/exit_code.h"
+#include "core/base/run_context.h"
+#include "hardware/api/sensor_head.h"
+
+namespace foresight {
+
+/// How a head serves its stations, as the command line says it.
+struct ListenArguments {
+  std::string address;     ///< HOST:PORT; empty = not at all
+  std::string keys;        ///< folder; empty = /etc/foresight/link
+  bool plaintext = false;  ///< on loopback only
+  std::string scans;       ///< folder; empty = the user's
+  double disk_ratio = 0.5;
+  double lease_s = 60.0;
+  bool json = false;
+};
+
+/// Serves `head` until the context is cancelled.
+Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
+                        const ListenArguments& arguments, const RunContext& context);
+
+}  // namespace foresight
