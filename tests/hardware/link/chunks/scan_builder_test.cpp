@@ -49,12 +49,14 @@ TEST(ScanBuilder, EveryCompleteSetGivesTheSameScan) {
     ScanBuilder builder(scan.uuid);
     KeepingSink sink;
     std::size_t taken = 0;
+    bool health_came_first = false;
     for (const Chunk& chunk : chunks) {
       EXPECT_EQ(builder.Take(Damaged(chunk, random)).error().code, ErrorCode::kBadData);
       const auto result = builder.Take(chunk);
       ASSERT_TRUE(result) << result.error().message;
       taken += *result == ScanBuilder::Taken::kNew ? 1U : 0U;
       if (random.Index(3) == 0) builder.DeliverTo(sink);
+      if (sink.ended == 0) health_came_first = !builder.health_json().empty();
     }
     EXPECT_EQ(taken, all);
     builder.DeliverTo(sink);
@@ -64,7 +66,8 @@ TEST(ScanBuilder, EveryCompleteSetGivesTheSameScan) {
     EXPECT_EQ(ScanDigest(*whole), ScanDigest(scan));
     ExpectSame(sink.scan, scan);
     EXPECT_EQ(sink.ended, 1);
-    EXPECT_EQ(ToJson(sink.health), ToJson(testing::SomeHealth()));
+    const HealthReport health = health_came_first ? testing::SomeHealth() : HealthReport{};
+    EXPECT_TRUE(ToJson(sink.health) == ToJson(health)) << seed;
     EXPECT_TRUE(builder.Progress().complete);
   }
 }
