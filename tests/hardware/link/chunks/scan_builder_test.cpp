@@ -246,6 +246,16 @@ TEST(ScanBuilder, PartsOfAnItemThatWasMadeAnewReplaceTheOldOnes) {
   EXPECT_FALSE(builder.Take(old[1])) << "whole, and no image";
 }
 
+TEST(ScanBuilder, APartThatContradictsTheNumberOfPartsIsRefused) {
+  ScanBuilder builder("some");
+  auto parts = SplitItem({ChunkKind::kImage, 0}, std::string(2 * kMaxPartBytes + 9, 'x')).value();
+  EXPECT_TRUE(builder.Take(parts[0]));
+  parts[1].parts = 4;
+  parts[1].crc = ChunkCrc(parts[1]);
+  EXPECT_EQ(builder.Take(parts[1]).error().code, ErrorCode::kBadData);
+  EXPECT_TRUE(builder.Have().HasPart(parts[0].id, parts[0].item_crc));
+}
+
 TEST(ScanBuilder, HostileImagesAndTracksAreRefused) {
   ScanBuilder builder("some");
   const auto refused = [&](ChunkKind kind, const std::string& bytes) {
