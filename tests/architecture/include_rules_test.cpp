@@ -318,6 +318,18 @@ TEST(IncludeRules, AnAssembledHeadKnowsNoEmulators) {
   });
 }
 
+TEST(IncludeRules, ChunksOfTheLinkKnowNoTransport) {
+  ExpectNoBreach([](const Include& include) -> Opinion {
+    if (!StartsWith(include.file, "hardware/link/chunks/")) return std::nullopt;
+    if (StartsWith(include.target, "grpc") || IsSocket(include.target))
+      return "bytes and files only";
+    if (!IsOurs(include.target)) return "";
+    return BreachIf(
+        !StartsWithAny(include.target, {"hardware/link/chunks/", "hardware/api/", "core/"}),
+        "another path may carry them");
+  });
+}
+
 TEST(IncludeRules, OnlyAppsKnowAssembledHeads) {
   ExpectNoBreach([](const Include& include) -> Opinion {
     if (StartsWithAny(include.file, {"app/", "hardware/assembly/"})) return std::nullopt;

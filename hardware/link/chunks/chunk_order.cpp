@@ -9,14 +9,13 @@
 namespace foresight {
 namespace {
 
-/// From what an operator needs first to what only the record needs. Images on request go before the
-/// track.
+/// From what an operator needs first to what only the record needs. Coarse clouds go with the
+/// thumbnails, images on request before the track.
 constexpr std::array kOrder = {
-    ChunkKind::kHeader,      ChunkKind::kRig,    ChunkKind::kEnd,          ChunkKind::kThumbnail,
-    ChunkKind::kCoarseCloud, ChunkKind::kTrack,  ChunkKind::kDeviceHealth, ChunkKind::kPreview,
-    ChunkKind::kFineCloud,   ChunkKind::kRanges, ChunkKind::kJpeg,         ChunkKind::kIntensities,
-    ChunkKind::kImage};
-static_assert(kOrder.size() == kChunkKinds);
+    ChunkKind::kHeader, ChunkKind::kRig,          ChunkKind::kEnd,         ChunkKind::kThumbnail,
+    ChunkKind::kTrack,  ChunkKind::kDeviceHealth, ChunkKind::kPreview,     ChunkKind::kFineCloud,
+    ChunkKind::kRanges, ChunkKind::kJpeg,         ChunkKind::kIntensities, ChunkKind::kImage};
+static_assert(kOrder.size() == kChunkKinds - 1);
 
 bool TravelsOnAThinPath(ChunkKind kind) {
   switch (kind) {
@@ -125,6 +124,24 @@ std::optional<ItemId> NextOfKind(ChunkKind kind, const ItemCounts& counts, const
   return std::nullopt;
 }
 
+/// One after the other: neither many images nor many lines make the operator wait for the others.
+std::optional<ItemId> NextSmallView(const ItemCounts& counts, const ChunkSet& done) {
+  const auto cloud = NextOfKind(ChunkKind::kCoarseCloud, counts, done);
+  const auto thumbnail = NextOfKind(ChunkKind::kThumbnail, counts, done);
+  if (!cloud || !thumbnail) return cloud ? cloud : thumbnail;
+  const bool clouds_are_ahead =
+      done.Count(ChunkKind::kCoarseCloud) > done.Count(ChunkKind::kThumbnail);
+  return clouds_are_ahead ? thumbnail : cloud;
+}
+
+std::optional<ItemId> NextFor(ChunkKind kind, const ScanToSend& source, const ItemCounts& counts,
+                              const ChunkSet& done, const TransferWishes& wishes) {
+  if (kind == ChunkKind::kThumbnail) return NextSmallView(counts, done);
+  if (kind == ChunkKind::kRanges || kind == ChunkKind::kIntensities)
+    return NextBlock(kind, source, counts, done, wishes);
+  return NextOfKind(kind, counts, done);
+}
+
 std::optional<ItemId> NextRequestedImage(const ItemCounts& counts, const ChunkSet& done,
                                          const TransferWishes& wishes) {
   for (const std::int64_t position : wishes.images_first) {
@@ -142,10 +159,7 @@ std::optional<ItemId> NextItem(const ScanToSend& source, const ItemCounts& count
     if (kind == ChunkKind::kTrack)
       if (auto id = NextRequestedImage(counts, done, wishes)) return id;
     if (!Travels(kind, wishes.bytes_per_s)) continue;
-    const bool lines = kind == ChunkKind::kRanges || kind == ChunkKind::kIntensities;
-    if (auto id =
-            lines ? NextBlock(kind, source, counts, done, wishes) : NextOfKind(kind, counts, done))
-      return id;
+    if (auto id = NextFor(kind, source, counts, done, wishes)) return id;
   }
   return std::nullopt;
 }

@@ -21,8 +21,8 @@ struct TransferWishes {
   bool operator==(const TransferWishes&) const = default;
 };
 
-/// A path is thin below this rate: only header, rig, thumbnails, coarse clouds and the end travel
-/// then, and what images_first names. At 16 kB/s the ranges of a room (0.33 MB) take 20 s, twice as
+/// A path is thin below this rate: only header, rig, end, coarse clouds, thumbnails and what
+/// images_first names travel then. At 16 kB/s the ranges of a room (0.33 MB) take 20 s, twice as
 /// long as their sweep.
 inline constexpr double kThinBytesPerS = 16'000.0;
 /// Fine clouds (0.03 MB a room) pay below this rate: above it the ranges themselves take 2 s.
@@ -30,11 +30,11 @@ inline constexpr double kFineCloudBelowBytesPerS = 160'000.0;
 
 /// The item of which a chunk goes next; nullopt = nothing is left of what there is now and may
 /// travel. `done` is what the station has, and what was sent to it. Asked again for each chunk,
-/// since scan, wishes and rate change: header, rig, end, device health, thumbnails, coarse clouds,
-/// track, previews, fine clouds, ranges, JPEGs, intensities, images. Blocks of lines go in
-/// bit-reversed order, so that what has arrived covers the whole scope; those with a line of
-/// `lines_first` before others. What a better item has made superfluous is left out (a preview once
-/// the image is done). O(blocks), 2 us.
+/// since scan, wishes and rate change: header, rig, end, coarse clouds and thumbnails in turn,
+/// images on request, track, device health, previews, fine clouds, ranges, JPEGs, intensities,
+/// images. Blocks of lines go in bit-reversed order, so that what has arrived covers the whole
+/// scope; those with a line of `lines_first` before others. What a better item has made superfluous
+/// is left out (a preview once the image is done). O(items of the kinds that are done).
 std::optional<ItemId> NextItem(const ScanToSend& source, const ItemCounts& counts,
                                const ChunkSet& done, const TransferWishes& wishes);
 

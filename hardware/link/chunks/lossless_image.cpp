@@ -14,7 +14,7 @@ constexpr int kMaxSide = 20000;
 // zstd describes the frequencies of bytes once a piece; they change over an image.
 constexpr int kRowsPerPiece = 32;
 // Neighbours that differ by less are noise: found by trial on images of the room scene.
-constexpr int kSmoothLevel = 12;
+constexpr int kSmoothLevel = 6;
 
 std::uint8_t Zigzag8(int difference) {
   const auto bits = static_cast<std::uint8_t>(difference);
@@ -66,26 +66,23 @@ GrayImage ReadPlane(ItemReader& reader, int width, int height) {
   return plane;
 }
 
-/// Green, and what red and blue differ from it by: the three go up and down together.
+/// Differences between the colours would have the noise of both.
 std::array<GrayImage, 3> PlanesOf(const ColorImage& image) {
   std::array<GrayImage, 3> planes;
   for (GrayImage& plane : planes) plane = GrayImage(image.width(), image.height());
   for (std::size_t i = 0; i < image.size(); ++i) {
     const Rgb8& pixel = image.values()[i];
-    planes[0].values()[i] = pixel.g;
-    planes[1].values()[i] = static_cast<std::uint8_t>(pixel.r - pixel.g + 128);
-    planes[2].values()[i] = static_cast<std::uint8_t>(pixel.b - pixel.g + 128);
+    planes[0].values()[i] = pixel.r;
+    planes[1].values()[i] = pixel.g;
+    planes[2].values()[i] = pixel.b;
   }
   return planes;
 }
 
 ColorImage ImageOf(const std::array<GrayImage, 3>& planes) {
   ColorImage image(planes[0].width(), planes[0].height());
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    const std::uint8_t green = planes[0].values()[i];
-    image.values()[i] = {static_cast<std::uint8_t>(planes[1].values()[i] + green - 128), green,
-                         static_cast<std::uint8_t>(planes[2].values()[i] + green - 128)};
-  }
+  for (std::size_t i = 0; i < image.size(); ++i)
+    image.values()[i] = {planes[0].values()[i], planes[1].values()[i], planes[2].values()[i]};
   return image;
 }
 

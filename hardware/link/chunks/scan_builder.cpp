@@ -16,6 +16,9 @@ namespace {
 /// Of a scan in memory: 40 times a room scan with 12 images. A head that sends more is out of
 /// order.
 constexpr std::size_t kMostScanBytes = std::size_t{2} << 30;
+constexpr std::size_t kMostOpenBytes = std::size_t{512} << 20;
+constexpr std::size_t kOverheadBytes = 256;  ///< of a value in a map
+constexpr std::int64_t kMostCloudPoints = 20'000'000;
 
 bool IsSingle(ChunkKind kind) {
   return kind == ChunkKind::kHeader || kind == ChunkKind::kRig ||
@@ -46,18 +49,12 @@ Result<ScanBuilder::Taken> ScanBuilder::Take(const Chunk& chunk) {
   if (IsSingle(id.kind) && id.item != 0)
     return Fail(ErrorCode::kBadData, "{}: a scan has only one", Describe(chunk));
   if (have_.HasPart(chunk.id, chunk.item_crc)) return Taken::kAlreadyHere;
-  OpenItem& item = open_[id];
-  if (item.item_crc != chunk.item_crc || item.parts != chunk.parts)
-    item = {chunk.item_crc, chunk.parts, {}};
-  item.bytes[chunk.id.part] = chunk.bytes;
-  if (item.bytes.size() < static_cast<std::size_t>(item.parts)) {
-    have_.AddPart(chunk);
-    return Taken::kNew;
+  if (chunk.parts > 1) {
+    FORESIGHT_TRY(const bool whole, KeepPart(chunk));
+    if (!whole) return Taken::kNew;
   }
-  std::string bytes;
-  for (const auto& [part, part_bytes] : item.bytes) bytes += part_bytes;
-  open_.erase(id);
-  have_.ForgetParts(id);
+  const std::string bytes = chunk.parts > 1 ? JoinedParts(id) : chunk.bytes;
+  ForgetParts(id);
   if (Crc32c(bytes) != chunk.item_crc)
     return Fail(ErrorCode::kBadData, "{}: the item's CRC is {:08x} and not {:08x}", Describe(chunk),
                 Crc32c(bytes), chunk.item_crc);
@@ -67,6 +64,43 @@ Result<ScanBuilder::Taken> ScanBuilder::Take(const Chunk& chunk) {
   have_.Add(id);
   whole_.reset();
   return Taken::kNew;
+}
+
+Result<bool> ScanBuilder::KeepPart(const Chunk& chunk) {
+  const ItemId id = chunk.id.Item();
+  auto begun = open_.find(id);
+  if (begun != open_.end() && begun->second.item_crc != chunk.item_crc) {
+    ForgetParts(id);
+    begun = open_.end();
+  }
+  if (begun != open_.end() && begun->second.parts != chunk.parts)
+    return Fail(ErrorCode::kBadData, "{}: it had {} parts before", Describe(chunk),
+                begun->second.parts);
+  if (open_bytes_ + chunk.bytes.size() + kOverheadBytes > kMostOpenBytes)
+    return Fail(ErrorCode::kBadData, "{}: more than {} MB of items that are not whole",
+                Describe(chunk), kMostOpenBytes >> 20);
+  OpenItem& item = open_[id];
+  item.item_crc = chunk.item_crc;
+  item.parts = chunk.parts;
+  item.bytes[chunk.id.part] = chunk.bytes;
+  open_bytes_ += chunk.bytes.size() + kOverheadBytes;
+  if (item.bytes.size() == static_cast<std::size_t>(item.parts)) return true;
+  have_.AddPart(chunk);
+  return false;
+}
+
+std::string ScanBuilder::JoinedParts(const ItemId& id) const {
+  std::string bytes;
+  for (const auto& [part, part_bytes] : open_.at(id).bytes) bytes += part_bytes;
+  return bytes;
+}
+
+void ScanBuilder::ForgetParts(const ItemId& id) {
+  have_.ForgetParts(id);
+  const auto item = open_.find(id);
+  if (item == open_.end()) return;
+  for (const auto& [part, bytes] : item->second.bytes) open_bytes_ -= bytes.size() + kOverheadBytes;
+  open_.erase(item);
 }
 
 Status ScanBuilder::TakeItem(const ItemId& id, const std::string& bytes) {
@@ -132,13 +166,14 @@ Status ScanBuilder::UseRig(const std::string& yaml) {
     return Fail(ErrorCode::kInvalidInput, "scan {}: its rig has the digest {}, not {}", scan_id_,
                 header_->rig_digest, Sha256Hex(yaml));
   FORESIGHT_CHECK(TakeRig(yaml));
-  open_.erase({ChunkKind::kRig, 0});
+  ForgetParts({ChunkKind::kRig, 0});
   have_.Add({ChunkKind::kRig, 0});
   whole_.reset();
   return {};
 }
 
 Status ScanBuilder::Count(std::size_t bytes) {
+  bytes += kOverheadBytes;
   if (bytes > kMostScanBytes - bytes_)
     return Fail(ErrorCode::kBadData, "a scan of more than {} MB is not taken",
                 kMostScanBytes >> 20);
@@ -386,7 +421,14 @@ Result<RegisteredScan> ScanBuilder::Cloud() const {
   for (const auto& [item, block] : coarse_) blocks[item] = &block;
   for (const auto& [item, block] : fine_) blocks[item] = &block;
   std::vector<const CloudBlock*> in_order;
-  for (const auto& [item, block] : blocks) in_order.push_back(block);
+  std::int64_t points = 0;
+  for (const auto& [item, block] : blocks) {
+    in_order.push_back(block);
+    points += static_cast<std::int64_t>(block->lines.size()) * rig_->lidar.beams;
+  }
+  if (points > kMostCloudPoints)
+    return Fail(ErrorCode::kBadData, "scan {}: a cloud of {} points is not shown", scan_id_,
+                points);
   RegisteredScan cloud = RegisterCloud(in_order, *rig_);
   if (cloud.lines == 0)
     return Fail(ErrorCode::kTooFewPoints, "scan {}: no line of a cloud is here", scan_id_);

@@ -113,6 +113,10 @@ class ScanBuilder {
 
   static const FrameItem* Find(const FrameItems& items, std::int64_t position);
 
+  /// Whether all parts of the item are here now.
+  Result<bool> KeepPart(const Chunk& chunk);
+  std::string JoinedParts(const ItemId& id) const;
+  void ForgetParts(const ItemId& id);
   Status TakeItem(const ItemId& id, const std::string& bytes);
   Status TakeHeader(const std::string& bytes);
   Status TakeRig(const std::string& yaml);
@@ -137,7 +141,8 @@ class ScanBuilder {
 
   std::string scan_id_;
   ChunkSet have_;
-  std::map<ItemId, OpenItem> open_;
+  std::map<ItemId, OpenItem> open_;  ///< of which some parts are here
+  std::size_t open_bytes_ = 0;
   std::size_t bytes_ = 0;  ///< of what was decoded
   std::optional<ScanHeader> header_;
   std::optional<SensorRig> rig_;
