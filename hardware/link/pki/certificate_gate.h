@@ -24,11 +24,11 @@ class CertificateGate {
   ~CertificateGate();
 
   /// At a handshake: who the peer is. Fails with kBadData, and why, for a certificate that the CA
-  /// did not sign, that is not valid now, revoked, or of a role that is not admitted. About 0.1 ms.
+  /// did not sign, that is not valid now, revoked, or of a role that is not admitted. 0.5 ms.
   Result<LinkCertificate> Admit(std::string_view pem);
 
   /// In a connection whose handshake was admitted: whether the certificate still is neither expired
-  /// nor revoked. The signature is not checked once more.
+  /// nor revoked. The signature is not checked once more. 0.2 ms.
   Result<LinkCertificate> CheckStillGood(std::string_view pem);
 
  private:

@@ -88,7 +88,7 @@ std::string ToHex(const ASN1_INTEGER& number) {
   const BigNumberHandle big(ASN1_INTEGER_to_BN(&number, nullptr));
   char* text = big ? BN_bn2hex(big.get()) : nullptr;
   if (text == nullptr) return "";
-  const std::string hex = text;
+  std::string hex = text;
   OPENSSL_free(text);
   return hex;
 }

@@ -52,4 +52,22 @@ Result<TlsFiles> LoadTlsFiles(const fs::path& folder, std::int64_t utc_s) {
   return files;
 }
 
+Result<TlsFiles> LoadTlsFilesOfHead(const fs::path& folder, std::int64_t utc_s) {
+  FORESIGHT_TRY(TlsFiles files, LoadTlsFiles(folder, utc_s));
+  const LinkIdentity& identity = files.certificate.identity;
+  if (identity.role == LinkRole::kHead) return files;
+  return Fail(ErrorCode::kInvalidInput,
+              "{}: is of the {} {}; a head needs the keys of a head (foresightctl pki head)",
+              (folder / kCertificateFile).string(), ToString(identity.role), identity.name);
+}
+
+Result<TlsFiles> LoadTlsFilesOfStation(const fs::path& folder, std::int64_t utc_s) {
+  FORESIGHT_TRY(TlsFiles files, LoadTlsFiles(folder, utc_s));
+  if (files.certificate.identity.role != LinkRole::kHead) return files;
+  return Fail(ErrorCode::kInvalidInput,
+              "{}: is of the head {}; a station needs the keys of a person (foresightctl pki "
+              "operator)",
+              (folder / kCertificateFile).string(), files.certificate.identity.name);
+}
+
 }  // namespace foresight

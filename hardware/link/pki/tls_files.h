@@ -39,4 +39,11 @@ struct TlsFiles {
 Result<TlsFiles> LoadTlsFiles(const std::filesystem::path& folder,
                               std::int64_t utc_s = UtcSecondsNow());
 
+/// The same for a program that is a head, or that is a station: also fails, with kInvalidInput, for
+/// the keys of the other kind.
+Result<TlsFiles> LoadTlsFilesOfHead(const std::filesystem::path& folder,
+                                    std::int64_t utc_s = UtcSecondsNow());
+Result<TlsFiles> LoadTlsFilesOfStation(const std::filesystem::path& folder,
+                                       std::int64_t utc_s = UtcSecondsNow());
+
 }  // namespace foresight

@@ -2,9 +2,9 @@
 
 namespace foresight {
 
-/// Sends what gRPC logs as errors to our log: handshakes that TLS refused (no certificate, a
-/// foreign CA, an expired one) stand there. Of more than 20 lines in a second the rest is counted:
-/// strangers make these lines. For main(); may be called more than once.
+/// Sends what gRPC logs as errors to our log, as warnings: handshakes that TLS refused (no
+/// certificate, a foreign CA, an expired one) stand there. LineLimit holds repeats back. For
+/// main(); called again, it forgets what was repeated.
 void SendGrpcLogToOurs();
 
 }  // namespace foresight

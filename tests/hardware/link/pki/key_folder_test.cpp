@@ -34,6 +34,17 @@ TEST_F(KeyFolder, AsItWasMadeIsUsable) {
   EXPECT_EQ(files->certificate.identity, (LinkIdentity{LinkRole::kHead, "left"}));
 }
 
+TEST_F(KeyFolder, OfAHeadIsNoneForAStationAndTheOtherWayRound) {
+  const auto anna = keys_.Operator();
+  EXPECT_TRUE(LoadTlsFilesOfHead(folder_, kNow));
+  EXPECT_TRUE(LoadTlsFilesOfStation(anna, kNow));
+  EXPECT_TRUE(LoadTlsFilesOfStation(keys_.Observer(), kNow));
+  EXPECT_THAT(LoadTlsFilesOfStation(folder_, kNow).error().message,
+              HasSubstr("link.crt: is of the head left; a station needs the keys of a person"));
+  EXPECT_THAT(LoadTlsFilesOfHead(anna, kNow).error().message,
+              HasSubstr("link.crt: is of the operator anna; a head needs the keys of a head"));
+}
+
 TEST_F(KeyFolder, AKeyThatOthersMayReadIsRefused) {
   ASSERT_EQ(chmod((folder_ / kPrivateKeyFile).c_str(), 0644), 0);
   EXPECT_THAT(Check(), HasSubstr("others may read this private key (permissions 644)"));

@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kPython = "/usr/bin/python3";
 
@@ -18,7 +19,7 @@ class ForeignClient : public testing::Test {
   ForeignClient() { SendGrpcLogToOurs(); }
 
   /// Ends after the handshake and what the head says upon it.
-  ProgramResult Connect(const std::vector<std::string>& more) const {
+  ProgramResult Connect(const std::vector<std::string>& more, const char* says = "") const {
     std::vector<std::string> arguments = {"s_client",
                                           "-connect",
                                           head_.Address(),
@@ -30,7 +31,8 @@ class ForeignClient : public testing::Test {
                                           "-verify_ip",
                                           "127.0.0.1"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunProgram("/bin/sh", {"-c", "exec \"$0\" \"$@\" < /dev/null", FORESIGHT_OPENSSL},
+    return RunProgram("/bin/sh",
+                      {"-c", std::string("echo '") + says + "' | \"$0\" \"$@\"", FORESIGHT_OPENSSL},
                       arguments);
   }
   static ProgramResult RunProgram(const std::string& program, std::vector<std::string> arguments,
@@ -80,6 +82,22 @@ TEST_F(OpenSslClient, IsCutOffWithoutACertificate) {
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(result.errors, HasSubstr("unexpected eof"));
   EXPECT_THAT(log_.Text(), HasSubstr("peer did not return a certificate"));
+}
+
+TEST_F(OpenSslClient, IsJudgedAnewWhereItResumesASession) {
+  const std::string session = keys_ / "session.pem";
+  const auto connect_with = [&](const char* option) {
+    std::vector<std::string> arguments = With(keys_ / "stolen");
+    arguments.insert(arguments.end(), {"-ign_eof", option, session});
+    return Connect(arguments, "no HTTP");  // on which the head ends the connection
+  };
+  std::filesystem::copy(anna_, keys_ / "stolen");
+  connect_with("-sess_out");
+  ASSERT_TRUE(std::filesystem::exists(session));
+  ASSERT_THAT(log_.Text(), Not(HasSubstr("refused a peer")));
+  ASSERT_TRUE(keys_.ca().Revoke("anna", keys_.now_utc_s()));
+  const ProgramResult result = connect_with("-sess_in");
+  EXPECT_THAT(log_.Text(), HasSubstr("refused a peer: foresight:operator:anna")) << result.output;
 }
 
 TEST_F(OpenSslClient, IsRefusedWhereItsCertificateSaysNoRole) {
