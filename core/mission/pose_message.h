@@ -45,9 +45,9 @@ struct PoseMessage {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< object to frame
   std::optional<PoseCovariance> covariance;                      ///< none = not known
   VerdictLevel verdict = VerdictLevel::kUnsure;                  ///< of the candidate
-  double probability = 0.0;                                      ///< of the best answer
-  int candidate = 0;      ///< which answer: 0 = the best; of a terrain, which surface
-  bool is_winner = true;  ///< false: an alternative to the best answer
+  std::optional<double> probability;  ///< that the pose is right; none for an alternative
+  int candidate = 0;                  ///< which answer: 0 = the best; of a terrain, which surface
+  bool is_winner = true;              ///< false: an alternative to the best answer
   Decision decision = Decision::kOpen;
   std::string decided_by;  ///< empty where nothing was decided
   Origin origin = Origin::kReview;
