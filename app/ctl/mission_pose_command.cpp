@@ -65,10 +65,14 @@ Result<ExitCode> ShowPoses(const PoseArguments& arguments) {
   std::vector<StoredPose> poses;
   for (const DetectionRecord& record : records) {
     if (!IsWanted(record, arguments)) continue;
-    FORESIGHT_TRY(const PoseMessage message,
-                  PoseOf(beside ? *beside : *mission, record, arguments.candidate)
-                      .map_error(Of(arguments.file)));
-    poses.push_back({record.id, message});
+    const auto message = PoseOf(beside ? *beside : *mission, record, arguments.candidate)
+                             .map_error(Of(arguments.file));
+    if (message)
+      poses.push_back({record.id, *message});
+    else if (arguments.detection || message.error().code != ErrorCode::kInvalidInput)
+      return tl::unexpected(message.error());
+    else  // a terrain without a surface has no pose; the others are shown
+      PrintNote("{}", message.error().message);
   }
   if (arguments.detection && poses.empty())
     return Fail(ErrorCode::kInvalidInput, "{}: no detection {}; without --detection all are listed",
@@ -84,9 +88,11 @@ void AddMissionPoseCommand(CLI::App& mission, Invocation& invocation) {
   CLI::App* command =
       mission.add_subcommand("pose", "What a robot would be told of each object found");
   command->add_option("file", arguments->file, "Mission file")->required();
-  command->add_option("--detection", arguments->detection, "Of this detection alone");
+  CLI::Option* detection =
+      command->add_option("--detection", arguments->detection, "Of this detection alone");
   AddOption(*command, "--candidate", arguments->candidate,
-            "Which answer: 0 = the best one; of a terrain, which surface");
+            "Which answer: 0 = the best one; of a terrain, which surface")
+      ->needs(detection);
   command->add_flag("--json", arguments->json, "One line of JSON each, as a robot gets it");
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext&) { return ShowPoses(*arguments); };

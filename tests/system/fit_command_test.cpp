@@ -156,7 +156,27 @@ TEST_F(FitOfAScan, AnObjectThatIsSavedIsShownAsARobotWouldGetIt) {
   const ProgramResult none = Run({"mission", "pose", copy, "--detection", "7", "--json"});
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_NE(none.errors.find("no detection 7"), std::string::npos) << none.errors;
-  EXPECT_EQ(Run({"mission", "pose", copy, "--candidate", "99"}).exit_code, 3);
+  EXPECT_EQ(Run({"mission", "pose", copy, "--detection", "1", "--candidate", "99"}).exit_code, 3);
+  EXPECT_EQ(Run({"mission", "pose", copy, "--candidate", "1"}).exit_code, 2) << "of which one?";
+}
+
+TEST_F(FitOfAScan, ATerrainWithoutASurfaceHasNoPoseAndTheOthersAreShown) {
+  const std::string copy = *folder_ / "poses.foresight";
+  std::filesystem::copy_file(mission_, copy);
+  ASSERT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
+  {
+    const auto mission = MissionFile::Open(copy).value();
+    DetectionRecord terrain = mission->ListDetections()->front();
+    terrain.uuid = "bare";
+    terrain.kind = "terrain";
+    terrain.json = DetectionToJson(TerrainDetection(), {});
+    ASSERT_TRUE(mission->AddDetection(terrain));
+  }
+  const ProgramResult all = Run({"mission", "pose", copy, "--json"});
+  EXPECT_EQ(all.exit_code, 0) << all.errors;
+  EXPECT_TRUE(PoseMessageFromJson(all.output)) << all.output;
+  EXPECT_NE(all.errors.find("object bare: no answer 0"), std::string::npos) << all.errors;
+  EXPECT_EQ(Run({"mission", "pose", copy, "--detection", "2"}).exit_code, 3);
 }
 
 TEST_F(FitOfAScan, WhatIsSavedIsMadeAgainWithoutADifferenceAndAChangeOfItIsNamed) {
