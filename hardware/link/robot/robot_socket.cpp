@@ -53,6 +53,7 @@ struct RobotSocket::Impl {
   void BeginQuestion();
   void EndLateQuestion();
   void Answer(Kind kind, std::string reason);
+  void Disconnect(const std::string& why);
   void Drop(const std::string& why);
   milliseconds TimeToWait() const;
   std::string NobodyThere() const;
@@ -183,10 +184,11 @@ void RobotSocket::Impl::EndLateQuestion() {
   if (!question || Clock::now() < deadline) return;
   const double seconds = 1e-3 * static_cast<double>(timeout.count());
   if (robot && robot->HasMoreToWrite()) {  // half a line would spoil the next one
-    Answer(Kind::kNoAnswer,
-           fmt::format("The robot did not read the pose within {} s: its connection was closed.",
-                       seconds));
-    return Drop("robot: does not read");
+    Disconnect("robot: does not read");
+    return Answer(
+        Kind::kNoAnswer,
+        fmt::format("The robot did not read the pose within {} s: its connection was closed.",
+                    seconds));
   }
   Answer(Kind::kNoAnswer,
          fmt::format("The robot did not answer within {} s; it may have got the pose.{}", seconds,
@@ -201,11 +203,15 @@ void RobotSocket::Impl::Answer(Kind kind, std::string reason) {
   answered.notify_all();
 }
 
-void RobotSocket::Impl::Drop(const std::string& why) {
+void RobotSocket::Impl::Disconnect(const std::string& why) {
   LogInfo("{}", why);
-  const bool had_all = robot && !robot->HasMoreToWrite();
   robot.reset();
   robot_is_there = false;
+}
+
+void RobotSocket::Impl::Drop(const std::string& why) {
+  const bool had_all = robot && !robot->HasMoreToWrite();
+  Disconnect(why);  // before the answer: who gets it finds the robot gone
   if (had_all)
     Answer(Kind::kNoAnswer,
            fmt::format("The connection to the robot ended before it answered ({}); it may have got "
