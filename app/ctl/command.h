@@ -32,6 +32,8 @@ void AddDemoCommand(CLI::App& app, Invocation& invocation);
 void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 void AddHealthCommand(CLI::App& app, Invocation& invocation);
 void AddMissionCommand(CLI::App& app, Invocation& invocation);
+/// `mission` is the command of that name.
+void AddMissionPoseCommand(CLI::App& mission, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);
 void AddPkiCommand(CLI::App& app, Invocation& invocation);
 void AddCalibrateCommand(CLI::App& app, Invocation& invocation);

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "app/ctl/mission_beside.h"
 #include "core/base/utc_text.h"
 #include "core/geometry/angles.h"
 #include "core/mission/mission_file.h"
@@ -151,17 +152,6 @@ void Print(const MissionArguments& arguments, const std::vector<ScanSummary>& sc
   PrintLine(text);
 }
 
-/// The mission with the scans: a review keeps what was found in the mission beside it.
-Result<std::unique_ptr<MissionFile>> MissionOf(const std::string& review) {
-  constexpr std::string_view kEnding = ".review.foresight";
-  const std::string stem =
-      review.substr(0, review.size() - std::min(review.size(), kEnding.size()));
-  for (const char* ending : {".foresight", ""})
-    if (std::error_code ignored; std::filesystem::exists(stem + ending, ignored))
-      return MissionFile::OpenReadOnly(stem + ending);
-  return Fail(ErrorCode::kIo, "{}: the mission {}.foresight is not beside it", review, stem);
-}
-
 Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
                 MissionFile::OpenReadOnly(arguments.file));
@@ -169,10 +159,7 @@ Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& cont
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
   std::vector<CheckedRecord> records;
   if (arguments.recompute) {
-    std::unique_ptr<MissionFile> beside;
-    if (mission->IsReview()) {
-      FORESIGHT_TRY(beside, MissionOf(arguments.file));
-    }
+    FORESIGHT_TRY(const std::unique_ptr<MissionFile> beside, MissionBeside(*mission));
     FORESIGHT_TRY(records,
                   RemakeAll(beside ? *beside : *mission, *mission, context.Part(0.1, 1.0)));
   }
@@ -206,6 +193,7 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   check->callback([&invocation, arguments = check_arguments] {
     invocation = [arguments](const RunContext& context) { return Check(*arguments, context); };
   });
+  AddMissionPoseCommand(*mission, invocation);
 }
 
 }  // namespace foresight

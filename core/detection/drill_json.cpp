@@ -22,28 +22,11 @@ SolidPart::Shape ShapeFrom(const std::string& name) {
   throw std::invalid_argument("shape '" + name + "' is not known");
 }
 
-Json ModelJson(const DrillModel& model) {
-  Json parts = Json::array();
-  for (const SolidPart& part : model.parts)
-    parts.push_back({{"name", part.name},
-                     {"shape", NameOf(part.shape)},
-                     {"object_from_part", ToJson(part.object_from_part)},
-                     {"size_m", ToJson(part.size_m)}});
-  return {{"template", model.template_name},
-          {"scale", model.scale},
-          {"body_tilt_rad", ToJson(model.body_tilt_rad)},
-          {"bit_length_m", model.bit_length_m},
-          {"object_from_grasp", ToJson(model.object_from_grasp)},
-          {"trigger_m", ToJson(model.trigger_m)},
-          {"bit_tip_m", ToJson(model.bit_tip_m)},
-          {"parts", parts}};
-}
-
 Json CandidateJson(const DrillCandidate& drill,
                    const Rigid<frame::Robot, frame::Base>& robot_from_base) {
   return {{"base_from_object", ToJson(drill.base_from_object)},
           {"robot_from_object", ToJson(robot_from_base * drill.base_from_object)},
-          {"model", ModelJson(drill.model)},
+          {"model", ToJson(drill.model)},
           {"log_likelihood", drill.log_likelihood}};
 }
 
@@ -61,27 +44,8 @@ Json EvidenceJson(const DrillEvidence& evidence) {
           {"best_alternative", evidence.best_alternative}};
 }
 
-DrillModel ModelFrom(const Json& value) {
-  DrillModel model;
-  model.template_name = value.at("template");
-  model.scale = NumberIn(value, "scale", 0.01, 100.0);
-  model.body_tilt_rad = Vector2From(value.at("body_tilt_rad"));
-  model.bit_length_m = SizeIn(value, "bit_length_m");
-  model.object_from_grasp = PartPoseFrom(value.at("object_from_grasp"));
-  model.trigger_m = PointOnObjectIn(value, "trigger_m");
-  model.bit_tip_m = PointOnObjectIn(value, "bit_tip_m");
-  for (const Json& part : ListIn(value, "parts", kMostParts)) {
-    model.parts.push_back({part.at("name"), ShapeFrom(part.at("shape")),
-                           PartPoseFrom(part.at("object_from_part")),
-                           PointOnObjectIn(part, "size_m")});
-    if (const Status status = model.parts.back().Check(); !status)
-      throw std::invalid_argument(status.error().message);
-  }
-  return model;
-}
-
 DrillCandidate CandidateFrom(const Json& value) {
-  return {PoseFrom(value.at("base_from_object")), ModelFrom(value.at("model")),
+  return {PoseFrom(value.at("base_from_object")), DrillModelFrom(value.at("model")),
           NumberFrom(value.at("log_likelihood"))};
 }
 
@@ -117,6 +81,42 @@ Json GraspToJson(const DrillCandidate& drill,
 }
 
 }  // namespace
+
+Json ToJson(const DrillModel& model) {
+  Json parts = Json::array();
+  for (const SolidPart& part : model.parts)
+    parts.push_back({{"name", part.name},
+                     {"shape", NameOf(part.shape)},
+                     {"object_from_part", ToJson(part.object_from_part)},
+                     {"size_m", ToJson(part.size_m)}});
+  return {{"template", model.template_name},
+          {"scale", model.scale},
+          {"body_tilt_rad", ToJson(model.body_tilt_rad)},
+          {"bit_length_m", model.bit_length_m},
+          {"object_from_grasp", ToJson(model.object_from_grasp)},
+          {"trigger_m", ToJson(model.trigger_m)},
+          {"bit_tip_m", ToJson(model.bit_tip_m)},
+          {"parts", parts}};
+}
+
+DrillModel DrillModelFrom(const Json& value) {
+  DrillModel model;
+  model.template_name = value.at("template");
+  model.scale = NumberIn(value, "scale", 0.01, 100.0);
+  model.body_tilt_rad = Vector2From(value.at("body_tilt_rad"));
+  model.bit_length_m = SizeIn(value, "bit_length_m");
+  model.object_from_grasp = PartPoseFrom(value.at("object_from_grasp"));
+  model.trigger_m = PointOnObjectIn(value, "trigger_m");
+  model.bit_tip_m = PointOnObjectIn(value, "bit_tip_m");
+  for (const Json& part : ListIn(value, "parts", kMostParts)) {
+    model.parts.push_back({part.at("name"), ShapeFrom(part.at("shape")),
+                           PartPoseFrom(part.at("object_from_part")),
+                           PointOnObjectIn(part, "size_m")});
+    if (const Status status = model.parts.back().Check(); !status)
+      throw std::invalid_argument(status.error().message);
+  }
+  return model;
+}
 
 Json ToJson(const DrillDetection& detection,
             const Rigid<frame::Robot, frame::Base>& robot_from_base) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "core/fitting/drill/drill_detection.h"
 #include "core/fitting/terrain/terrain_detection.h"
@@ -19,5 +20,12 @@ nlohmann::json ToJson(const TerrainDetection& detection,
 ValveDetection ValveFrom(const nlohmann::json& value);
 DrillDetection DrillFrom(const nlohmann::json& value);
 TerrainDetection TerrainFrom(const nlohmann::json& value);
+
+/// The member `model` of a candidate, and a surface's `kind`.
+nlohmann::json ToJson(const ValveModel& model);
+nlohmann::json ToJson(const DrillModel& model);
+ValveModel ValveModelFrom(const nlohmann::json& value);
+DrillModel DrillModelFrom(const nlohmann::json& value);
+TerrainSurface::Kind SurfaceKindFrom(const std::string& name);
 
 }  // namespace foresight

@@ -11,18 +11,6 @@ namespace {
 constexpr double kLargestSurface_m = 1000.0;
 constexpr std::size_t kMostSurfaces = 10'000;
 
-const char* NameOf(TerrainSurface::Kind kind) {
-  constexpr const char* kNames[] = {"block", "ground", "unknown"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
-TerrainSurface::Kind KindFrom(const std::string& name) {
-  using enum TerrainSurface::Kind;
-  for (const auto kind : {kBlock, kGround, kUnknown})
-    if (name == NameOf(kind)) return kind;
-  throw std::invalid_argument("surface '" + name + "' is not known");
-}
-
 Json EvidenceJson(const BlockEvidence& evidence) {
   return {{"points", evidence.points},
           {"cover", evidence.cover},
@@ -63,7 +51,7 @@ Toehold ToeholdFrom(const Json& value) {
 
 Json SurfaceJson(const TerrainSurface& surface,
                  const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  Json value = {{"kind", NameOf(surface.kind)},
+  Json value = {{"kind", ToString(surface.kind)},
                 {"base_from_object", ToJson(surface.base_from_object)},
                 {"robot_from_object", ToJson(robot_from_base * surface.base_from_object)},
                 {"size_m", ToJson(surface.size_m)},
@@ -78,7 +66,7 @@ Json SurfaceJson(const TerrainSurface& surface,
 
 TerrainSurface SurfaceFrom(const Json& value) {
   TerrainSurface surface;
-  surface.kind = KindFrom(value.at("kind"));
+  surface.kind = SurfaceKindFrom(value.at("kind"));
   surface.base_from_object = PoseFrom(value.at("base_from_object"));
   surface.size_m = Vector2From(value.at("size_m"));
   if (!(surface.size_m.array().abs() <= kLargestSurface_m).all())
@@ -93,6 +81,13 @@ TerrainSurface SurfaceFrom(const Json& value) {
 }
 
 }  // namespace
+
+TerrainSurface::Kind SurfaceKindFrom(const std::string& name) {
+  using enum TerrainSurface::Kind;
+  for (const auto kind : {kBlock, kGround, kUnknown})
+    if (name == ToString(kind)) return kind;
+  throw std::invalid_argument("surface '" + name + "' is not known");
+}
 
 Json ToJson(const TerrainDetection& detection,
             const Rigid<frame::Robot, frame::Base>& robot_from_base) {

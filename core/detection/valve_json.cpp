@@ -8,22 +8,11 @@
 namespace foresight {
 namespace {
 
-Json ModelJson(const ValveModel& model) {
-  return {{"kind", ToString(model.kind)},
-          {"lever_length_m", model.lever_length_m},
-          {"rim_radius_m", model.rim_radius_m},
-          {"tube_radius_m", model.tube_radius_m},
-          {"spokes", model.spokes},
-          {"spoke_radius_m", model.spoke_radius_m},
-          {"hub_radius_m", model.hub_radius_m},
-          {"dish_m", model.dish_m}};
-}
-
 Json CandidateJson(const ValveCandidate& valve,
                    const Rigid<frame::Robot, frame::Base>& robot_from_base) {
   return {{"base_from_object", ToJson(valve.base_from_object)},
           {"robot_from_object", ToJson(robot_from_base * valve.base_from_object)},
-          {"model", ModelJson(valve.model)},
+          {"model", ToJson(valve.model)},
           {"log_likelihood", valve.log_likelihood},
           {"brightness", valve.brightness}};
 }
@@ -47,24 +36,8 @@ ValveModel::Kind KindFrom(const std::string& name) {
   throw std::invalid_argument("valve '" + name + "' is not known");
 }
 
-ValveModel ModelFrom(const Json& value) {
-  ValveModel model;
-  model.rim_radius_m = SizeIn(value, "rim_radius_m");
-  model.tube_radius_m = SizeIn(value, "tube_radius_m");
-  model.spokes = IntegerIn(value, "spokes", 0, 6);
-  model.spoke_radius_m = SizeIn(value, "spoke_radius_m");
-  model.hub_radius_m = SizeIn(value, "hub_radius_m");
-  model.dish_m = NumberIn(value, "dish_m", -kLargestObject_m, kLargestObject_m);
-  // Records older than levers hold wheels.
-  model.kind = KindFrom(value.value("kind", ToString(ValveModel::Kind::kWheel)));
-  if (value.contains("lever_length_m")) model.lever_length_m = SizeIn(value, "lever_length_m");
-  if (const Status status = model.Check(); !status)
-    throw std::invalid_argument(status.error().message);
-  return model;
-}
-
 ValveCandidate CandidateFrom(const Json& value) {
-  ValveCandidate valve{PoseFrom(value.at("base_from_object")), ModelFrom(value.at("model")),
+  ValveCandidate valve{PoseFrom(value.at("base_from_object")), ValveModelFrom(value.at("model")),
                        NumberFrom(value.at("log_likelihood"))};
   if (value.contains("brightness")) valve.brightness = NumberFrom(value["brightness"]);
   return valve;
@@ -86,6 +59,33 @@ ValveEvidence EvidenceFrom(const Json& value) {
 }
 
 }  // namespace
+
+Json ToJson(const ValveModel& model) {
+  return {{"kind", ToString(model.kind)},
+          {"lever_length_m", model.lever_length_m},
+          {"rim_radius_m", model.rim_radius_m},
+          {"tube_radius_m", model.tube_radius_m},
+          {"spokes", model.spokes},
+          {"spoke_radius_m", model.spoke_radius_m},
+          {"hub_radius_m", model.hub_radius_m},
+          {"dish_m", model.dish_m}};
+}
+
+ValveModel ValveModelFrom(const Json& value) {
+  ValveModel model;
+  model.rim_radius_m = SizeIn(value, "rim_radius_m");
+  model.tube_radius_m = SizeIn(value, "tube_radius_m");
+  model.spokes = IntegerIn(value, "spokes", 0, 6);
+  model.spoke_radius_m = SizeIn(value, "spoke_radius_m");
+  model.hub_radius_m = SizeIn(value, "hub_radius_m");
+  model.dish_m = NumberIn(value, "dish_m", -kLargestObject_m, kLargestObject_m);
+  // Records older than levers hold wheels.
+  model.kind = KindFrom(value.value("kind", ToString(ValveModel::Kind::kWheel)));
+  if (value.contains("lever_length_m")) model.lever_length_m = SizeIn(value, "lever_length_m");
+  if (const Status status = model.Check(); !status)
+    throw std::invalid_argument(status.error().message);
+  return model;
+}
 
 Json ToJson(const ValveDetection& detection,
             const Rigid<frame::Robot, frame::Base>& robot_from_base) {

@@ -11,6 +11,7 @@
 #include "core/io/pfm.h"
 #include "core/io/png.h"
 #include "core/mission/mission_file.h"
+#include "core/mission/pose_json.h"
 #include "core/sensor/sensor_rig.h"
 #include "tests/support/run_program.h"
 #include "tests/support/small_camera.h"
@@ -129,6 +130,53 @@ TEST_F(FitOfAScan, AnAnswerThatIsSavedStaysInTheMission) {
   ASSERT_EQ(detections->size(), 1U);
   EXPECT_EQ(detections->front().kind, "valve");
   EXPECT_TRUE(DetectionFromJson(detections->front().json));
+}
+
+TEST_F(FitOfAScan, AnObjectThatIsSavedIsShownAsARobotWouldGetIt) {
+  const std::string copy = *folder_ / "pose.foresight";
+  std::filesystem::copy_file(mission_, copy);
+  ASSERT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
+  const ProgramResult shown = Run({"mission", "pose", copy, "--detection", "1", "--json"});
+  ASSERT_EQ(shown.exit_code, 0) << shown.errors;
+  EXPECT_EQ(std::count(shown.output.begin(), shown.output.end(), '\n'), 1) << shown.output;
+  const auto pose = PoseMessageFromJson(shown.output);
+  ASSERT_TRUE(pose) << pose.error().message;
+  const auto record = MissionFile::OpenReadOnly(copy).value()->ListDetections()->front();
+  const auto valve = std::get<ValveDetection>(DetectionFromJson(record.json).value());
+  EXPECT_EQ(pose->Id(), record.uuid + "/1");
+  EXPECT_EQ(pose->frame, PoseMessage::Frame::kBase) << "nobody measured how this head is mounted";
+  EXPECT_EQ(pose->position_m, valve.best.base_from_object.translation());
+  EXPECT_EQ(pose->origin, PoseMessage::Origin::kReview);
+  EXPECT_TRUE(pose->simulated);
+  EXPECT_EQ(pose->decision, Decision::kOpen);
+
+  const ProgramResult table = Run({"mission", "pose", copy});
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_NE(table.output.find(record.uuid), std::string::npos) << table.output;
+  const ProgramResult none = Run({"mission", "pose", copy, "--detection", "7", "--json"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.errors.find("no detection 7"), std::string::npos) << none.errors;
+  EXPECT_EQ(Run({"mission", "pose", copy, "--detection", "1", "--candidate", "99"}).exit_code, 3);
+  EXPECT_EQ(Run({"mission", "pose", copy, "--candidate", "1"}).exit_code, 2) << "of which one?";
+}
+
+TEST_F(FitOfAScan, ATerrainWithoutASurfaceHasNoPoseAndTheOthersAreShown) {
+  const std::string copy = *folder_ / "poses.foresight";
+  std::filesystem::copy_file(mission_, copy);
+  ASSERT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
+  {
+    const auto mission = MissionFile::Open(copy).value();
+    DetectionRecord terrain = mission->ListDetections()->front();
+    terrain.uuid = "bare";
+    terrain.kind = "terrain";
+    terrain.json = DetectionToJson(TerrainDetection(), {});
+    ASSERT_TRUE(mission->AddDetection(terrain));
+  }
+  const ProgramResult all = Run({"mission", "pose", copy, "--json"});
+  EXPECT_EQ(all.exit_code, 0) << all.errors;
+  EXPECT_TRUE(PoseMessageFromJson(all.output)) << all.output;
+  EXPECT_NE(all.errors.find("object bare: no answer 0"), std::string::npos) << all.errors;
+  EXPECT_EQ(Run({"mission", "pose", copy, "--detection", "2"}).exit_code, 3);
 }
 
 TEST_F(FitOfAScan, WhatIsSavedIsMadeAgainWithoutADifferenceAndAChangeOfItIsNamed) {
