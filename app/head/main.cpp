@@ -35,7 +35,10 @@ constexpr double kLinkOperatorTimeout_s = 40.0;
 CLI::Option* AddListenOptions(CLI::App& app, ListenArguments& arguments) {
   CLI::Option* listen =
       app.add_option("--listen", arguments.address,
-                     "Serve stations on this address, HOST:PORT, until told to end");
+                     "Serve stations on this address, HOST:PORT, until told to end "
+                     "(default: 0.0.0.0:47130)")
+          ->expected(0, 1)
+          ->default_str("0.0.0.0:47130");
   CLI::Option* keys = app.add_option("--link-keys", arguments.keys,
                                      "Folder of this head's keys (default: /etc/foresight/link)")
                           ->needs(listen);

@@ -7,6 +7,7 @@
 #include <QTranslator>
 
 #include "app/common/emulation.h"
+#include "app/common/link_arguments.h"
 #include "app/common/seed_option.h"
 #include "app/workstation/main_window.h"
 #include "app/workstation/quit_on_signal.h"
@@ -16,6 +17,7 @@
 #include "core/base/operator_text.h"
 #include "core/base/version.h"
 #include "hardware/assembly/real_head.h"
+#include "hardware/link/client/mission_archive.h"
 #include "hardware/simulated/simulated_head.h"
 #include "ui/panels/theme.h"
 #include "ui/views/vtk_setup.h"
@@ -31,6 +33,7 @@ struct Options {
   EmulationArguments emulation;  ///< its scene, rig and seed; rig and seed are the simulation's too
   std::string prior;             ///< what the simulated or emulated head believes of itself
   std::string head_config;       ///< of a real head, in place of a scene
+  LinkArguments link;            ///< to a head elsewhere
   std::string open;              ///< a mission to review
   std::string mission;  ///< the file to record into; empty: a new one in the user's data folder
   bool fast = false;
@@ -62,6 +65,10 @@ int Parse(int argc, char** argv, Options* options) {
                      "A real head and its devices (YAML), in place of the simulated one");
   for (const char* other : {"--scene", "--emulate", "--rig", "--prior", "--seed", "--fast"})
     config->excludes(other);
+  CLI::Option* head = AddLinkOptions(app, options->link);
+  for (const char* other :
+       {"--scene", "--emulate", "--rig", "--prior", "--seed", "--fast", "--head-config"})
+    head->excludes(other);
   app.add_option("--open", options->open, "Mission file to look at, beside the live session");
   app.add_option("--mission", options->mission,
                  "Mission file to record into, a new one or one to continue "
@@ -92,7 +99,17 @@ struct Head {
   std::shared_ptr<SensorHead> head;
   SessionMode mode = SessionMode::kSimulation;
   std::shared_ptr<MovingStand> stand = nullptr;
+  std::shared_ptr<MissionArchive> archive = nullptr;  ///< of a head elsewhere
 };
+
+Result<Head> MakeRemoteHead(const Options& options) {
+  Head head;
+  head.archive = std::make_shared<MissionArchive>();
+  FORESIGHT_TRY(const auto remote, ConnectHead(options.link, head.archive));
+  head.mode = remote->Simulated() ? SessionMode::kSimulation : SessionMode::kLive;
+  head.head = remote;
+  return head;
+}
 
 /// The drivers of a real head, through the sockets of this computer.
 Result<Head> MakeEmulatedHead(const Options& options) {
@@ -129,6 +146,7 @@ Result<Head> MakeHeadOnScene(const Options& options) {
 }
 
 Result<Head> MakeHead(const Options& options) {
+  if (!options.link.head.empty()) return MakeRemoteHead(options);
   if (!options.emulation.scene.empty()) return MakeEmulatedHead(options);
   if (options.head_config.empty()) return MakeHeadOnScene(options);
   FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(options.head_config));
@@ -167,7 +185,9 @@ int Run(int argc, char** argv) {
     bench.recording.Begin(QString::fromStdString(options.mission));
   else
     bench.recording.BeginInFolder(RecordingViewModel::DefaultFolder());
+  const auto archive = head->archive;
   const auto remember = [&] {
+    if (archive) archive->Use(bench.recording.File());
     if (settings.value(kLastMission) == bench.recording.Path()) return;
     settings.setValue(kLastMission, bench.recording.Path());
     settings.sync();  // the program may be killed at any moment

@@ -53,6 +53,42 @@ bool LooksSame(const HeadStatus& a, const HeadStatus& b) {
          a.lost_lines == b.lost_lines && a.message == b.message;
 }
 
+/// Whole seconds, so that the row does not change ten times a second.
+QString SecondsText(double seconds) {
+  if (!std::isfinite(seconds)) return HeadViewModel::tr("no end in sight");
+  return HeadViewModel::tr("%1 s").arg(seconds, 0, 'f', 0);
+}
+
+DeviceRow LinkRow(const LinkHealth& link) {
+  DeviceRow row;
+  row.name = HeadViewModel::tr("Link");
+  if (!link.connected) {
+    row.lamp = DeviceRow::Lamp::kMissing;
+    row.state = HeadViewModel::tr("lost");
+    row.detail = HeadViewModel::tr("no word from %1 for %2. %3")
+                     .arg(QString::fromStdString(link.address), SecondsText(link.age_s),
+                          QString::fromStdString(link.trouble));
+    return row;
+  }
+  row.lamp = link.has_control ? DeviceRow::Lamp::kWell : DeviceRow::Lamp::kDegraded;
+  row.state = link.has_control ? HeadViewModel::tr("well") : HeadViewModel::tr("looking on");
+  row.detail = HeadViewModel::tr("%1: round trip %2 ms, last word %3 ago, %4 kB/s")
+                   .arg(QString::fromStdString(link.address))
+                   .arg(1e3 * link.round_trip_s, 0, 'f', 0)
+                   .arg(SecondsText(link.age_s))
+                   .arg(1e-3 * link.down_bytes_per_s, 0, 'f', 0);
+  if (link.left_bytes > 0)
+    row.detail += HeadViewModel::tr("; %1 kB of scans to come, %2 to go")
+                      .arg(1e-3 * static_cast<double>(link.left_bytes), 0, 'f', 0)
+                      .arg(SecondsText(link.left_s));
+  if (!link.has_control)
+    row.detail +=
+        link.holder.empty()
+            ? HeadViewModel::tr("; nobody has control")
+            : HeadViewModel::tr("; %1 has control").arg(QString::fromStdString(link.holder));
+  return row;
+}
+
 DeviceRow RowOf(const QString& name, const DeviceDiagnosis& diagnosis, const std::string& numbers) {
   using Lamp = DeviceRow::Lamp;
   const auto problem = QString::fromStdString(diagnosis.problem);
@@ -160,11 +196,13 @@ QVector<DeviceRow> HeadViewModel::DescribeDevices() const {
   if (status_.state == HeadState::kDisconnected) {
     for (const QString& name : names)
       rows << DeviceRow{name, DeviceRow::Lamp::kIdle, tr("not connected yet"), {}};
+    if (const auto link = head_->Link()) rows << LinkRow(*link);
     return rows;
   }
   rows << RowOf(names[0], diagnosis_.lidar, Describe(status_.health.lidar))
        << RowOf(names[1], diagnosis_.camera, Describe(status_.health.camera))
        << RowOf(names[2], diagnosis_.motor, Describe(status_.health.motor));
+  if (const auto link = head_->Link()) rows << LinkRow(*link);
   return rows;
 }
 
@@ -261,12 +299,16 @@ void HeadViewModel::PollHealth() {
 void HeadViewModel::PollScan() {
   // An image is shown as soon as it is there; lines may wait for the next look.
   const bool new_image = status_.frames != frames_shown_;
-  const bool look = new_image || (++polls_ % kPollsPerLook == 0 && status_.lines != lines_shown_);
+  // Over a link lines come when they come, also after the sweep.
+  const bool over_link = head_->Link().has_value();
+  const bool look =
+      new_image || (++polls_ % kPollsPerLook == 0 && (over_link || status_.lines != lines_shown_));
   if (Sweeps() && !look) return;
   const auto scan = live_->Snapshot();
   if (!scan) {
-    // Accepted, and then neither begun nor refused: the head was lost, or began anew.
-    polls_without_scan_ = Sweeps() ? 0 : polls_without_scan_ + 1;
+    // Accepted, and then neither begun nor refused: the head was lost, or began anew. Over a link
+    // that may take a blackout, and the end comes whatever happens.
+    polls_without_scan_ = Sweeps() || over_link ? 0 : polls_without_scan_ + 1;
     if (polls_without_scan_ < kPollsUntilLost) return;
     live_.reset();
     Q_EMIT noticed({Notice::Level::kError, tr("The head did not begin the scan."),

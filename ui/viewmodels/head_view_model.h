@@ -71,7 +71,8 @@ class HeadViewModel : public QObject {
   /// In [0, 1], of the running scan.
   double ScanProgress() const;
 
-  /// Lidar, camera and motor; trouble of the last ten seconds still shows.
+  /// Lidar, camera and motor, and the link where the head is at the far end of one; trouble of the
+  /// last ten seconds still shows.
   const QVector<DeviceRow>& Devices() const { return devices_; }
 
   /// The calibration in force on the head.

@@ -47,6 +47,8 @@ class RecordingViewModel : public QObject {
 
   QString Path() const { return path_; }
   bool Recording() const { return recorder_ != nullptr; }
+  /// The file that is recorded into; nullptr while there is none.
+  std::shared_ptr<MissionFile> File() const { return file_; }
   /// The sink that writes a scan while it arrives; nullptr while there is no file to write.
   std::shared_ptr<ScanSink> Recorder() const { return recorder_; }
   /// All scans of the file, oldest first, the running one too.

@@ -227,7 +227,8 @@ void ScanFetcher::Work(const std::stop_token& stop) {
     }
     if (scan->sink) EndSinksOfOthers(*scan);
     const Status fetched = Fetch(*scan, stop);
-    const bool disk = !fetched && fetched.error().code == ErrorCode::kIo;
+    // A link that broke is tried again at once; a disk or a mission that takes nothing is not.
+    const bool disk = !fetched && fetched.error().code != ErrorCode::kDevice;
     if (disk) LogError("{}", fetched.error().message);
     const std::lock_guard lock(mutex_);
     if (!fetched) scan->state.trouble = fetched.error().message;

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""A room scan through blackouts: head and station in network namespaces, with a router between them that forwards
+for a second at a time. Needs root, iproute2 and openssl; addresses are those of the namespaces alone.
+
+    tests/link/blackout_trial.py --bin build/release/bin --scene resources/scenes/room.yaml --runs 20 --seed 1
+
+For each run: whether the station's scan has the head's digest, how much of each open window was used while there was
+more to send, and when the scan was whole. Exit 0 when every scan arrived whole and every window was used to 90 %.
+"""
+import argparse
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+PORT = 47130
+HEAD, STATION = "10.77.1.2", "10.77.2.2"
+
+
+def run(*command, **kwargs):
+    return subprocess.run(command, check=True, capture_output=True, text=True, **kwargs)
+
+
+class Network:
+    """Namespaces head - router - station; both ways through the router at one rate and delay."""
+
+    def __init__(self, name, mbit, delay_ms):
+        self.name = name
+        for space in self.spaces():
+            run("ip", "netns", "add", space)
+        self.join("h", HEAD, "10.77.1.1", mbit, delay_ms)
+        self.join("s", STATION, "10.77.2.1", mbit, delay_ms)
+        self.open(True)
+
+    def spaces(self):
+        return [f"{self.name}-{part}" for part in ("h", "r", "s")]
+
+    def join(self, part, address, router, mbit, delay_ms):
+        end, middle = f"{self.name}-{part}", f"{self.name}-r"
+        run("ip", "link", "add", f"v{part}0", "netns", end, "type", "veth", "peer", "name", f"v{part}1", "netns", middle)
+        self.within(end, "ip", "addr", "add", f"{address}/24", "dev", f"v{part}0")
+        self.within(middle, "ip", "addr", "add", f"{router}/24", "dev", f"v{part}1")
+        for space, device in ((end, "lo"), (end, f"v{part}0"), (middle, f"v{part}1")):
+            self.within(space, "ip", "link", "set", device, "up")
+        self.within(end, "ip", "route", "add", "default", "via", router)
+        self.within(middle, "tc", "qdisc", "add", "dev", f"v{part}1", "root", "netem", "rate", f"{mbit}mbit",
+                    "delay", f"{delay_ms}ms", "limit", "2000")
+
+    def within(self, space, *command):
+        return run("ip", "netns", "exec", space, *command)
+
+    def open(self, is_open):
+        self.within(f"{self.name}-r", "sysctl", "-qw", f"net.ipv4.ip_forward={int(is_open)}")
+
+    def station_bytes(self):
+        text = self.within(f"{self.name}-s", "cat", "/sys/class/net/vs0/statistics/rx_bytes")
+        return int(text.stdout)
+
+    def close(self):
+        for space in self.spaces():
+            subprocess.run(["ip", "netns", "del", space], capture_output=True)
+
+
+class Sampler(threading.Thread):
+    """When the station received how many bytes, a hundred times a second."""
+
+    def __init__(self, network):
+        super().__init__(daemon=True)
+        self.network, self.samples, self.ended = network, [], False
+        self.counter = subprocess.Popen(
+            ["ip", "netns", "exec", f"{network.name}-s", sys.executable, "-u", "-c",
+             "import time\nf='/sys/class/net/vs0/statistics/rx_bytes'\n"
+             "while True:\n print(time.time(), open(f).read().strip()); time.sleep(0.01)"],
+            stdout=subprocess.PIPE, text=True)
+        self.start()
+
+    def run(self):
+        for line in self.counter.stdout:
+            moment, count = line.split()
+            self.samples.append((float(moment), int(count)))
+
+    def stop(self):
+        self.counter.kill()
+        self.join()
+
+    def used_ratio(self, begin, end):
+        """Of the hundredths of a second in the window, those in which something came."""
+        inside = [sample for sample in self.samples if begin <= sample[0] <= end]
+        steps = list(zip(inside, inside[1:]))
+        moving = sum(b[0] - a[0] for a, b in steps if b[1] - a[1] > 200)
+        return moving / (end - begin) if steps else 0.0
+
+
+def one_run(arguments, seed, folder):
+    rng = random.Random(seed)
+    network = Network(f"fsl{os.getpid() % 1000}", arguments.mbit, arguments.delay_ms)
+    processes = []
+    try:
+        head_log = open(folder / "head.log", "w")
+        head = subprocess.Popen(
+            ["ip", "netns", "exec", f"{network.name}-h", arguments.bin / "foresight-head", "--emulate", arguments.scene,
+             "--seed", str(seed), "--listen", f"{HEAD}:{PORT}", "--link-keys", arguments.keys / "head",
+             "--scans", folder / "head-scans"], stdout=head_log, stderr=head_log)
+        processes.append(head)
+        deadline = time.time() + 20
+        while "listening" not in (folder / "head.log").read_text() and time.time() < deadline:
+            time.sleep(0.05)
+        sampler = Sampler(network)
+        environment = dict(os.environ, XDG_STATE_HOME=str(folder / "state"))
+        began = time.time()
+        station = subprocess.Popen(
+            ["ip", "netns", "exec", f"{network.name}-s", arguments.bin / "foresightctl", "scan", "--head", HEAD,
+             "--link-keys", arguments.keys / "station", "--from", "-30", "--to", "80", "--images",
+             "-30,-20,-10,0,10,20,30,40,50,60,70,80", "--out", folder / "station.foresight", "--json"],
+            stdout=open(folder / "station.json", "w"), stderr=open(folder / "station.log", "w"), env=environment)
+        processes.append(station)
+        # The first window lasts until the sweep has begun; then the blackouts.
+        time.sleep(arguments.first_s)
+        windows = []
+        while station.poll() is None and time.time() - began < arguments.limit_s:
+            network.open(False)
+            time.sleep(rng.uniform(arguments.shortest_s, arguments.longest_s))
+            begin = time.time()
+            network.open(True)
+            while time.time() - begin < arguments.window_s and station.poll() is None:
+                time.sleep(0.01)
+            windows.append((begin, time.time(), station.poll() is None))
+        seconds = time.time() - began
+        network.open(True)
+        code = station.wait(timeout=60) if station.poll() is not None else None
+        if code is None:
+            station.send_signal(signal.SIGINT)
+            station.wait(timeout=30)
+        sampler.stop()
+        used = [round(sampler.used_ratio(a, b), 3) for a, b, more in windows if more]
+        digests = []
+        for mission in [folder / "station.foresight", *sorted((folder / "head-scans").glob("*.foresight"))]:
+            shown = subprocess.run([arguments.bin / "foresightctl", "mission", "digest", mission, "--json"],
+                                   capture_output=True, text=True)
+            digests += [scan["digest"] for scan in json.loads(shown.stdout or "{}").get("scans", [])]
+        return {"seed": seed, "exit": code, "seconds": round(seconds, 1), "windows": len(windows), "used": used,
+                "identical": len(digests) == 2 and digests[0] == digests[1]}
+    finally:
+        for process in processes:
+            if process.poll() is None:
+                process.kill()
+        network.close()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--bin", type=pathlib.Path, default=pathlib.Path("build/release/bin"))
+    parser.add_argument("--scene", type=pathlib.Path, default=pathlib.Path("resources/scenes/room.yaml"))
+    parser.add_argument("--runs", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--mbit", type=float, default=300.0, help="of the open window")
+    parser.add_argument("--delay-ms", type=float, default=5.0, help="one way")
+    parser.add_argument("--window-s", type=float, default=1.0)
+    parser.add_argument("--shortest-s", type=float, default=1.0, help="blackout")
+    parser.add_argument("--longest-s", type=float, default=30.0, help="blackout")
+    parser.add_argument("--first-s", type=float, default=6.0, help="until the first blackout")
+    parser.add_argument("--limit-s", type=float, default=240.0)
+    arguments = parser.parse_args()
+    arguments.bin = arguments.bin.resolve()
+    arguments.scene = arguments.scene.resolve()
+    if os.geteuid() != 0 or not shutil.which("ip"):
+        print("blackout_trial: needs root and iproute2 for network namespaces", file=sys.stderr)
+        return 2
+    outcomes = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        arguments.keys = folder / "keys"
+        arguments.keys.mkdir()
+        make_link_keys(arguments)
+        for number in range(arguments.runs):
+            here = folder / str(number)
+            here.mkdir()
+            outcome = one_run(arguments, arguments.seed + number, here)
+            print(json.dumps(outcome), flush=True)
+            if not outcome["identical"]:
+                for log in ("head.log", "station.log"):
+                    print((here / log).read_text()[-1500:], file=sys.stderr)
+            outcomes.append(outcome)
+    whole = sum(outcome["identical"] for outcome in outcomes)
+    used = [ratio for outcome in outcomes for ratio in outcome["used"]]
+    print(f"{whole} of {len(outcomes)} scans identical; {sum(r >= 0.9 for r in used)} of {len(used)} windows used to "
+          f"90 %, least {min(used, default=1.0):.2f}")
+    return 0 if whole == len(outcomes) and all(ratio >= 0.9 for ratio in used) else 1
+
+
+def make_link_keys(arguments):
+    """A CA, a head's keys and an operator's, as the user guide makes them."""
+    ctl = arguments.bin / "foresightctl"
+    ca = arguments.keys / "ca"
+    run(ctl, "pki", "init", "--ca", ca)
+    run(ctl, "pki", "head", "trial", "--address", HEAD, "--ca", ca, "--out", arguments.keys / "head")
+    run(ctl, "pki", "operator", "anna", "--ca", ca, "--out", arguments.keys / "station")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
