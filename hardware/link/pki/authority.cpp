@@ -138,8 +138,9 @@ Result<LinkCertificate> CertificateAuthority::Renew(const std::string& name,
   CertificateRequest request{certificate.identity, options.addresses, validity,
                              certificate.public_key_pem};
   if (!request.addresses.empty() && certificate.identity.role != LinkRole::kHead)
-    return Fail(ErrorCode::kInvalidOptions, "--address: {} is the name of an {}; only heads have addresses",
-                name, ToString(certificate.identity.role));
+    return Fail(ErrorCode::kInvalidOptions,
+                "--address: {} is the name of an {}; only heads have addresses", name,
+                ToString(certificate.identity.role));
   if (request.addresses.empty() && !certificate.addresses.empty())  // the first is the stable one
     request.addresses.assign(certificate.addresses.begin() + 1, certificate.addresses.end());
   FORESIGHT_CHECK(MakePrivateFolder(FolderOf(name)));

@@ -94,8 +94,9 @@ class Examination {
     if (list_pem_.empty() || ca_pem_.empty()) return;
     const auto list = ReadRevocationList(list_pem_, ca_pem_, kRevocationsFile);
     if (!list) return Add(Kind::kProblem, list.error().message);
-    Add(Kind::kGood, fmt::format("{}: list {} of revocations ({} in it), until {}", kRevocationsFile,
-                                 list->number, list->serials.size(), DateText(list->due_utc_s)));
+    Add(Kind::kGood,
+        fmt::format("{}: list {} of revocations ({} in it), until {}", kRevocationsFile,
+                    list->number, list->serials.size(), DateText(list->due_utc_s)));
     if (list->due_utc_s < utc_s_)
       Add(Kind::kWarning, fmt::format("{}: was to be made anew by {} (foresightctl pki "
                                       "revocations); it still holds",
