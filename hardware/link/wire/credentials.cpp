@@ -66,13 +66,13 @@ class GateVerifier : public tls::ExternalCertificateVerifier {
   tls::HostNameCertificateVerifier host_verifier_;
 };
 
-void Configure(tls::TlsCredentialsOptions& options, std::shared_ptr<CertificateGate> gate,
+void Configure(tls::TlsCredentialsOptions& options, const std::shared_ptr<CertificateGate>& gate,
                bool check_host) {
   options.watch_root_certs();
   options.watch_identity_key_cert_pairs();
 #ifndef __clang_analyzer__  // it takes what gRPC's core owns for a leak
   options.set_certificate_verifier(
-      tls::ExternalCertificateVerifier::Create<GateVerifier>(std::move(gate), check_host));
+      tls::ExternalCertificateVerifier::Create<GateVerifier>(gate, check_host));
 #endif
 }
 
@@ -92,19 +92,19 @@ Status CheckLoopback(std::string_view host) {
 
 }  // namespace
 
-std::shared_ptr<grpc::ServerCredentials> HeadCredentials(const TlsFiles& files,
-                                                         std::shared_ptr<CertificateGate> gate) {
+std::shared_ptr<grpc::ServerCredentials> HeadCredentials(
+    const TlsFiles& files, const std::shared_ptr<CertificateGate>& gate) {
   tls::TlsServerCredentialsOptions options(ProviderOf(files));
-  Configure(options, std::move(gate), false);
+  Configure(options, gate, false);
   options.set_cert_request_type(GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
   return tls::TlsServerCredentials(options);
 }
 
 std::shared_ptr<grpc::ChannelCredentials> StationCredentials(
-    const TlsFiles& files, std::shared_ptr<CertificateGate> gate) {
+    const TlsFiles& files, const std::shared_ptr<CertificateGate>& gate) {
   tls::TlsChannelCredentialsOptions options;
   options.set_certificate_provider(ProviderOf(files));
-  Configure(options, std::move(gate), true);
+  Configure(options, gate, true);
   return tls::TlsCredentials(options);
 }
 

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+#include <thread>
+#include <vector>
+
 #include "core/base/log.h"
 #include "tests/support/link_keys.h"
 
@@ -108,6 +112,21 @@ TEST_F(Gate, AConnectionThatLastsBeyondTheCertificateIsRefused) {
   const auto late = gate->CheckStillGood(anna_);
   ASSERT_FALSE(late);
   EXPECT_THAT(late.error().message, HasSubstr("foresight:operator:anna: expired on"));
+}
+
+TEST_F(Gate, IsAskedFromManyThreadsWhileListsChange) {
+  const auto gate = Open(head_);
+  const std::string otto = Pem(keys_.Observer());
+  std::atomic<int> refused = 0;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 100; ++k)
+        if (!gate->Admit(otto) || !gate->CheckStillGood(otto)) ++refused;
+    });
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(keys_.ca().MakeRevocationsAnew(30, kNow + i));
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(refused, 0);
 }
 
 TEST_F(Gate, DoesNotOpenWithoutAListOrForARevokedCertificate) {
