@@ -75,7 +75,7 @@ Status CheckChunk(const Chunk& chunk) {
 }
 
 std::string Describe(const Chunk& chunk) {
-  const std::string item = fmt::format("{} {}", ToString(chunk.id.kind), chunk.id.item);
+  std::string item = fmt::format("{} {}", ToString(chunk.id.kind), chunk.id.item);
   if (chunk.parts == 1) return item;
   return fmt::format("{}, part {} of {}", item, chunk.id.part + 1, chunk.parts);
 }

@@ -25,7 +25,7 @@ class ChunkSource {
   Result<std::optional<Chunk>> Next();
 
   /// Bytes of the items that are there now and may travel, and were not sent: measured for what was
-  /// encoded, expected for the rest.
+  /// encoded, expected for the rest. O(items).
   std::int64_t LeftBytes() const;
   const ItemCounts& counts() const { return counts_; }
 
