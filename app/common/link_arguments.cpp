@@ -35,7 +35,7 @@ Result<std::shared_ptr<grpc::ChannelCredentials>> CredentialsFor(const LinkArgum
   if (arguments.plaintext) return PlaintextStationCredentials(HostOf(address));
   const std::filesystem::path keys =
       arguments.keys.empty() ? KeyFolderOfStation() : std::filesystem::path(arguments.keys);
-  FORESIGHT_TRY(const TlsFiles files, LoadTlsFiles(keys));
+  FORESIGHT_TRY(const TlsFiles files, LoadTlsFilesOfStation(keys));
   FORESIGHT_TRY(auto gate, CertificateGate::Open(files));
   return StationCredentials(files, std::move(gate));
 }

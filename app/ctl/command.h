@@ -33,6 +33,7 @@ void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 void AddHealthCommand(CLI::App& app, Invocation& invocation);
 void AddMissionCommand(CLI::App& app, Invocation& invocation);
 /// `mission` is the command of that name.
+void AddMissionDigestCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionPoseCommand(CLI::App& mission, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);
 void AddPkiCommand(CLI::App& app, Invocation& invocation);

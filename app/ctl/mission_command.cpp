@@ -193,6 +193,7 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   check->callback([&invocation, arguments = check_arguments] {
     invocation = [arguments](const RunContext& context) { return Check(*arguments, context); };
   });
+  AddMissionDigestCommand(*mission, invocation);
   AddMissionPoseCommand(*mission, invocation);
 }
 

@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <optional>
 #include <thread>
 
 #include "app/common/output.h"
+#include "hardware/link/robot/robot_socket.h"
 #include "hardware/link/server/head_server.h"
 #include "hardware/link/wire/credentials.h"
 #include "hardware/link/wire/grpc_log.h"
@@ -44,7 +46,7 @@ Result<Door> MakeDoor(const ListenArguments& arguments) {
   } else {
     const std::filesystem::path keys =
         arguments.keys.empty() ? KeyFolderOfHead() : std::filesystem::path(arguments.keys);
-    FORESIGHT_TRY(const TlsFiles files, LoadTlsFiles(keys));
+    FORESIGHT_TRY(const TlsFiles files, LoadTlsFilesOfHead(keys));
     FORESIGHT_TRY(gate, CertificateGate::Open(files));
     door.credentials = HeadCredentials(files, gate);
   }
@@ -64,7 +66,17 @@ Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
   const std::filesystem::path folder =
       arguments.scans.empty() ? ScansFolder() : std::filesystem::path(arguments.scans);
   FORESIGHT_TRY(const auto shelf, ScanShelf::Open({folder, arguments.disk_ratio}));
-  HeadDesk desk(head, *shelf, {arguments.lease_s, simulated});
+  std::unique_ptr<RobotSocket> robot;
+  std::optional<PoseGate> gate;
+  if (!arguments.robot_socket.empty()) {
+    RobotSocketOptions options;
+    options.path = arguments.robot_socket;
+    FORESIGHT_TRY(robot, RobotSocket::Listen(options));
+    gate.emplace(PoseGateOptions(),
+                 [&robot](const PoseMessage& message) { return robot->Send(message); });
+    PrintNote("poses go to whoever connects to {}", robot->path().string());
+  }
+  HeadDesk desk(head, *shelf, {arguments.lease_s, simulated, gate ? &*gate : nullptr});
   FORESIGHT_TRY(const auto server,
                 HeadServer::Start(desk, arguments.address, door.credentials, door.peer));
   const std::string host = arguments.address.substr(0, arguments.address.rfind(':'));

@@ -17,6 +17,7 @@ struct ListenArguments {
   std::string scans;       ///< folder; empty = the user's
   double disk_ratio = 0.5;
   double lease_s = 60.0;
+  std::string robot_socket;  ///< path; empty = no robot
   bool json = false;
 };
 

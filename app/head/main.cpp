@@ -57,6 +57,9 @@ CLI::Option* AddListenOptions(CLI::App& app, ListenArguments& arguments) {
       ->needs(listen)
       ->check(CLI::Range(1.0, 86400.0))
       ->capture_default_str();
+  app.add_option("--robot-socket", arguments.robot_socket,
+                 "Local socket from which the robot's software takes accepted poses")
+      ->needs(listen);
   return listen;
 }
 

@@ -106,7 +106,7 @@ def one_run(arguments, seed, folder):
         head_log = open(folder / "head.log", "w")
         head = subprocess.Popen(
             ["ip", "netns", "exec", f"{network.name}-h", arguments.bin / "foresight-head", "--emulate", arguments.scene,
-             "--seed", str(seed), "--listen", f"{HEAD}:{PORT}", "--link-keys", arguments.keys / "head",
+             "--seed", str(seed), "--listen", f"{HEAD}:{PORT}", "--link-keys", arguments.keys / "ca/machines/trial",
              "--scans", folder / "head-scans"], stdout=head_log, stderr=head_log)
         processes.append(head)
         deadline = time.time() + 20
@@ -117,7 +117,7 @@ def one_run(arguments, seed, folder):
         began = time.time()
         station = subprocess.Popen(
             ["ip", "netns", "exec", f"{network.name}-s", arguments.bin / "foresightctl", "scan", "--head", HEAD,
-             "--link-keys", arguments.keys / "station", "--from", "-30", "--to", "80", "--images",
+             "--link-keys", arguments.keys / "ca/machines/anna", "--from", "-30", "--to", "80", "--images",
              "-30,-20,-10,0,10,20,30,40,50,60,70,80", "--out", folder / "station.foresight", "--json"],
             stdout=open(folder / "station.json", "w"), stderr=open(folder / "station.log", "w"), env=environment)
         processes.append(station)
@@ -199,9 +199,9 @@ def make_link_keys(arguments):
     """A CA, a head's keys and an operator's, as the user guide makes them."""
     ctl = arguments.bin / "foresightctl"
     ca = arguments.keys / "ca"
-    run(ctl, "pki", "init", "--ca", ca)
-    run(ctl, "pki", "head", "trial", "--address", HEAD, "--ca", ca, "--out", arguments.keys / "head")
-    run(ctl, "pki", "operator", "anna", "--ca", ca, "--out", arguments.keys / "station")
+    run(ctl, "pki", "init", "--pki", ca)
+    run(ctl, "pki", "head", "trial", "--address", HEAD, "--pki", ca)
+    run(ctl, "pki", "operator", "anna", "--pki", ca)
 
 
 if __name__ == "__main__":

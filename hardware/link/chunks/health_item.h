@@ -19,7 +19,5 @@ std::string ToJson(const HealthReport& report);
 /// Fails with kBadData, naming `source`. What a member does not say, or says as null, keeps its
 /// default (NaN for numbers).
 Result<HealthReport> HealthReportFromJson(std::string_view json, const std::string& source);
-/// The same for one moment.
-Result<HeadHealth> HeadHealthFromJson(std::string_view json, const std::string& source);
 
 }  // namespace foresight

@@ -369,6 +369,8 @@ Status ScanFetcher::Finish(Fetched& scan) {
   const Result<Scan> whole = scan.transfer->builder().Whole();
   if (!whole) {
     LogError("scan {}: {}: it is fetched again", scan.header.uuid, whole.error().message);
+    EndSink(scan, ScanState::kInterrupted,
+            "what came over the link is not what the head has: it is fetched again");
     const Status removed = scan.transfer->Remove();
     scan.transfer.reset();
     FORESIGHT_CHECK(removed);

@@ -228,6 +228,51 @@ link::Outcome HeadDesk::Stop(const Peer& peer) {
   return outcome;
 }
 
+HeadFacts HeadDesk::Facts() const {
+  HeadFacts facts;
+  facts.simulated = options_.simulated;
+  {
+    const std::lock_guard lock(names_);
+    facts.rig_id = rig_id_;
+  }
+  facts.find_scan = [this](const std::string& uuid) -> std::optional<ScanAtHead> {
+    std::optional<ScanAtHead> found;
+    const std::vector<ShelvedScan> scans = shelf_.List();
+    for (const ShelvedScan& scan : scans) {
+      if (scan.uuid != uuid) {
+        // Oldest first: one behind it that has ended is newer.
+        if (found && scan.state != ScanState::kRunning) found->is_newest = false;
+        continue;
+      }
+      const auto age = std::chrono::steady_clock::now() - scan.begun;
+      found =
+          ScanAtHead{scan.rig_id, scan.simulated, std::chrono::duration<double>(age).count(), true};
+    }
+    return found;
+  };
+  return facts;
+}
+
+link::PoseReply HeadDesk::PublishPose(const link::PoseRequest& request, const Peer& peer) {
+  link::PoseReply reply;
+  reply.set_answer(ToString(RobotAnswer::Kind::kRefused));
+  if (!peer.may_operate || !lease_.Renew(request.control_token(), Time())) {
+    reply.set_reason(peer.name + " does not have control, so nothing was sent to the robot");
+    return reply;
+  }
+  if (options_.gate == nullptr) {
+    reply.set_reason(
+        "the head has no socket for a robot: start foresight-head with --robot-socket");
+    return reply;
+  }
+  const PoseGate::Outcome outcome = options_.gate->Publish(request.pose_json(), Facts());
+  reply.set_answer(ToString(outcome.answer.kind));
+  reply.set_reason(outcome.answer.reason);
+  reply.set_repeated(outcome.repeated);
+  LogInfo("{}: a pose to the robot: {} {}", peer.name, reply.answer(), reply.reason());
+  return reply;
+}
+
 link::Status HeadDesk::Now(bool with_health) const {
   link::Status status = ToMessage(head_->Status(), with_health);
   status.set_free_bytes(shelf_.FreeBytes());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hardware/api/sensor_head.h"
+#include "hardware/link/robot/pose_gate.h"
 #include "hardware/link/server/command_log.h"
 #include "hardware/link/server/control_lease.h"
 #include "hardware/link/server/scan_shelf.h"
@@ -22,6 +23,7 @@ class HeadDesk {
   struct Options {
     double lease_s = ControlLease::kUsualLease_s;
     bool simulated = false;
+    PoseGate* gate = nullptr;  ///< to the robot; null = there is none. Outlives the desk.
   };
 
   /// `shelf` outlives the desk.
@@ -39,6 +41,8 @@ class HeadDesk {
   link::Outcome Execute(const link::Command& command, const Peer& peer);
   /// Any operator may stop the head, with control or without.
   link::Outcome Stop(const Peer& peer);
+  /// Hands an accepted pose on to the robot, and waits for its answer.
+  link::PoseReply PublishPose(const link::PoseRequest& request, const Peer& peer);
   /// Renews the lease; the head hears that somebody is there. False for who has no control.
   bool SignOfLife(const std::string& token);
 
@@ -66,6 +70,7 @@ class HeadDesk {
   Status Carry(const link::Command& command);
   Status StartScan(const link::StartScan& start);
   Status EndScan(const link::EndScan& end);
+  HeadFacts Facts() const;
   Status SetRig(const link::SetRig& set);
   Status StartStops(const link::StartStops& start);
 

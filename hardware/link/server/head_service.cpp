@@ -91,7 +91,9 @@ grpc::Status HeadService::Watch(grpc::ServerContext* context, WatchStream::Strea
   if (!Admit(*context, &refusal)) return refusal;
   const Place place(watches_, kMostWatches);
   if (!place) return TooMany("streams of the status", kMostWatches);
-  WatchStream(desk_, *context, *stream).Run(closing_);
+  // A certificate may be revoked while the stream lasts.
+  const auto still_good = [this, context] { return peer_(*context).has_value(); };
+  WatchStream(desk_, *context, *stream, still_good).Run(closing_);
   return grpc::Status::OK;
 }
 
@@ -148,7 +150,8 @@ grpc::Status HeadService::Transfer(grpc::ServerContext* context, TransferStream:
   if (!peer) return refusal;
   const Place place(transfers_, kMostTransfers);
   if (!place) return TooMany("transfers of scans", kMostTransfers);
-  return TransferStream(desk_.shelf(), *peer, *context, *stream).Run(closing_);
+  const auto still_good = [this, context] { return peer_(*context).has_value(); };
+  return TransferStream(desk_.shelf(), *peer, *context, *stream, still_good).Run(closing_);
 }
 
 grpc::Status HeadService::Look(grpc::ServerContext* context, const link::LiveViewRequest* request,
@@ -183,6 +186,17 @@ grpc::Status HeadService::FetchStops(grpc::ServerContext* context,
     if (!stream->Write(*event) || news.end) break;
     ++number;
   }
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::PublishPose(grpc::ServerContext* context,
+                                      const link::PoseRequest* request, link::PoseReply* reply) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  const Place place(poses_, kMostPoses);
+  if (!place) return TooMany("poses", kMostPoses);
+  *reply = desk_.PublishPose(*request, *peer);
   return grpc::Status::OK;
 }
 

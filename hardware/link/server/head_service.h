@@ -21,6 +21,7 @@ class HeadService final : public link::SensorHead::Service {
   static constexpr int kMostWatches = 32;
   static constexpr int kMostTransfers = 16;
   static constexpr int kMostLooks = 8;
+  static constexpr int kMostPoses = 4;  ///< that wait for the robot
 
   HeadService(HeadDesk& desk, PeerReader peer);
   void Close();
@@ -46,6 +47,8 @@ class HeadService final : public link::SensorHead::Service {
                     grpc::ServerWriter<link::LiveViewImage>* stream) override;
   grpc::Status FetchStops(grpc::ServerContext* context, const link::StopsRequest* request,
                           grpc::ServerWriter<link::StopEvent>* stream) override;
+  grpc::Status PublishPose(grpc::ServerContext* context, const link::PoseRequest* request,
+                           link::PoseReply* reply) override;
   grpc::Status ListScans(grpc::ServerContext* context, const link::ListScansRequest* request,
                          link::ListScansReply* reply) override;
 
@@ -58,6 +61,7 @@ class HeadService final : public link::SensorHead::Service {
   std::atomic<int> watches_{0};
   std::atomic<int> transfers_{0};
   std::atomic<int> looks_{0};
+  std::atomic<int> poses_{0};
 };
 
 }  // namespace foresight

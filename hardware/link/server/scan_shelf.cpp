@@ -10,8 +10,10 @@
 #include "core/base/log.h"
 #include "core/base/utc_text.h"
 #include "core/mission/mission_file.h"
+#include "core/sensor/rig_id.h"
 #include "hardware/head/scan_assembler.h"
 #include "hardware/head/scan_recorder.h"
+#include "hardware/link/chunks/health_item.h"
 
 namespace foresight {
 namespace {
@@ -37,9 +39,12 @@ std::int64_t SizeOf(const std::filesystem::path& path) {
   return bytes;
 }
 
-int PlannedLines(const Scan& header) {
+/// What a scan's header says of it.
+void Describe(const Scan& header, ShelvedScan& scan) {
   const Result<ScanPrediction> prediction = PredictScan(header.plan, header.rig);
-  return prediction ? prediction->lines : 0;
+  scan.expected_lines = prediction ? prediction->lines : 0;
+  scan.rig_id = RigId(header.rig);
+  scan.simulated = header.simulated;
 }
 
 bool OlderThan(const ShelvedScan& a, const ShelvedScan& b) {
@@ -62,8 +67,9 @@ class ScanShelf::Recording final : public ScanSink {
   void OnScanStarted(const Scan& header) override {
     assembler_.OnScanStarted(header);
     Tell([&](Entry& entry) {
+      Describe(header, entry.scan);
       entry.scan.begin_utc_ns = BeginUtc_ns(header);
-      entry.scan.expected_lines = PlannedLines(header);
+      entry.scan.begun = std::chrono::steady_clock::now();
     });
   }
   void OnLine(const LidarLine& line) override {
@@ -78,8 +84,7 @@ class ScanShelf::Recording final : public ScanSink {
     Tell([&](Entry& entry) { ++entry.scan.frames; });
   }
   void OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) override {
-    const std::string json =
-        "{\"at_start\": " + ToJson(at_start) + ", \"at_end\": " + ToJson(at_end) + "}";
+    const std::string json = ToJson(HealthReport{at_start, at_end});
     Tell([&](Entry& entry) { entry.health_json = json; });
   }
   /// What the file says counts: the tidier reads it when it is closed.
@@ -200,8 +205,10 @@ void ScanShelf::TakeIn(const std::filesystem::path& path) {
   entry.scan.begin_utc_ns = summary.begin_utc_ns;
   entry.scan.lines = static_cast<int>(summary.lines);
   entry.scan.frames = static_cast<int>(summary.images);
-  if (const auto header = (*mission)->LoadHeader(summary.id))
-    entry.scan.expected_lines = PlannedLines(*header);
+  if (const auto header = (*mission)->LoadHeader(summary.id)) Describe(*header, entry.scan);
+  entry.scan.begun =
+      std::chrono::steady_clock::now() -
+      std::chrono::nanoseconds(std::max<std::int64_t>(0, UtcNow_ns() - summary.begin_utc_ns));
   for (const EventRecord& event : *events)
     if (event.text == kConfirmed) entry.scan.confirmed = true;
   if (const Status closed = (*mission)->Close(); !closed) LogError("{}", closed.error().message);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +24,10 @@ struct ShelvedScan {
   int lines = 0;
   int expected_lines = 0;
   int frames = 0;
-  bool confirmed = false;  ///< a station has all of it
+  std::string rig_id;
+  bool simulated = false;
+  std::chrono::steady_clock::time_point begun;  ///< also of one from before this program's start
+  bool confirmed = false;                       ///< a station has all of it
   std::int64_t file_bytes = 0;
   std::int64_t news = 0;  ///< ScanShelf::News() when this changed last
 };

@@ -81,7 +81,7 @@ grpc::Status TransferStream::Begin(const link::TransferStart& start) {
 
 void TransferStream::Read() {
   link::TransferRequest request;
-  while (stream_.Read(&request)) {
+  while (stream_.Read(&request) && still_good_()) {
     const std::lock_guard lock(mutex_);
     if (request.has_wishes()) TakeWishes(request.wishes());
     if (request.has_acknowledge()) TakeAcknowledge(request.acknowledge());

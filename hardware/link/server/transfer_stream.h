@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -22,8 +23,12 @@ class TransferStream {
   using Stream = grpc::ServerReaderWriter<link::Chunk, link::TransferRequest>;
 
   TransferStream(ScanShelf& shelf, HeadDesk::Peer peer, grpc::ServerContext& context,
-                 Stream& stream)
-      : shelf_(shelf), peer_(std::move(peer)), context_(context), stream_(stream) {}
+                 Stream& stream, std::function<bool()> still_good)
+      : shelf_(shelf),
+        peer_(std::move(peer)),
+        context_(context),
+        stream_(stream),
+        still_good_(std::move(still_good)) {}
 
   /// Until the station has all of the scan, is gone, or `closing`.
   grpc::Status Run(const std::atomic<bool>& closing);
@@ -42,6 +47,7 @@ class TransferStream {
   const HeadDesk::Peer peer_;
   grpc::ServerContext& context_;
   Stream& stream_;
+  const std::function<bool()> still_good_;  ///< asked at each message of the station
   std::string scan_id_;
   std::optional<ChunkSource> source_;  ///< of the sending thread alone
   std::int64_t news_ = -1;             ///< of the shelf, that source_ has

@@ -36,7 +36,7 @@ link::ScanOnHead ToMessage(const ShelvedScan& scan) {
 
 void WatchStream::Read() {
   link::SignOfLife sign;
-  while (stream_.Read(&sign)) {
+  while (stream_.Read(&sign) && still_good_()) {
     const bool has_control =
         !sign.control_token().empty() && desk_.SignOfLife(sign.control_token());
     const std::lock_guard lock(mutex_);

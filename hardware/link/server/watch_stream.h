@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -14,8 +15,10 @@ class WatchStream {
  public:
   using Stream = grpc::ServerReaderWriter<link::Event, link::SignOfLife>;
 
-  WatchStream(HeadDesk& desk, grpc::ServerContext& context, Stream& stream)
-      : desk_(desk), context_(context), stream_(stream) {}
+  /// `still_good` is asked at each sign of life.
+  WatchStream(HeadDesk& desk, grpc::ServerContext& context, Stream& stream,
+              std::function<bool()> still_good)
+      : desk_(desk), context_(context), stream_(stream), still_good_(std::move(still_good)) {}
 
   /// Until the station is gone or `closing`.
   void Run(const std::atomic<bool>& closing);
@@ -30,6 +33,7 @@ class WatchStream {
   HeadDesk& desk_;
   grpc::ServerContext& context_;
   Stream& stream_;
+  const std::function<bool()> still_good_;
 
   std::atomic<bool> gone_{false};
   std::mutex mutex_;
