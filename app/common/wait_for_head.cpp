@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "app/common/interrupt_watcher.h"
@@ -10,12 +11,14 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{5};
+constexpr std::chrono::seconds kPatience{5};  ///< with a link that does not come back
 
 }  // namespace
 
 HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
                      const RunContext& context, const std::function<void()>& meanwhile) {
   bool aborted = false;
+  std::optional<std::chrono::steady_clock::time_point> lost;
   for (;;) {
     head.OperatorSeen();
     const HeadStatus status = head.Status();
@@ -26,6 +29,15 @@ HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
       head.EndScan(reason.empty() ? "the scan was cancelled" : reason);
       if (status.state == HeadState::kHoming) head.StopMotor();
     }
+    // Over a link that is lost nobody hears that, and what is shown is old.
+    const auto link = head.Link();
+    const auto now = std::chrono::steady_clock::now();
+    if (!aborted || !link || link->connected)
+      lost.reset();
+    else if (!lost)
+      lost = now;
+    else if (now - *lost > kPatience)
+      return status;
     if (meanwhile) meanwhile();
     std::this_thread::sleep_for(kPoll);
   }

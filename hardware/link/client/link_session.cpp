@@ -16,7 +16,12 @@ double LinkSession::Now() {
 std::unique_ptr<grpc::ClientContext> LinkSession::Context(std::chrono::milliseconds timeout) {
   auto context = std::make_unique<grpc::ClientContext>();
   context->AddMetadata(kProtocolKey, std::to_string(kLinkProtocol));
-  if (timeout.count() > 0) context->set_deadline(std::chrono::system_clock::now() + timeout);
+  if (timeout.count() > 0) {
+    context->set_deadline(std::chrono::system_clock::now() + timeout);
+    // Who waits in a call moves the connection on; a call that fails at once leaves a handshake to
+    // gRPC's own look at it every five seconds, and a window of a second is over by then.
+    context->set_wait_for_ready(true);
+  }
   return context;
 }
 

@@ -20,7 +20,8 @@ class LinkSession {
   link::SensorHead::Stub& stub() { return *stub_; }
   const std::string& address() const { return address_; }
 
-  /// A call's context: the protocol's version, and where `timeout` is positive a deadline.
+  /// A call's context: the protocol's version and, where `timeout` is positive, a deadline until
+  /// which the call also waits for the connection.
   static std::unique_ptr<grpc::ClientContext> Context(std::chrono::milliseconds timeout);
   /// What gRPC says of a call that failed, in words that name the head.
   Error ToError(const grpc::Status& status, const char* what) const;
