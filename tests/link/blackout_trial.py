@@ -88,12 +88,16 @@ class Sampler(threading.Thread):
         self.counter.kill()
         self.join()
 
-    def used_ratio(self, begin, end):
-        """Of the hundredths of a second in the window, those in which something came."""
+    def used(self, begin, end):
+        """Of the hundredths of a second in the window, those in which something came; and after how long the first
+        thousand bytes were there."""
         inside = [sample for sample in self.samples if begin <= sample[0] <= end]
         steps = list(zip(inside, inside[1:]))
+        if not steps:
+            return 0.0, None
         moving = sum(b[0] - a[0] for a, b in steps if b[1] - a[1] > 200)
-        return moving / (end - begin) if steps else 0.0
+        first = next((s[0] - begin for s in inside if s[1] - inside[0][1] > 5000), None)
+        return round(moving / (end - begin), 3), first and round(first, 3)
 
 
 def one_run(arguments, seed, folder):
@@ -137,13 +141,14 @@ def one_run(arguments, seed, folder):
             station.send_signal(signal.SIGINT)
             station.wait(timeout=30)
         sampler.stop()
-        used = [round(sampler.used_ratio(a, b), 3) for a, b, more in windows if more]
+        looks = [sampler.used(a, b) for a, b, more in windows if more]
+        used, resumed = [look[0] for look in looks], [look[1] for look in looks]
         digests = []
         for mission in [folder / "station.foresight", *sorted((folder / "head-scans").glob("*.foresight"))]:
             shown = subprocess.run([arguments.bin / "foresightctl", "mission", "digest", mission, "--json"],
                                    capture_output=True, text=True)
             digests += [scan["digest"] for scan in json.loads(shown.stdout or "{}").get("scans", [])]
-        return {"seed": seed, "exit": code, "seconds": round(seconds, 1), "windows": len(windows), "used": used,
+        return {"seed": seed, "exit": code, "seconds": round(seconds, 1), "windows": len(windows), "used": used, "resumed_s": resumed,
                 "identical": len(digests) == 2 and digests[0] == digests[1]}
     finally:
         for process in processes:

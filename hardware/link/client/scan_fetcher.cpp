@@ -279,6 +279,7 @@ Status ScanFetcher::Fetch(Fetched& scan, const std::stop_token& stop) {
     FORESIGHT_TRY(scan.transfer, ScanTransfer::Open(options_.spool, scan.header.uuid, rig));
   }
   const auto context = LinkSession::Context(std::chrono::milliseconds(0));
+  context->set_wait_for_ready(true);  // a window of a second is not spent on asking again
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
   const auto stream = session_.stub().Transfer(context.get());
   link::TransferRequest request;

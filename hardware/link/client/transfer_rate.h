@@ -23,19 +23,20 @@ class TransferRate {
     if (left < kBacklog_bytes) backlog_since_s_ = now_s;
     if (bytes == 0) return;
     recent_.push_back({now_s, bytes});
+    // A blackout before the first bytes says nothing of the path.
+    if (since_change_ == 0) changed_s_ = now_s;
     since_change_ += bytes;
     if (since_change_ < credit_) return;
     const double took_s = now_s - changed_s_;
     if (took_s < 0.25) credit_ = std::min(2 * credit_, kMostCredit);
     if (took_s > 2.0) credit_ = std::max(credit_ / 2, kLeastCredit);
     since_change_ = 0;
-    changed_s_ = now_s;
   }
   /// A stream began: its rate is not known yet. The credit stays, for a burst of a second has no
   /// time to learn it again.
   void Begin(double now_s) {
     since_change_ = 0;
-    changed_s_ = backlog_since_s_ = now_s;
+    backlog_since_s_ = now_s;
     recent_.clear();
   }
   std::int64_t credit() const { return credit_; }
