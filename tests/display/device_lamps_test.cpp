@@ -55,6 +55,35 @@ TEST_F(DeviceLampsOnScreen, NameTheDevicesAndNothingElseWhileAllIsWell) {
   EXPECT_EQ(Words(), (std::vector<std::string>{"Lidar", "Camera", "Motor"}));
 }
 
+TEST(DeviceLampsOverALink, HaveALampForTheLinkThatSaysWhenItIsLost) {
+  class LinkedHead final : public FakeHead {
+   public:
+    using FakeHead::FakeHead;
+    std::optional<LinkHealth> Link() const override { return link; }
+    LinkHealth link;
+  };
+  const auto head = std::make_shared<LinkedHead>(DefaultSensorRig());
+  head->link.connected = head->link.has_control = true;
+  head->link.address = "robot:47130";
+  head->SetHealth(DeviceLampsOnScreen::AllWell());
+  HeadViewModel model{head};
+  model.Poll();
+  DeviceLamps lamps{&model};
+  HeadDeviceRows rows{&model};
+  const auto texts = [](const QWidget& widget) {
+    std::string all;
+    for (const QLabel* label : widget.findChildren<QLabel*>())
+      all += label->text().toStdString() + "|";
+    return all;
+  };
+  EXPECT_NE(texts(lamps).find("|Motor||Link|"), std::string::npos) << texts(lamps);
+  EXPECT_NE(texts(rows).find("Link: well"), std::string::npos) << texts(rows);
+  head->link.connected = false;
+  head->link.age_s = 12.3;
+  model.Poll();
+  EXPECT_NE(texts(lamps).find("Link: lost"), std::string::npos) << texts(lamps);
+}
+
 TEST_F(DeviceLampsOnScreen, SayInWordsWhichDeviceIsMissing) {
   HeadHealth health = AllWell();
   health.camera.connected = false;

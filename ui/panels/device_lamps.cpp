@@ -38,6 +38,7 @@ DeviceLamps::DeviceLamps(HeadViewModel* head, QWidget* parent) : QWidget(parent)
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
+  lamps_.resize(static_cast<std::size_t>(head_->Devices().size()));
   for (Lamp& lamp : lamps_) {
     lamp = {new QLabel, new QLabel, {}};
     lamp.sign->setObjectName(QStringLiteral("deviceLamp"));

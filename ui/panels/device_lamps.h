@@ -1,8 +1,8 @@
 #pragma once
 
 #include <QWidget>
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "ui/viewmodels/head_view_model.h"
 
@@ -13,7 +13,7 @@ namespace foresight {
 /// The sign of a device's state; every state has its own shape, not only its own colour.
 QPixmap LampPixmap(DeviceRow::Lamp lamp);
 
-/// Lidar, camera and motor at a glance: a lamp and a name each, what is the matter in the tooltip
+/// Lidar, camera and motor, and the link to a head elsewhere, at a glance: a lamp and a name each, what is the matter in the tooltip
 /// and, when a device is not well, in words.
 class DeviceLamps : public QWidget {
   Q_OBJECT
@@ -30,7 +30,7 @@ class DeviceLamps : public QWidget {
   void Show();
 
   HeadViewModel* head_;
-  std::array<Lamp, 3> lamps_;
+  std::vector<Lamp> lamps_;
 };
 
 }  // namespace foresight

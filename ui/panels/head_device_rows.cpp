@@ -13,6 +13,7 @@ HeadDeviceRows::HeadDeviceRows(HeadViewModel* head, QWidget* parent)
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setColumnStretch(1, 1);
   int at = 0;
+  rows_.resize(static_cast<std::size_t>(head_->Devices().size()));
   for (Row& row : rows_) {
     row = {new QLabel, new QLabel, new QLabel, {}};
     row.detail->setWordWrap(true);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <QWidget>
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "ui/viewmodels/head_view_model.h"
 
@@ -31,7 +31,7 @@ class HeadDeviceRows : public QWidget {
   void Show();
 
   HeadViewModel* head_;
-  std::array<Row, 3> rows_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace foresight
