@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include "core/mission/pose_json.h"
 #include "core/sensor/rig_id.h"
 #include "hardware/link/protocol/messages.h"
 #include "tests/hardware/link/fake_head.h"
+#include "tests/support/pose_messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -159,6 +161,52 @@ TEST_F(HeadDeskTest, ARigIsPutInForceAndReadBack) {
   EXPECT_EQ(desk.Now(false).rig_id(), RigId(rig));
   EXPECT_EQ(desk.RigYaml("").value(), SensorRigToYaml(rig));
   EXPECT_FALSE(desk.RigYaml(RigId(DefaultSensorRig())));
+}
+
+TEST_F(HeadDeskTest, APoseGoesToTheRobotOfWhoHasControl) {
+  link::PoseRequest request;
+  EXPECT_THAT(desk.PublishPose(request, anna).reason(), HasSubstr("anna does not have control"));
+  request.set_control_token(token);
+  EXPECT_THAT(desk.PublishPose(request, anna).reason(), HasSubstr("--robot-socket"));
+}
+
+TEST_F(HeadDeskTest, APoseIsJudgedByWhatTheHeadKnowsOfItsScan) {
+  int sent = 0;
+  PoseGate gate({}, [&](const PoseMessage&) {
+    ++sent;
+    return RobotAnswer{RobotAnswer::Kind::kAccepted, ""};
+  });
+  HeadDesk with_robot(head, *shelf, {60.0, true, &gate});
+  link::PoseRequest request;
+  request.set_control_token(with_robot.TakeControl({}, anna).token());
+  head->SetState(HeadState::kReady);
+  PoseMessage pose = SamplePose();
+  pose.scan_uuid = "scan-1";
+  pose.simulated = true;
+  pose.rig_id = RigId(head->Rig());
+  request.set_pose_json(PoseMessageToJson(pose));
+  EXPECT_EQ(with_robot.PublishPose(request, anna).answer(), "refused") << "no such scan here";
+  EXPECT_EQ(sent, 0);
+  const auto record = [&](const std::string& uuid) {
+    ASSERT_TRUE(head->StartScan(ScanPlan(), shelf->Begin(uuid, {}).value()));
+    foresight::Scan scan = SampleScan(4);
+    scan.rig = head->Rig();
+    head->Play(scan);
+    while (shelf->Find(uuid)->state == ScanState::kRunning)
+      shelf->WaitForNews(shelf->News(), std::chrono::milliseconds(100));
+  };
+  record("scan-1");
+  pose.sending = 4;
+  request.set_pose_json(PoseMessageToJson(pose));
+  const link::PoseReply accepted = with_robot.PublishPose(request, anna);
+  EXPECT_EQ(accepted.answer(), "accepted") << accepted.reason();
+  EXPECT_TRUE(with_robot.PublishPose(request, anna).repeated());
+  EXPECT_EQ(sent, 1);
+  record("scan-2");
+  pose.sending = 5;
+  request.set_pose_json(PoseMessageToJson(pose));
+  EXPECT_EQ(with_robot.PublishPose(request, anna).answer(), "refused") << "there is a newer scan";
+  EXPECT_EQ(sent, 1);
 }
 
 TEST_F(HeadDeskTest, SignsOfLifeOfWhoHasControlReachTheHead) {
