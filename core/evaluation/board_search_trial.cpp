@@ -110,6 +110,7 @@ void Compare(const std::optional<BoardView>& found, const PlacedBoard& placed,
   outcome->whole = placed.whole;
   outcome->found = found.has_value();
   if (!found) return;
+  outcome->worst_px = 0.0;
   for (std::size_t i = 0; i < found->corner_ids.size(); ++i) {
     const auto& corner = placed.corners[static_cast<std::size_t>(found->corner_ids[i])];
     outcome->worst_px =
