@@ -1,5 +1,6 @@
 #include "core/calibration/compare_rigs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -68,7 +69,8 @@ Result<RigError> CompareRigs(const SensorRig& rig, const SensorRig& other) {
   error.focal_px = std::max(std::abs(rig.camera.fx - other.camera.fx),
                             std::abs(rig.camera.fy - other.camera.fy));
   CompareCameras(rig.camera, other.camera, &error);
-  error.axis_rad = std::asin(std::min(1.0, AxisOf(rig).cross(AxisOf(other)).norm()));
+  error.axis_rad =
+      std::atan2(AxisOf(rig).cross(AxisOf(other)).norm(), AxisOf(rig).dot(AxisOf(other)));
   error.axis_m = (NearestOf(rig) - NearestOf(other)).norm();
   CompareAngles(rig.angle_correction, other.angle_correction, &error);
   const auto step = StepBetween(other.camera_from_lidar, rig.camera_from_lidar);

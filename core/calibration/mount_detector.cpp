@@ -22,20 +22,34 @@ struct Candidate {
   std::optional<CameraFromPattern> pose;
 };
 
+/// The same corners as the board has them upside down.
+BoardView UpsideDown(BoardView view, const CalibrationBoard& board) {
+  for (int& id : view.corner_ids) id = board.CornerCount() - 1 - id;
+  std::reverse(view.corner_ids.begin(), view.corner_ids.end());
+  std::reverse(view.pixels.begin(), view.pixels.end());
+  return view;
+}
+
+/// A board that looks the same upside down is there both ways up.
 std::vector<Candidate> CandidatesFor(const CalibrationBoard& board, const GrayImage& image,
                                      const std::vector<CornerGrid>& grids,
                                      const CameraModel& camera, std::string* fault) {
   std::vector<Candidate> candidates;
+  const auto add = [&](std::size_t grid, BoardView view, bool has_margin) {
+    Candidate candidate{grid, std::move(view), has_margin, {}};
+    if (const auto pose = FindBoardPose(board, candidate.view, camera))
+      candidate.pose = pose->camera_from_pattern;
+    candidates.push_back(std::move(candidate));
+  };
   for (std::size_t i = 0; i < grids.size(); ++i) {
     BoardDetection found = DetectBoard(image, {grids[i]}, board, SearchEffort::kQuick);
     if (!found.rejection.empty()) {
       if (found.rating.light_level > 0.0) *fault = found.rejection;  // the board was there
       continue;
     }
-    Candidate candidate{i, std::move(found.view), HasMargin(image, grids[i]), {}};
-    if (const auto pose = FindBoardPose(board, candidate.view, camera))
-      candidate.pose = pose->camera_from_pattern;
-    candidates.push_back(std::move(candidate));
+    const bool has_margin = HasMargin(image, grids[i]);
+    if (board.LooksSameUpsideDown()) add(i, UpsideDown(found.view, board), has_margin);
+    add(i, std::move(found.view), has_margin);
   }
   return candidates;
 }
@@ -109,10 +123,12 @@ struct Side {
   BoardFromBoard board_from_other;
 };
 
-/// Whether a grid can be the board without the other board being found. Where it could be a part of
-/// that, the margin must be seen, and other grids must lie where the other board is then.
+/// Whether a grid can be the board without the other board being found. Only the other board tells
+/// which way up a board is that looks the same upside down. Where the grid could be a part of the
+/// other board, the margin must be seen, and other grids must lie where the other board is then.
 bool CanBeAlone(const Candidate& candidate, const Side& side, const std::vector<CornerGrid>& grids,
                 const CameraModel& camera) {
+  if (side.board.LooksSameUpsideDown()) return false;
   if (!Contains(side.other, side.board)) return true;
   if (!candidate.has_margin || !candidate.pose) return false;
   const CameraFromPattern camera_from_other = *candidate.pose * side.board_from_other;
@@ -160,6 +176,16 @@ bool AreCheckerboards(const BoardMount& mount) {
   return mount.b && mount.a.kind == Kind::kCheckerboard && mount.b->kind == Kind::kCheckerboard;
 }
 
+/// Of a board that no other checkerboard stands beside.
+Status CheckUpright(const CalibrationBoard& board) {
+  if (!board.LooksSameUpsideDown()) return {};
+  return Fail(ErrorCode::kInvalidOptions,
+              "the stand's checkerboard of {} x {} inner corners looks the same upside down: an "
+              "image does not tell which of its corners is the first; take one with one count odd "
+              "and one even, such as 7 x 6, or a ChArUco board",
+              board.columns, board.rows);
+}
+
 MountView DetectEach(const GrayImage& image, const BoardMount& mount) {
   MountView view;
   const auto find = [&](const CalibrationBoard& board, std::optional<BoardView>* found) {
@@ -183,6 +209,10 @@ MountView DetectMount(const GrayImage& image, const BoardMount& mount, const Cam
 
 Status CheckInImages(const BoardMount& mount) {
   FORESIGHT_CHECK(mount.Check());
+  if (!AreCheckerboards(mount)) {
+    FORESIGHT_CHECK(CheckUpright(mount.a));
+    if (mount.b) FORESIGHT_CHECK(CheckUpright(*mount.b));
+  }
   if (!mount.b) return {};
   const CalibrationBoard& a = mount.a;
   const CalibrationBoard& b = *mount.b;

@@ -9,7 +9,8 @@ namespace foresight {
 /// missing. Of two checkerboards all grids of the image are looked at together: grids that stand to
 /// each other as the boards were drawn are preferred, and a grid that could be what is left of the
 /// other board, cut off by the image's border or covered, is taken only where the other board is
-/// found too or a white margin shows that no square is missing. A board
+/// found too or a white margin shows that no square is missing. A checkerboard that looks the same
+/// upside down is taken only together with the other one, which tells its upper side. A board
 /// that is blurred or overexposed is not taken, and the view says so; so it does of an image
 /// without a board that is itself dark, overexposed or blurred. `camera` may be known roughly.
 /// Where CheckInImages fails nothing is found.

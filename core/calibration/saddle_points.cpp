@@ -13,8 +13,41 @@ constexpr double kRingRadius_px = 3.5;  // within the squares of the smallest bo
 /// Grey levels; what is fainter is noise.
 constexpr double kLeastContrast = 10.0;
 constexpr std::size_t kMostPoints = 1500;
+/// Two maxima of equal response in one window are one corner that lies between pixels.
+constexpr double kApart_px = 3.0;
 /// The image at full size, and at half of it for blurred edges.
 constexpr std::array<double, 2> kScales = {1.0, 0.5};
+
+/// Points of an image by where they are: whether one is near is told in constant time.
+class PointCells {
+ public:
+  PointCells(int width, int height)
+      : columns_(width / kCell_px + 1),
+        cells_(static_cast<std::size_t>(columns_) * (height / kCell_px + 1)) {}
+
+  void Add(const Eigen::Vector2d& point) { cells_[IndexOf(point)].push_back(point); }
+  /// @pre distance_px <= kCell_px
+  bool HasNear(const Eigen::Vector2d& point, double distance_px) const {
+    const int column = CellOf(point.x()), row = CellOf(point.y());
+    const int rows = static_cast<int>(cells_.size()) / columns_;
+    for (int y = std::max(0, row - 1); y <= std::min(rows - 1, row + 1); ++y)
+      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x)
+        for (const Eigen::Vector2d& other : cells_[static_cast<std::size_t>(y * columns_ + x)])
+          if ((other - point).norm() < distance_px) return true;
+    return false;
+  }
+
+  static constexpr int kCell_px = 4;
+
+ private:
+  static int CellOf(double at) { return static_cast<int>(at) / kCell_px; }
+  std::size_t IndexOf(const Eigen::Vector2d& point) const {
+    return static_cast<std::size_t>(CellOf(point.y()) * columns_ + CellOf(point.x()));
+  }
+
+  int columns_;
+  std::vector<std::vector<Eigen::Vector2d>> cells_;
+};
 
 float At(const cv::Mat& image, double x, double y) {
   const int left = static_cast<int>(x), top = static_cast<int>(y);
@@ -88,6 +121,7 @@ std::vector<SaddlePoint> FindAtScale(const cv::Mat& image) {
   cv::Mat highest;
   cv::dilate(response, highest, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
   std::vector<SaddlePoint> points;
+  PointCells taken(image.cols, image.rows);
   const int margin = static_cast<int>(kRingRadius_px) + 2;
   constexpr float kLeastResponse = 8.0f;  // a corner of the least contrast, blurred over 4 px
   for (int y = margin; y < image.rows - margin; ++y) {
@@ -95,7 +129,11 @@ std::vector<SaddlePoint> FindAtScale(const cv::Mat& image) {
     const float* high = highest.ptr<float>(y);
     for (int x = margin; x < image.cols - margin; ++x) {
       if (here[x] < kLeastResponse || here[x] != high[x]) continue;
-      if (const auto point = Inspect(smooth, x, y)) points.push_back(*point);
+      if (taken.HasNear(Eigen::Vector2d(x, y), kApart_px)) continue;
+      const auto point = Inspect(smooth, x, y);
+      if (!point) continue;
+      points.push_back(*point);
+      taken.Add(point->pixel);
     }
   }
   return points;
@@ -107,20 +145,18 @@ std::vector<SaddlePoint> FindSaddlePoints(const GrayImage& image) {
   const cv::Mat pixels(image.height(), image.width(), CV_8UC1,
                        const_cast<std::uint8_t*>(image.data()));  // never written
   std::vector<SaddlePoint> points;
+  PointCells finer(image.width(), image.height());
   for (const double scale : kScales) {
     cv::Mat scaled = pixels;
     if (scale != 1.0) cv::resize(pixels, scaled, {}, scale, scale, cv::INTER_AREA);
     if (scaled.rows < 16 || scaled.cols < 16) break;
     std::vector<SaddlePoint> found = FindAtScale(scaled);
-    const std::size_t finer = points.size();
     for (SaddlePoint& point : found) {
       point.pixel = (point.pixel + Eigen::Vector2d(0.5, 0.5)) / scale - Eigen::Vector2d(0.5, 0.5);
-      const auto same = [&](const SaddlePoint& other) {
-        return (other.pixel - point.pixel).norm() < 2.0 / scale;
-      };
-      if (std::none_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(finer), same))
-        points.push_back(point);
+      if (scale == 1.0 || !finer.HasNear(point.pixel, 2.0 / scale)) points.push_back(point);
     }
+    if (scale == 1.0)
+      for (const SaddlePoint& point : points) finer.Add(point.pixel);
   }
   if (points.size() > kMostPoints) {
     std::nth_element(points.begin(), points.begin() + kMostPoints, points.end(),

@@ -110,19 +110,28 @@ void Compare(const std::optional<BoardView>& found, const PlacedBoard& placed,
   outcome->whole = placed.whole;
   outcome->found = found.has_value();
   if (!found) return;
-  const auto worst = [&](bool upside_down) {
-    double most = 0.0;
-    for (std::size_t i = 0; i < found->corner_ids.size(); ++i) {
-      const int id = found->corner_ids[i];
-      const auto& corner = placed.corners[static_cast<std::size_t>(
-          upside_down ? placed.board.CornerCount() - 1 - id : id)];
-      most = std::max(most, corner ? (*corner - found->pixels[i]).norm() : 1e9);
-    }
-    return most;
-  };
-  outcome->worst_px = worst(false);
-  if (placed.board.LooksSameUpsideDown())
-    outcome->worst_px = std::min(outcome->worst_px, worst(true));
+  outcome->worst_px = 0.0;
+  for (std::size_t i = 0; i < found->corner_ids.size(); ++i) {
+    const auto& corner = placed.corners[static_cast<std::size_t>(found->corner_ids[i])];
+    outcome->worst_px =
+        std::max(outcome->worst_px, corner ? (*corner - found->pixels[i]).norm() : 1e9);
+  }
+}
+
+/// The session's boards are those of the scene, in their order.
+Status CheckBoards(const BoardMount& mount, const Scene& scene, const fs::path& session) {
+  std::vector<CalibrationBoard> boards = {mount.a};
+  if (mount.b) boards.push_back(*mount.b);
+  if (scene.boards.size() != boards.size())
+    return Fail(ErrorCode::kBadData, "{}: the session's stand has {} boards, the scene's {}",
+                session.string(), boards.size(), scene.boards.size());
+  for (std::size_t i = 0; i < boards.size(); ++i)
+    if (!(scene.boards[i].board == boards[i]))
+      return Fail(ErrorCode::kBadData,
+                  "{}: board {} of the session is {}, that of the scene {}; take the scene that "
+                  "the session was recorded in",
+                  session.string(), "AB"[i], ToText(boards[i]), ToText(scene.boards[i].board));
+  return {};
 }
 
 }  // namespace
@@ -143,6 +152,7 @@ Result<BoardSearchTrial> RunBoardSearchTrial(const fs::path& session, const Worl
       return Fail(ErrorCode::kBadData, "{}: pose '{}' is no place of scene '{}'", session.string(),
                   pose.name, world.scene().name);
     const Scene there = AtPlace(world.scene(), static_cast<int>(place - places.begin()) + 1);
+    FORESIGHT_CHECK(CheckBoards(index.mount, there, session));
     for (const SessionStopFiles& stop : pose.stops) {
       if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "search for boards: cancelled");
       if (stop.view.image.empty()) continue;

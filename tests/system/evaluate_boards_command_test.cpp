@@ -23,14 +23,14 @@ class EvaluateBoards : public testing::Test {
                                   "--stops", "0:10:10", "--lines", "0", "--sweep-speed", "0"});
     EXPECT_EQ(recorded.exit_code, 0) << recorded.errors;
   }
-  void WriteScene(const std::string& position) {
-    std::ofstream(scene_)
-        << "foresight_scene: 1\nname: x\nambient: 0.7\n"
-           "materials: {paper: {color: [0.9, 0.9, 0.9], color2: [0, 0, 0]}}\n"
-           "stands: [{name: two, a: 'checkerboard:9x6:50', b: 'checkerboard:7x6:50', material: "
-           "paper}]\n"
-           "places: [{stand: two, name: ahead, position_m: " +
-               position + "}]\n";
+  void WriteScene(const std::string& position, const std::string& board_b = "7x6") {
+    std::ofstream(scene_) << "foresight_scene: 1\nname: x\nambient: 0.7\n"
+                             "materials: {paper: {color: [0.9, 0.9, 0.9], color2: [0, 0, 0]}}\n"
+                             "stands: [{name: two, a: 'checkerboard:9x6:50', b: 'checkerboard:" +
+                                 board_b +
+                                 ":50', material: paper}]\n"
+                                 "places: [{stand: two, name: ahead, position_m: " +
+                                 position + "}]\n";
   }
   ProgramResult Evaluate() const {
     return RunProgram(FORESIGHTCTL,
@@ -57,6 +57,13 @@ TEST_F(EvaluateBoards, CallsBoardsWrongThatAreElsewhere) {
   const ProgramResult result = Evaluate();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(nlohmann::json::parse(result.output)["wrong"], 4);
+}
+
+TEST_F(EvaluateBoards, RefusesASceneOfOtherBoards) {
+  WriteScene("[0.9, 0, 1.4]", "5x4");
+  const ProgramResult result = Evaluate();
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors, HasSubstr("board B of the session is checkerboard:7x6:50"));
 }
 
 TEST_F(EvaluateBoards, RefusesASceneOfAnotherSession) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QCoreApplication>
 #include <QDir>
 #include <QTemporaryDir>
 
@@ -345,6 +346,67 @@ TEST_F(MovingStandCalibration, ATourThatIsInterruptedGoesOnWhereTheStandIs) {
   EXPECT_EQ(recorder->Index().intrinsic_views.size(), 1u) << "not taken once more";
   ASSERT_EQ(recorder->Index().poses.size(), 2u);
   EXPECT_EQ(recorder->Index().poses[1].sweeps.size(), 1u);
+}
+
+TEST_F(MovingStandCalibration, ANewSessionsTourBeginsAtTheFirstPlace) {
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour());
+  moving.startNew();
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour());
+  EXPECT_EQ(recorder->Index().intrinsic_views.size(), 1u);
+  EXPECT_EQ(recorder->Index().poses.size(), 2u);
+}
+
+TEST_F(MovingStandCalibration, AnOpenedSessionOfAnotherPlaceIsNotAddedTo) {
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour());
+  ASSERT_TRUE(WaitFor([&] { return !moving.Busy(); }));
+  const QString complete = moving.Folder();
+  moving.startNew();
+  recorder->MoveStand(1);
+  moving.OpenSession(complete);
+  ASSERT_TRUE(WaitFor([&] { return !moving.Busy() && !moving.Folder().isEmpty(); }));
+  EXPECT_EQ(recorder->PresentPlace(), -1) << "its last place is 'level', the stand is 'upright'";
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour());
+  const SessionIndex& index = recorder->Index();
+  ASSERT_EQ(index.poses.size(), 4u);
+  EXPECT_EQ(index.poses[1].sweeps.size(), 1u) << "no sweep of another place";
+  EXPECT_FALSE(index.poses[1].sweeps[0].excluded);
+  EXPECT_EQ(index.poses[2].name, "upright");
+}
+
+TEST_F(MovingStandCalibration, CapturesOnTheirWayAreOfNoOtherSession) {
+  recorder->MoveStand(1);
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);  // in the queue, not taken yet
+  moving.startNew();
+  QCoreApplication::processEvents();
+  head_model.Poll();
+  ASSERT_TRUE(WaitFor([&] { return !moving.Busy(); }));
+  EXPECT_TRUE(moving.Folder().isEmpty()) << "no session begins by itself";
+  EXPECT_TRUE(recorder->Index().poses.empty());
+}
+
+// A folder cannot be written to where a file is: the new place is not kept, so its stops are not.
+TEST_F(MovingStandCalibration, StopsOfAPlaceThatIsNotKeptGoIntoNoOtherPlace) {
+  recorder->MoveStand(1);
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(WaitFor([&] { return recorder->WhyNotMoveStand().isEmpty(); }));
+  recorder->MoveStand(2);
+  const QString folder_path = moving.Folder(), hidden = folder_path + ".away";
+  recorder->captureStops();  // begins the place
+  ASSERT_TRUE(QDir().rename(folder_path, hidden));
+  ASSERT_TRUE(WaitFor([&] { return !recorder->Writing(); }));
+  ASSERT_TRUE(QDir().rename(hidden, folder_path));
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(WaitFor([&] { return recorder->WhyNotMoveStand().isEmpty(); }));
+  EXPECT_EQ(recorder->Index().poses[0].stops.size(), 2u);
+  EXPECT_FALSE(notices.empty());
 }
 
 TEST_F(MovingStandCalibration, AStandThatIsMovedBeginsAPlace) {

@@ -50,12 +50,14 @@ CalibrationRecorder::CalibrationRecorder(HeadViewModel* head, SessionModel* docu
 }
 
 void CalibrationRecorder::Forget() {
-  captures_.end();
+  captures_.Drop();
+  capturing_board_image_ = false;
   ++version_;
   folder_.clear();
   holder_ = std::make_shared<std::optional<SessionFolder>>();
   index_ = {};
   present_place_ = -1;
+  begun_place_.reset();
 }
 
 void CalibrationRecorder::Take(const QString& folder, SessionFolder session) {
@@ -65,8 +67,19 @@ void CalibrationRecorder::Take(const QString& folder, SessionFolder session) {
   *holder_ = std::move(session);
   mount_ = index_.mount;
   if (index_.intrinsic_board) single_board_ = *index_.intrinsic_board;
-  present_place_ = static_cast<int>(index_.poses.size()) - 1;
+  present_place_ = PlaceOfStand();
   Q_EMIT changed();
+}
+
+/// The last place of the session; none where the stand is known to be at another one.
+int CalibrationRecorder::PlaceOfStand() const {
+  const int last = static_cast<int>(index_.poses.size()) - 1;
+  if (!stand_ || last < 0) return last;
+  const int at = stand_->At();
+  if (at < 0) return -1;
+  const bool there =
+      stand_->Places()[static_cast<std::size_t>(at)].name == index_.poses.back().name;
+  return there ? last : -1;
 }
 
 /// The first task of the writer makes the folder.
@@ -106,12 +119,12 @@ void CalibrationRecorder::Write(const QString& title, Change change,
         return Written{capture, (*holder)->Index()};
       },
       [this, title, done = std::move(done), version = version_](const Result<Written>& written) {
-        if (version != version_) return;
         if (!written) {
           documents_->Report(NoticeOf(title, written.error()));
           Q_EMIT changed();
           return;
         }
+        if (version != version_) return;
         if (done) done(written->capture);
         index_ = written->index;
         Q_EMIT kept();
@@ -149,6 +162,7 @@ void CalibrationRecorder::MoveStand(int place) {
   if (place == stand_->At()) return;
   stand_->MoveTo(place);
   present_place_ = -1;
+  begun_place_.reset();
   Q_EMIT changed();
 }
 
@@ -196,9 +210,17 @@ void CalibrationRecorder::newPlace() {
 }
 
 void CalibrationRecorder::BeginPlace(const std::string& name) {
+  begun_place_ = std::make_shared<std::optional<int>>();
   Write(
-      tr("Beginning a place"), [name](SessionFolder& folder) { return folder.AddPose(name); },
-      [this](const SessionCapture& place) { present_place_ = place.pose; });
+      tr("Beginning a place"),
+      [name, begun = begun_place_](SessionFolder& folder) -> Result<SessionCapture> {
+        FORESIGHT_TRY(const SessionCapture place, folder.AddPose(name));
+        *begun = place.pose;
+        return place;
+      },
+      [this, begun = begun_place_](const SessionCapture& place) {
+        if (begun == begun_place_) present_place_ = place.pose;
+      });
 }
 
 void CalibrationRecorder::captureBoardImage() {
@@ -270,14 +292,16 @@ void CalibrationRecorder::TakeCapture(const std::shared_ptr<const StopCapture>& 
   }
   // The place's number is known when this is written: it may be on its way to the disk.
   Write(tr("Keeping the stop"),
-        [capture, place = present_place_](SessionFolder& folder) -> Result<SessionCapture> {
-          const int last = static_cast<int>(folder.Index().poses.size()) - 1;
+        [capture, place = present_place_,
+         begun = begun_place_](SessionFolder& folder) -> Result<SessionCapture> {
+          if (place < 0 && !(begun && *begun))
+            return Fail(ErrorCode::kIo, "the place of the stop could not be kept; capture again");
           RecordedStop stop;
           stop.commanded_rad = capture->target_rad;
           stop.measured_rad = capture->position.angle_rad;
           if (capture->image) stop.image = capture->image->image;
           stop.lines = capture->lines;
-          return folder.AddStop(place >= 0 ? place : last, stop);
+          return folder.AddStop(place >= 0 ? place : **begun, stop);
         });
 }
 

@@ -106,6 +106,7 @@ class CalibrationRecorder : public QObject {
   /// Writes something into the session's folder.
   void Write(const QString& title, Change change, std::function<void(SessionCapture)> done = {});
   void BeginPlace(const std::string& name);
+  int PlaceOfStand() const;
   void TakeCapture(const std::shared_ptr<const StopCapture>& capture);
   void TakeStopsEnd(bool complete, const QString& reason);
   void TakeSweep(const std::shared_ptr<const Scan>& scan);
@@ -124,6 +125,9 @@ class CalibrationRecorder : public QObject {
   Holder holder_ = std::make_shared<std::optional<SessionFolder>>();
   SessionIndex index_;
   int present_place_ = -1;
+  /// Number of the place that was begun last; empty until it is on the disk. Touched by the
+  /// writer's tasks only.
+  std::shared_ptr<std::optional<int>> begun_place_;
   bool capturing_board_image_ = false;
   int version_ = 0;  ///< of the session: answers that are on their way may be of another one
 

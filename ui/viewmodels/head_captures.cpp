@@ -5,7 +5,9 @@
 namespace foresight {
 
 /// Hands over what the head's thread brings.
-class HeadCaptures::Relay : public StopSink, public ScanSink {
+class HeadCaptures::Relay : public StopSink,
+                            public ScanSink,
+                            public std::enable_shared_from_this<HeadCaptures::Relay> {
  public:
   explicit Relay(HeadCaptures* target) : target_(target) {}
 
@@ -50,7 +52,10 @@ class HeadCaptures::Relay : public StopSink, public ScanSink {
     if (target_ == nullptr) return;
     HeadCaptures* target = target_;
     QMetaObject::invokeMethod(
-        target, [target, delivery = std::move(delivery)] { delivery(target); },
+        target,
+        [self = shared_from_this(), target, delivery = std::move(delivery)] {
+          if (target->relay_ == self) delivery(target);  // it was not dropped meanwhile
+        },
         Qt::QueuedConnection);
   }
 
@@ -64,8 +69,13 @@ HeadCaptures::HeadCaptures(HeadViewModel* head, QObject* parent) : QObject(paren
 }
 
 HeadCaptures::~HeadCaptures() {
+  Drop();
+}
+
+void HeadCaptures::Drop() {
   if (!relay_) return;
   relay_->Disconnect();
+  relay_.reset();
   head_->abort();
 }
 

@@ -28,6 +28,8 @@ class HeadCaptures : public QObject {
   /// One image where the head stands now.
   Status StartImage();
   Status StartSweep(const ScanPlan& plan);
+  /// Ends what runs; what still comes of it is for nobody.
+  void Drop();
 
  public Q_SLOTS:
   /// Ends what runs; what was captured is kept.

@@ -23,7 +23,8 @@ void StandTour::start() {
   using Task = Step::Task;
   const auto& places = recorder_->Stand()->Places();
   steps_.clear();
-  for (int i = std::max(0, recorder_->Stand()->At()); i < static_cast<int>(places.size()); ++i)
+  const int from = recorder_->Folder().isEmpty() ? 0 : std::max(0, recorder_->Stand()->At());
+  for (int i = from; i < static_cast<int>(places.size()); ++i)
     if (places[static_cast<std::size_t>(i)].mount) {
       steps_.push_back({i, Task::kStops});
       steps_.push_back({i, Task::kSweep});

@@ -30,19 +30,22 @@ CameraModel Fisheye() {
 /// A stand whose hinge's middle is at a place, `turn` about the hinge and `roll` about the way to
 /// the camera.
 struct Stand {
-  BoardMount mount = HingedMount(kA, kB, kHinge_m);
+  CalibrationBoard a;
+  BoardMount mount = HingedMount(a, kB, kHinge_m);
   CameraFromBoard camera_from_a;
 
-  Stand(const Eigen::Vector3d& hinge, double turn_rad, double roll_rad) {
+  Stand(const Eigen::Vector3d& hinge, double turn_rad, double roll_rad,
+        const CalibrationBoard& board_a = kA)
+      : a(board_a) {
     const Eigen::Quaterniond rotation =
         Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()) *
         Eigen::Quaterniond(Eigen::AngleAxisd(-turn_rad, Eigen::Vector3d::UnitY()));
-    const Eigen::Vector3d hinge_in_a((kA.columns - 1) * kA.square_m + kHinge_m, 0.125, 0.0);
+    const Eigen::Vector3d hinge_in_a((a.columns - 1) * a.square_m + kHinge_m, 0.125, 0.0);
     camera_from_a = {rotation, hinge - rotation * hinge_in_a};
   }
   CameraFromBoard CameraFromB() const { return camera_from_a * mount.a_from_b; }
   GrayImage Image(std::vector<BoardPainter::PlacedBoard> more = {}) const {
-    more.push_back({kA, camera_from_a});
+    more.push_back({a, camera_from_a});
     more.push_back({kB, CameraFromB()});
     return BoardPainter(Fisheye()).Paint(more, 1.0, 1);
   }
@@ -143,6 +146,27 @@ TEST(MountDetector, DoesNotGuessBetweenTwoEqualBoards) {
   EXPECT_TRUE(DetectMount(image, HingedMount(equal, equal, kHinge_m), Fisheye()).empty());
 }
 
+// Turned round its own middle the board of the paper looks as before; the other one tells.
+TEST(MountDetector, FindsTheUpperSideOfASymmetricBoardByTheOtherOne) {
+  const CalibrationBoard symmetric{.columns = 8, .rows = 6, .square_m = 0.05};
+  for (const double roll : {0.0, 0.8, 1.57, 2.4, 3.1, -0.8, -1.57}) {
+    SCOPED_TRACE(testing::Message() << "roll " << roll);
+    const Stand stand({0.05, 0.0, 1.1}, 0.8, roll, symmetric);
+    const MountView view = DetectMount(stand.Image(), stand.mount, Fisheye());
+    EXPECT_GE(WorstOf(view.a, symmetric, stand.camera_from_a), 0.0) << "A was not found";
+    EXPECT_LT(WorstOf(view.a, symmetric, stand.camera_from_a), kRight_px);
+    EXPECT_GE(WorstOf(view.b, kB, stand.CameraFromB()), 0.0) << "B was not found";
+    EXPECT_LT(WorstOf(view.b, kB, stand.CameraFromB()), kRight_px);
+  }
+}
+
+TEST(MountDetector, TakesNoSymmetricBoardAlone) {
+  const CalibrationBoard symmetric{.columns = 8, .rows = 6, .square_m = 0.05};
+  const Stand stand({0.05, 0.0, 1.1}, 0.8, 0.0, symmetric);
+  const GrayImage image = BoardPainter(Fisheye()).Paint({{symmetric, stand.camera_from_a}}, 1.0, 1);
+  EXPECT_TRUE(DetectMount(image, stand.mount, Fisheye()).empty());
+}
+
 TEST(MountDetector, SaysWhichMountsImagesCannotTell) {
   CalibrationBoard a{.columns = 8, .rows = 6, .square_m = 0.05};
   CalibrationBoard b = a;
@@ -150,7 +174,17 @@ TEST(MountDetector, SaysWhichMountsImagesCannotTell) {
   ASSERT_FALSE(told());
   EXPECT_THAT(told().error().message, HasSubstr("checkerboards of 8 x 6 inner corners"));
   b.columns = 7;
-  EXPECT_TRUE(told());
+  EXPECT_TRUE(told()) << "the 7 x 6 board tells which way up the 8 x 6 board is";
+  BoardMount alone;
+  alone.a = a;
+  ASSERT_FALSE(CheckInImages(alone)) << "nothing tells which way up the 8 x 6 board is";
+  EXPECT_THAT(CheckInImages(alone).error().message, HasSubstr("one count odd and one even"));
+  alone.a = b;
+  EXPECT_TRUE(CheckInImages(alone));
+  CalibrationBoard charuco = b;
+  charuco.kind = CalibrationBoard::Kind::kCharuco;
+  EXPECT_FALSE(CheckInImages(HingedMount(a, charuco, kHinge_m)));
+  EXPECT_TRUE(CheckInImages(HingedMount(b, charuco, kHinge_m)));
   a = b;
   EXPECT_TRUE(told()) << "7 x 6 has an upper side";
   a.kind = b.kind = CalibrationBoard::Kind::kCharuco;
