@@ -13,8 +13,8 @@ namespace foresight {
 /// The sign of a device's state; every state has its own shape, not only its own colour.
 QPixmap LampPixmap(DeviceRow::Lamp lamp);
 
-/// Lidar, camera and motor, and the link to a head elsewhere, at a glance: a lamp and a name each, what is the matter in the tooltip
-/// and, when a device is not well, in words.
+/// Lidar, camera and motor, and the link to a head elsewhere, at a glance: a lamp and a name each,
+/// what is the matter in the tooltip and, when a device is not well, in words.
 class DeviceLamps : public QWidget {
   Q_OBJECT
 

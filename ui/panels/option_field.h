@@ -30,7 +30,6 @@ class OptionField : public QWidget {
   QCheckBox* Switch() const { return switch_; }
 
  protected:
-
  private:
   QWidget* Build();
   QWidget* BuildDocument();
