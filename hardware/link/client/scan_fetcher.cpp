@@ -338,30 +338,30 @@ Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
   return {};
 }
 
+/// The head hears at once what is on the disk; images are decoded behind that, while more comes.
 Status ScanFetcher::TakeIn(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
                            std::int64_t left_bytes) {
   std::int64_t bytes = 0;
   for (const Chunk& chunk : chunks) bytes += static_cast<std::int64_t>(chunk.bytes.size());
+  FORESIGHT_TRY(const std::vector<Chunk> kept, scan.transfer->Keep(std::move(chunks)));
   link::TransferRequest request;
   link::Acknowledge& acknowledge = *request.mutable_acknowledge();
-  if (!chunks.empty()) {
-    FORESIGHT_TRY(const std::vector<ChunkId> kept, scan.transfer->Take(std::move(chunks)));
-    for (const ChunkId& id : kept) {
-      link::ChunkId& message = *acknowledge.add_chunks();
-      message.set_kind(static_cast<int>(id.kind));
-      message.set_item(id.item);
-      message.set_part(id.part);
-    }
-    if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
+  for (const Chunk& chunk : kept) {
+    link::ChunkId& id = *acknowledge.add_chunks();
+    id.set_kind(static_cast<int>(chunk.id.kind));
+    id.set_item(chunk.id.item);
+    id.set_part(chunk.id.part);
   }
   {
     const std::lock_guard lock(mutex_);
     rate_.Received(bytes, left_bytes, LinkSession::Now());
     acknowledge.set_credit_bytes(rate_.credit());
   }
+  const bool heard = kept.empty() || stream.Write(request);
+  scan.transfer->TakeIn(kept);
+  if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
   Show(scan, left_bytes);
-  if (bytes > 0 && !stream.Write(request)) return {};
-  if (scan.transfer->builder().Progress().complete) FORESIGHT_CHECK(Finish(scan));
+  if (heard && scan.transfer->builder().Progress().complete) FORESIGHT_CHECK(Finish(scan));
   return {};
 }
 

@@ -35,24 +35,23 @@ bool ScanTransfer::TakeMistakenRig() {
   return std::exchange(mistaken_rig_, false);
 }
 
-Result<std::vector<ChunkId>> ScanTransfer::Take(std::vector<Chunk> chunks) {
+Result<std::vector<Chunk>> ScanTransfer::Keep(std::vector<Chunk> chunks) {
   std::erase_if(chunks, [&](const Chunk& chunk) {
     const Status good = CheckChunk(chunk);
     if (!good) LogWarning("scan {}: {}", builder_.scan_id(), good.error().message);
     return !good;
   });
-  FORESIGHT_CHECK(spool_->Append(chunks));
-  std::vector<ChunkId> kept;
-  for (const Chunk& chunk : chunks) {
-    if (const auto taken = builder_.Take(chunk); !taken) {
-      LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
-      continue;
-    }
+  if (!chunks.empty()) FORESIGHT_CHECK(spool_->Append(chunks));
+  return chunks;
+}
+
+void ScanTransfer::TakeIn(const std::vector<Chunk>& kept) {
+  for (const Chunk& chunk : kept) {
     taken_bytes_ += static_cast<std::int64_t>(chunk.bytes.size());
-    kept.push_back(chunk.id);
+    if (const auto taken = builder_.Take(chunk); !taken)
+      LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
   }
   TryRig();
-  return kept;
 }
 
 }  // namespace foresight

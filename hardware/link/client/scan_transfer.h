@@ -19,10 +19,11 @@ class ScanTransfer {
                                                     const std::string& scan_id,
                                                     const std::string& rig_yaml);
 
-  /// Keeps the chunks, then takes them in; returns those that the head may forget. A damaged chunk
-  /// is left out, so it comes again. Fails with kIo where the disk does not take them: none is
-  /// acknowledged then.
-  Result<std::vector<ChunkId>> Take(std::vector<Chunk> chunks);
+  /// Leaves damaged chunks out, and has the others on the disk when it returns: the head may forget
+  /// them. Fails with kIo where the disk does not take them: none is acknowledged then.
+  Result<std::vector<Chunk>> Keep(std::vector<Chunk> chunks);
+  /// Makes what was kept part of the scan.
+  void TakeIn(const std::vector<Chunk>& kept);
 
   /// What the head need not send: what is here, and the rig where we hope to know it.
   ChunkSet Have() const;
