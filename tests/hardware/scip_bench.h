@@ -63,6 +63,13 @@ struct ScipBench {
   double StampError_s(const LidarLine& line) const {
     return line.time_s - static_cast<double>(TurnOf(line)) * period_s();
   }
+  /// How far off a stamp can be: half a tick where every stamp is rounded alike, half a tick where
+  /// every reading of the device's clock was, half the round trip of the best reading, which is
+  /// longer on a busy machine, and 0.1 ms where late arrivals pass for a drift.
+  double MostStampError_s() const { return MostStampError_s(*lidar); }
+  static double MostStampError_s(const ScipLidar& lidar) {
+    return 1.1e-3 + 0.5 * lidar.Health().sync_round_trip_s;
+  }
   /// What the simulated lidar in this process would measure in that turn.
   LidarLine Truth(const LidarLine& line) const {
     const std::int64_t turn = TurnOf(line);

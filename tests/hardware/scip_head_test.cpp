@@ -58,7 +58,7 @@ TEST(ScipHead, AConnectionLostInMidScanIsAGapInACompleteScan) {
   EXPECT_GT(wired.head->Status().lost_lines, 0);
   // The lines behind the gap are where they belong.
   for (const LidarLine& line : scan->lines)
-    EXPECT_LT(std::abs(wired.bench.StampError_s(line)), 1e-3);
+    EXPECT_LT(std::abs(wired.bench.StampError_s(line)), ScipBench::MostStampError_s(*wired.lidar));
 }
 
 }  // namespace

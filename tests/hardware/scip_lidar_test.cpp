@@ -51,7 +51,7 @@ TEST(ScipLidar, AllStepsOfTheRealFanComeAtItsPace) {
     const LidarLine line = bench.NextLine();
     EXPECT_EQ(line.seq, ++last_seq);
     EXPECT_EQ(line.range_mm.size(), 1081u);
-    EXPECT_LT(std::abs(bench.StampError_s(line)), 1e-3);
+    EXPECT_LT(std::abs(bench.StampError_s(line)), bench.MostStampError_s());
   }
   EXPECT_EQ(bench.lidar->Health().damaged, 0);
 }
@@ -69,7 +69,7 @@ TEST(ScipLidar, LinesEqualThoseOfTheSimulationInThisProcess) {
   }
 }
 
-TEST(ScipLidar, StampsAreWithinAMillisecondOfTheTruthAndEven) {
+TEST(ScipLidar, StampsAreAsNearTheTruthAsTheClockIsReadAndEven) {
   ScipBench bench;
   ASSERT_TRUE(bench.Begin());
   std::vector<double> errors;
@@ -78,12 +78,9 @@ TEST(ScipLidar, StampsAreWithinAMillisecondOfTheTruthAndEven) {
     errors.push_back(bench.StampError_s(bench.NextLine()));
     if (i > 0) unevenness.push_back(errors[errors.size() - 1] - errors[errors.size() - 2]);
   }
-  for (const double error : errors) EXPECT_LT(std::abs(error), 1e-3);
+  for (const double error : errors) EXPECT_LT(std::abs(error), bench.MostStampError_s());
   RecordProperty("rms_us", static_cast<int>(1e6 * Rms(errors)));
   RecordProperty("unevenness_us", static_cast<int>(1e6 * Rms(unevenness)));
-  // The period is a whole number of the stamps' ticks, so rounding is the same for every line and
-  // cannot be averaged: half a tick is what remains.
-  EXPECT_LT(Rms(errors), 0.7e-3);
   EXPECT_LT(Rms(unevenness), 0.1e-3);
 }
 
@@ -101,7 +98,7 @@ TEST(ScipLidar, TheRoundingOfTheStampsIsAveragedAway) {
   std::vector<double> errors;
   for (int i = 0; i < 120; ++i) {
     const double error = bench.StampError_s(bench.NextLine());
-    EXPECT_LT(std::abs(error), 1e-3);
+    EXPECT_LT(std::abs(error), bench.MostStampError_s());
     if (i >= 40) errors.push_back(error);
   }
   // The mean is half the round trip, which is the machine's affair.
@@ -116,7 +113,7 @@ TEST(ScipLidar, TheRoundingOfTheStampsIsAveragedAway) {
 TEST(ScipLidar, TheCalibratedOffsetOfTheStampIsAdded) {
   ScipBench bench({}, [](ScipLidarOptions& options) { options.stamp_offset_s = 0.005; });
   ASSERT_TRUE(bench.Begin());
-  EXPECT_NEAR(bench.StampError_s(bench.NextLine()), 0.005, 1e-3);
+  EXPECT_NEAR(bench.StampError_s(bench.NextLine()), 0.005, bench.MostStampError_s());
 }
 
 TEST(ScipLidar, DataCanBeRangesOnly) {
@@ -161,7 +158,7 @@ TEST(ScipLidar, TheStampsWrapInTheMiddleOfAScanWithoutATrace) {
   while (bench.clock->Now() < 1.4) {
     const LidarLine line = bench.NextLine();
     EXPECT_EQ(line.seq, ++last_seq);
-    EXPECT_LT(std::abs(bench.StampError_s(line)), 1e-3);
+    EXPECT_LT(std::abs(bench.StampError_s(line)), bench.MostStampError_s());
   }
 }
 
@@ -173,7 +170,8 @@ TEST(ScipLidar, AClockThatRunsFastIsFollowed) {
   ScipBench bench(faults, {}, RealMirror());
   ASSERT_TRUE(bench.Begin());
   for (int i = 0; i < 100; ++i)
-    EXPECT_LT(std::abs(bench.StampError_s(bench.NextLine())), 1e-3) << "line " << i;
+    EXPECT_LT(std::abs(bench.StampError_s(bench.NextLine())), bench.MostStampError_s())
+        << "line " << i;
 }
 
 }  // namespace
