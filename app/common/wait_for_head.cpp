@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app/common/interrupt_watcher.h"
+#include "hardware/api/head_link.h"
 
 namespace foresight {
 namespace {
@@ -30,9 +31,9 @@ HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
       if (status.state == HeadState::kHoming) head.StopMotor();
     }
     // Over a link that is lost nobody hears that, and what is shown is old.
-    const auto link = head.Link();
+    const HeadLink* link = head.Link();
     const auto now = std::chrono::steady_clock::now();
-    if (!aborted || !link || link->connected)
+    if (!aborted || !link || link->Health().connected)
       lost.reset();
     else if (!lost)
       lost = now;

@@ -176,6 +176,20 @@ void AddFitCommands(Workbench* bench) {
       QT_TRANSLATE_NOOP("Commands", "Keep the decision that this object is wrong"),
       "Ctrl+Backspace", [](SessionModel& session) { session.Decide(Decision::kRejected); },
       "unsure");
+  if (bench->send_pose)
+    bench->commands.Add(
+        {.id = "object.send",
+         .menu = "object",
+         .icon = "export",
+         .text = Commands::tr("Send to robot"),
+         .tip = Commands::tr("Send the accepted pose to the robot; its answer shows here"),
+         .keys = QStringLiteral("Ctrl+Shift+Return"),
+         .run = [bench] { bench->send_pose->send(); },
+         .why_not = [bench]() -> QString {
+           return bench->ShowsReview()
+                      ? Commands::tr("A pose from a review goes to no robot. Go back to live.")
+                      : bench->send_pose->WhyNot();
+         }});
   add("object.copy", QT_TRANSLATE_NOOP("Commands", "Copy object"),
       QT_TRANSLATE_NOOP("Commands", "List the object a second time, not decided on"),
       "Ctrl+Shift+D", [](SessionModel& session) { session.CopySelected(); });

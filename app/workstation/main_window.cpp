@@ -23,6 +23,7 @@
 #include "ui/panels/dock_style.h"
 #include "ui/panels/head_panel.h"
 #include "ui/panels/head_strip.h"
+#include "ui/panels/link_panel.h"
 #include "ui/panels/log_panel.h"
 #include "ui/panels/log_strip.h"
 #include "ui/panels/mission_panel.h"
@@ -39,7 +40,7 @@ namespace foresight {
 namespace {
 
 /// Counts up when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 5;
+constexpr int kLayoutVersion = 6;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
 constexpr QSize kUsualSize(1600, 1000);
@@ -298,6 +299,9 @@ void MainWindow::BuildDocks() {
   head_calibration_ = new ChainCalibrationPanel(&bench_->head_calibration, &bench_->tasks);
   head_calibration_dock_ = Dock("calibrate_head", tr("Calibrate head"), head_calibration_);
   docks_->addDockWidgetTabToArea(head_calibration_dock_, right);
+  if (bench_->link)
+    docks_->addDockWidgetTabToArea(Dock("link", tr("Link"), new LinkPanel(bench_->link.get())),
+                                   right);
   right->setCurrentIndex(0);
   auto* top = docks_->addDockWidget(
       ads::TopDockWidgetArea, Dock("picture", tr("Image"), Stack(image_, MakeImagePane)), centre);

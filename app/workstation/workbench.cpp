@@ -6,7 +6,7 @@ namespace foresight {
 
 Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
                      std::shared_ptr<MovingStand> stand)
-    : head(std::move(sensor_head)),
+    : head(sensor_head),
       live(mode, &tasks),
       review(SessionMode::kReplay, &tasks),
       recording(&live.session),
@@ -35,8 +35,17 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
     log.add({Notice::Level::kInfo, tr("%1 is not possible now.").arg(text), why});
   });
   connect(&commands, &CommandTable::ran, &recording, &RecordingViewModel::keepCommand);
+  ConnectLink(sensor_head);
   AddCommands(this);
   KeepCommandsCurrent();
+}
+
+void Workbench::ConnectLink(const std::shared_ptr<SensorHead>& sensor_head) {
+  if (sensor_head->Link() == nullptr) return;
+  link = std::make_unique<LinkViewModel>(sensor_head, &tasks);
+  send_pose = std::make_unique<SendPoseModel>(sensor_head, &live.session);
+  connect(link.get(), &LinkViewModel::noticed, &log, &LogModel::add);
+  connect(link.get(), &LinkViewModel::scanArrived, &recording, &RecordingViewModel::refreshList);
 }
 
 void Workbench::KeepCommandsCurrent() {
@@ -44,6 +53,7 @@ void Workbench::KeepCommandsCurrent() {
   const auto refresh = [this] { commands.refresh(); };
   connect(&head, &HeadViewModel::statusChanged, &commands, refresh);
   connect(&head, &HeadViewModel::planChanged, &commands, refresh);
+  if (send_pose) connect(send_pose.get(), &SendPoseModel::changed, &commands, refresh);
   connect(&recording, &RecordingViewModel::changed, &commands, refresh);
   connect(&reviewer, &ReviewViewModel::changed, &commands, refresh);
   connect(this, &Workbench::shownChanged, &commands, refresh);

@@ -8,11 +8,13 @@
 #include "ui/viewmodels/chain_calibration_model.h"
 #include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
+#include "ui/viewmodels/link_view_model.h"
 #include "ui/viewmodels/live_depth_view_model.h"
 #include "ui/viewmodels/log_model.h"
 #include "ui/viewmodels/recording_view_model.h"
 #include "ui/viewmodels/review_view_model.h"
 #include "ui/viewmodels/scan_flow.h"
+#include "ui/viewmodels/send_pose_model.h"
 
 namespace foresight {
 
@@ -38,6 +40,9 @@ class Workbench : public QObject {
   LiveDepthViewModel live_depth;
   CameraCalibrationModel camera_calibration;
   ChainCalibrationModel head_calibration;
+  /// Of a head that is elsewhere; nullptr where it is in this process.
+  std::unique_ptr<LinkViewModel> link;
+  std::unique_ptr<SendPoseModel> send_pose;
   CommandTable commands;
 
   /// Whether the window shows the document for review.
@@ -54,6 +59,7 @@ class Workbench : public QObject {
   void shownChanged();
 
  private:
+  void ConnectLink(const std::shared_ptr<SensorHead>& sensor_head);
   void KeepCommandsCurrent();
 
   bool shows_review_ = false;

@@ -9,7 +9,8 @@ using Action = DetectionEvent::Action;
 constexpr std::pair<Action, const char*> kActions[] = {
     {Action::kAccepted, "accepted"}, {Action::kRejected, "rejected"},
     {Action::kReopened, "reopened"}, {Action::kRenamed, "renamed"},
-    {Action::kDeleted, "deleted"},   {Action::kRestored, "restored"}};
+    {Action::kDeleted, "deleted"},   {Action::kRestored, "restored"},
+    {Action::kSent, "sent"}};
 
 }  // namespace
 

@@ -48,15 +48,17 @@ const char* ToString(Decision decision);
 
 /// Something that was done to a detection. Such rows are only ever added.
 struct DetectionEvent {
-  enum class Action { kAccepted, kRejected, kReopened, kRenamed, kDeleted, kRestored };
+  enum class Action { kAccepted, kRejected, kReopened, kRenamed, kDeleted, kRestored, kSent };
   std::int64_t utc_ns = 0;
   std::string author;
   Action action = Action::kAccepted;
-  std::string text;  ///< the new name for kRenamed, else a remark; may be empty
+  std::string
+      text;  ///< the new name for kRenamed, the answer for kSent, else a remark; may be empty
 
   bool operator==(const DetectionEvent&) const = default;
 };
-/// "accepted", "rejected", "reopened", "renamed", "deleted", "restored".
+/// "accepted", "rejected", "reopened", "renamed", "deleted", "restored",
+/// "sent": to the robot.
 const char* ToString(DetectionEvent::Action action);
 /// The reverse; fails with kBadData.
 Result<DetectionEvent::Action> DetectionActionFromString(const std::string& text);

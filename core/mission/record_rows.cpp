@@ -130,6 +130,8 @@ void Apply(const DetectionEvent& event, DetectionRecord& detection) {
     case Action::kRestored:
       detection.deleted = event.action == Action::kDeleted;
       return;
+    case Action::kSent:
+      return;
     case Action::kAccepted:
       detection.decision = Decision::kAccepted;
       break;

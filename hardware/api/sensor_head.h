@@ -7,11 +7,12 @@
 
 #include "core/sensor/scan.h"
 #include "hardware/api/head_health.h"
-#include "hardware/api/link_health.h"
 #include "hardware/api/live_view.h"
 #include "hardware/api/stop_capture.h"
 
 namespace foresight {
+
+class HeadLink;
 
 enum class HeadState { kDisconnected, kHoming, kReady, kSweeping, kStopping, kFault };
 /// "disconnected", "homing", "ready", "sweeping", "stopping", "fault".
@@ -65,8 +66,8 @@ class SensorHead {
   /// disconnected, as SensorRig::Check() where the rig is unusable, and with kInvalidInput where it
   /// is of a head with another number of beams or pixels; the old one stays then.
   virtual foresight::Status SetRig(const SensorRig& rig) = 0;
-  /// How the connection does; nullopt where the head is in this process.
-  virtual std::optional<LinkHealth> Link() const { return std::nullopt; }
+  /// The connection to it, which it owns; nullptr where the head is in this process.
+  virtual HeadLink* Link() { return nullptr; }
   /// How it moves, for PredictScan.
   virtual HeadMotion Motion() const { return {}; }
 

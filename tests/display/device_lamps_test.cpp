@@ -6,6 +6,7 @@
 
 #include "tests/display/paint_counter.h"
 #include "tests/ui/fake_head.h"
+#include "tests/ui/fake_link.h"
 #include "ui/panels/device_lamps.h"
 #include "ui/panels/head_device_rows.h"
 #include "ui/panels/head_strip.h"
@@ -59,12 +60,12 @@ TEST(DeviceLampsOverALink, HaveALampForTheLinkThatSaysWhenItIsLost) {
   class LinkedHead final : public FakeHead {
    public:
     using FakeHead::FakeHead;
-    std::optional<LinkHealth> Link() const override { return link; }
-    LinkHealth link;
+    HeadLink* Link() override { return &link; }
+    FakeLink link;
   };
   const auto head = std::make_shared<LinkedHead>(DefaultSensorRig());
-  head->link.connected = head->link.has_control = true;
-  head->link.address = "robot:47130";
+  head->link.health.connected = head->link.health.has_control = true;
+  head->link.health.address = "robot:47130";
   head->SetHealth(DeviceLampsOnScreen::AllWell());
   HeadViewModel model{head};
   model.Poll();
@@ -78,8 +79,8 @@ TEST(DeviceLampsOverALink, HaveALampForTheLinkThatSaysWhenItIsLost) {
   };
   EXPECT_NE(texts(lamps).find("|Motor||Link|"), std::string::npos) << texts(lamps);
   EXPECT_NE(texts(rows).find("Link: well"), std::string::npos) << texts(rows);
-  head->link.connected = false;
-  head->link.age_s = 12.3;
+  head->link.health.connected = false;
+  head->link.health.age_s = 12.3;
   model.Poll();
   EXPECT_NE(texts(lamps).find("Link: lost"), std::string::npos) << texts(lamps);
 }

@@ -33,6 +33,7 @@ class FakeHead : public SensorHead {
     FORESIGHT_CHECK(plan.Check());
     plan_ = plan;
     sink_ = std::move(sink);
+    delivered_ = false;
     status_.state = HeadState::kSweeping;
     return {};
   }

@@ -162,6 +162,7 @@ void DetectionCard::Show(const FoundObject& object, int candidate, bool is_curre
   rows << std::pair(tr("Fitted to"), QString::fromStdString(SourceTitle(OriginOf(found).source)))
        << std::pair(tr("Scan"), object.scan_time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")))
        << std::pair(tr("Kept"), object.kept ? tr("in the mission") : tr("not written yet"));
+  if (!object.robot.isEmpty()) rows << std::pair(tr("Robot"), object.robot);
   ShowRows(rows);
   ShowAge(object);
 }

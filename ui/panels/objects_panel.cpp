@@ -95,10 +95,13 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
 }
 
 QWidget* ObjectsPanel::BuildDecisions(CommandTable* commands) {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 0);
+  auto* rows = new QWidget;
+  auto* whole = new QVBoxLayout(rows);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(6);
+  auto* layout = new QHBoxLayout;
   layout->setSpacing(6);
+  whole->addLayout(layout);
   auto* accept = new QPushButton(Icon("confirmed"), tr("Accept"));
   auto* reject = new QPushButton(Icon("unsure"), tr("Reject"));
   accept->setObjectName(QStringLiteral("acceptButton"));
@@ -118,7 +121,13 @@ QWidget* ObjectsPanel::BuildDecisions(CommandTable* commands) {
   layout->addWidget(accept, 1);
   layout->addWidget(reject, 1);
   layout->addWidget(more);
-  return row;
+  if (commands->Has("object.send")) {  // a head at the far end of a link, with a robot behind it
+    auto* send = new QPushButton(Icon("export"), tr("Send to robot"));
+    send->setObjectName(QStringLiteral("sendButton"));
+    BindButton(send, commands, "object.send");
+    whole->addWidget(send);
+  }
+  return rows;
 }
 
 QWidget* ObjectsPanel::BuildFitRow(CommandTable* commands) {

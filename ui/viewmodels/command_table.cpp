@@ -22,6 +22,12 @@ const Command& CommandTable::Get(const char* id) const {
   throw ContractViolation("commands_", std::string("no such command: ") + id, __FILE__, __LINE__);
 }
 
+bool CommandTable::Has(const char* id) const {
+  for (const auto& command : commands_)
+    if (std::strcmp(command->id, id) == 0) return true;
+  return false;
+}
+
 bool CommandTable::Run(const char* id) {
   const Command& command = Get(id);
   if (const QString why = command.WhyNot(); !why.isEmpty()) {

@@ -47,6 +47,7 @@ class CommandTable : public QObject {
   const std::vector<std::unique_ptr<Command>>& All() const { return commands_; }
   /// Throws ContractViolation where there is no such command.
   const Command& Get(const char* id) const;
+  bool Has(const char* id) const;
   /// Runs it if it is allowed; else emits `refused` with the reason.
   bool Run(const char* id);
 

@@ -196,13 +196,13 @@ QVector<DeviceRow> HeadViewModel::DescribeDevices() const {
   if (status_.state == HeadState::kDisconnected) {
     for (const QString& name : names)
       rows << DeviceRow{name, DeviceRow::Lamp::kIdle, tr("not connected yet"), {}};
-    if (const auto link = head_->Link()) rows << LinkRow(*link);
+    if (const HeadLink* link = head_->Link()) rows << LinkRow(link->Health());
     return rows;
   }
   rows << RowOf(names[0], diagnosis_.lidar, Describe(status_.health.lidar))
        << RowOf(names[1], diagnosis_.camera, Describe(status_.health.camera))
        << RowOf(names[2], diagnosis_.motor, Describe(status_.health.motor));
-  if (const auto link = head_->Link()) rows << LinkRow(*link);
+  if (const HeadLink* link = head_->Link()) rows << LinkRow(link->Health());
   return rows;
 }
 
@@ -226,8 +226,8 @@ QString HeadViewModel::RigText() const {
 }
 
 bool HeadViewModel::CanEditPlan() const {
-  return !live_ && status_.state != HeadState::kHoming && status_.state != HeadState::kSweeping &&
-         status_.state != HeadState::kStopping;
+  return (!live_ || Receiving()) && status_.state != HeadState::kHoming &&
+         status_.state != HeadState::kSweeping && status_.state != HeadState::kStopping;
 }
 
 bool HeadViewModel::CanScan() const {
@@ -242,11 +242,16 @@ QString HeadViewModel::WhyNoScan() const {
 
 QString HeadViewModel::WhyNoCapture() const {
   if (stop_latched_) return tr("The head was stopped. Release the stop first.");
-  if (live_) return tr("A scan is running.");
+  if (live_ && !Receiving()) return tr("A scan is running.");
   if (status_.state != HeadState::kReady)
     return tr("The head is %1. Press Home and wait until it is ready.")
         .arg(QString::fromUtf8(ToString(status_.state)));
   return {};
+}
+
+bool HeadViewModel::Receiving() const {
+  if (!live_ || head_->Link() == nullptr || status_.state != HeadState::kReady) return false;
+  return early_ != nullptr || live_->Snapshot() != nullptr;
 }
 
 bool HeadViewModel::CanAbort() const {
@@ -300,10 +305,13 @@ void HeadViewModel::PollScan() {
   // An image is shown as soon as it is there; lines may wait for the next look.
   const bool new_image = status_.frames != frames_shown_;
   // Over a link lines come when they come, also after the sweep.
-  const bool over_link = head_->Link().has_value();
+  HeadLink* link = head_->Link();
+  const bool over_link = link != nullptr;
   const bool look =
       new_image || (++polls_ % kPollsPerLook == 0 && (over_link || status_.lines != lines_shown_));
   if (Sweeps() && !look) return;
+  const auto early = over_link ? link->Early() : nullptr;
+  if (early != nullptr && early != std::exchange(early_, early)) Q_EMIT scanCame(early);
   const auto scan = live_->Snapshot();
   if (!scan) {
     // Accepted, and then neither begun nor refused: the head was lost, or began anew. Over a link
@@ -321,7 +329,7 @@ void HeadViewModel::PollScan() {
     lines_of_ended_ = scan->lines.size();
     polls_since_end_ = 0;
     Q_EMIT scanEnded(scan);
-  } else if (look) {
+  } else if (look && early == nullptr) {
     lines_shown_ = status_.lines;
     frames_shown_ = status_.frames;
     Q_EMIT scanGrew(scan);
@@ -340,7 +348,7 @@ void HeadViewModel::PollLateLines() {
 }
 
 void HeadViewModel::scan() {
-  if (live_ || stop_latched_) return;
+  if ((live_ && !Receiving()) || stop_latched_) return;
   auto live = std::make_shared<ScanAssembler>();
   std::vector<std::shared_ptr<ScanSink>> sinks = {live};
   if (auto recorder = recorder_source_ ? recorder_source_() : nullptr) sinks.push_back(recorder);
@@ -350,6 +358,7 @@ void HeadViewModel::scan() {
     return;
   }
   live_ = std::move(live);
+  early_.reset();
   ended_.reset();
   polls_ = polls_without_scan_ = lines_shown_ = frames_shown_ = 0;
   Q_EMIT scanStarted();

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/sensor/scan_plan.h"
+#include "hardware/api/head_link.h"
 #include "hardware/api/health_watch.h"
 #include "hardware/api/sensor_head.h"
 #include "hardware/head/scan_assembler.h"
@@ -95,6 +96,8 @@ class HeadViewModel : public QObject {
   QString WhyNoHome() const;
   /// Whether a scan was started and has not been handed over yet.
   bool Scanning() const { return live_ != nullptr; }
+  /// Whether the sweep is over and the scan still comes over the link. The next one may start.
+  bool Receiving() const;
 
   /// Captures and sweeps that are no scans: shown nowhere and not recorded. Fail with kState after
   /// a stop that was not released, and as the head's own.
@@ -135,6 +138,8 @@ class HeadViewModel : public QObject {
   void scanStarted();
   /// What has arrived so far, about four times a second.
   void scanGrew(const std::shared_ptr<const foresight::Scan>& scan);
+  /// Over a link: what is here beyond what scanGrew showed, with gaps.
+  void scanCame(const std::shared_ptr<const foresight::EarlyScan>& early);
   void scanEnded(const std::shared_ptr<const foresight::Scan>& scan);
   /// A scan that was started will not come: the head never began it.
   void scanLost();
@@ -160,6 +165,7 @@ class HeadViewModel : public QObject {
   PlanFields plan_;
   std::function<std::shared_ptr<ScanSink>()> recorder_source_;
   std::shared_ptr<ScanAssembler> live_;
+  std::shared_ptr<const EarlyScan> early_;  ///< that scanCame told last
   int polls_ = 0;
   int polls_without_scan_ = 0;
   int lines_shown_ = 0;

@@ -9,8 +9,9 @@
 
 namespace foresight {
 
-/// Brings a scan from the head into the session: the points while they arrive, the whole scan at
-/// its end. Depth follows by itself, because the session has a new scan then.
+/// Brings a scan from the head into the session: the points while they arrive, over a link also
+/// those behind a gap, and the whole scan at its end. Depth follows by itself, because the session
+/// has a new scan then.
 class ScanFlow : public QObject {
   Q_OBJECT
 
@@ -20,6 +21,8 @@ class ScanFlow : public QObject {
  private:
   void Begin();
   void Grow(const std::shared_ptr<const Scan>& scan);
+  void Come(const std::shared_ptr<const EarlyScan>& early);
+  void ShowCloud(Result<RegisteredScan> cloud, const Scan& scan);
   void End(const std::shared_ptr<const Scan>& scan);
 
   HeadViewModel* head_;

@@ -41,10 +41,14 @@ void SessionModel::ExpectScan() {
 }
 
 void SessionModel::SetArriving(std::shared_ptr<const Scan> scan) {
-  const std::size_t images_before = arriving_ ? arriving_->frames.size() : 0;
-  arriving_ = std::move(scan);
+  const std::shared_ptr<const Scan> before = std::exchange(arriving_, std::move(scan));
+  const std::size_t images_before = before ? before->frames.size() : 0;
   const std::size_t images = arriving_ ? arriving_->frames.size() : 0;
-  if (images == images_before) return;
+  // Over a link a small image comes first, and then the real one in its place.
+  bool same = images == images_before;
+  for (std::size_t i = 0; same && i < images; ++i)
+    same = arriving_->frames[i].image.data() == before->frames[i].image.data();
+  if (same) return;
   Q_EMIT scanChanged();
   SelectImage(images == 0 ? -1 : std::max(0, image_index_));
 }
@@ -134,6 +138,7 @@ void SessionModel::Touch(const ObjectEvent& event) {
     switch (event.action) {
       case DetectionEvent::Action::kAccepted:
         object->decision = Decision::kAccepted;
+        object->decided_candidate = event.candidate;
         break;
       case DetectionEvent::Action::kRejected:
         object->decision = Decision::kRejected;
@@ -143,6 +148,10 @@ void SessionModel::Touch(const ObjectEvent& event) {
         break;
       case DetectionEvent::Action::kRenamed:
         object->name = event.text;
+        break;
+      case DetectionEvent::Action::kSent:
+        ++object->sendings;
+        object->robot = event.text;
         break;
       case DetectionEvent::Action::kDeleted:
       case DetectionEvent::Action::kRestored:
@@ -155,23 +164,38 @@ void SessionModel::Touch(const ObjectEvent& event) {
 
 void SessionModel::Decide(Decision decision) {
   const FoundObject* object = Selected();
-  if (object == nullptr || object->decision == decision) return;
+  if (object == nullptr) return;
+  if (object->decision == decision && object->decided_candidate == candidate_) return;
   // What was on the screen is what was decided on: a surface of a terrain, or an alternative.
-  const QString which = candidate_ > 0 ? tr("answer %1").arg(candidate_ + 1) : QString();
-  const auto event = [uuid = object->uuid, which](Decision value) {
+  const auto event = [uuid = object->uuid](Decision value, int candidate) {
+    const QString which = candidate > 0 ? tr("answer %1").arg(candidate + 1) : QString();
     const DetectionEvent::Action action =
         value == Decision::kAccepted   ? DetectionEvent::Action::kAccepted
         : value == Decision::kRejected ? DetectionEvent::Action::kRejected
                                        : DetectionEvent::Action::kReopened;
-    return ObjectEvent{uuid, action, which};
+    return ObjectEvent{uuid, action, which, candidate};
   };
   const QString text = decision == Decision::kAccepted   ? tr("Accept object")
                        : decision == Decision::kRejected ? tr("Reject object")
                                                          : tr("Take a decision back");
   undo_.Push(
-      text, kObjectTopic, [this, event, before = object->decision] { Touch(event(before)); },
-      [this, event, decision] { Touch(event(decision)); });
-  Touch(event(decision));
+      text, kObjectTopic,
+      [this, event, before = object->decision, candidate = object->decided_candidate] {
+        Touch(event(before, candidate));
+      },
+      [this, event, decision, candidate = candidate_] { Touch(event(decision, candidate)); });
+  Touch(event(decision, candidate_));
+}
+
+void SessionModel::KeepSending(const std::string& uuid, const QString& answer) {
+  Touch({uuid, DetectionEvent::Action::kSent, answer});
+}
+
+void SessionModel::NoteRobot(const std::string& uuid, const QString& text) {
+  FoundObject* object = Find(uuid);
+  if (object == nullptr) return;
+  object->robot = text;
+  Q_EMIT objectsChanged();
 }
 
 void SessionModel::RenameSelected(const QString& name) {

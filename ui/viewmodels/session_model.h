@@ -34,6 +34,9 @@ struct FoundObject {
   std::string uuid = NewUuid();  ///< of this object, in every file that keeps it
   QString name;                  ///< the operator's; empty = none was given
   Decision decision = Decision::kOpen;
+  int decided_candidate = 0;    ///< which answer the decision is about
+  int sendings = 0;             ///< that the robot's side answered
+  QString robot;                ///< what became of the last one; empty = the pose was not sent
   std::string provenance_json;  ///< all that is needed to make it again (core/mission)
   bool kept = false;            ///< it is on the disk
 };
@@ -42,7 +45,9 @@ struct FoundObject {
 struct ObjectEvent {
   std::string uuid;
   DetectionEvent::Action action = DetectionEvent::Action::kReopened;
-  QString text;  ///< the new name, or which answer a decision is about where it is not the best one
+  QString text;  ///< the new name, the robot's answer, or which answer a decision is about where it
+                 ///< is not the best one
+  int candidate = 0;  ///< that a decision is about
 };
 
 /// A document: the current scan and all that was made from it. Every part is immutable and replaced
@@ -121,6 +126,11 @@ class SessionModel : public QObject {
   void RemoveSelected();
   /// A second object like the selected one, not decided on.
   void CopySelected();
+
+  /// The pose was sent and this came back; not undone.
+  void KeepSending(const std::string& uuid, const QString& answer);
+  /// What shows with the object until the answer comes.
+  void NoteRobot(const std::string& uuid, const QString& text);
 
   void Report(const Notice& notice) { Q_EMIT noticed(notice); }
 

@@ -1,4 +1,5 @@
 #include "hardware/link/chunks/scan_builder.h"
+#include "hardware/link/chunks/enlarged_frame.h"
 
 #include <algorithm>
 
@@ -255,6 +256,7 @@ Status ScanBuilder::TakeImage(std::int64_t position, const std::string& bytes) {
   FORESIGHT_CHECK(Count(frame.image.size() * sizeof(Rgb8)));
   frames_[position] = std::make_shared<const CameraFrame>(std::move(frame));
   jpegs_.erase(position);
+  enlarged_.erase(position);
   return {};
 }
 
@@ -383,10 +385,22 @@ Result<PartialScan> ScanBuilder::Partial() const {
   return partial;
 }
 
+/// Made once for each small image: who looks again sees the same one.
+std::shared_ptr<const CameraFrame> ScanBuilder::Enlarged(std::int64_t position,
+                                                         const FrameItem& item) const {
+  auto& [small, enlarged] = enlarged_[position];
+  if (small != item.frame) enlarged = EnlargedFrame(item);
+  small = item.frame;
+  return enlarged;
+}
+
 void ScanBuilder::AddFrames(PartialScan& partial) const {
   std::map<std::int64_t, std::shared_ptr<const CameraFrame>> frames = frames_;
   for (const auto& [position, item] : jpegs_)
     frames.emplace(position, item.frame);  // where the lossless one is not here
+  for (const FrameItems* small : {&previews_, &thumbnails_})
+    for (const auto& [position, item] : *small)
+      if (frames.count(position) == 0) frames.emplace(position, Enlarged(position, item));
   for (const auto& [position, frame] : frames) {
     partial.scan.frames.push_back(frame);
     partial.lossless.push_back(frames_.count(position) != 0);

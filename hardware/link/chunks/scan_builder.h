@@ -42,7 +42,8 @@ struct ScanProgress {
 /// The part of a scan that is there.
 struct PartialScan {
   /// Lines in order, with gaps (jumps of seq), and without intensities where those have not come;
-  /// motor samples with gaps; frames as JPEG has them where the lossless image has not come.
+  /// motor samples with gaps; frames as JPEG has them where the lossless image has not come, and
+  /// enlarged previews or thumbnails where that has not either.
   /// `state` is kRunning until the end is here. A later one may have more in the middle, which
   /// GrowingRegistration would not notice: it is to be registered as a whole.
   Scan scan;
@@ -138,6 +139,7 @@ class ScanBuilder {
   Status CheckAllIsHere() const;
   Scan HeaderOnly() const;
   void AddFrames(PartialScan& partial) const;
+  std::shared_ptr<const CameraFrame> Enlarged(std::int64_t position, const FrameItem& item) const;
 
   std::string scan_id_;
   ChunkSet have_;
@@ -158,6 +160,8 @@ class ScanBuilder {
   std::size_t complete_lines_ = 0;
   std::map<std::int64_t, std::shared_ptr<const CameraFrame>> frames_;
   FrameItems thumbnails_, previews_, jpegs_;
+  using Frame = std::shared_ptr<const CameraFrame>;
+  mutable std::map<std::int64_t, std::pair<Frame, Frame>> enlarged_;  ///< small and enlarged
   std::map<std::int64_t, CloudBlock> coarse_, fine_;
   Delivered delivered_;
   mutable std::optional<Result<Scan>> whole_;

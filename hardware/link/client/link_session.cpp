@@ -57,15 +57,17 @@ Status LinkSession::Begin(std::chrono::milliseconds timeout) {
                 address_, reply.protocol(), reply.program(), kLinkProtocol);
   {
     const std::lock_guard lock(mutex_);
-    if (reply.boot_id() != greeting_.boot_id()) clock_.Forget();
+    if (reply.boot_id() != greeting_.boot_id()) {
+      clock_.Forget();
+      control_changed_desk_s_ = 0.0;
+    }
     clock_.Add(reply.desk_time_s(), Now());
     greeting_ = reply;
   }
-  if (!reply.may_operate()) return {};
+  if (!reply.may_operate() || !WantsControl()) return {};
   return TakeControl(timeout);
 }
 
-/// That somebody else has control is no failure: this station looks on.
 Status LinkSession::TakeControl(std::chrono::milliseconds timeout) {
   link::ControlReply reply;
   if (const grpc::Status called =
@@ -75,7 +77,47 @@ Status LinkSession::TakeControl(std::chrono::milliseconds timeout) {
   const std::lock_guard lock(mutex_);
   token_ = reply.granted() ? reply.token() : "";
   holder_ = reply.holder();
+  wants_control_ = true;
+  if (clock_.Known()) control_changed_desk_s_ = clock_.At(Now());
   return {};
+}
+
+Status LinkSession::GiveControl(const std::string& successor, std::chrono::milliseconds timeout) {
+  const std::string token = Token();
+  link::ControlReply reply;
+  grpc::Status called;
+  if (successor.empty()) {
+    link::ReleaseRequest request;
+    request.set_token(token);
+    called = stub_->ReleaseControl(Context(timeout).get(), request, &reply);
+  } else {
+    link::ControlRequest request;
+    request.set_token(token);
+    request.set_hand_over_to(successor);
+    called = stub_->TakeControl(Context(timeout).get(), request, &reply);
+  }
+  if (!called.ok()) return tl::unexpected(ToError(called, "giving control away"));
+  if (!successor.empty() && !reply.granted())
+    return Fail(ErrorCode::kState, "{}: control was not handed over: {}", address_, reply.reason());
+  const std::lock_guard lock(mutex_);
+  wants_control_ = false;
+  if (successor.empty()) token_.clear();
+  holder_ = reply.holder();
+  if (clock_.Known()) control_changed_desk_s_ = clock_.At(Now());
+  return {};
+}
+
+bool LinkSession::WantsControl() const {
+  const std::lock_guard lock(mutex_);
+  return wants_control_;
+}
+
+/// A word from before the last change here says nothing of it.
+void LinkSession::HeardControl(const std::string& holder, double desk_time_s) {
+  const std::lock_guard lock(mutex_);
+  if (desk_time_s < control_changed_desk_s_) return;
+  holder_ = holder;
+  if (holder != greeting_.your_name()) token_.clear();
 }
 
 link::GreetReply LinkSession::Greeting() const {

@@ -26,13 +26,21 @@ class LinkSession {
   /// What gRPC says of a call that failed, in words that name the head.
   Error ToError(const grpc::Status& status, const char* what) const;
 
-  /// Greets the head and takes control, where the certificate may operate and nobody else has it.
+  /// Greets the head and takes control, where the certificate may operate, nobody else has it, and
+  /// it was not given away here.
   Status Begin(std::chrono::milliseconds timeout);
+  /// That somebody else has control is no failure: this station looks on.
   Status TakeControl(std::chrono::milliseconds timeout);
+  /// To `successor`, or empty: to whoever takes it. Fails with kState where we do not have it.
+  Status GiveControl(const std::string& successor, std::chrono::milliseconds timeout);
+  /// Whether control is to be ours when nobody has it.
+  bool WantsControl() const;
 
   link::GreetReply Greeting() const;
   std::string Token() const;
   std::string Holder() const;
+  /// Who has control, as the head said at `desk_time_s`.
+  void HeardControl(const std::string& holder, double desk_time_s);
   /// The desk's time of a message that just came.
   void Heard(double desk_time_s);
   double DeskTime() const;
@@ -46,6 +54,8 @@ class LinkSession {
   link::GreetReply greeting_;
   std::string token_;
   std::string holder_;
+  bool wants_control_ = true;
+  double control_changed_desk_s_ = 0.0;
   DeskClock clock_;
 };
 

@@ -6,12 +6,15 @@
 #include "core/base/log.h"
 #include "core/mission/plan_json.h"
 #include "core/sensor/rig_id.h"
+#include "hardware/link/client/pose_sender.h"
 
 namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kRigTimeout{
     15'000};  ///< 3 kB at 9600 bit/s, and a blackout's end
+
+constexpr std::chrono::milliseconds kControlTimeout{4000};
 
 }  // namespace
 
@@ -107,8 +110,9 @@ void RemoteHead::OnEvent(const link::Event& event) {
   if (!event.status().rig_id().empty() && event.status().rig_id() != known)
     if (const foresight::Status fetched = FetchRig(); !fetched)
       LogError("{}", fetched.error().message);
+  session_.HeardControl(event.operator_name(), event.desk_time_s());
   // A lease that ran out in a blackout: nobody has control, so it is ours again.
-  if (event.operator_name().empty() && session_.Greeting().may_operate())
+  if (event.operator_name().empty() && MayOperate() && session_.WantsControl())
     static_cast<void>(session_.TakeControl(std::chrono::milliseconds(2000)));
 }
 
@@ -130,14 +134,15 @@ HeadMotion RemoteHead::Motion() const {
   return motion_;
 }
 
-std::optional<LinkHealth> RemoteHead::Link() const {
+LinkHealth RemoteHead::Health() const {
   LinkHealth health;
   health.connected = mirror_.Connected();
   health.age_s = mirror_.Age();
   health.round_trip_s = watch_->RoundTrip();
   health.down_bytes_per_s = fetcher_->DownBytesPerS();
-  for (const TransferState& transfer : fetcher_->Transfers())
-    health.left_bytes += transfer.left_bytes;
+  for (const LinkedScan& scan : fetcher_->Scans())
+    if (scan.place == LinkedScan::Place::kComing || scan.place == LinkedScan::Place::kWaiting)
+      health.left_bytes += scan.left_bytes;
   health.left_s = health.left_bytes == 0
                       ? 0.0
                       : static_cast<double>(health.left_bytes) / health.down_bytes_per_s;
@@ -146,6 +151,26 @@ std::optional<LinkHealth> RemoteHead::Link() const {
   health.address = options_.address;
   if (!health.connected) health.trouble = mirror_.Trouble();
   return health;
+}
+
+Status RemoteHead::TakeControl() {
+  if (!MayOperate())
+    return Fail(ErrorCode::kState, "{}: this certificate is an observer's: use an operator's",
+                options_.address);
+  FORESIGHT_CHECK(session_.TakeControl(kControlTimeout));
+  if (session_.Token().empty())
+    return Fail(ErrorCode::kState,
+                "{}: {} has control: ask for it, or wait until they were silent for a minute",
+                options_.address, session_.Holder());
+  return {};
+}
+
+Status RemoteHead::GiveControl(const std::string& successor) {
+  return session_.GiveControl(successor, kControlTimeout);
+}
+
+Result<RobotAnswer> RemoteHead::SendPose(const std::string& pose_json) {
+  return foresight::SendPose(session_, pose_json);
 }
 
 Status RemoteHead::MayAct(const char* what) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "hardware/api/head_link.h"
 #include "hardware/api/sensor_head.h"
 #include "hardware/link/client/command_sender.h"
 #include "hardware/link/client/head_mirror.h"
@@ -18,10 +19,10 @@
 
 namespace foresight {
 
-/// A head at the far end of a link (ADR 0015). What it shows is what the head said last; Link() has
-/// how old that is. Calls that make the head act return at once, and show in Status(); but SetRig
-/// waits for the head's answer, so a window calls it from a task.
-class RemoteHead final : public SensorHead {
+/// A head at the far end of a link (ADR 0015). What it shows is what the head said last; Health()
+/// has how old that is. Calls that make the head act return at once, and show in Status(); but
+/// SetRig waits for the head's answer, so a window calls it from a task.
+class RemoteHead final : public SensorHead, public HeadLink {
  public:
   struct Options {
     std::string address;                   ///< for messages
@@ -42,7 +43,7 @@ class RemoteHead final : public SensorHead {
   HeadStatus Status() const override;
   SensorRig Rig() const override;
   foresight::Status SetRig(const SensorRig& rig) override;
-  std::optional<LinkHealth> Link() const override;
+  HeadLink* Link() override { return this; }
   HeadMotion Motion() const override;
   foresight::Status Home() override;
   foresight::Status StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) override;
@@ -54,8 +55,18 @@ class RemoteHead final : public SensorHead {
   void StopMotor() override;
   void OperatorSeen() override;
 
+  LinkHealth Health() const override;
+  std::vector<LinkedScan> Scans() const override { return fetcher_->Scans(); }
+  std::shared_ptr<const EarlyScan> Early() const override { return fetcher_->Early(); }
+  void Fetch(const std::string& scan_id) override { fetcher_->Fetch(scan_id); }
+  void FetchFirst(const std::string& scan_id) override { fetcher_->FetchFirst(scan_id); }
+  void Pause(const std::string& scan_id) override { fetcher_->Pause(scan_id); }
+  bool MayOperate() const override { return session_.Greeting().may_operate(); }
+  foresight::Status TakeControl() override;
+  foresight::Status GiveControl(const std::string& successor) override;
+  Result<RobotAnswer> SendPose(const std::string& pose_json) override;
+
   bool Simulated() const { return session_.Greeting().simulated(); }
-  ScanFetcher& Scans() { return *fetcher_; }
 
  private:
   RemoteHead(std::shared_ptr<grpc::Channel> channel, const Options& options);

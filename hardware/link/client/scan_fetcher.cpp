@@ -4,6 +4,7 @@
 
 #include "core/base/log.h"
 #include "hardware/link/chunks/chunk_order.h"
+#include "hardware/link/client/early_scan.h"
 
 namespace foresight {
 namespace {
@@ -87,7 +88,7 @@ void ScanFetcher::TakeInSpools() {
   if (!spools) return LogError("{}", spools.error().message);
   for (const SpoolSummary& spool : *spools) {
     auto scan = std::make_shared<Fetched>();
-    scan->header.uuid = scan->state.scan_id = spool.scan_id;
+    scan->header.uuid = scan->shown.scan_id = spool.scan_id;
     scan->command = Fetched::Command::kDoubtful;
     scans_.emplace(spool.scan_id, std::move(scan));
   }
@@ -99,12 +100,14 @@ void ScanFetcher::Expect(const Scan& header, std::shared_ptr<ScanSink> sink) {
   scan->header = header;
   scan->sink = std::move(sink);
   scan->order = ++order_;
-  scan->state.scan_id = header.uuid;
+  scan->shown.scan_id = header.uuid;
+  scan->shown.begin_utc_ns = header.start_utc_ns;
   if (const auto planned = PredictScan(header.plan, header.rig))
-    scan->state.expected_lines = planned->lines;
+    scan->shown.of_lines = planned->lines;
   scans_[header.uuid] = std::move(scan);
   region_.reset();
   images_first_.clear();
+  newest_ = header.uuid;
   early_.reset();
 }
 
@@ -133,28 +136,92 @@ void ScanFetcher::Doubt(const std::string& scan_id) {
 void ScanFetcher::Heard(const std::vector<link::ScanOnHead>& scans, bool all) {
   const std::lock_guard lock(mutex_);
   std::map<std::string, const link::ScanOnHead*> on_head;
-  for (const link::ScanOnHead& scan : scans) on_head[scan.scan_id()] = &scan;
+  if (all) on_head_.clear();
+  for (const link::ScanOnHead& scan : scans) {
+    on_head[scan.scan_id()] = &scan;
+    on_head_[scan.scan_id()] = scan;
+  }
   for (auto& [id, scan] : scans_) {
     const auto found = on_head.find(id);
     if (found != on_head.end()) {
       if (scan->command == Fetched::Command::kDoubtful) scan->command = Fetched::Command::kTaken;
-      scan->state.expected_lines = found->second->expected_lines();
     } else if (all && scan->command == Fetched::Command::kDoubtful && scan->sink) {
       scan->command = Fetched::Command::kRefused;
       scan->refusal = "the command was lost on the link and the head did not start the scan";
     } else if (all && !scan->done && scan->command != Fetched::Command::kSent) {
-      scan->state.trouble = "the head does not have this scan any more";
+      scan->shown.trouble = "the head does not have this scan any more";
     }
   }
   wake_.notify_all();
 }
 
-std::vector<TransferState> ScanFetcher::Transfers() const {
+std::vector<LinkedScan> ScanFetcher::Scans() const {
   const std::lock_guard lock(mutex_);
-  std::vector<TransferState> states;
+  std::vector<std::shared_ptr<Fetched>> queue;
   for (const auto& [id, scan] : scans_)
-    if (!scan->done && scan->command != Fetched::Command::kRefused) states.push_back(scan->state);
-  return states;
+    if (scan->command != Fetched::Command::kRefused) queue.push_back(scan);
+  std::sort(queue.begin(), queue.end(), [](const auto& a, const auto& b) {
+    return std::pair(a->done, -a->order) < std::pair(b->done, -b->order);
+  });
+  std::vector<LinkedScan> scans;
+  for (const auto& scan : queue) {
+    scans.push_back(scan->shown);
+    scans.back().place = PlaceOf(*scan);
+    if (const auto there = on_head_.find(scan->header.uuid); there != on_head_.end())
+      Describe(there->second, scan->begun || scan->done, scans.back());
+  }
+  const std::size_t ours = scans.size();
+  for (const auto& [id, there] : on_head_) {
+    if (scans_.count(id) != 0) continue;
+    LinkedScan& scan = scans.emplace_back();
+    scan.scan_id = id;
+    Describe(there, false, scan);
+  }
+  std::sort(
+      scans.begin() + static_cast<std::ptrdiff_t>(ours), scans.end(),
+      [](const LinkedScan& a, const LinkedScan& b) { return a.begin_utc_ns > b.begin_utc_ns; });
+  return scans;
+}
+
+/// With the mutex held.
+LinkedScan::Place ScanFetcher::PlaceOf(const Fetched& scan) const {
+  using Place = LinkedScan::Place;
+  if (scan.done) return Place::kHere;
+  if (scan.paused) return Place::kPaused;
+  return scan.header.uuid == coming_ ? Place::kComing : Place::kWaiting;
+}
+
+void ScanFetcher::Describe(const link::ScanOnHead& there, bool left_is_known, LinkedScan& scan) {
+  scan.begin_utc_ns = there.begin_utc_ns();
+  const bool runs = there.state() == ToString(ScanState::kRunning);
+  scan.of_lines = runs ? there.expected_lines() : there.lines();
+  scan.of_images = there.frames();
+  if (!left_is_known) scan.left_bytes = there.bytes();
+}
+
+/// With the mutex held: the entry of a scan, which is made at the end of the queue where there is
+/// none.
+ScanFetcher::Fetched& ScanFetcher::Queued(const std::string& scan_id) {
+  auto& scan = scans_[scan_id];
+  if (!scan) {
+    scan = std::make_shared<Fetched>();
+    scan->header.uuid = scan->shown.scan_id = scan_id;
+    scan->command = Fetched::Command::kTaken;
+    for (const auto& [id, other] : scans_) scan->order = std::min(scan->order, other->order - 1);
+  }
+  scan->paused = false;
+  wake_.notify_all();
+  return *scan;
+}
+
+void ScanFetcher::Fetch(const std::string& scan_id) {
+  const std::lock_guard lock(mutex_);
+  Queued(scan_id);
+}
+
+void ScanFetcher::FetchFirst(const std::string& scan_id) {
+  const std::lock_guard lock(mutex_);
+  Queued(scan_id).order = ++order_;
 }
 
 double ScanFetcher::DownBytesPerS() const {
@@ -162,7 +229,7 @@ double ScanFetcher::DownBytesPerS() const {
   return rate_.BytesPerS(LinkSession::Now());
 }
 
-std::shared_ptr<const PartialScan> ScanFetcher::EarlyLook() const {
+std::shared_ptr<const EarlyScan> ScanFetcher::Early() const {
   const std::lock_guard lock(mutex_);
   return early_;
 }
@@ -179,12 +246,10 @@ void ScanFetcher::WishImage(std::int64_t position) {
   ++wishes_changed_;
 }
 
-void ScanFetcher::Pause(const std::string& scan_id, bool paused) {
+void ScanFetcher::Pause(const std::string& scan_id) {
   const std::lock_guard lock(mutex_);
   const auto found = scans_.find(scan_id);
-  if (found == scans_.end()) return;
-  found->second->paused = found->second->state.paused = paused;
-  wake_.notify_all();
+  if (found != scans_.end()) found->second->paused = true;
 }
 
 /// With the mutex held.
@@ -222,18 +287,26 @@ void ScanFetcher::Work(const std::stop_token& stop) {
     const auto scan = Next(stop);
     if (!scan) continue;
     if (scan->command == Fetched::Command::kRefused) {
+      EndSinksOfOthers(*scan);
       EndSink(*scan, ScanState::kAborted, scan->refusal);
       continue;
     }
     if (scan->sink) EndSinksOfOthers(*scan);
-    const Status fetched = Fetch(*scan, stop);
+    SetComing(scan->header.uuid);
+    const Status fetched = Bring(*scan, stop);
+    SetComing("");
     // A link that broke is tried again at once; a disk or a mission that takes nothing is not.
     const bool disk = !fetched && fetched.error().code != ErrorCode::kDevice;
     if (disk) LogError("{}", fetched.error().message);
     const std::lock_guard lock(mutex_);
-    if (!fetched) scan->state.trouble = fetched.error().message;
+    if (!fetched) scan->shown.trouble = fetched.error().message;
     scan->not_before_s = LinkSession::Now() + (disk ? kRetryDisk_s : kRetry_s);
   }
+}
+
+void ScanFetcher::SetComing(const std::string& scan_id) {
+  const std::lock_guard lock(mutex_);
+  coming_ = scan_id;
 }
 
 void ScanFetcher::EndSinksOfOthers(const Fetched& newest) {
@@ -273,7 +346,7 @@ link::TransferStart ScanFetcher::StartOf(const Fetched& scan) {
 }
 
 /// Until the scan is whole, the link breaks, or something else goes first.
-Status ScanFetcher::Fetch(Fetched& scan, const std::stop_token& stop) {
+Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
   if (!scan.transfer && !scan.done) {
     const std::string rig = options_.rig_yaml ? options_.rig_yaml() : "";
     FORESIGHT_TRY(scan.transfer, ScanTransfer::Open(options_.spool, scan.header.uuid, rig));
@@ -321,7 +394,9 @@ void ScanFetcher::SayThatAllIsHere(Stream& stream, Inbox& inbox) {
 Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
   std::int64_t wishes_sent = 0;
   while (!inbox.Closed() && !Superseded(scan)) {
-    FORESIGHT_CHECK(TakeIn(scan, stream, inbox.TakeAll(), inbox.LeftBytes()));
+    std::vector<Chunk> chunks = inbox.TakeAll();
+    if (Superseded(scan)) break;  // what is not taken in comes again
+    FORESIGHT_CHECK(TakeIn(scan, stream, std::move(chunks), inbox.LeftBytes()));
     if (scan.done || !scan.transfer || scan.transfer->TakeMistakenRig()) return {};
     link::TransferRequest request;
     const bool was_thin = thin_;
@@ -384,8 +459,11 @@ Status ScanFetcher::Finish(Fetched& scan) {
   scan.transfer.reset();
   scan.sink.reset();
   scan.done = true;
-  scan.state.trouble.clear();
-  scan.state.left_bytes = 0;
+  scan.shown.trouble.clear();
+  scan.shown.left_bytes = 0;
+  scan.shown.lines = scan.shown.of_lines = static_cast<int>(whole->lines.size());
+  scan.shown.images = scan.shown.of_images = static_cast<int>(whole->frames.size());
+  if (scan.header.uuid == newest_) early_.reset();
   return {};
 }
 
@@ -393,19 +471,19 @@ void ScanFetcher::Show(Fetched& scan, std::int64_t left_bytes) {
   ScanBuilder& builder = scan.transfer->builder();
   const ScanProgress progress = builder.Progress();
   const double now_s = LinkSession::Now();
-  std::shared_ptr<const PartialScan> early;
-  const bool more_than_delivered = progress.lines > builder.delivered().lines;
-  if (scan.sink && more_than_delivered && now_s - early_s_ > kEarlyEvery_s) {
+  std::shared_ptr<const EarlyScan> early;
+  const bool look = scan.sink && now_s - early_s_ > kEarlyEvery_s;
+  if (look) {
     early_s_ = now_s;
-    if (auto partial = builder.Partial())
-      early = std::make_shared<const PartialScan>(std::move(*partial));
+    early = EarlyScanOf(builder);
   }
   const std::lock_guard lock(mutex_);
-  scan.state.progress = progress;
-  scan.state.left_bytes = left_bytes;
-  scan.state.trouble.clear();
-  if (early) early_ = std::move(early);
-  if (scan.sink && !more_than_delivered) early_.reset();
+  scan.shown.lines = static_cast<int>(progress.lines);
+  scan.shown.images = static_cast<int>(progress.frames);
+  scan.shown.left_bytes = left_bytes;
+  scan.shown.trouble.clear();
+  scan.begun = true;
+  if (look && scan.header.uuid == newest_) early_ = std::move(early);
 }
 
 link::Wishes ScanFetcher::Wishes() {

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "hardware/api/head_link.h"
 #include "hardware/api/sensor_head.h"
 #include "hardware/link/client/link_session.h"
 #include "hardware/link/client/scan_archive.h"
@@ -19,16 +20,6 @@
 #include "hardware/link/client/transfer_rate.h"
 
 namespace foresight {
-
-/// A scan on its way, for a list of them.
-struct TransferState {
-  std::string scan_id;
-  ScanProgress progress;
-  int expected_lines = 0;
-  std::int64_t left_bytes = 0;
-  bool paused = false;
-  std::string trouble;  ///< e.g. a full disk; empty when all is well
-};
 
 /// Brings scans from a head to this station, from a thread of its own, which also calls the sinks:
 /// the newest scan first, for which the operator waits, then those that an earlier run left in the
@@ -60,13 +51,15 @@ class ScanFetcher {
   /// What the head says of its scans. `all` = it has no others.
   void Heard(const std::vector<link::ScanOnHead>& scans, bool all);
 
-  std::vector<TransferState> Transfers() const;
+  /// As HeadLink has them.
+  std::vector<LinkedScan> Scans() const;
+  std::shared_ptr<const EarlyScan> Early() const;
+  void Fetch(const std::string& scan_id);
+  void FetchFirst(const std::string& scan_id);
+  void Pause(const std::string& scan_id);
   double DownBytesPerS() const;
-  /// What of the newest scan is there, where that is more than its sink has heard; else nullptr.
-  std::shared_ptr<const PartialScan> EarlyLook() const;
   /// seq of lines that go first, of the newest scan; nullopt = none.
   void SetRegion(std::optional<NumberSet::Interval> lines);
-  void Pause(const std::string& scan_id, bool paused);
   /// The lossless image of the newest scan at this position goes first.
   void WishImage(std::int64_t position);
 
@@ -81,7 +74,8 @@ class ScanFetcher {
     bool done = false;          ///< all of it is here, and kept
     bool confirmed = false;     ///< the head knows that
     double not_before_s = 0.0;  ///< after a failure
-    TransferState state;
+    LinkedScan shown;
+    bool begun = false;                      ///< its first bytes came, so what is left is known
     std::unique_ptr<ScanTransfer> transfer;  ///< of the thread alone
   };
 
@@ -92,10 +86,14 @@ class ScanFetcher {
   void Work(const std::stop_token& stop);
   std::shared_ptr<Fetched> Next(const std::stop_token& stop);
   bool MayBeFetched(const Fetched& scan) const;
+  LinkedScan::Place PlaceOf(const Fetched& scan) const;
+  static void Describe(const link::ScanOnHead& there, bool left_is_known, LinkedScan& scan);
+  void SetComing(const std::string& scan_id);
   bool Superseded(const Fetched& scan) const;
   void EndSinksOfOthers(const Fetched& newest);
   void EndSink(Fetched& scan, ScanState state, const std::string& reason);
-  Status Fetch(Fetched& scan, const std::stop_token& stop);
+  Status Bring(Fetched& scan, const std::stop_token& stop);
+  Fetched& Queued(const std::string& scan_id);
   link::TransferStart StartOf(const Fetched& scan);
   Status Receive(Fetched& scan, Stream& stream, Inbox& inbox);
   Status TakeIn(Fetched& scan, Stream& stream, std::vector<Chunk> chunks, std::int64_t left_bytes);
@@ -109,11 +107,14 @@ class ScanFetcher {
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable_any wake_;
   std::map<std::string, std::shared_ptr<Fetched>> scans_;
+  std::map<std::string, link::ScanOnHead> on_head_;
+  std::string coming_;  ///< the scan whose stream is open; empty = none
+  std::string newest_;  ///< that was asked for: the scan that Early() is about
   std::int64_t order_ = 0;
   std::int64_t wishes_changed_ = 0;
   std::optional<NumberSet::Interval> region_;
   std::vector<std::int64_t> images_first_;
-  std::shared_ptr<const PartialScan> early_;
+  std::shared_ptr<const EarlyScan> early_;
   TransferRate rate_;
   double early_s_ = 0.0;  ///< of the thread alone, as what follows
   bool thin_ = false;     ///< the path was measured, and only what is small may travel

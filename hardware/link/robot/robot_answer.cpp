@@ -42,11 +42,6 @@ RobotLine LineFrom(const nlohmann::json& value) {
 
 }  // namespace
 
-const char* ToString(RobotAnswer::Kind kind) {
-  constexpr const char* kNames[] = {"accepted", "refused", "no_answer", "nobody_there"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
 Result<RobotLine> RobotLineFromJson(std::string_view json) {
   if (json.size() > kLongestRobotLine_bytes)
     return Fail(ErrorCode::kBadData, "robot: a line of {} bytes, more than {}", json.size(),

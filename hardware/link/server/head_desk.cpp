@@ -260,6 +260,10 @@ link::PoseReply HeadDesk::PublishPose(const link::PoseRequest& request, const Pe
     reply.set_reason(peer.name + " does not have control, so nothing was sent to the robot");
     return reply;
   }
+  if (request.boot_id() != boot_id_ || !(request.void_after_s() >= Time())) {
+    reply.set_reason("the pose came too late, and nothing was sent to the robot: send it again");
+    return reply;
+  }
   if (options_.gate == nullptr) {
     reply.set_reason(
         "the head has no socket for a robot: start foresight-head with --robot-socket");

@@ -55,6 +55,7 @@ class HeadDesk {
   std::shared_ptr<StopShelf> Stops(const std::string& id) const;
 
   link::Status Now(bool with_health) const;
+  const std::string& boot_id() const { return boot_id_; }
   std::string Holder() const { return lease_.Holder(Time()); }
   bool HasControl(const std::string& token) const { return lease_.Holds(token, Time()); }
   /// The rig in force; fails with kInvalidInput where `rig_id` is another one's and not empty.

@@ -93,13 +93,13 @@ TEST_F(RemoteHeadTest, KnowsTheHeadAndItsRig) {
   EXPECT_THAT(remote->Describe(), HasSubstr("fake head at 127.0.0.1:"));
   EXPECT_EQ(RigId(remote->Rig()), RigId(DefaultSensorRig()));
   EXPECT_TRUE(remote->Simulated());
-  EXPECT_TRUE(Eventually([&] { return remote->Link()->connected; }));
-  EXPECT_TRUE(remote->Link()->has_control);
+  EXPECT_TRUE(Eventually([&] { return remote->Health().connected; }));
+  EXPECT_TRUE(remote->Health().has_control);
 }
 
 TEST_F(RemoteHeadTest, ACommandShowsInTheStatus) {
   const auto remote = bench.Connect().value();
-  EXPECT_TRUE(Eventually([&] { return remote->Link()->connected; }));
+  EXPECT_TRUE(Eventually([&] { return remote->Health().connected; }));
   ASSERT_TRUE(remote->Home());
   EXPECT_EQ(remote->Status().state, HeadState::kHoming) << "before the head has answered";
   EXPECT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
@@ -128,8 +128,8 @@ TEST_F(RemoteHeadTest, LinesComeWhileTheScanRuns) {
   ASSERT_TRUE(PlayLines(24));
   // Blocks of eight lines; the motor's track comes with them.
   EXPECT_TRUE(Eventually([&] {
-    const auto transfers = remote->Scans().Transfers();
-    return transfers.size() == 1 && transfers[0].progress.complete_lines == 24;
+    const auto scans = remote->Scans();
+    return scans.size() == 1 && scans[0].lines == 24;
   }));
   EXPECT_TRUE(Eventually([&] { return sink->started && sink->Get().lines.size() == 24u; }));
   EXPECT_FALSE(sink->ended);
@@ -145,7 +145,7 @@ TEST_F(RemoteHeadTest, AHeadThatDiesInBetweenLosesNothing) {
   ASSERT_TRUE(PlayLines(20));
   bench.StopHead();
   head->Forget();
-  EXPECT_TRUE(Eventually([&] { return !remote->Link()->connected; }));
+  EXPECT_TRUE(Eventually([&] { return !remote->Health().connected; }));
   EXPECT_FALSE(remote->StartScan(ScanPlan(), std::make_shared<Collector>()));
   bench.StartHead();
   ASSERT_TRUE(Eventually([&] { return sink->ended.load(); }));
@@ -161,7 +161,7 @@ TEST_F(RemoteHeadTest, AStationThatDiesInBetweenGetsTheRestForItsArchive) {
   const auto sink = std::make_shared<Collector>();
   ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
   ASSERT_TRUE(PlayLines(20));
-  ASSERT_TRUE(Eventually([&] { return !remote->Scans().Transfers().empty(); }));
+  ASSERT_TRUE(Eventually([&] { return !remote->Scans().empty() && remote->Scans()[0].lines > 0; }));
   remote.reset();
   EXPECT_TRUE(sink->ended) << "the sink hears an end whatever happens";
   EXPECT_EQ(sink->Get().state, ScanState::kInterrupted);
@@ -170,6 +170,82 @@ TEST_F(RemoteHeadTest, AStationThatDiesInBetweenGetsTheRestForItsArchive) {
   ASSERT_TRUE(Eventually([&] { return archive->Scans().size() == 1; }));
   EXPECT_EQ(ScanDigest(archive->Scans()[0]), ScanDigest(OnHead()));
   EXPECT_TRUE(Confirmed());
+}
+
+TEST_F(RemoteHeadTest, AScanMayBeginBeforeTheOneBeforeHasCome) {
+  const auto archive = std::make_shared<Archive>();
+  const auto remote = Ready(archive);
+  const auto first = std::make_shared<Collector>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), first));
+  ASSERT_TRUE(PlayLines(16));
+  ASSERT_TRUE(Eventually([&] { return first->started && first->Get().lines.size() == 16; }));
+  const std::string id = remote->Scans().at(0).scan_id;
+  remote->Pause(id);
+  EXPECT_EQ(remote->Scans().at(0).place, LinkedScan::Place::kPaused);
+  head->Sink()->OnScanEnded(ScanState::kComplete, "");
+  head->SetState(HeadState::kReady);
+  ASSERT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
+  const auto second = std::make_shared<Collector>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), second));
+  ASSERT_TRUE(Eventually([&] { return head->scans == 2; }));
+  head->Play(SampleScan(6));
+  ASSERT_TRUE(Eventually([&] { return second->ended.load(); }));
+  EXPECT_EQ(second->Get().state, ScanState::kComplete);
+  EXPECT_TRUE(first->ended);
+  EXPECT_THAT(first->Get().reason, HasSubstr("another scan began"));
+  ASSERT_TRUE(Eventually([&] { return archive->Scans().size() == 1; }));
+  remote->Fetch(id);
+  ASSERT_TRUE(Eventually([&] { return archive->Scans().size() == 2; }));
+  EXPECT_EQ(archive->Scans()[1].state, ScanState::kComplete);
+  EXPECT_EQ(archive->Scans()[1].lines.size(), 16u);
+}
+
+TEST_F(RemoteHeadTest, AScanThatAnotherStationMadeIsListedAndComesWhenItIsAskedFor) {
+  const auto archive = std::make_shared<Archive>();
+  ASSERT_TRUE(head->Home());
+  ASSERT_TRUE(head->StartScan(ScanPlan(), bench.shelf().Begin("scan-of-another", {}).value()));
+  head->Play(SampleScan(6));
+  ASSERT_TRUE(Eventually([&] { return bench.shelf().List().back().state != ScanState::kRunning; }));
+  const auto remote = Ready(archive);
+  ASSERT_TRUE(Eventually([&] { return remote->Scans().size() == 1; }));
+  const LinkedScan scan = remote->Scans()[0];
+  EXPECT_EQ(scan.scan_id, "scan-of-another");
+  EXPECT_EQ(scan.place, LinkedScan::Place::kAtHead);
+  EXPECT_EQ(scan.of_lines, static_cast<int>(SampleScan(6).lines.size()));
+  EXPECT_GT(scan.left_bytes, 0);
+  EXPECT_TRUE(archive->Scans().empty());
+  remote->FetchFirst(scan.scan_id);
+  ASSERT_TRUE(Eventually([&] { return archive->Scans().size() == 1; }));
+  EXPECT_EQ(ScanDigest(archive->Scans()[0]), ScanDigest(OnHead()));
+  EXPECT_TRUE(Eventually([&] { return remote->Scans().at(0).place == LinkedScan::Place::kHere; }));
+  EXPECT_EQ(remote->Scans().at(0).left_bytes, 0);
+}
+
+TEST_F(RemoteHeadTest, ControlThatWasGivenAwayIsNotTakenBackByItself) {
+  const auto remote = Ready();
+  ASSERT_TRUE(remote->Health().has_control);
+  ASSERT_TRUE(remote->GiveControl(""));
+  EXPECT_FALSE(remote->Health().has_control);
+  EXPECT_THAT(remote->Home().error().message, HasSubstr("has control"));
+  const std::string token = bench.desk().TakeControl({}, {"bert", true}).token();
+  ASSERT_FALSE(token.empty()) << "it was free";
+  EXPECT_TRUE(Eventually([&] { return remote->Health().holder == "bert"; }));
+  EXPECT_THAT(remote->TakeControl().error().message, HasSubstr("bert has control"));
+  link::ReleaseRequest release;
+  release.set_token(token);
+  bench.desk().ReleaseControl(release);
+  EXPECT_TRUE(Eventually([&] { return remote->Health().holder.empty(); }));
+  EXPECT_FALSE(remote->Health().has_control);
+  ASSERT_TRUE(remote->TakeControl());
+  EXPECT_TRUE(remote->Health().has_control);
+}
+
+TEST_F(RemoteHeadTest, APoseIsAnsweredByTheHead) {
+  const auto remote = Ready();
+  const auto answer = remote->SendPose("{}");
+  ASSERT_TRUE(answer) << answer.error().message;
+  EXPECT_EQ(answer->kind, RobotAnswer::Kind::kRefused);
+  EXPECT_THAT(answer->reason, HasSubstr("--robot-socket"));
 }
 
 TEST_F(RemoteHeadTest, ARefusedScanHasAnEndThatSaysWhy) {

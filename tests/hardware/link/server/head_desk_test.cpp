@@ -167,7 +167,14 @@ TEST_F(HeadDeskTest, APoseGoesToTheRobotOfWhoHasControl) {
   link::PoseRequest request;
   EXPECT_THAT(desk.PublishPose(request, anna).reason(), HasSubstr("anna does not have control"));
   request.set_control_token(token);
+  EXPECT_THAT(desk.PublishPose(request, anna).reason(), HasSubstr("too late"));
+  request.set_boot_id(desk.boot_id());
+  request.set_void_after_s(desk.Time() - 1.0);
+  EXPECT_THAT(desk.PublishPose(request, anna).reason(), HasSubstr("too late"));
+  request.set_void_after_s(desk.Time() + 60.0);
   EXPECT_THAT(desk.PublishPose(request, anna).reason(), HasSubstr("--robot-socket"));
+  request.set_boot_id("of the head before");
+  EXPECT_THAT(desk.PublishPose(request, anna).reason(), HasSubstr("too late"));
 }
 
 TEST_F(HeadDeskTest, APoseIsJudgedByWhatTheHeadKnowsOfItsScan) {
@@ -179,6 +186,8 @@ TEST_F(HeadDeskTest, APoseIsJudgedByWhatTheHeadKnowsOfItsScan) {
   HeadDesk with_robot(head, *shelf, {60.0, true, &gate});
   link::PoseRequest request;
   request.set_control_token(with_robot.TakeControl({}, anna).token());
+  request.set_boot_id(with_robot.boot_id());
+  request.set_void_after_s(with_robot.Time() + 600.0);
   head->SetState(HeadState::kReady);
   PoseMessage pose = SamplePose();
   pose.scan_uuid = "scan-1";
