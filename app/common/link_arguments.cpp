@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "hardware/link/pki/link_role.h"
 #include "hardware/link/wire/channel_arguments.h"
 #include "hardware/link/wire/credentials.h"
 #include "hardware/link/wire/grpc_log.h"
@@ -14,14 +15,6 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kConnect{15'000};
-
-/// The host of HOST:PORT, without the brackets of an IPv6 address.
-std::string HostOf(const std::string& address) {
-  std::string host = address.substr(0, address.rfind(':'));
-  if (host.size() > 2 && host.front() == '[' && host.back() == ']')
-    host = host.substr(1, host.size() - 2);
-  return host;
-}
 
 std::filesystem::path SpoolFolder() {
   const char* state = std::getenv("XDG_STATE_HOME");
@@ -41,6 +34,13 @@ Result<std::shared_ptr<grpc::ChannelCredentials>> CredentialsFor(const LinkArgum
 }
 
 }  // namespace
+
+std::string HostOf(const std::string& address) {
+  std::string host = address.substr(0, address.rfind(':'));
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']')
+    host = host.substr(1, host.size() - 2);
+  return host;
+}
 
 Result<std::string> LinkAddress(const std::string& text) {
   const std::size_t colon = text.rfind(':');
@@ -70,6 +70,10 @@ CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments) {
                       "Folder of this station's keys (default: ~/.config/foresight/link)")
           ->needs(head);
   command
+      .add_option("--head-name", arguments.name,
+                  "The head's certificate must have this name (default: the address of --head)")
+      ->needs(head);
+  command
       .add_flag("--plaintext", arguments.plaintext,
                 "Without encryption, for a head on this computer only")
       ->needs(head)
@@ -88,6 +92,10 @@ Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
   SendGrpcLogToOurs();
   grpc::ChannelArguments channel;
   SetStationArguments(channel, arguments.thin ? LinkPath::kThin : LinkPath::kBursts);
+  if (!arguments.name.empty()) {
+    FORESIGHT_CHECK(CheckLinkName(LinkRole::kHead, arguments.name));
+    channel.SetSslTargetNameOverride(StableHostOfHead(arguments.name));
+  }
   RemoteHead::Options options;
   options.address = address;
   options.status_rate_hz = arguments.thin ? 0.5 : 10.0;

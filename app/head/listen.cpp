@@ -8,7 +8,9 @@
 #include <optional>
 #include <thread>
 
+#include "app/common/link_arguments.h"
 #include "app/common/output.h"
+#include "hardware/link/discovery/head_announcement.h"
 #include "hardware/link/robot/robot_socket.h"
 #include "hardware/link/server/head_server.h"
 #include "hardware/link/wire/credentials.h"
@@ -25,17 +27,10 @@ std::filesystem::path ScansFolder() {
   return std::filesystem::path(home != nullptr ? home : "/tmp") / ".local/share/foresight/head";
 }
 
-/// The host of HOST:PORT, without the brackets of an IPv6 address.
-std::string HostOf(const std::string& address) {
-  std::string host = address.substr(0, address.rfind(':'));
-  if (host.size() > 2 && host.front() == '[' && host.back() == ']')
-    host = host.substr(1, host.size() - 2);
-  return host;
-}
-
 struct Door {
   std::shared_ptr<grpc::ServerCredentials> credentials;
   PeerReader peer;
+  std::string name;  ///< of the head's certificate; empty without encryption
 };
 
 Result<Door> MakeDoor(const ListenArguments& arguments) {
@@ -48,6 +43,7 @@ Result<Door> MakeDoor(const ListenArguments& arguments) {
         arguments.keys.empty() ? KeyFolderOfHead() : std::filesystem::path(arguments.keys);
     FORESIGHT_TRY(const TlsFiles files, LoadTlsFilesOfHead(keys));
     FORESIGHT_TRY(gate, CertificateGate::Open(files));
+    door.name = files.certificate.identity.name;
     door.credentials = HeadCredentials(files, gate);
   }
   door.peer = [gate](const grpc::ServerContext& context) -> Result<HeadDesk::Peer> {
@@ -56,6 +52,29 @@ Result<Door> MakeDoor(const ListenArguments& arguments) {
   };
   return door;
 }
+
+/// On the local network, where stations of other computers can connect and know whom they reach.
+class Announcement {
+ public:
+  Announcement(const ListenArguments& arguments, const std::string& name, int port,
+               bool simulated) {
+    if (arguments.announce && !name.empty() && !IsLoopback(HostOf(arguments.address)))
+      announcement_.emplace(name, static_cast<std::uint16_t>(port), simulated);
+  }
+
+  /// Says once what keeps stations from finding the head.
+  void NoteTrouble() {
+    if (!announcement_) return;
+    const std::string trouble = announcement_->Trouble();
+    if (trouble != noted_ && !trouble.empty())
+      PrintNote("stations have to type this head's address: {}", trouble);
+    noted_ = trouble;
+  }
+
+ private:
+  std::optional<HeadAnnouncement> announcement_;
+  std::string noted_;
+};
 
 }  // namespace
 
@@ -84,7 +103,11 @@ Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
             arguments.plaintext ? " without encryption" : "", folder.string());
   if (arguments.json)
     PrintJson({{"address", fmt::format("{}:{}", host, server->port())}, {"pid", getpid()}});
-  while (!context.Cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  Announcement announcement(arguments, door.name, server->port(), simulated);
+  while (!context.Cancelled()) {
+    announcement.NoteTrouble();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
   PrintNote("{}: no longer listening", head->Describe());
   return ExitCode::kDone;
 }

@@ -18,6 +18,7 @@ struct ListenArguments {
   double disk_ratio = 0.5;
   double lease_s = 60.0;
   std::string robot_socket;  ///< path; empty = no robot
+  bool announce = true;      ///< on the local network, where stations from elsewhere can connect
   bool json = false;
 };
 

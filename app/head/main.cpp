@@ -60,6 +60,9 @@ CLI::Option* AddListenOptions(CLI::App& app, ListenArguments& arguments) {
   app.add_option("--robot-socket", arguments.robot_socket,
                  "Local socket from which the robot's software takes accepted poses")
       ->needs(listen);
+  app.add_flag("!--no-announce", arguments.announce,
+               "Do not tell the local network by mDNS that a head listens")
+      ->needs(listen);
   return listen;
 }
 

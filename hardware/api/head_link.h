@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "core/registration/register_scan.h"
 #include "core/sensor/scan.h"
 #include "hardware/api/link_health.h"
 #include "hardware/api/robot_answer.h"
 
 namespace foresight {
+
+struct RegisteredScan;
 
 /// A scan of the head at the far end of a link, and how much of it is on this computer.
 struct LinkedScan {

@@ -24,6 +24,8 @@ pkg_check_modules(cairo REQUIRED QUIET IMPORTED_TARGET cairo-pdf)
 pkg_check_modules(zstd REQUIRED QUIET IMPORTED_TARGET libzstd)
 pkg_check_modules(grpc REQUIRED QUIET IMPORTED_TARGET grpc++)
 pkg_check_modules(modbus REQUIRED QUIET IMPORTED_TARGET libmodbus)
+pkg_check_modules(avahi REQUIRED QUIET IMPORTED_TARGET avahi-client)
+set_property(TARGET PkgConfig::avahi PROPERTY INTERFACE_COMPILE_OPTIONS)  # _REENTRANT, which would shut out precompiled headers
 pkg_check_modules(aravis REQUIRED QUIET IMPORTED_TARGET aravis-0.8)
 # -pthread only defines _REENTRANT with this glibc, and a file with it could not use the precompiled
 # headers of all others.

@@ -254,6 +254,16 @@ TEST(IncludeRules, AravisIsKnownInOnePlace) {
   });
 }
 
+TEST(IncludeRules, AvahiIsKnownInOnePlace) {
+  ExpectNoBreach([](const Include& include) -> Opinion {
+    const std::string connection = "hardware/link/discovery/avahi_connection.h";
+    if (include.target != connection && !StartsWith(include.target, "avahi-")) return std::nullopt;
+    return BreachIf(FolderOf(include.file) != "hardware/link/discovery" ||
+                        (include.header && include.file != connection),
+                    "goes through HeadBrowser and HeadAnnouncement");
+  });
+}
+
 TEST(IncludeRules, KeysOfTheLinkKnowNoTransport) {
   ExpectNoBreach([](const Include& include) -> Opinion {
     if (!StartsWith(include.file, "hardware/link/pki/")) return std::nullopt;

@@ -77,7 +77,8 @@ Status LinkSession::TakeControl(std::chrono::milliseconds timeout) {
   const std::lock_guard lock(mutex_);
   token_ = reply.granted() ? reply.token() : "";
   holder_ = reply.holder();
-  wants_control_ = true;
+  // Control that was refused does not come by itself later, when nobody expects it.
+  wants_control_ = reply.granted();
   if (clock_.Known()) control_changed_desk_s_ = clock_.At(Now());
   return {};
 }
