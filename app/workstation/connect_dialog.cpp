@@ -102,6 +102,11 @@ void ConnectDialog::ShowHeads() {
   for (const AnnouncedHead& head : shown_) list_->addItem(TextOf(head));
   const auto found = std::find(shown_.begin(), shown_.end(), chosen);
   list_->setCurrentRow(found == shown_.end() ? -1 : static_cast<int>(found - shown_.begin()));
+  // The only head there is, most likely: one press of Enter.
+  if (shown_.size() == 1 && address_->currentText().isEmpty()) {
+    list_->setCurrentRow(0);
+    TakeRow(0);
+  }
 }
 
 void ConnectDialog::TakeRow(int row) {

@@ -69,6 +69,14 @@ TEST_F(ConnectOnScreen, AHeadOfTheListIsAskedForItsName) {
   EXPECT_FALSE(model->TakeHead().has_value());
 }
 
+TEST_F(ConnectOnScreen, TheOnlyHeadIsChosenWhereNothingWasTyped) {
+  network.heads.resize(1);
+  ConnectDialog first_time(model.get(), {}, "");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return model->Heads().size() == 1; }, 5000));
+  EXPECT_EQ(first_time.findChild<QComboBox*>("headAddress")->currentText(), "10.0.0.7:47130");
+  EXPECT_EQ(Find<QComboBox>("headAddress")->currentText(), "robot:5") << "that was typed";
+}
+
 TEST_F(ConnectOnScreen, AnAddressThatWasTypedProvesItself) {
   Find<QListWidget>("announcedHeads")->setCurrentRow(0);
   Find<QComboBox>("headAddress")->setCurrentText("elsewhere");
