@@ -41,6 +41,24 @@ Status AddDepth(const Scan& scan, const DepthResult& depth, const ConfidenceMask
   return {};
 }
 
+Json ToJson(const ScanPart& part) {
+  return {{"lines", part.lines}, {"of_lines", part.of_lines}, {"seqs", part.seqs}};
+}
+
+Result<ScanPart> PartFrom(const nlohmann::json& value) {
+  ScanPart part;
+  value.at("lines").get_to(part.lines);
+  value.at("of_lines").get_to(part.of_lines);
+  value.at("seqs").get_to(part.seqs);
+  std::int64_t last = -1;
+  for (const auto& [first, end] : part.seqs) {
+    if (first <= last || end < first)
+      return Fail(ErrorCode::kBadData, "part: seqs: [{}, {}] is out of order", first, end);
+    last = end;
+  }
+  return part;
+}
+
 Provenance ProvenanceFrom(const nlohmann::json& value) {
   Provenance provenance;
   value.at("program_version").get_to(provenance.program_version);
@@ -65,6 +83,11 @@ Provenance ProvenanceFrom(const nlohmann::json& value) {
     FORESIGHT_TRY(provenance.roi, RoiFromJson(roi.dump()));
     return {};
   });
+  if (value.contains("part"))
+    read("part", [&](const nlohmann::json& part) -> Status {
+      FORESIGHT_TRY(provenance.part, PartFrom(part));
+      return {};
+    });
   return provenance;
 }
 
@@ -109,6 +132,7 @@ std::string ProvenanceToJson(const Provenance& provenance) {
     json["fit_options"] = Json::parse(FitOptionsToJson(*provenance.fit));
   }
   if (provenance.roi) json["roi"] = Json::parse(RoiToJson(*provenance.roi));
+  if (provenance.part) json["part"] = ToJson(*provenance.part);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

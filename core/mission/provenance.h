@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/detection/fit_in_scan.h"
+#include "core/mission/scan_part.h"
 #include "core/sensor/scan.h"
 
 namespace foresight {
@@ -19,6 +20,7 @@ struct Provenance {
   std::optional<DepthOptions> depth;  ///< none = no depth map was used
   std::optional<FitOptions> fit;      ///< none = of a depth map
   std::optional<Roi> roi;             ///< none = of a depth map
+  std::optional<ScanPart> part;       ///< none = made from all lines of the scan
 };
 
 /// Of a fit in a scan to what `source` names, by this program. `depth` is what the fit was given,

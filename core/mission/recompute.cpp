@@ -113,7 +113,12 @@ Result<Recomputed> Recomputer::RemakeDetection(const DetectionRecord& record,
     FORESIGHT_TRY(const NamedSource source, FitSourceFromName(provenance.source));
     FORESIGHT_CHECK(OpenScan(record.scan_uuid, context.Part(0.0, 0.2)));
     FORESIGHT_CHECK(Prepare(provenance, context.Part(0.2, 0.6)));
-    const ProcessedScan processed{opened_.scan.rig, opened_.cloud,
+    RegisteredScan cloud = opened_.cloud;
+    if (provenance.part) {
+      FORESIGHT_TRY(const Scan part, TakePart(opened_.scan, *provenance.part));
+      FORESIGHT_TRY(cloud, RegisterScan(part, context.Part(0.55, 0.6)));
+    }
+    const ProcessedScan processed{opened_.scan.rig, cloud,
                                   provenance.depth ? &opened_.depth : nullptr};
     FORESIGHT_TRY(const Detection found, FitInScan(processed, source.source, *provenance.roi,
                                                    *provenance.fit, context.Part(0.6, 1.0)));

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/registration/final_part.h"
 
 namespace foresight {
 
@@ -20,16 +21,8 @@ Result<RegisteredScan> GrowingRegistration::Update(const Scan& scan, const RunCo
 }
 
 int GrowingRegistration::NewFinalLines(const Scan& scan) const {
-  // The angle of a beam is a fit through the samples around it: it is final when the track reaches
-  // beyond the last one's window.
-  const auto samples = scan.track.samples();
-  const LidarModel& lidar = scan.rig.lidar;
-  const double known_until_s = samples.empty() ? -1e300 : samples.back().time_s;
   auto next = static_cast<std::size_t>(final_lines_);
-  while (next < scan.lines.size() &&
-         scan.lines[next].time_s + lidar.BeamTime(lidar.beams - 1) + MotorTrack::kWindow_s <=
-             known_until_s)
-    ++next;
+  while (next < scan.lines.size() && IsFinal(scan.lines[next], scan)) ++next;
   return static_cast<int>(next) - final_lines_;
 }
 

@@ -51,6 +51,15 @@ QLabel* Faint(const QString& text = {}) {
   return label;
 }
 
+QString LinesText(const std::optional<ScanPart>& part) {
+  if (!part) return DetectionCard::tr("all of the scan");
+  return part->of_lines > part->lines
+             ? DetectionCard::tr("%1 of %2, before the rest came")
+                   .arg(part->lines)
+                   .arg(part->of_lines)
+             : DetectionCard::tr("%1, before the scan's end").arg(part->lines);
+}
+
 }  // namespace
 
 DetectionCard::DetectionCard(QWidget* parent)
@@ -160,6 +169,7 @@ void DetectionCard::Show(const FoundObject& object, int candidate, bool is_curre
   answer_->setToolTip(behind ? tr("%1 nats behind the best answer").arg(*behind, 0, 'f', 0)
                              : QString());
   rows << std::pair(tr("Fitted to"), QString::fromStdString(SourceTitle(OriginOf(found).source)))
+       << std::pair(tr("Lines"), LinesText(object.part))
        << std::pair(tr("Scan"), object.scan_time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")))
        << std::pair(tr("Kept"), object.kept ? tr("in the mission") : tr("not written yet"));
   if (!object.robot.isEmpty()) rows << std::pair(tr("Robot"), object.robot);

@@ -80,6 +80,9 @@ Advice AdviceFor(const FoundObject& object, int candidate, bool is_current, Sess
           : AdviceTexts::tr(
                 "Do not act on this alternative: the best answer explains the measurements "
                 "better.");
+  if (object.part)
+    advice.text +=
+        AdviceTexts::tr(" Made from part of the scan: fit again when all of it is here.");
   return advice;
 }
 

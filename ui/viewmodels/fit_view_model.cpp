@@ -21,7 +21,10 @@ FitViewModel::FitViewModel(SessionModel* session, QObject* parent)
   for (auto signal : {&SessionModel::cloudChanged, &SessionModel::depthChanged,
                       &SessionModel::roiChanged, &SessionModel::scanChanged})
     connect(session_, signal, this, &FitViewModel::changed);
-  connect(session_, &SessionModel::scanChanged, &runner_, &TaskRunner::cancel);
+  connect(session_, &SessionModel::scanChanged, this, [this] {
+    // An image that came, or the rest of the lines, does not make the answer worthless.
+    if (!session_->ShownScan() || session_->ShownScan()->uuid != fitting_in_) runner_.cancel();
+  });
   connect(&runner_, &TaskRunner::changed, this, &FitViewModel::changed);
 }
 
@@ -62,7 +65,7 @@ void FitViewModel::leaveTools() {
 bool FitViewModel::CanFit() const {
   const bool has_points =
       source_ == FitSource::kRaw ? session_->Cloud() != nullptr : session_->Depth() != nullptr;
-  return session_->CurrentScan() && session_->Region() && has_points && !runner_.Busy();
+  return session_->ScanToFit() && session_->Region() && has_points && !runner_.Busy();
 }
 
 void FitViewModel::DrawRegion(const std::vector<Eigen::Vector2d>& points) {
@@ -133,7 +136,7 @@ void FitViewModel::resetOptions() {
 }
 
 FitOptions FitViewModel::UsualOptionsFor(ObjectKind kind) const {
-  const auto& scan = session_->CurrentScan();
+  const auto& scan = session_->ScanToFit();
   const SensorRig& rig = scan ? scan->rig : session_->Rig();
   FitOptions options = FitOptionsFor(kind, rig.robot_from_base);
   auto* terrain = std::get_if<FitTerrainOptions>(&options);
@@ -148,35 +151,41 @@ FitOptions FitViewModel::UsualOptionsFor(ObjectKind kind) const {
 }
 
 void FitViewModel::fit() {
-  if (!session_->CurrentScan() || !session_->Region()) return;
+  if (!session_->ShownScan() || !session_->Region()) return;
   if (!CanFit() && !runner_.Busy()) {
     session_->Report({Notice::Level::kWarning, tr("There are no points to fit to yet."),
                       tr("Wait until the depth is computed, then press Fit.")});
     return;
   }
   const FitOptions options = OptionsFor(kind_);
-  const auto work = [scan = session_->CurrentScan(), cloud = session_->Cloud(),
-                     depth = session_->Depth(), mask = session_->Mask(), roi = *session_->Region(),
+  const std::shared_ptr<const Scan> scan = session_->ScanToFit();
+  fitting_in_ = scan->uuid;
+  std::optional<ScanPart> part;
+  if (!session_->CurrentScan()) part = PartOf(*scan, session_->Part().of_lines);
+  const auto work = [scan, part, cloud = session_->Cloud(), depth = session_->Depth(),
+                     mask = session_->Mask(), roi = *session_->Region(),
                      mask_options = session_->MaskOptions(), source = source_,
                      options](const RunContext& context) -> Result<Found> {
     const ProcessedScan processed{scan->rig, *cloud, depth.get(), mask.get()};
     FORESIGHT_TRY(Detection detection, FitInScan(processed, source, roi, options, context));
-    FORESIGHT_TRY(const Provenance provenance,
+    FORESIGHT_TRY(Provenance provenance,
                   ProvenanceOfFit(*scan, source, depth.get(), mask_options, options, roi));
+    provenance.part = part;
     return Found{std::move(detection), ProvenanceToJson(provenance)};
   };
-  runner_.Run<Found>(
-      Doing(), work,
-      [this, scan = session_->CurrentScan()](const Result<Found>& found) { Accept(scan, found); });
+  runner_.Run<Found>(Doing(), work,
+                     [this, scan, part](const Result<Found>& found) { Accept(scan, part, found); });
 }
 
-void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan, const Result<Found>& found) {
+void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan,
+                          const std::optional<ScanPart>& part, const Result<Found>& found) {
   if (!found) {
     session_->Report(NoticeOf(Doing(), found.error()));
     return;
   }
-  if (scan != session_->CurrentScan()) return;
+  if (!session_->ShownScan() || scan->uuid != session_->ShownScan()->uuid) return;
   FoundObject object;
+  object.part = part;
   object.detection = found->detection;
   object.provenance_json = found->provenance_json;
   object.rig = scan->rig;

@@ -80,9 +80,11 @@ class FitViewModel : public QObject {
     Detection detection;
     std::string provenance_json;
   };
-  void Accept(const std::shared_ptr<const Scan>& scan, const Result<Found>& found);
+  void Accept(const std::shared_ptr<const Scan>& scan, const std::optional<ScanPart>& part,
+              const Result<Found>& found);
 
   SessionModel* session_;
+  std::string fitting_in_;  ///< uuid of the scan of the last fit
   TaskRunner runner_{session_->Tasks()};
   FitSource source_ = FitSource::kRaw;
   RegionShape shape_ = RegionShape::kRectangle;

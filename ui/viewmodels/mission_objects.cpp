@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/detection/detection_json.h"
+#include "core/mission/provenance.h"
 
 namespace foresight {
 
@@ -41,6 +42,8 @@ Result<FoundObject> ObjectOf(const DetectionRecord& record, const SensorRig& rig
   object.name = QString::fromStdString(record.name);
   object.decision = record.decision;
   object.provenance_json = record.provenance_json;
+  if (const auto made = ProvenanceFromJson(record.provenance_json, record.uuid))
+    object.part = made->part;
   object.kept = true;
   return object;
 }

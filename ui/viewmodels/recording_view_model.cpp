@@ -314,6 +314,8 @@ void RecordingViewModel::WriteNext() {
       (void)recorder->WaitUntilWritten();
       FORESIGHT_CHECK(AppendScan(file.get(), **scan, context));
     } else if (const auto* object = std::get_if<FoundObject>(&change)) {
+      // Found while its scan comes: the scan is in the file when its first lines are.
+      if (object->part) (void)recorder->WaitUntilWritten();
       FORESIGHT_CHECK(InTheFileThatKnowsIt(
           files, [&](MissionFile* one) { return KeepObject(one, *object, author); }));
     } else if (const auto* event = std::get_if<ObjectEvent>(&change)) {

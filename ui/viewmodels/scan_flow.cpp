@@ -1,5 +1,9 @@
 #include "ui/viewmodels/scan_flow.h"
 
+#include <algorithm>
+
+#include "core/registration/final_part.h"
+
 namespace foresight {
 
 ScanFlow::ScanFlow(HeadViewModel* head, SessionModel* session, QObject* parent)
@@ -21,12 +25,15 @@ void ScanFlow::Begin() {
 void ScanFlow::Grow(const std::shared_ptr<const Scan>& scan) {
   session_->SetArriving(scan);
   if (runner_.Busy()) return;  // the next look shows more
-  runner_.Run<RegisteredScan>(
+  runner_.Run<Placed>(
       tr("Placing points"),
-      [scan, points = points_](const RunContext& context) {
-        return points->Update(*scan, context);
+      [scan, points = points_](const RunContext& context) -> Result<Placed> {
+        FORESIGHT_TRY(RegisteredScan cloud, points->Update(*scan, context));
+        return Placed{std::move(cloud), std::make_shared<const Scan>(FinalPart(*scan))};
       },
-      [this, scan](Result<RegisteredScan> cloud) { ShowCloud(std::move(cloud), *scan); });
+      [this, of_lines = head_->LastStatus().expected_lines](Result<Placed> placed) {
+        Show(std::move(placed), of_lines);
+      });
 }
 
 /// What is behind a gap may change with the next look, so it is placed as a whole.
@@ -34,22 +41,28 @@ void ScanFlow::Come(const std::shared_ptr<const EarlyScan>& early) {
   session_->SetArriving(early->scan);
   if (early->cloud) {
     runner_.cancel();
-    session_->SetCloud(early->cloud, early->scan->rig);
+    session_->SetCloud(early->cloud, early->scan->rig, {nullptr, early->lines, early->of_lines});
     return;
   }
   if (runner_.Busy() || early->scan->lines.empty()) return;
-  runner_.Run<RegisteredScan>(
+  runner_.Run<Placed>(
       tr("Placing points"),
-      [scan = early->scan](const RunContext& context) { return RegisterScan(*scan, context); },
-      [this, scan = early->scan](Result<RegisteredScan> cloud) {
-        ShowCloud(std::move(cloud), *scan);
+      [scan = early->scan](const RunContext& context) -> Result<Placed> {
+        auto part = std::make_shared<const Scan>(FinalPart(*scan));
+        FORESIGHT_TRY(RegisteredScan cloud, RegisterScan(*part, context));
+        return Placed{std::move(cloud), std::move(part)};
+      },
+      [this, of_lines = early->of_lines](Result<Placed> placed) {
+        Show(std::move(placed), of_lines);
       });
 }
 
-void ScanFlow::ShowCloud(Result<RegisteredScan> cloud, const Scan& scan) {
+void ScanFlow::Show(Result<Placed> placed, int of_lines) {
   // Too few points yet, or the whole scan has come meanwhile.
-  if (!cloud || !head_->Scanning()) return;
-  session_->SetCloud(std::make_shared<const RegisteredScan>(std::move(*cloud)), scan.rig);
+  if (!placed || !head_->Scanning()) return;
+  const int lines = placed->cloud.lines;
+  session_->SetCloud(std::make_shared<const RegisteredScan>(std::move(placed->cloud)),
+                     placed->part->rig, {placed->part, lines, std::max(lines, of_lines)});
 }
 
 void ScanFlow::End(const std::shared_ptr<const Scan>& scan) {

@@ -22,7 +22,12 @@ class ScanFlow : public QObject {
   void Begin();
   void Grow(const std::shared_ptr<const Scan>& scan);
   void Come(const std::shared_ptr<const EarlyScan>& early);
-  void ShowCloud(Result<RegisteredScan> cloud, const Scan& scan);
+  /// What of a scan can be placed for good, and where.
+  struct Placed {
+    RegisteredScan cloud;
+    std::shared_ptr<const Scan> part;
+  };
+  void Show(Result<Placed> placed, int of_lines);
   void End(const std::shared_ptr<const Scan>& scan);
 
   HeadViewModel* head_;

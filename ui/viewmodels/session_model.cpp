@@ -18,15 +18,19 @@ SessionModel::SessionModel(SessionMode mode, TaskQueue* tasks, QObject* parent)
 }
 
 void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
+  const bool was_coming = scan && arriving_ && arriving_->uuid == scan->uuid;
   scan_ = std::move(scan);
   expects_scan_ = false;
   image_index_ = -1;  // all of it before the first signal: who hears one may ask for anything
   depth_.reset();
   mask_.reset();
   cloud_.reset();
-  roi_.reset();
+  part_ = {};
   arriving_.reset();
-  undo_.Forget(kRegionTopic);
+  if (!was_coming) {
+    roi_.reset();
+    undo_.Forget(kRegionTopic);
+  }
   Q_EMIT scanChanged();
   Q_EMIT cloudChanged();
   Q_EMIT roiChanged();
@@ -75,9 +79,11 @@ const CameraFrame* SessionModel::CurrentImage() const {
   return image_index_ < 0 ? nullptr : &ShownScan()->frames[static_cast<std::size_t>(image_index_)];
 }
 
-void SessionModel::SetCloud(std::shared_ptr<const RegisteredScan> cloud, const SensorRig& rig) {
+void SessionModel::SetCloud(std::shared_ptr<const RegisteredScan> cloud, const SensorRig& rig,
+                            CloudPart part) {
   if (tasks_ != nullptr) tasks_->Discard(std::move(cloud_));
   cloud_ = std::move(cloud);
+  part_ = std::move(part);
   rig_ = rig;
   Q_EMIT cloudChanged();
 }
@@ -272,7 +278,7 @@ void SessionModel::StepCandidate(int by) {
 }
 
 bool SessionModel::IsCurrent(const FoundObject& object) const {
-  return scan_ && scan_->uuid == object.scan_uuid;
+  return ShownScan() && ShownScan()->uuid == object.scan_uuid;
 }
 
 }  // namespace foresight

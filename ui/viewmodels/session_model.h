@@ -13,6 +13,7 @@
 #include "core/depth/pipeline.h"
 #include "core/detection/detection.h"
 #include "core/mission/mission_records.h"
+#include "core/mission/scan_part.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/scan.h"
 #include "ui/viewmodels/notice.h"
@@ -34,11 +35,20 @@ struct FoundObject {
   std::string uuid = NewUuid();  ///< of this object, in every file that keeps it
   QString name;                  ///< the operator's; empty = none was given
   Decision decision = Decision::kOpen;
-  int decided_candidate = 0;    ///< which answer the decision is about
-  int sendings = 0;             ///< that the robot's side answered
-  QString robot;                ///< what became of the last one; empty = the pose was not sent
-  std::string provenance_json;  ///< all that is needed to make it again (core/mission)
-  bool kept = false;            ///< it is on the disk
+  int decided_candidate = 0;     ///< which answer the decision is about
+  int sendings = 0;              ///< that the robot's side answered
+  QString robot;                 ///< what became of the last one; empty = the pose was not sent
+  std::string provenance_json;   ///< all that is needed to make it again (core/mission)
+  bool kept = false;             ///< it is on the disk
+  std::optional<ScanPart> part;  ///< it was made from, before all lines were here
+};
+
+/// Of what lines the cloud is while its scan is not whole.
+struct CloudPart {
+  std::shared_ptr<const Scan>
+      scan;       ///< with the lines of the cloud; nullptr = thinned ones: nothing is fitted to it
+  int lines = 0;  ///< 0 = the cloud is of a whole scan
+  int of_lines = 0;  ///< expected; 0 = not known
 };
 
 /// What the operator does to an object that is there.
@@ -65,7 +75,8 @@ class SessionModel : public QObject {
   TaskQueue* Tasks() const { return tasks_; }
   UndoStack* Undo() { return &undo_; }
 
-  /// A new scan: drops the points, depth and regions of the one before; found objects stay listed.
+  /// A new scan: drops the points and depth of the one before and, unless it is the one that was on
+  /// its way, the region; found objects stay listed.
   void SetScan(std::shared_ptr<const Scan> scan);
   const std::shared_ptr<const Scan>& CurrentScan() const { return scan_; }
   /// Drops the scan as SetScan(nullptr) does, because a new one is on its way.
@@ -84,8 +95,14 @@ class SessionModel : public QObject {
   const CameraFrame* CurrentImage() const;
 
   /// The points of the current scan, or of the part of it that has arrived.
-  void SetCloud(std::shared_ptr<const RegisteredScan> cloud, const SensorRig& rig);
+  void SetCloud(std::shared_ptr<const RegisteredScan> cloud, const SensorRig& rig,
+                CloudPart part = {});
   const std::shared_ptr<const RegisteredScan>& Cloud() const { return cloud_; }
+  /// Of what lines it is.
+  const CloudPart& Part() const { return part_; }
+  /// What a fit is made in: the current scan or, while one is on its way, the part that the cloud
+  /// is of; nullptr = neither.
+  const std::shared_ptr<const Scan>& ScanToFit() const { return scan_ ? scan_ : part_.scan; }
   /// The calibration that belongs to the points.
   const SensorRig& Rig() const { return rig_; }
 
@@ -167,6 +184,7 @@ class SessionModel : public QObject {
   std::shared_ptr<const Scan> arriving_;
   int image_index_ = -1;
   std::shared_ptr<const RegisteredScan> cloud_;
+  CloudPart part_;
   SensorRig rig_;
   std::shared_ptr<const DepthResult> depth_;
   std::shared_ptr<const MaskImage> mask_;

@@ -173,8 +173,12 @@ void CloudPane::Show(const PointSet& set) {
   Colors()->Set(map, range, title);
   Colors()->setVisible(!set.values.empty());
   point_count_ = set.points.size();
-  SetCaption(
-      tr("%1 points, robot frame").arg(QLocale().toString(static_cast<qulonglong>(point_count_))));
+  QString caption =
+      tr("%1 points, robot frame").arg(QLocale().toString(static_cast<qulonglong>(point_count_)));
+  if (const CloudPart& part = session_->Part(); part.lines > 0)
+    caption += part.of_lines > 0 ? tr(", %1 of %2 lines so far").arg(part.lines).arg(part.of_lines)
+                                 : tr(", %1 lines so far").arg(part.lines);
+  SetCaption(caption);
 }
 
 }  // namespace foresight

@@ -54,10 +54,10 @@ PixelLines RegionInImage(const SessionModel& session) {
 }
 
 Wireframe RegionInRobot(const SessionModel& session) {
-  if (!session.CurrentScan() || !session.Region()) return {};
+  if (!session.ShownScan() || !session.Region()) return {};
   const auto* box = std::get_if<BoxRoi>(&*session.Region());
   if (box == nullptr) return {};
-  return WireframeInRobot(WireframeOf(*box), session.CurrentScan()->rig);
+  return WireframeInRobot(WireframeOf(*box), session.ShownScan()->rig);
 }
 
 }  // namespace foresight
