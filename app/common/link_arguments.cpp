@@ -1,15 +1,13 @@
 #include "app/common/link_arguments.h"
 
-#include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
-#include <grpcpp/support/channel_arguments.h>
 
 #include <cstdlib>
 
 #include "hardware/link/pki/link_role.h"
-#include "hardware/link/wire/channel_arguments.h"
 #include "hardware/link/wire/credentials.h"
 #include "hardware/link/wire/grpc_log.h"
+#include "hardware/link/wire/station_channels.h"
 
 namespace foresight {
 namespace {
@@ -90,18 +88,18 @@ Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
   FORESIGHT_TRY(const std::string address, LinkAddress(arguments.head));
   FORESIGHT_TRY(const auto credentials, CredentialsFor(arguments, address));
   SendGrpcLogToOurs();
-  grpc::ChannelArguments channel;
-  SetStationArguments(channel, arguments.thin ? LinkPath::kThin : LinkPath::kBursts);
+  std::string certificate_host;
   if (!arguments.name.empty()) {
     FORESIGHT_CHECK(CheckLinkName(LinkRole::kHead, arguments.name));
-    channel.SetSslTargetNameOverride(StableHostOfHead(arguments.name));
+    certificate_host = StableHostOfHead(arguments.name);
   }
+  const LinkPath path = arguments.thin ? LinkPath::kThin : LinkPath::kBursts;
   RemoteHead::Options options;
   options.address = address;
   options.status_rate_hz = arguments.thin ? 0.5 : 10.0;
   options.spool = spool.empty() ? SpoolFolder() : std::filesystem::path(spool);
   options.archive = std::move(archive);
-  return RemoteHead::Connect(grpc::CreateCustomChannel(address, credentials, channel), options,
+  return RemoteHead::Connect(StationChannels(address, credentials, path, certificate_host), options,
                              kConnect);
 }
 

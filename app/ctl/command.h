@@ -31,6 +31,7 @@ void AddRenderCommand(CLI::App& app, Invocation& invocation);
 void AddDemoCommand(CLI::App& app, Invocation& invocation);
 void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 void AddHealthCommand(CLI::App& app, Invocation& invocation);
+void AddFetchCommand(CLI::App& app, Invocation& invocation);
 void AddHeadsCommand(CLI::App& app, Invocation& invocation);
 void AddMissionCommand(CLI::App& app, Invocation& invocation);
 /// `mission` is the command of that name.

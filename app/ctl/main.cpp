@@ -27,6 +27,7 @@ int Main(int argc, char** argv) {
   AddDemoCommand(app, invocation);
   AddEmulateCommand(app, invocation);
   AddHealthCommand(app, invocation);
+  AddFetchCommand(app, invocation);
   AddHeadsCommand(app, invocation);
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);

@@ -77,7 +77,7 @@ class Pair {
     builder.RegisterService(service_.get());
     server_ = builder.BuildAndStart();
     grpc::ChannelArguments arguments;
-    SetStationArguments(arguments, LinkPath::kThin);
+    SetStationArguments(arguments, LinkPath::kThin, 20'000);
     stub_ = link::SensorHead::NewStub(
         grpc::CreateCustomChannel(fmt::format("127.0.0.1:{}", port), of_station, arguments));
   }

@@ -4,8 +4,10 @@ for a second at a time. Needs root, iproute2 and openssl; addresses are those of
 
     tests/link/blackout_trial.py --bin build/release/bin --scene resources/scenes/room.yaml --runs 20 --seed 1
 
-For each run: whether the station's scan has the head's digest, how much of each open window was used while there was
-more to send, and when the scan was whole. Exit 0 when every scan arrived whole and every window was used to 90 %.
+For each run: whether the station's scan has the head's digest, how much of each open window was used, and when the
+scan was whole. A window's use is the bytes that the station's interface received in it, over those that a plain sender
+without a connection (UDP) brought through a window of the same length in the same run. Windows that began when
+less was left to come than they let through had not enough to send and are left out. Exit 0 when every scan arrived whole and every window was used to 90 %.
 """
 import argparse
 import json
@@ -88,16 +90,55 @@ class Sampler(threading.Thread):
         self.counter.kill()
         self.join()
 
-    def used(self, begin, end):
-        """Of the hundredths of a second in the window, those in which something came; and after how long the first
-        thousand bytes were there."""
-        inside = [sample for sample in self.samples if begin <= sample[0] <= end]
-        steps = list(zip(inside, inside[1:]))
-        if not steps:
-            return 0.0, None
-        moving = sum(b[0] - a[0] for a, b in steps if b[1] - a[1] > 200)
-        first = next((s[0] - begin for s in inside if s[1] - inside[0][1] > 5000), None)
-        return round(moving / (end - begin), 3), first and round(first, 3)
+    def at(self, moment):
+        """Bytes that had been received by then, between the samples beside it."""
+        before = max((sample for sample in self.samples if sample[0] <= moment), default=(moment, 0))
+        after = min((sample for sample in self.samples if sample[0] > moment), default=before)
+        if after[0] == before[0]:
+            return before[1]
+        return before[1] + (after[1] - before[1]) * (moment - before[0]) / (after[0] - before[0])
+
+    def look(self, begin, end):
+        """Bytes in the window, and after how long the first five thousand were there."""
+        before = self.at(begin)
+        count = self.at(end) - before
+        first = next((s[0] - begin for s in self.samples if begin <= s[0] <= end and s[1] - before > 5000), None)
+        return count, first and round(first, 3)
+
+
+SENDER = """
+import socket, sys, time
+sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+end = time.time() + float(sys.argv[2])
+while time.time() < end:
+    try:
+        sender.sendto(bytes(1400), (sys.argv[1], 9))
+    except OSError:
+        pass
+"""
+
+
+def control(network, sampler, window_s):
+    """Bytes that a window of this length lets through: a sender that never waits for anybody."""
+    network.open(False)
+    with subprocess.Popen(["ip", "netns", "exec", f"{network.name}-h", sys.executable, "-c", SENDER, STATION,
+                           str(window_s + 1.0)]) as sender:
+        time.sleep(0.5)
+        begin = time.time()
+        network.open(True)
+        time.sleep(window_s)
+        end = time.time()
+        network.open(False)
+        sender.wait()
+    time.sleep(0.1)
+    return sampler.look(begin, end)[0] / (end - begin)
+
+
+def station_command(arguments):
+    """A scan that the head kept is brought, or a room is scanned, with the 12 images of the paper's sweep."""
+    if arguments.fetch:
+        return ["fetch"]
+    return ["scan", "--from", "-30", "--to", "80", "--images", ",".join(str(angle) for angle in range(-30, 81, 10))]
 
 
 def one_run(arguments, seed, folder):
@@ -105,6 +146,9 @@ def one_run(arguments, seed, folder):
     network = Network(f"fsl{os.getpid() % 1000}", arguments.mbit)
     processes = []
     try:
+        if arguments.fetch:
+            (folder / "head-scans").mkdir()
+            shutil.copy(arguments.fetch, folder / "head-scans" / "kept.foresight")
         head_log = open(folder / "head.log", "w")
         head = subprocess.Popen(
             ["ip", "netns", "exec", f"{network.name}-h", arguments.bin / "foresight-head", "--emulate", arguments.scene,
@@ -118,9 +162,9 @@ def one_run(arguments, seed, folder):
         environment = dict(os.environ, XDG_STATE_HOME=str(folder / "state"))
         began = time.time()
         station = subprocess.Popen(
-            ["ip", "netns", "exec", f"{network.name}-s", arguments.bin / "foresightctl", "scan", "--head", HEAD,
-             "--link-keys", arguments.keys / "ca/machines/anna", "--from", "-30", "--to", "80", "--images",
-             "-30,-20,-10,0,10,20,30,40,50,60,70,80", "--out", folder / "station.foresight", "--json"],
+            ["ip", "netns", "exec", f"{network.name}-s", arguments.bin / "foresightctl", *station_command(arguments),
+             "--head", HEAD, "--link-keys", arguments.keys / "ca/machines/anna", "--out", folder / "station.foresight",
+             "--json"],
             stdout=open(folder / "station.json", "w"), stderr=open(folder / "station.log", "w"), env=environment)
         processes.append(station)
         # The first window lasts until the sweep has begun; then the blackouts.
@@ -133,22 +177,30 @@ def one_run(arguments, seed, folder):
             network.open(True)
             while time.time() - begin < arguments.window_s and station.poll() is None:
                 time.sleep(0.01)
-            windows.append((begin, time.time(), station.poll() is None))
+            end = time.time()
+            more = station.poll() is None
+            windows.append((begin, end, more))
+            if more:
+                network.open(False)
         seconds = time.time() - began
         network.open(True)
         code = station.wait(timeout=60) if station.poll() is not None else None
         if code is None:
             station.send_signal(signal.SIGINT)
             station.wait(timeout=30)
+        received = sampler.samples[-1][1]
+        through = control(network, sampler, arguments.window_s)
         sampler.stop()
-        looks = [sampler.used(a, b) for a, b, more in windows if more]
-        used, resumed = [look[0] for look in looks], [look[1] for look in looks]
+        looks = [(b - a, *sampler.look(a, b)) for a, b, more in windows
+                 if more and received - sampler.at(a) > through * (b - a)]
+        used, resumed = [round(count / (length * through), 3) for length, count, _ in looks], [look[2] for look in looks]
         digests = []
         for mission in [folder / "station.foresight", *sorted((folder / "head-scans").glob("*.foresight"))]:
             shown = subprocess.run([arguments.bin / "foresightctl", "mission", "digest", mission, "--json"],
                                    capture_output=True, text=True)
             digests += [scan["digest"] for scan in json.loads(shown.stdout or "{}").get("scans", [])]
         return {"seed": seed, "exit": code, "seconds": round(seconds, 1), "windows": len(windows), "used": used, "resumed_s": resumed,
+                "control_mbyte_per_s": round(through / 1e6, 2),
                 "identical": len(digests) == 2 and digests[0] == digests[1]}
     finally:
         for process in processes:
@@ -164,6 +216,8 @@ def main():
     parser.add_argument("--runs", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--mbit", type=float, default=300.0, help="of the open window")
+    parser.add_argument("--fetch", type=pathlib.Path, help="mission with one scan, which the head has kept and the station "
+                        "brings, in place of scanning: one of 100 images and more fills several windows")
     parser.add_argument("--window-s", type=float, default=1.0)
     parser.add_argument("--shortest-s", type=float, default=1.0, help="blackout")
     parser.add_argument("--longest-s", type=float, default=30.0, help="blackout")

@@ -6,8 +6,17 @@
 
 namespace foresight {
 
-ChunkSource::ChunkSource(ScanToSend source, ChunkSet have)
-    : source_(std::move(source)), counts_(ItemsOf(source_)), done_(std::move(have)) {}
+Result<SharedParts> EncodeParts(const ScanToSend& source, const ItemId& id) {
+  FORESIGHT_TRY(const std::string bytes, EncodeItem(source, id));
+  FORESIGHT_TRY(std::vector<Chunk> parts, SplitItem(id, bytes));
+  return std::make_shared<const std::vector<Chunk>>(std::move(parts));
+}
+
+ChunkSource::ChunkSource(ScanToSend source, ChunkSet have, PartsOf parts_of)
+    : source_(std::move(source)),
+      counts_(ItemsOf(source_)),
+      done_(std::move(have)),
+      parts_of_(std::move(parts_of)) {}
 
 void ChunkSource::Update(ScanToSend source) {
   FORESIGHT_EXPECTS(source.scan.uuid == source_.scan.uuid, "a stream is of one scan");
@@ -39,12 +48,11 @@ Result<std::optional<Chunk>> ChunkSource::Next() {
   return std::nullopt;
 }
 
-Result<const std::vector<Chunk>*> ChunkSource::Parts(const ItemId& id) {
+Result<SharedParts> ChunkSource::Parts(const ItemId& id) {
   const auto open = open_.find(id);
-  if (open != open_.end()) return &open->second;
-  FORESIGHT_TRY(const std::string bytes, EncodeItem(source_, id));
-  FORESIGHT_TRY(std::vector<Chunk> parts, SplitItem(id, bytes));
-  return &(open_[id] = std::move(parts));
+  if (open != open_.end()) return open->second;
+  FORESIGHT_TRY(SharedParts parts, parts_of_(source_, id));
+  return open_[id] = std::move(parts);
 }
 
 std::int64_t ChunkSource::LeftBytes() const {
@@ -59,7 +67,7 @@ std::int64_t ChunkSource::LeftBytes() const {
         bytes += ExpectedBytes(source_, id);
         continue;
       }
-      for (const Chunk& chunk : open->second)
+      for (const Chunk& chunk : *open->second)
         if (!done_.HasPart(chunk.id, chunk.item_crc))
           bytes += static_cast<std::int64_t>(chunk.bytes.size());
     }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,12 +11,20 @@
 
 namespace foresight {
 
+using SharedParts = std::shared_ptr<const std::vector<Chunk>>;
+
+/// An item, encoded and split. Fails as EncodeItem does.
+Result<SharedParts> EncodeParts(const ScanToSend& source, const ItemId& id);
+
 /// The head's side of one stream of a scan: which chunk goes next, made when it is asked for. No
 /// threads, no clock; of credits its caller takes care.
 class ChunkSource {
  public:
+  /// Where the parts of items come from: EncodeParts, or what keeps them.
+  using PartsOf = std::function<Result<SharedParts>(const ScanToSend&, const ItemId&)>;
+
   /// `have` is what the station said that it has.
-  ChunkSource(ScanToSend source, ChunkSet have);
+  ChunkSource(ScanToSend source, ChunkSet have, PartsOf parts_of = EncodeParts);
 
   /// The scan as it is now; of the same uuid. Costs nothing.
   void Update(ScanToSend source);
@@ -30,13 +40,14 @@ class ChunkSource {
   const ItemCounts& counts() const { return counts_; }
 
  private:
-  Result<const std::vector<Chunk>*> Parts(const ItemId& id);
+  Result<SharedParts> Parts(const ItemId& id);
 
   ScanToSend source_;
   ItemCounts counts_;
   ChunkSet done_;
   TransferWishes wishes_;
-  std::map<ItemId, std::vector<Chunk>> open_;  ///< items of which some parts were sent
+  PartsOf parts_of_;
+  std::map<ItemId, SharedParts> open_;  ///< items of which some parts were sent
 };
 
 }  // namespace foresight

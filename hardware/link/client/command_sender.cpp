@@ -59,7 +59,7 @@ CommandEnd CommandSender::Carry(const Waiting& waiting, const std::stop_token& s
     link::Outcome outcome;
     const auto context = LinkSession::Context(
         std::chrono::milliseconds(static_cast<int>(1e3 * std::min(left_s, kTry_s)) + 1));
-    const grpc::Status called = session_.stub().Execute(context.get(), command, &outcome);
+    const grpc::Status called = session_.stub(*context).Execute(context.get(), command, &outcome);
     if (called.ok()) {
       session_.Heard(outcome.desk_time_s());
       const Status status = FromMessage(outcome);

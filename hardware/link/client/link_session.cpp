@@ -6,8 +6,19 @@
 
 namespace foresight {
 
-LinkSession::LinkSession(std::shared_ptr<grpc::Channel> channel, std::string address)
-    : address_(std::move(address)), stub_(link::SensorHead::NewStub(channel)) {}
+LinkSession::LinkSession(std::vector<std::shared_ptr<grpc::Channel>> channels, std::string address)
+    : address_(std::move(address)), race_(channels) {
+  for (const auto& channel : channels) stubs_.push_back(link::SensorHead::NewStub(channel));
+}
+
+link::SensorHead::Stub& LinkSession::stub(const grpc::ClientContext& context) {
+  race_.Wait(context.deadline());
+  return *stubs_[race_.Current()];
+}
+
+link::SensorHead::Stub* LinkSession::WaitForStub(const std::stop_token& stop) {
+  return race_.Wait(stop) ? stubs_[race_.Current()].get() : nullptr;
+}
 
 double LinkSession::Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -47,7 +58,8 @@ Status LinkSession::Begin(std::chrono::milliseconds timeout) {
   request.set_protocol(kLinkProtocol);
   request.set_program(std::string("foresight ") + ProgramVersion());
   link::GreetReply reply;
-  if (const grpc::Status called = stub_->Greet(Context(timeout).get(), request, &reply);
+  const auto context = Context(timeout);
+  if (const grpc::Status called = stub(*context).Greet(context.get(), request, &reply);
       !called.ok())
     return tl::unexpected(ToError(called, "greeting"));
   if (reply.protocol() != kLinkProtocol)
@@ -70,8 +82,9 @@ Status LinkSession::Begin(std::chrono::milliseconds timeout) {
 
 Status LinkSession::TakeControl(std::chrono::milliseconds timeout) {
   link::ControlReply reply;
+  const auto context = Context(timeout);
   if (const grpc::Status called =
-          stub_->TakeControl(Context(timeout).get(), link::ControlRequest(), &reply);
+          stub(*context).TakeControl(context.get(), link::ControlRequest(), &reply);
       !called.ok())
     return tl::unexpected(ToError(called, "taking control"));
   const std::lock_guard lock(mutex_);
@@ -86,16 +99,17 @@ Status LinkSession::TakeControl(std::chrono::milliseconds timeout) {
 Status LinkSession::GiveControl(const std::string& successor, std::chrono::milliseconds timeout) {
   const std::string token = Token();
   link::ControlReply reply;
+  const auto context = Context(timeout);
   grpc::Status called;
   if (successor.empty()) {
     link::ReleaseRequest request;
     request.set_token(token);
-    called = stub_->ReleaseControl(Context(timeout).get(), request, &reply);
+    called = stub(*context).ReleaseControl(context.get(), request, &reply);
   } else {
     link::ControlRequest request;
     request.set_token(token);
     request.set_hand_over_to(successor);
-    called = stub_->TakeControl(Context(timeout).get(), request, &reply);
+    called = stub(*context).TakeControl(context.get(), request, &reply);
   }
   if (!called.ok()) return tl::unexpected(ToError(called, "giving control away"));
   if (!successor.empty() && !reply.granted())

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include "hardware/link/client/channel_race.h"
 #include "hardware/link/client/desk_clock.h"
 #include "hardware/link/protocol/messages.h"
 #include "sensor_head.grpc.pb.h"
@@ -15,9 +16,14 @@ namespace foresight {
 /// any thread.
 class LinkSession {
  public:
-  LinkSession(std::shared_ptr<grpc::Channel> channel, std::string address);
+  LinkSession(std::vector<std::shared_ptr<grpc::Channel>> channels, std::string address);
 
-  link::SensorHead::Stub& stub() { return *stub_; }
+  /// For a call with this context: of a channel that is connected, where one is by the context's
+  /// deadline.
+  link::SensorHead::Stub& stub(const grpc::ClientContext& context);
+  bool Connected() const { return race_.Connected(); }
+  /// For a call without a deadline: waits until a channel is connected; nullptr = stopped before.
+  link::SensorHead::Stub* WaitForStub(const std::stop_token& stop);
   const std::string& address() const { return address_; }
 
   /// A call's context: the protocol's version and, where `timeout` is positive, a deadline until
@@ -49,7 +55,8 @@ class LinkSession {
 
  private:
   const std::string address_;
-  const std::unique_ptr<link::SensorHead::Stub> stub_;
+  std::vector<std::unique_ptr<link::SensorHead::Stub>> stubs_;  ///< one a channel
+  ChannelRace race_;
   mutable std::mutex mutex_;
   link::GreetReply greeting_;
   std::string token_;

@@ -30,8 +30,9 @@ Result<RobotAnswer> SendPose(LinkSession& session, const std::string& pose_json)
   for (;;) {
     request.set_control_token(session.Token());
     link::PoseReply reply;
+    const auto context = LinkSession::Context(kTry);
     const grpc::Status called =
-        session.stub().PublishPose(LinkSession::Context(kTry).get(), request, &reply);
+        session.stub(*context).PublishPose(context.get(), request, &reply);
     if (called.ok()) return FromMessage(reply);
     const bool lost = called.error_code() == grpc::StatusCode::UNAVAILABLE ||
                       called.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;

@@ -18,13 +18,14 @@ constexpr std::chrono::milliseconds kControlTimeout{4000};
 
 }  // namespace
 
-RemoteHead::RemoteHead(std::shared_ptr<grpc::Channel> channel, const Options& options)
-    : options_(options), session_(std::move(channel), options.address), mirror_(options.address) {}
+RemoteHead::RemoteHead(std::vector<std::shared_ptr<grpc::Channel>> channels,
+                       const Options& options)
+    : options_(options), session_(std::move(channels), options.address), mirror_(options.address) {}
 
-Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::shared_ptr<grpc::Channel> channel,
-                                                        const Options& options,
-                                                        std::chrono::milliseconds timeout) {
-  auto head = std::shared_ptr<RemoteHead>(new RemoteHead(std::move(channel), options));
+Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(
+    std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options,
+    std::chrono::milliseconds timeout) {
+  auto head = std::shared_ptr<RemoteHead>(new RemoteHead(std::move(channels), options));
   const double end_s = LinkSession::Now() + 1e-3 * static_cast<double>(timeout.count());
   for (;;) {
     foresight::Status begun = head->session_.Begin(timeout);
@@ -73,8 +74,9 @@ RemoteHead::~RemoteHead() {
 
 Status RemoteHead::FetchRig() {
   link::RigReply reply;
+  const auto context = LinkSession::Context(kRigTimeout);
   const grpc::Status called =
-      session_.stub().GetRig(LinkSession::Context(kRigTimeout).get(), link::RigRequest(), &reply);
+      session_.stub(*context).GetRig(context.get(), link::RigRequest(), &reply);
   if (!called.ok()) return tl::unexpected(session_.ToError(called, "its calibration"));
   FORESIGHT_TRY(SensorRig rig, SensorRigFromYaml(reply.yaml(), options_.address));
   const std::lock_guard lock(mutex_);
@@ -93,8 +95,9 @@ void RemoteHead::OnBegin() {
     boot_id_ = boot_id;
   }
   link::ListScansReply scans;
-  const grpc::Status called = session_.stub().ListScans(LinkSession::Context(kRigTimeout).get(),
-                                                        link::ListScansRequest(), &scans);
+  const auto context = LinkSession::Context(kRigTimeout);
+  const grpc::Status called =
+      session_.stub(*context).ListScans(context.get(), link::ListScansRequest(), &scans);
   if (called.ok()) fetcher_->Heard({scans.scans().begin(), scans.scans().end()}, true);
 }
 

@@ -34,9 +34,9 @@ class RemoteHead final : public SensorHead, public HeadLink {
 
   /// Greets the head and fetches its rig. Fails with kDevice where nobody answers in time, kState
   /// where the head speaks another version of the protocol.
-  static Result<std::shared_ptr<RemoteHead>> Connect(std::shared_ptr<grpc::Channel> channel,
-                                                     const Options& options,
-                                                     std::chrono::milliseconds timeout);
+  static Result<std::shared_ptr<RemoteHead>> Connect(
+      std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options,
+      std::chrono::milliseconds timeout);
   ~RemoteHead() override;
 
   std::string Describe() const override;
@@ -69,7 +69,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
   bool Simulated() const { return session_.Greeting().simulated(); }
 
  private:
-  RemoteHead(std::shared_ptr<grpc::Channel> channel, const Options& options);
+  RemoteHead(std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options);
   foresight::Status FetchRig();
   foresight::Status MayAct(const char* what) const;
   void OnBegin();

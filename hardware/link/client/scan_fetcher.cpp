@@ -10,6 +10,9 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kNoWait{0};
+/// What came and was not decoded yet: two windows of a second at 300 Mbit/s.
+constexpr std::int64_t kMostWaiting = std::int64_t{80} << 20;
 constexpr double kRetry_s = 0.25;     ///< after the link broke
 constexpr double kRetryDisk_s = 2.0;  ///< after this computer's disk did not take something
 constexpr double kEarlyEvery_s = 0.3;
@@ -46,10 +49,10 @@ class ScanFetcher::Inbox {
     closed_ = true;
     wake_.notify_all();
   }
-  /// All that has come, waiting a little for the first.
-  std::vector<Chunk> TakeAll() {
+  /// All that has come, waiting so long for the first.
+  std::vector<Chunk> TakeAll(std::chrono::milliseconds wait) {
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, kTick, [this] { return closed_ || !chunks_.empty(); });
+    wake_.wait_for(lock, wait, [this] { return closed_ || !chunks_.empty(); });
     return std::exchange(chunks_, {});
   }
   bool Closed() const {
@@ -337,7 +340,8 @@ link::TransferStart ScanFetcher::StartOf(const Fetched& scan) {
   thin_ = false;
   {
     const std::lock_guard lock(mutex_);
-    rate_.Begin(LinkSession::Now());
+    const double round_trip_s = options_.round_trip ? options_.round_trip() : 0.0;
+    rate_.Begin(LinkSession::Now(), round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s);
     start.set_credit_bytes(rate_.credit());
   }
   *start.mutable_wishes() = Wishes();
@@ -352,9 +356,13 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
     FORESIGHT_TRY(scan.transfer, ScanTransfer::Open(options_.spool, scan.header.uuid, rig));
   }
   const auto context = LinkSession::Context(std::chrono::milliseconds(0));
-  context->set_wait_for_ready(true);  // a window of a second is not spent on asking again
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
-  const auto stream = session_.stub().Transfer(context.get());
+  while (scan.transfer && scan.transfer->Waiting() && !session_.Connected() &&
+         !stop.stop_requested())
+    FORESIGHT_CHECK(TakeIn(scan, scan.transfer->WaitingBytes() - 1, scan.shown.left_bytes));
+  link::SensorHead::Stub* stub = session_.WaitForStub(stop);
+  if (stub == nullptr) return {};
+  const auto stream = stub->Transfer(context.get());
   link::TransferRequest request;
   *request.mutable_start() = StartOf(scan);
   if (!stream->Write(request)) return tl::unexpected(session_.ToError(stream->Finish(), "a scan"));
@@ -388,15 +396,19 @@ void ScanFetcher::SayThatAllIsHere(Stream& stream, Inbox& inbox) {
   stream.Write(request);
   stream.WritesDone();
   const double end_s = LinkSession::Now() + kConfirm_s;
-  while (!inbox.Closed() && LinkSession::Now() < end_s) inbox.TakeAll();
+  while (!inbox.Closed() && LinkSession::Now() < end_s) inbox.TakeAll(kTick);
 }
 
 Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
   std::int64_t wishes_sent = 0;
   while (!inbox.Closed() && !Superseded(scan)) {
-    std::vector<Chunk> chunks = inbox.TakeAll();
+    std::vector<Chunk> chunks = inbox.TakeAll(scan.transfer->Waiting() ? kNoWait : kTick);
     if (Superseded(scan)) break;  // what is not taken in comes again
-    FORESIGHT_CHECK(TakeIn(scan, stream, std::move(chunks), inbox.LeftBytes()));
+    const bool nothing_came = chunks.empty();
+    FORESIGHT_CHECK(Acknowledge(scan, stream, std::move(chunks), inbox.LeftBytes()));
+    // The link goes first: what came is decoded when nothing more comes for a moment.
+    const std::int64_t most = nothing_came ? scan.transfer->WaitingBytes() - 1 : kMostWaiting;
+    FORESIGHT_CHECK(TakeIn(scan, most, inbox.LeftBytes()));
     if (scan.done || !scan.transfer || scan.transfer->TakeMistakenRig()) return {};
     link::TransferRequest request;
     const bool was_thin = thin_;
@@ -413,31 +425,38 @@ Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
   return {};
 }
 
-/// The head hears at once what is on the disk; images are decoded behind that, while more comes.
-Status ScanFetcher::TakeIn(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
-                           std::int64_t left_bytes) {
+/// The head hears at once what is on the disk.
+Status ScanFetcher::Acknowledge(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
+                                std::int64_t left_bytes) {
   std::int64_t bytes = 0;
   for (const Chunk& chunk : chunks) bytes += static_cast<std::int64_t>(chunk.bytes.size());
-  FORESIGHT_TRY(const std::vector<Chunk> kept, scan.transfer->Keep(std::move(chunks)));
+  FORESIGHT_TRY(const std::vector<ChunkId> kept, scan.transfer->Keep(std::move(chunks)));
   link::TransferRequest request;
   link::Acknowledge& acknowledge = *request.mutable_acknowledge();
-  for (const Chunk& chunk : kept) {
+  for (const ChunkId& kept_id : kept) {
     link::ChunkId& id = *acknowledge.add_chunks();
-    id.set_kind(static_cast<int>(chunk.id.kind));
-    id.set_item(chunk.id.item);
-    id.set_part(chunk.id.part);
+    id.set_kind(static_cast<int>(kept_id.kind));
+    id.set_item(kept_id.item);
+    id.set_part(kept_id.part);
   }
   {
     const std::lock_guard lock(mutex_);
     rate_.Received(bytes, left_bytes, LinkSession::Now());
     acknowledge.set_credit_bytes(rate_.credit());
   }
-  const bool heard = kept.empty() || stream.Write(request);
-  scan.transfer->TakeIn(kept);
-  if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
-  Show(scan, left_bytes);
-  if (heard && scan.transfer->builder().Progress().complete) FORESIGHT_CHECK(Finish(scan));
+  if (!kept.empty()) stream.Write(request);  // that it broke shows when it is read
   return {};
+}
+
+/// Takes in what was kept until only `most_waiting` bytes of it wait.
+Status ScanFetcher::TakeIn(Fetched& scan, std::int64_t most_waiting, std::int64_t left_bytes) {
+  while (scan.transfer->Waiting() && scan.transfer->WaitingBytes() > most_waiting) {
+    scan.transfer->TakeInNext();
+    if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
+  }
+  Show(scan, left_bytes);
+  const bool all = !scan.transfer->Waiting() && scan.transfer->builder().Progress().complete;
+  return all ? Finish(scan) : Status();
 }
 
 /// Everything is here: it is kept for good, and the spool is not needed any more.

@@ -96,7 +96,9 @@ class ScanFetcher {
   Fetched& Queued(const std::string& scan_id);
   link::TransferStart StartOf(const Fetched& scan);
   Status Receive(Fetched& scan, Stream& stream, Inbox& inbox);
-  Status TakeIn(Fetched& scan, Stream& stream, std::vector<Chunk> chunks, std::int64_t left_bytes);
+  Status Acknowledge(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
+                     std::int64_t left_bytes);
+  Status TakeIn(Fetched& scan, std::int64_t most_waiting, std::int64_t left_bytes);
   Status Finish(Fetched& scan);
   static void SayThatAllIsHere(Stream& stream, Inbox& inbox);
   void Show(Fetched& scan, std::int64_t left_bytes);

@@ -27,6 +27,7 @@ void ScanTransfer::TryRig() {
 
 ChunkSet ScanTransfer::Have() const {
   ChunkSet have = builder_.Have();
+  for (const Chunk& chunk : waiting_) have.AddPart(chunk);
   if (!rig_yaml_.empty()) have.Add(ItemId{ChunkKind::kRig, 0});
   return have;
 }
@@ -35,22 +36,30 @@ bool ScanTransfer::TakeMistakenRig() {
   return std::exchange(mistaken_rig_, false);
 }
 
-Result<std::vector<Chunk>> ScanTransfer::Keep(std::vector<Chunk> chunks) {
+Result<std::vector<ChunkId>> ScanTransfer::Keep(std::vector<Chunk> chunks) {
   std::erase_if(chunks, [&](const Chunk& chunk) {
     const Status good = CheckChunk(chunk);
     if (!good) LogWarning("scan {}: {}", builder_.scan_id(), good.error().message);
     return !good;
   });
   if (!chunks.empty()) FORESIGHT_CHECK(spool_->Append(chunks));
-  return chunks;
+  std::vector<ChunkId> ids;
+  for (Chunk& chunk : chunks) {
+    ids.push_back(chunk.id);
+    waiting_bytes_ += static_cast<std::int64_t>(chunk.bytes.size());
+    waiting_.push_back(std::move(chunk));
+  }
+  return ids;
 }
 
-void ScanTransfer::TakeIn(const std::vector<Chunk>& kept) {
-  for (const Chunk& chunk : kept) {
-    taken_bytes_ += static_cast<std::int64_t>(chunk.bytes.size());
-    if (const auto taken = builder_.Take(chunk); !taken)
-      LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
-  }
+void ScanTransfer::TakeInNext() {
+  const Chunk chunk = std::move(waiting_.front());
+  waiting_.pop_front();
+  const auto bytes = static_cast<std::int64_t>(chunk.bytes.size());
+  waiting_bytes_ -= bytes;
+  taken_bytes_ += bytes;
+  if (const auto taken = builder_.Take(chunk); !taken)
+    LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
   TryRig();
 }
 

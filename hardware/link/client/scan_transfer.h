@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,10 +21,14 @@ class ScanTransfer {
                                                     const std::string& rig_yaml);
 
   /// Leaves damaged chunks out, and has the others on the disk when it returns: the head may forget
-  /// them. Fails with kIo where the disk does not take them: none is acknowledged then.
-  Result<std::vector<Chunk>> Keep(std::vector<Chunk> chunks);
-  /// Makes what was kept part of the scan.
-  void TakeIn(const std::vector<Chunk>& kept);
+  /// them. They wait until they are taken in, which may mean to decode an image. Fails with kIo
+  /// where the disk does not take them: none is acknowledged then.
+  Result<std::vector<ChunkId>> Keep(std::vector<Chunk> chunks);
+  /// Bytes of the chunks that were kept and are not part of the scan yet.
+  std::int64_t WaitingBytes() const { return waiting_bytes_; }
+  bool Waiting() const { return !waiting_.empty(); }
+  /// Makes the chunk that has waited longest part of the scan. @pre Waiting()
+  void TakeInNext();
 
   /// What the head need not send: what is here, and the rig where we hope to know it.
   ChunkSet Have() const;
@@ -45,6 +50,8 @@ class ScanTransfer {
   std::unique_ptr<SpoolFile> spool_;
   std::string rig_yaml_;
   bool mistaken_rig_ = false;
+  std::deque<Chunk> waiting_;
+  std::int64_t waiting_bytes_ = 0;
   std::int64_t taken_bytes_ = 0;
 };
 

@@ -37,8 +37,9 @@ void StopSender::Work(const std::stop_token& stop) {
     const double end_s = LinkSession::Now() + kGiveUp_s;
     for (bool answered = false; !answered;) {
       link::Outcome outcome;
+      const auto context = LinkSession::Context(kTry);
       const grpc::Status called =
-          session_.stub().Stop(LinkSession::Context(kTry).get(), link::StopRequest(), &outcome);
+          session_.stub(*context).Stop(context.get(), link::StopRequest(), &outcome);
       answered = called.ok() || stop.stop_requested();
       if (!called.ok() && LinkSession::Now() > end_s) {
         LogError("{}", session_.ToError(called, "stopping the head").message);

@@ -39,7 +39,9 @@ void StopsClient::Work(const std::stop_token& stop) {
     request.set_from(next);
     const auto context = LinkSession::Context(std::chrono::milliseconds(0));
     const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
-    const auto stream = session_.stub().FetchStops(context.get(), request);
+    link::SensorHead::Stub* stub = session_.WaitForStub(stop);
+    if (stub == nullptr) return;
+    const auto stream = stub->FetchStops(context.get(), request);
     link::StopEvent event;
     while (!ended_ && stream->Read(&event)) {
       if (event.ended()) {

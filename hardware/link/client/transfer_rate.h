@@ -13,7 +13,8 @@ namespace foresight {
 class TransferRate {
  public:
   static constexpr std::int64_t kLeastCredit = 4 * 1024;
-  static constexpr std::int64_t kMostCredit = std::int64_t{8} << 20;
+  static constexpr std::int64_t kWideCredit = std::int64_t{1} << 20;
+  static constexpr std::int64_t kMostCredit = std::int64_t{16} << 20;
   static constexpr double kWindow_s = 2.0;
   static constexpr std::int64_t kBacklog_bytes = 8 * 1024;
 
@@ -33,8 +34,9 @@ class TransferRate {
     since_change_ = 0;
   }
   /// A stream began: its rate is not known yet. The credit stays, for a burst of a second has no
-  /// time to learn it again.
-  void Begin(double now_s) {
+  /// time to learn it again; a path whose round trip is short begins with a large one.
+  void Begin(double now_s, bool is_wide = false) {
+    if (is_wide) credit_ = std::max(credit_, kWideCredit);
     since_change_ = 0;
     backlog_since_s_ = now_s;
     recent_.clear();

@@ -38,7 +38,9 @@ Status WatchClient::Watch(const std::stop_token& stop) {
   if (hooks_.on_begin) hooks_.on_begin();
   const auto context = LinkSession::Context(std::chrono::milliseconds(0));
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
-  const auto stream = session_.stub().Watch(context.get());
+  link::SensorHead::Stub* stub = session_.WaitForStub(stop);
+  if (stub == nullptr) return {};
+  const auto stream = stub->Watch(context.get());
   std::jthread signer([&](const std::stop_token& ended) { Sign(ended, *stream); });
   link::Event event;
   while (stream->Read(&event)) {

@@ -51,7 +51,8 @@ int ProtocolOf(const grpc::ServerContext& context) {
 
 }  // namespace
 
-HeadService::HeadService(HeadDesk& desk, PeerReader peer) : desk_(desk), peer_(std::move(peer)) {
+HeadService::HeadService(HeadDesk& desk, PeerReader peer)
+    : desk_(desk), cache_(desk.shelf()), peer_(std::move(peer)) {
   FORESIGHT_EXPECTS(peer_ != nullptr, "a service knows who calls");
 }
 
@@ -151,7 +152,7 @@ grpc::Status HeadService::Transfer(grpc::ServerContext* context, TransferStream:
   const Place place(transfers_, kMostTransfers);
   if (!place) return TooMany("transfers of scans", kMostTransfers);
   const auto still_good = [this, context] { return peer_(*context).has_value(); };
-  return TransferStream(desk_.shelf(), *peer, *context, *stream, still_good).Run(closing_);
+  return TransferStream(desk_.shelf(), cache_, *peer, *context, *stream, still_good).Run(closing_);
 }
 
 grpc::Status HeadService::Look(grpc::ServerContext* context, const link::LiveViewRequest* request,

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "hardware/link/server/head_desk.h"
+#include "hardware/link/server/item_cache.h"
 #include "sensor_head.grpc.pb.h"
 
 namespace foresight {
@@ -56,6 +57,7 @@ class HeadService final : public link::SensorHead::Service {
   Result<HeadDesk::Peer> Admit(const grpc::ServerContext& context, grpc::Status* refusal) const;
 
   HeadDesk& desk_;
+  ItemCache cache_;
   const PeerReader peer_;
   std::atomic<bool> closing_{false};
   std::atomic<int> watches_{0};

@@ -68,7 +68,10 @@ grpc::Status TransferStream::Begin(const link::TransferStart& start) {
     const std::int64_t news = shelf_.News();
     const auto scan = shelf_.Snapshot(scan_id_);
     if (scan) {
-      source_.emplace(ScanToSend{**scan, shelf_.DeviceHealthJson(scan_id_)}, std::move(*have));
+      cache_.Prepare(scan_id_, *have, *wishes_);
+      source_.emplace(
+          ScanToSend{**scan, shelf_.DeviceHealthJson(scan_id_)}, std::move(*have),
+          [this](const ScanToSend& source, const ItemId& id) { return cache_.Get(source, id); });
       news_ = news;
       return grpc::Status::OK;
     }
@@ -109,6 +112,7 @@ void TransferStream::TakeAcknowledge(const link::Acknowledge& acknowledge) {
     const auto found = sent_.find({static_cast<ChunkKind>(id.kind()), id.item(), id.part()});
     if (found == sent_.end()) continue;
     in_flight_ -= found->second;
+    cache_.Acknowledged(scan_id_, found->first);
     sent_.erase(found);
   }
   if (acknowledge.credit_bytes() > 0) credit_ = acknowledge.credit_bytes();
@@ -141,7 +145,10 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
       const std::lock_guard lock(mutex_);
       if (confirmed_) return Confirm();
       if (gone_) return grpc::Status::OK;
-      if (wishes_) source_->SetWishes(*std::exchange(wishes_, std::nullopt));
+      if (wishes_) {
+        cache_.SetWishes(scan_id_, *wishes_);
+        source_->SetWishes(*std::exchange(wishes_, std::nullopt));
+      }
     }
     if (!may) continue;
     if (const Status fresh = Refresh(); !fresh) return Refusal(fresh.error());
@@ -171,6 +178,7 @@ grpc::Status TransferStream::Confirm() {
   if (!peer_.may_operate) return grpc::Status::OK;
   const Status confirmed = shelf_.Confirm(scan_id_, peer_.name);
   if (!confirmed) return Refusal(confirmed.error());
+  cache_.Forget(scan_id_);
   LogInfo("{} has all of scan {}", peer_.name, scan_id_);
   return grpc::Status::OK;
 }

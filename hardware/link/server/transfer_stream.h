@@ -10,6 +10,7 @@
 
 #include "hardware/link/chunks/chunk_source.h"
 #include "hardware/link/server/head_desk.h"
+#include "hardware/link/server/item_cache.h"
 #include "sensor_head.grpc.pb.h"
 
 namespace foresight {
@@ -22,9 +23,10 @@ class TransferStream {
  public:
   using Stream = grpc::ServerReaderWriter<link::Chunk, link::TransferRequest>;
 
-  TransferStream(ScanShelf& shelf, HeadDesk::Peer peer, grpc::ServerContext& context,
+  TransferStream(ScanShelf& shelf, ItemCache& cache, HeadDesk::Peer peer, grpc::ServerContext& context,
                  Stream& stream, std::function<bool()> still_good)
       : shelf_(shelf),
+        cache_(cache),
         peer_(std::move(peer)),
         context_(context),
         stream_(stream),
@@ -44,6 +46,7 @@ class TransferStream {
   grpc::Status Confirm();
 
   ScanShelf& shelf_;
+  ItemCache& cache_;
   const HeadDesk::Peer peer_;
   grpc::ServerContext& context_;
   Stream& stream_;

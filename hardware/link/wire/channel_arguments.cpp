@@ -9,42 +9,47 @@
 namespace foresight {
 namespace {
 
-struct PathTimes {
-  int keepalive_ms;
-  int keepalive_timeout_ms;
-  int reconnect_ms;
-  int connect_ms;
-};
-
-PathTimes TimesOf(LinkPath path) {
-  // Bursts: measured over blackouts of 10 to 25 s (hardware.md, section 4). Thin: the 4 s of a
-  // connection and of a full queue, with a margin of two to five.
-  if (path == LinkPath::kThin) return {10'000, 10'000, 1'000, 20'000};
-  return {1'000, 1'000, 250, 250};
-}
+/// A channel that lost the race closes its connection after this time.
+constexpr int kUnusedMs = 1'000;
 
 /// BDP probing opens the window to 16 MB: the sender was 22 MB ahead of a slow reader, and what was
-/// urgent waited behind that. Without it and with 64 KiB of lookahead it is one message ahead. The
-/// lookahead alone is ignored while BDP probing is on (gRPC issue 14252).
+/// urgent waited behind that. Without it the lookahead holds; it is ignored while BDP probing is on
+/// (gRPC issue 14252).
 template <class Set>
-void SetWindow(const Set& set) {
+void SetWindow(const Set& set, int lookahead_bytes) {
   set(GRPC_ARG_HTTP2_BDP_PROBE, 0);
-  set(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, 64 << 10);
+  set(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, lookahead_bytes);
 }
+/// One message ahead.
+constexpr int kLittleAhead = 64 << 10;
+/// What 300 Mbit/s carry in a round trip of 100 ms. What a scan's stream is ahead of its reader is
+/// bounded by the credit of the transfer, which knows the path's rate.
+constexpr int kFarAhead = 4 << 20;
 
 }  // namespace
 
-void SetStationArguments(grpc::ChannelArguments& arguments, LinkPath path) {
-  const PathTimes times = TimesOf(path);
+std::vector<int> AttemptsOn(LinkPath path) {
+  // Bursts: for round trips of up to 10, 30, 130 and 500 ms. Thin: the 4 s of a connection behind a
+  // full queue, with a margin.
+  if (path == LinkPath::kThin) return {20'000};
+  return {30, 100, 400, 1'500};
+}
+
+void SetStationArguments(grpc::ChannelArguments& arguments, LinkPath path, int attempt_ms) {
+  // Bursts: measured over blackouts of 10 to 25 s (hardware.md, section 4).
+  const bool thin = path == LinkPath::kThin;
+  const int keepalive_ms = thin ? 10'000 : 1'000;
+  const int pause_ms = thin ? 1'000 : attempt_ms;
   const auto set = [&](const char* name, int value) { arguments.SetInt(name, value); };
-  set(GRPC_ARG_KEEPALIVE_TIME_MS, times.keepalive_ms);
-  set(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, times.keepalive_timeout_ms);
+  set(GRPC_ARG_KEEPALIVE_TIME_MS, keepalive_ms);
+  set(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, keepalive_ms);
   set(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   set(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // as many as it takes
-  set(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, times.reconnect_ms);
-  set(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, times.reconnect_ms);
-  set(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, times.connect_ms);  // is how long an attempt may last
-  SetWindow(set);
+  set(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, pause_ms);
+  set(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, pause_ms);
+  set(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, attempt_ms);  // is how long an attempt may last
+  set(GRPC_ARG_CLIENT_IDLE_TIMEOUT_MS, kUnusedMs);
+  SetWindow(set, thin ? kLittleAhead : kFarAhead);
   arguments.SetMaxReceiveMessageSize(kLargestMessageBytes);
 }
 
@@ -61,7 +66,7 @@ void SetHeadArguments(grpc::ServerBuilder& builder) {
   set(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   set(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
   set(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  SetWindow(set);
+  SetWindow(set, kLittleAhead);
   builder.SetMaxReceiveMessageSize(kLargestMessageBytes);
 }
 

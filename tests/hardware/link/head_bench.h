@@ -52,7 +52,7 @@ class HeadBench {
 
   std::shared_ptr<grpc::Channel> Channel() const {
     grpc::ChannelArguments arguments;
-    SetStationArguments(arguments, LinkPath::kBursts);
+    SetStationArguments(arguments, LinkPath::kBursts, 250);
     return grpc::CreateCustomChannel("127.0.0.1:" + std::to_string(port_),
                                      grpc::InsecureChannelCredentials(), arguments);
   }
@@ -62,7 +62,7 @@ class HeadBench {
     options.spool = folder / "spool";
     options.archive = std::move(archive);
     options.command_good_s = 3.0;
-    return RemoteHead::Connect(Channel(), options, std::chrono::milliseconds(3000));
+    return RemoteHead::Connect({Channel()}, options, std::chrono::milliseconds(3000));
   }
 
   ScanShelf& shelf() { return *shelf_; }

@@ -26,7 +26,7 @@ class VerboseHead : public link::SensorHead::Service {
 
   grpc::Status Greet(std::size_t request_bytes, std::size_t& reply_bytes) const {
     grpc::ChannelArguments arguments;
-    SetStationArguments(arguments, LinkPath::kThin);
+    SetStationArguments(arguments, LinkPath::kThin, 20'000);
     const auto stub = link::SensorHead::NewStub(
         grpc::CreateCustomChannel(fmt::format("127.0.0.1:{}", port_),
                                   PlaintextStationCredentials("127.0.0.1").value(), arguments));

@@ -67,7 +67,7 @@ TinyStation::TinyStation(const std::string& address,
                          const std::shared_ptr<grpc::ChannelCredentials>& credentials,
                          const std::string& expected_host) {
   grpc::ChannelArguments arguments;
-  SetStationArguments(arguments, LinkPath::kThin);  // the test's machine may be slow
+  SetStationArguments(arguments, LinkPath::kThin, 20'000);  // the test's machine may be slow
   if (!expected_host.empty()) arguments.SetSslTargetNameOverride(expected_host);
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);  // each station connects by itself
   stub_ = link::SensorHead::NewStub(grpc::CreateCustomChannel(address, credentials, arguments));

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hardware/link/chunks/chunk_source.h"
+#include "hardware/link/server/scan_shelf.h"
+
+namespace foresight {
+
+/// Makes the items of the scan that a station wants before its stream asks for them, and keeps them
+/// until the station has them: in a blackout there is time for that, in a window of a second there
+/// is none. Safe from any thread.
+class ItemCache {
+ public:
+  /// Two windows of a second at 300 Mbit/s.
+  static constexpr std::int64_t kUsualBytes = std::int64_t{80} << 20;
+
+  /// `most_bytes` of items are kept; the shelf outlives this.
+  explicit ItemCache(ScanShelf& shelf, std::int64_t most_bytes = kUsualBytes);
+  ~ItemCache();
+  ItemCache(const ItemCache&) = delete;
+  ItemCache& operator=(const ItemCache&) = delete;
+
+  /// A station wants this scan next, and has this of it. Items of other scans are let go of.
+  void Prepare(const std::string& scan_id, const ChunkSet& have, const TransferWishes& wishes);
+  /// The station wants something else of it.
+  void SetWishes(const std::string& scan_id, const TransferWishes& wishes);
+  /// The item's parts: those that are here, or made now; where they are being made, this waits for
+  /// them. Fails as EncodeParts does.
+  Result<SharedParts> Get(const ScanToSend& source, const ItemId& id);
+  /// The station has this part.
+  void Acknowledged(const std::string& scan_id, const ChunkId& id);
+
+  /// A station has all of the scan.
+  void Forget(const std::string& scan_id);
+
+  /// Of the items that are kept.
+  std::int64_t Bytes() const;
+
+ private:
+  struct Item {
+    SharedParts parts;
+    std::set<int> acknowledged;
+    std::int64_t bytes = 0;
+  };
+
+  void Work(const std::stop_token& stop);
+  void Refresh();
+  std::optional<ItemId> NextToMake() const;
+  Result<SharedParts> Make(const ScanToSend& source, const ItemId& id,
+                           std::unique_lock<std::mutex>& lock);
+  void Clear();
+
+  ScanShelf& shelf_;
+  const std::int64_t most_bytes_;
+
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::condition_variable_any changed_;
+  std::string scan_id_;  ///< empty = none is wanted
+  std::optional<ScanToSend> source_;
+  std::int64_t news_ = -1;  ///< of the shelf, that source_ has
+  ChunkSet done_;           ///< what the station has, and what was made
+  TransferWishes wishes_;
+  std::map<ItemId, Item> items_;
+  std::int64_t bytes_ = 0;
+  std::set<ItemId> making_;  ///< by the worker and by streams
+
+  std::jthread thread_;  ///< last: it uses the others
+};
+
+}  // namespace foresight
