@@ -14,6 +14,7 @@ struct LinkArguments {
   std::string keys;        ///< folder; empty = the user's
   bool plaintext = false;  ///< on this computer only
   bool thin = false;       ///< the path carries some kilobits a second
+  std::string burst_port;  ///< PORT or HOST:PORT of this computer; empty = no burst path
 };
 
 /// A head listens there unless it is told otherwise.
@@ -21,6 +22,9 @@ inline constexpr int kLinkPort = 47130;
 
 /// "host" -> "host:47130"; "[::1]" and "[::1]:5" too. Fails with kInvalidOptions.
 Result<std::string> LinkAddress(const std::string& text);
+
+/// "47131" or "10.0.0.2:47131". Fails with kInvalidOptions.
+Result<BurstClient::Options> BurstOptions(const std::string& text);
 
 /// --head and what goes with it; returns the option --head.
 CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments);

@@ -25,6 +25,9 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::shared_ptr<grpc::Ch
                                                         const Options& options,
                                                         std::chrono::milliseconds timeout) {
   auto head = std::shared_ptr<RemoteHead>(new RemoteHead(std::move(channel), options));
+  if (options.burst) {
+    FORESIGHT_TRY(head->burst_, BurstClient::Listen(*options.burst));
+  }
   const double end_s = LinkSession::Now() + 1e-3 * static_cast<double>(timeout.count());
   for (;;) {
     foresight::Status begun = head->session_.Begin(timeout);
@@ -43,6 +46,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::shared_ptr<grpc::Ch
     const std::lock_guard lock(raw->mutex_);
     return raw->rig_yaml_;
   };
+  fetching.burst = head->burst_.get();
   fetching.round_trip = [raw] { return raw->watch_ ? raw->watch_->RoundTrip() : 0.0; };
   head->stopper_ = std::make_unique<StopSender>(head->session_);
   head->commands_ = std::make_unique<CommandSender>(head->session_, options.command_good_s);
@@ -146,6 +150,10 @@ LinkHealth RemoteHead::Health() const {
   health.left_s = health.left_bytes == 0
                       ? 0.0
                       : static_cast<double>(health.left_bytes) / health.down_bytes_per_s;
+  if (burst_) {
+    const BurstCounts counts = burst_->Counts();
+    health.burst = {true, counts.bytes, counts.Refused(), burst_->Trouble()};
+  }
   health.has_control = !session_.Token().empty();
   health.holder = session_.Holder();
   health.address = options_.address;

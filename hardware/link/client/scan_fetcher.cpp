@@ -351,12 +351,18 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
     const std::string rig = options_.rig_yaml ? options_.rig_yaml() : "";
     FORESIGHT_TRY(scan.transfer, ScanTransfer::Open(options_.spool, scan.header.uuid, rig));
   }
+  std::uint32_t burst_key = 0;
+  if (options_.burst && !scan.done) {
+    FORESIGHT_TRY(burst_key,
+                  options_.burst->Open(session_, scan.header.uuid, scan.transfer->Have(), stop));
+  }
   const auto context = LinkSession::Context(std::chrono::milliseconds(0));
   context->set_wait_for_ready(true);  // a window of a second is not spent on asking again
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
   const auto stream = session_.stub().Transfer(context.get());
   link::TransferRequest request;
   *request.mutable_start() = StartOf(scan);
+  request.mutable_start()->set_burst_key_id(burst_key);
   if (!stream->Write(request)) return tl::unexpected(session_.ToError(stream->Finish(), "a scan"));
   Inbox inbox;
   Status received;
@@ -397,6 +403,7 @@ Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
     std::vector<Chunk> chunks = inbox.TakeAll();
     if (Superseded(scan)) break;  // what is not taken in comes again
     FORESIGHT_CHECK(TakeIn(scan, stream, std::move(chunks), inbox.LeftBytes()));
+    if (options_.burst && scan.transfer) FORESIGHT_CHECK(TakeInBurst(scan, stream));
     if (scan.done || !scan.transfer || scan.transfer->TakeMistakenRig()) return {};
     link::TransferRequest request;
     const bool was_thin = thin_;
@@ -437,6 +444,30 @@ Status ScanFetcher::TakeIn(Fetched& scan, Stream& stream, std::vector<Chunk> chu
   if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
   Show(scan, left_bytes);
   if (heard && scan.transfer->builder().Progress().complete) FORESIGHT_CHECK(Finish(scan));
+  return {};
+}
+
+/// As TakeIn, of what came on the burst path. The head hears of it seldom, in few bytes, and sends
+/// it again until then.
+Status ScanFetcher::TakeInBurst(Fetched& scan, Stream& stream) {
+  std::vector<Chunk> chunks = options_.burst->TakeChunks();
+  ChunkSet have = scan.transfer->Have();
+  std::erase_if(chunks, [&](const Chunk& chunk) { return have.HasPart(chunk.id, chunk.item_crc); });
+  FORESIGHT_TRY(const std::vector<Chunk> kept, scan.transfer->Keep(std::move(chunks)));
+  for (const Chunk& chunk : kept) have.AddPart(chunk);
+  if (!kept.empty()) options_.burst->SetHave(have);
+  if (options_.burst->MayTell(LinkSession::Now())) {
+    link::TransferRequest request;
+    request.mutable_acknowledge()->set_have(options_.burst->Tell(have, LinkSession::Now()));
+    stream.Write(request);
+  }
+  if (kept.empty()) return {};
+  scan.transfer->TakeIn(kept);
+  // What could not be read is to come again.
+  if (!(scan.transfer->Have() == have)) options_.burst->SetHave(scan.transfer->Have());
+  if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
+  Show(scan, scan.shown.left_bytes);
+  if (scan.transfer->builder().Progress().complete) FORESIGHT_CHECK(Finish(scan));
   return {};
 }
 
@@ -496,6 +527,8 @@ link::Wishes ScanFetcher::Wishes() {
   if ((rate && *rate > 2.0 * kThinBytesPerS) ||
       (round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s))
     thin_ = false;
+  // What is beside a burst path carries what is small.
+  if (options_.burst && options_.burst->Carries()) thin_ = true;
   if (thin_) wishes.set_bytes_per_s(static_cast<std::int64_t>(kThinBytesPerS) - 1);
   if (region_) {
     wishes.mutable_lines_first()->set_first(region_->first);
