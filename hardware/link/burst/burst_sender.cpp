@@ -9,7 +9,7 @@ namespace foresight {
 namespace {
 
 /// So much time may be made good at once: a thread is woken up late on a busy computer.
-constexpr double kSlack_s = 0.004;
+constexpr double kSlack_s = 0.01;
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
 double Now() {

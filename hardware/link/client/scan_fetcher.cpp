@@ -466,7 +466,7 @@ Status ScanFetcher::TakeInBurst(Fetched& scan, Stream& stream) {
   // What could not be read is to come again.
   if (!(scan.transfer->Have() == have)) options_.burst->SetHave(scan.transfer->Have());
   if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
-  Show(scan, scan.shown.left_bytes);
+  Show(scan, 0);
   if (scan.transfer->builder().Progress().complete) FORESIGHT_CHECK(Finish(scan));
   return {};
 }
@@ -509,6 +509,11 @@ void ScanFetcher::Show(Fetched& scan, std::int64_t left_bytes) {
     early = EarlyScanOf(builder);
   }
   const std::lock_guard lock(mutex_);
+  // A stream beside bursts tells only of what is small: the file at the head says about how much
+  // there is.
+  if (const auto there = on_head_.find(scan.header.uuid);
+      thin_ && options_.burst && there != on_head_.end())
+    left_bytes = std::max(left_bytes, there->second.bytes() - scan.transfer->TakenBytes());
   scan.shown.lines = static_cast<int>(progress.lines);
   scan.shown.images = static_cast<int>(progress.frames);
   scan.shown.left_bytes = left_bytes;

@@ -91,6 +91,7 @@ void TransferStream::Read() {
     if (request.has_acknowledge()) TakeAcknowledge(request.acknowledge());
     wake_.notify_all();
   }
+  if (burst_ && !still_good_()) burst_->End();
   const std::lock_guard lock(mutex_);
   gone_ = true;
   wake_.notify_all();

@@ -70,8 +70,8 @@ TEST_F(BurstLoopback, TheRateOnTheWireIsTheOneThatWasSet) {
       seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
   }
-  // A busy computer may be slower, never faster; 64 kB is a burst and what goes with one call.
-  EXPECT_LE(static_cast<double>(sent), 4e6 * seconds + 64e3);
+  // A busy computer may be slower, never faster; 90 kB: 0.01 s at once, and what one call sends.
+  EXPECT_LE(static_cast<double>(sent), 4e6 * seconds + 90e3);
   EXPECT_GE(sent, 2'000'000);
 }
 
