@@ -39,7 +39,7 @@ class Network:
         for space in self.spaces():
             run("ip", "netns", "add", space)
         self.within("r", "sysctl", "-qw", "net.ipv4.ip_forward=1")
-        thin = ("rate", f"{bit}bit", "burst", "1540", "limit", "20kb")
+        thin = ("rate", f"{bit}bit", "burst", "1540", "limit", "6kb")
         wide = ("rate", f"{mbit}mbit", "burst", "256kb", "latency", "50ms")
         self.join("h", "t", HEAD, thin)
         self.join("s", "t", STATION, thin)

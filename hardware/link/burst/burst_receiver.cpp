@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kTick{200};
 
 }  // namespace
 
-Status BurstReader::Expect(const BurstKey& key, const std::string& scan_id, ChunkSet have) {
+Status BurstReader::Expect(const BurstKey& key, const std::string& scan_id, const ChunkSet& have) {
   FORESIGHT_TRY(DatagramOpener opener, DatagramOpener::Make(key));
   opener_.emplace(std::move(opener));
   const std::uint64_t tag = BurstScanTag(scan_id);
@@ -111,10 +111,11 @@ void BurstReceiver::Work(const std::stop_token& stop) {
   }
 }
 
-Status BurstReceiver::Expect(const BurstKey& key, const std::string& scan_id, ChunkSet have) {
+Status BurstReceiver::Expect(const BurstKey& key, const std::string& scan_id,
+                             const ChunkSet& have) {
   const std::lock_guard lock(mutex_);
   heard_ = std::chrono::steady_clock::now();
-  return reader_.Expect(key, scan_id, std::move(have));
+  return reader_.Expect(key, scan_id, have);
 }
 
 void BurstReceiver::SetHave(const ChunkSet& have) {

@@ -36,7 +36,7 @@ class BurstReader {
   static constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
 
   /// Datagrams of this key and scan are taken from now on, and no others. Fails with kDevice.
-  Status Expect(const BurstKey& key, const std::string& scan_id, ChunkSet have);
+  Status Expect(const BurstKey& key, const std::string& scan_id, const ChunkSet& have);
   /// What is kept of the scan: those chunks are not made again.
   void SetHave(const ChunkSet& have);
   void Take(std::span<const std::uint8_t> datagram);
@@ -68,7 +68,7 @@ class BurstReceiver {
   BurstReceiver& operator=(const BurstReceiver&) = delete;
 
   const TcpAddress& address() const { return socket_.address(); }
-  Status Expect(const BurstKey& key, const std::string& scan_id, ChunkSet have);
+  Status Expect(const BurstKey& key, const std::string& scan_id, const ChunkSet& have);
   void SetHave(const ChunkSet& have);
   std::vector<Chunk> TakeChunks();
   BurstCounts Counts() const;

@@ -44,7 +44,8 @@ void WriteFragment(std::uint64_t scan_tag, const Chunk& chunk, std::uint32_t str
                                .U32(static_cast<std::uint32_t>(chunk.bytes.size()) | stride << 16)
                                .U32(index)
                                .Take();
-  const std::string_view bytes = std::string_view(chunk.bytes).substr(index * stride, stride);
+  const std::string_view bytes =
+      std::string_view(chunk.bytes).substr(std::size_t{index} * stride, stride);
   content.assign(head.begin(), head.end());
   content.insert(content.end(), bytes.begin(), bytes.end());
 }
