@@ -75,8 +75,9 @@ TEST(ChunkSet, WithAnotherOneHasWhatEitherHas) {
         const ItemId id{static_cast<ChunkKind>(kind), item};
         ASSERT_EQ(both.Has(id), one.Has(id) || other.Has(id)) << seed;
       }
-    for (const Chunk& part :
-         SplitItem({ChunkKind::kImage, 10000}, std::string(5 * kMaxPartBytes, 'x')).value())
+    const auto parts =
+        SplitItem({ChunkKind::kImage, 10000}, std::string(5 * kMaxPartBytes, 'x')).value();
+    for (const Chunk& part : parts)
       ASSERT_EQ(both.HasPart(part.id, part.item_crc),
                 one.HasPart(part.id, part.item_crc) || other.HasPart(part.id, part.item_crc));
   }
