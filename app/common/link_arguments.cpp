@@ -59,6 +59,23 @@ Result<std::string> LinkAddress(const std::string& text) {
   return text;
 }
 
+Result<BurstClient::Options> BurstOptions(const std::string& text) {
+  BurstClient::Options options;
+  const std::size_t colon = text.rfind(':');
+  const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
+  if (colon != std::string::npos) options.host = text.substr(0, colon);
+  const bool digits = !port.empty() && port.size() <= 5 &&
+                      port.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || std::stoi(port) < 1 || std::stoi(port) > 65535)
+    return Fail(ErrorCode::kInvalidOptions, "--burst-port '{}': '{}' is no port (1 to 65535)", text,
+                port);
+  if (colon != std::string::npos)
+    if (const auto ip = UnicastIp(options.host); !ip)
+      return Fail(ErrorCode::kInvalidOptions, "--burst-port {}", ip.error().message);
+  options.port = std::stoi(port);
+  return options;
+}
+
 CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments) {
   CLI::Option* head = command.add_option(
       "--head", arguments.head, "A head at the far end of a link, HOST or HOST:PORT (port 47130)");
@@ -79,6 +96,11 @@ CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments) {
   command
       .add_flag("--thin-link", arguments.thin, "The path carries some kilobits a second at most")
       ->needs(head);
+  command
+      .add_option("--burst-port", arguments.burst_port,
+                  "UDP port for bursts of a one-way path from the head, beside the link; HOST:PORT "
+                  "names the address of this computer on it")
+      ->needs(head);
   return head;
 }
 
@@ -87,6 +109,10 @@ Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
                                                 const std::string& spool) {
   FORESIGHT_TRY(const std::string address, LinkAddress(arguments.head));
   FORESIGHT_TRY(const auto credentials, CredentialsFor(arguments, address));
+  RemoteHead::Options options;
+  if (!arguments.burst_port.empty()) {
+    FORESIGHT_TRY(options.burst, BurstOptions(arguments.burst_port));
+  }
   SendGrpcLogToOurs();
   std::string certificate_host;
   if (!arguments.name.empty()) {
@@ -94,7 +120,6 @@ Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
     certificate_host = StableHostOfHead(arguments.name);
   }
   const LinkPath path = arguments.thin ? LinkPath::kThin : LinkPath::kBursts;
-  RemoteHead::Options options;
   options.address = address;
   options.status_rate_hz = arguments.thin ? 0.5 : 10.0;
   options.spool = spool.empty() ? SpoolFolder() : std::filesystem::path(spool);

@@ -15,6 +15,7 @@ struct LinkArguments {
   std::string keys;        ///< folder; empty = the user's
   bool plaintext = false;  ///< on this computer only
   bool thin = false;       ///< the path carries some kilobits a second
+  std::string burst_port;  ///< PORT or HOST:PORT of this computer; empty = no burst path
 };
 
 /// A head listens there unless it is told otherwise.
@@ -25,6 +26,9 @@ Result<std::string> LinkAddress(const std::string& text);
 
 /// The host of HOST:PORT, without the brackets of an IPv6 address.
 std::string HostOf(const std::string& address);
+
+/// "47131" or "10.0.0.2:47131". Fails with kInvalidOptions.
+Result<BurstClient::Options> BurstOptions(const std::string& text);
 
 /// --head and what goes with it; returns the option --head.
 CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments);

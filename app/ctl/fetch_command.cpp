@@ -52,8 +52,9 @@ Result<std::vector<std::string>> Wanted(const FetchArguments& arguments,
   std::vector<std::string> wanted = arguments.scans;
   for (const std::string& id : wanted)
     if (Find(there, id) == nullptr)
-      return Fail(ErrorCode::kInvalidInput, "{}: the head has no scan '{}': --list shows those it has",
-                  arguments.link.head, id);
+      return Fail(ErrorCode::kInvalidInput,
+                  "{}: the head has no scan '{}': --list shows those it has", arguments.link.head,
+                  id);
   if (wanted.empty())
     for (const LinkedScan& scan : there) wanted.push_back(scan.scan_id);
   return wanted;

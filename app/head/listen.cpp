@@ -95,7 +95,9 @@ Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
                  [&robot](const PoseMessage& message) { return robot->Send(message); });
     PrintNote("poses go to whoever connects to {}", robot->path().string());
   }
-  HeadDesk desk(head, *shelf, {arguments.lease_s, simulated, gate ? &*gate : nullptr});
+  HeadDesk desk(
+      head, *shelf,
+      {arguments.lease_s, simulated, gate ? &*gate : nullptr, arguments.burst_mbit_s * 1e6 / 8.0});
   FORESIGHT_TRY(const auto server,
                 HeadServer::Start(desk, arguments.address, door.credentials, door.peer));
   const std::string host = arguments.address.substr(0, arguments.address.rfind(':'));

@@ -17,8 +17,9 @@ struct ListenArguments {
   std::string scans;       ///< folder; empty = the user's
   double disk_ratio = 0.5;
   double lease_s = 60.0;
-  std::string robot_socket;  ///< path; empty = no robot
-  bool announce = true;      ///< on the local network, where stations from elsewhere can connect
+  std::string robot_socket;     ///< path; empty = no robot
+  bool announce = true;         ///< on the local network, where stations from elsewhere can connect
+  double burst_mbit_s = 250.0;  ///< of a one-way path to the station; 0 = no bursts
   bool json = false;
 };
 

@@ -57,6 +57,11 @@ CLI::Option* AddListenOptions(CLI::App& app, ListenArguments& arguments) {
       ->needs(listen)
       ->check(CLI::Range(1.0, 86400.0))
       ->capture_default_str();
+  app.add_option("--burst-rate", arguments.burst_mbit_s,
+                 "Mbit/s of the one-way path on which a station asks for bursts; 0: send none")
+      ->needs(listen)
+      ->check(CLI::Range(0.0, 10'000.0))
+      ->capture_default_str();
   app.add_option("--robot-socket", arguments.robot_socket,
                  "Local socket from which the robot's software takes accepted poses")
       ->needs(listen);

@@ -5,6 +5,14 @@
 
 namespace foresight {
 
+/// A path from the head that nobody answers on, beside the link.
+struct BurstHealth {
+  bool wanted = false;
+  std::int64_t bytes = 0;    ///< that came by it
+  std::int64_t refused = 0;  ///< datagrams that were not the head's, or came twice
+  std::string trouble;       ///< why the head sends none; empty when it does
+};
+
 /// How the connection to a head at the far end of a link does. Times are of this computer's own
 /// clock, so an age grows when everything else is dead.
 struct LinkHealth {
@@ -14,6 +22,7 @@ struct LinkHealth {
   double down_bytes_per_s = 0.0;  ///< over the last seconds
   std::int64_t left_bytes = 0;    ///< of scans that are on their way
   double left_s = 0.0;            ///< at that rate; infinite where nothing comes
+  BurstHealth burst;
   bool has_control = false;
   std::string holder;   ///< who has control; empty = nobody
   std::string address;  ///< of the head

@@ -63,6 +63,43 @@ TEST_F(LinkedPrograms, AScanOverTheLinkIsTheOneOfTheHead) {
   EXPECT_THAT(ended.errors, HasSubstr("local has all of scan"));
 }
 
+TEST_F(LinkedPrograms, FetchBringsWhatTheHeadKeeps) {
+  const std::string scans = folder / "scans";
+  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--plaintext",
+                                       "--scans", scans, "--json"});
+  const std::vector<std::string> link = {"--head", AddressOf(head), "--plaintext"};
+  const auto fetch = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "fetch");
+    arguments.insert(arguments.end(), link.begin(), link.end());
+    return RunProgram(FORESIGHTCTL, arguments);
+  };
+  EXPECT_EQ(fetch({"--list"}).exit_code, 1) << "nothing there is a negative result";
+  ASSERT_EQ(RunProgram(FORESIGHTCTL, {"scan", link[0], link[1], link[2], "--from", "-3", "--to",
+                                      "3", "--out", folder / "station.foresight"})
+                .exit_code,
+            0);
+  const ProgramResult listed = fetch({"--list", "--json"});
+  ASSERT_EQ(listed.exit_code, 0) << listed.errors;
+  const auto list = nlohmann::json::parse(listed.output);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_GT(list[0]["lines"], 0);
+
+  const ProgramResult unknown = fetch({"--scan", "none", "--out", folder / "again.foresight"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.errors, HasSubstr("the head has no scan 'none'"));
+  const ProgramResult fetched =
+      fetch({"--scan", list[0]["scan"], "--out", folder / "again.foresight", "--json"});
+  ASSERT_EQ(fetched.exit_code, 0) << fetched.errors;
+  EXPECT_EQ(nlohmann::json::parse(fetched.output)[0]["scan"], list[0]["scan"]);
+  EXPECT_EQ(DigestsOf(folder / "again.foresight"), DigestsOf(folder / "station.foresight"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "again.foresight.spool"));
+}
+
+TEST_F(LinkedPrograms, FetchSaysWhatItNeeds) {
+  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"fetch", "--head", "127.0.0.1"}).exit_code, 2);
+  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"fetch", "--out", folder / "a.foresight"}).exit_code, 2);
+}
+
 TEST_F(LinkedPrograms, WithoutEncryptionOnlyThisComputerIsServed) {
   const ProgramResult head = RunProgram(
       FORESIGHT_HEAD,

@@ -66,6 +66,19 @@ TEST_F(LinkTest, SaysHowTheLinkDoesAndWhatIsToCome) {
   EXPECT_EQ(link.Scans()[1].detail.toStdString(), "89 lines, 3 images, 3.1 MB to come");
 }
 
+TEST_F(LinkTest, SaysWhatCameByBurstsAndWhyNothingDoes) {
+  head->link.health.down_bytes_per_s = 900.0;
+  head->link.health.burst = {true, 3'100'000, 0, ""};
+  EXPECT_EQ(LinkViewModel(head, nullptr).Text().rate.toStdString(), "900 B/s, 3.1 MB by bursts");
+  head->link.health.burst.refused = 7;
+  EXPECT_EQ(LinkViewModel(head, nullptr).Text().rate.toStdString(),
+            "900 B/s, 3.1 MB by bursts (7 datagrams refused)");
+  head->link.health.burst.trouble = "this head sends no bursts";
+  const LinkViewModel link(head, nullptr);
+  EXPECT_EQ(link.Text().rate.toStdString(), "900 B/s, no bursts");
+  EXPECT_EQ(link.Text().trouble.toStdString(), "this head sends no bursts");
+}
+
 TEST_F(LinkTest, ALostLinkSaysForHowLongAndWhatToDo) {
   head->link.health.connected = false;
   head->link.health.age_s = 75.0;

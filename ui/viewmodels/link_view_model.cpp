@@ -31,6 +31,18 @@ QString LeftText(const LinkHealth& link) {
       .arg(bytes, AgeText(std::chrono::seconds(std::llround(link.left_s))));
 }
 
+QString RateText(const LinkHealth& link) {
+  const QString rate =
+      LinkViewModel::tr("%1/s").arg(BytesText(std::llround(link.down_bytes_per_s)));
+  if (!link.burst.wanted) return rate;
+  if (!link.burst.trouble.empty()) return LinkViewModel::tr("%1, no bursts").arg(rate);
+  if (link.burst.refused == 0)
+    return LinkViewModel::tr("%1, %2 by bursts").arg(rate, BytesText(link.burst.bytes));
+  return LinkViewModel::tr("%1, %2 by bursts (%3 datagrams refused)")
+      .arg(rate, BytesText(link.burst.bytes))
+      .arg(link.burst.refused);
+}
+
 LinkText TextOf(const LinkHealth& link, bool may_operate) {
   LinkText text;
   text.state = !link.connected    ? LinkViewModel::tr("lost")
@@ -41,10 +53,10 @@ LinkText TextOf(const LinkHealth& link, bool may_operate) {
   text.round_trip = link.round_trip_s > 0.0
                         ? LinkViewModel::tr("%1 ms").arg(1e3 * link.round_trip_s, 0, 'f', 0)
                         : LinkViewModel::tr("not known yet");
-  text.rate = LinkViewModel::tr("%1/s").arg(BytesText(std::llround(link.down_bytes_per_s)));
+  text.rate = RateText(link);
   text.left = LeftText(link);
   text.control = ControlText(link, may_operate);
-  text.trouble = QString::fromStdString(link.trouble);
+  text.trouble = QString::fromStdString(link.trouble.empty() ? link.burst.trouble : link.trouble);
   return text;
 }
 

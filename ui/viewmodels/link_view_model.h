@@ -18,7 +18,7 @@ struct LinkText {
   QString state;       ///< "well", "lost", "looking on"
   QString last_word;   ///< "under 10 s ago"
   QString round_trip;  ///< "12 ms"
-  QString rate;        ///< "180 kB/s"
+  QString rate;        ///< "180 kB/s, 3.1 MB by bursts"
   QString left;        ///< "3.1 MB, about 4 s"
   QString control;     ///< "You have control." or who has it
   QString trouble;     ///< what is wrong and what to do; empty when all is well

@@ -98,6 +98,17 @@ void ChunkSet::AddPart(const Chunk& chunk) {
   if (item.parts.Count() == chunk.parts) Add(id);
 }
 
+void ChunkSet::Add(const ChunkSet& other) {
+  for (const auto& [kind, numbers] : other.items_)
+    for (const NumberSet::Interval& items : numbers.Intervals()) Add(kind, items);
+  for (const auto& [id, theirs] : other.partial_) {
+    if (Has(id)) continue;
+    PartialItem& ours = partial_[id];
+    if (ours.item_crc != theirs.item_crc) ours = {theirs.item_crc, {}};
+    for (const NumberSet::Interval& parts : theirs.parts.Intervals()) ours.parts.Add(parts);
+  }
+}
+
 bool ChunkSet::Has(const ItemId& id) const {
   return Items(id.kind).Has(id.item);
 }

@@ -52,6 +52,8 @@ class ChunkSet {
   /// One part is there; the last missing one of `parts` makes the item whole. Parts of an item
   /// whose CRC differs are forgotten: the item was made anew.
   void AddPart(const Chunk& chunk);
+  /// All of the other set.
+  void Add(const ChunkSet& other);
   void ForgetParts(const ItemId& id) { partial_.erase(id); }
 
   bool Has(const ItemId& id) const;

@@ -24,6 +24,11 @@ void ChunkSource::Update(ScanToSend source) {
   counts_ = ItemsOf(source_);
 }
 
+void ChunkSource::AddHave(const ChunkSet& have) {
+  done_.Add(have);
+  std::erase_if(open_, [&](const auto& item) { return done_.Has(item.first); });
+}
+
 Result<std::optional<Chunk>> ChunkSource::Next() {
   while (const auto id = NextItem(source_, counts_, done_, wishes_)) {
     const auto parts = Parts(*id);

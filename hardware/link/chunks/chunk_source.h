@@ -28,6 +28,8 @@ class ChunkSource {
 
   /// The scan as it is now; of the same uuid. Costs nothing.
   void Update(ScanToSend source);
+  /// The station has these by another way: they are not sent.
+  void AddHave(const ChunkSet& have);
   void SetWishes(TransferWishes wishes) { wishes_ = std::move(wishes); }
 
   /// The next chunk; it counts as sent. nullopt = nothing to send now. Fails as EncodeItem does:

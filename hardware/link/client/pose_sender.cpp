@@ -31,8 +31,7 @@ Result<RobotAnswer> SendPose(LinkSession& session, const std::string& pose_json)
     request.set_control_token(session.Token());
     link::PoseReply reply;
     const auto context = LinkSession::Context(kTry);
-    const grpc::Status called =
-        session.stub(*context).PublishPose(context.get(), request, &reply);
+    const grpc::Status called = session.stub(*context).PublishPose(context.get(), request, &reply);
     if (called.ok()) return FromMessage(reply);
     const bool lost = called.error_code() == grpc::StatusCode::UNAVAILABLE ||
                       called.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;

@@ -18,14 +18,16 @@ constexpr std::chrono::milliseconds kControlTimeout{4000};
 
 }  // namespace
 
-RemoteHead::RemoteHead(std::vector<std::shared_ptr<grpc::Channel>> channels,
-                       const Options& options)
+RemoteHead::RemoteHead(std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options)
     : options_(options), session_(std::move(channels), options.address), mirror_(options.address) {}
 
 Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(
     std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options,
     std::chrono::milliseconds timeout) {
   auto head = std::shared_ptr<RemoteHead>(new RemoteHead(std::move(channels), options));
+  if (options.burst) {
+    FORESIGHT_TRY(head->burst_, BurstClient::Listen(*options.burst));
+  }
   const double end_s = LinkSession::Now() + 1e-3 * static_cast<double>(timeout.count());
   for (;;) {
     foresight::Status begun = head->session_.Begin(timeout);
@@ -44,6 +46,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(
     const std::lock_guard lock(raw->mutex_);
     return raw->rig_yaml_;
   };
+  fetching.burst = head->burst_.get();
   fetching.round_trip = [raw] { return raw->watch_ ? raw->watch_->RoundTrip() : 0.0; };
   head->stopper_ = std::make_unique<StopSender>(head->session_);
   head->commands_ = std::make_unique<CommandSender>(head->session_, options.command_good_s);
@@ -149,6 +152,10 @@ LinkHealth RemoteHead::Health() const {
   health.left_s = health.left_bytes == 0
                       ? 0.0
                       : static_cast<double>(health.left_bytes) / health.down_bytes_per_s;
+  if (burst_) {
+    const BurstCounts counts = burst_->Counts();
+    health.burst = {true, counts.bytes, counts.Refused(), burst_->Trouble()};
+  }
   health.has_control = !session_.Token().empty();
   health.holder = session_.Holder();
   health.address = options_.address;

@@ -9,6 +9,7 @@
 
 #include "hardware/api/head_link.h"
 #include "hardware/api/sensor_head.h"
+#include "hardware/link/client/burst_client.h"
 #include "hardware/link/client/command_sender.h"
 #include "hardware/link/client/head_mirror.h"
 #include "hardware/link/client/look_client.h"
@@ -30,6 +31,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
     double command_good_s = 8.0;           ///< what the head did not get by then is void
     std::filesystem::path spool;           ///< folder for what has come of scans that are not whole
     std::shared_ptr<ScanArchive> archive;  ///< may be null: sinks are all there is
+    std::optional<BurstClient::Options> burst;  ///< a one-way path from the head, beside the link
   };
 
   /// Greets the head and fetches its rig. Fails with kDevice where nobody answers in time, kState
@@ -86,6 +88,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
   std::string boot_id_;
   std::shared_ptr<StopsClient> stops_;
   std::unique_ptr<LookClient> look_;
+  std::unique_ptr<BurstClient> burst_;
   // Last: their threads use what is above.
   std::unique_ptr<ScanFetcher> fetcher_;
   std::unique_ptr<StopSender> stopper_;

@@ -355,6 +355,11 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
     const std::string rig = options_.rig_yaml ? options_.rig_yaml() : "";
     FORESIGHT_TRY(scan.transfer, ScanTransfer::Open(options_.spool, scan.header.uuid, rig));
   }
+  std::uint32_t burst_key = 0;
+  if (options_.burst && !scan.done) {
+    FORESIGHT_TRY(burst_key,
+                  options_.burst->Open(session_, scan.header.uuid, scan.transfer->Have(), stop));
+  }
   const auto context = LinkSession::Context(std::chrono::milliseconds(0));
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
   while (scan.transfer && scan.transfer->Waiting() && !session_.Connected() &&
@@ -365,6 +370,7 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
   const auto stream = stub->Transfer(context.get());
   link::TransferRequest request;
   *request.mutable_start() = StartOf(scan);
+  request.mutable_start()->set_burst_key_id(burst_key);
   if (!stream->Write(request)) return tl::unexpected(session_.ToError(stream->Finish(), "a scan"));
   Inbox inbox;
   Status received;
@@ -404,10 +410,12 @@ Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
   while (!inbox.Closed() && !Superseded(scan)) {
     std::vector<Chunk> chunks = inbox.TakeAll(scan.transfer->Waiting() ? kNoWait : kTick);
     if (Superseded(scan)) break;  // what is not taken in comes again
-    const bool nothing_came = chunks.empty();
+    const bool came = !chunks.empty();
     FORESIGHT_CHECK(Acknowledge(scan, stream, std::move(chunks), inbox.LeftBytes()));
+    FORESIGHT_TRY(const bool came_by_burst, KeepBurst(scan, stream));
     // The link goes first: what came is decoded when nothing more comes for a moment.
-    const std::int64_t most = nothing_came ? scan.transfer->WaitingBytes() - 1 : kMostWaiting;
+    const std::int64_t most =
+        came || came_by_burst ? kMostWaiting : scan.transfer->WaitingBytes() - 1;
     FORESIGHT_CHECK(TakeIn(scan, most, inbox.LeftBytes()));
     if (scan.done || !scan.transfer || scan.transfer->TakeMistakenRig()) return {};
     link::TransferRequest request;
@@ -448,10 +456,31 @@ Status ScanFetcher::Acknowledge(Fetched& scan, Stream& stream, std::vector<Chunk
   return {};
 }
 
+/// Keeps what came on the burst path; whether anything did. The head hears of it seldom, in few
+/// bytes, and sends it again until then.
+Result<bool> ScanFetcher::KeepBurst(Fetched& scan, Stream& stream) {
+  if (!options_.burst) return false;
+  std::vector<Chunk> chunks = options_.burst->TakeChunks();
+  const ChunkSet before = scan.transfer->Have();
+  std::erase_if(chunks,
+                [&](const Chunk& chunk) { return before.HasPart(chunk.id, chunk.item_crc); });
+  FORESIGHT_TRY(const std::vector<ChunkId> kept, scan.transfer->Keep(std::move(chunks)));
+  const ChunkSet have = scan.transfer->Have();
+  if (!kept.empty()) options_.burst->SetHave(have);
+  if (options_.burst->MayTell(LinkSession::Now())) {
+    link::TransferRequest request;
+    request.mutable_acknowledge()->set_have(options_.burst->Tell(have, LinkSession::Now()));
+    stream.Write(request);
+  }
+  return !kept.empty();
+}
+
 /// Takes in what was kept until only `most_waiting` bytes of it wait.
 Status ScanFetcher::TakeIn(Fetched& scan, std::int64_t most_waiting, std::int64_t left_bytes) {
   while (scan.transfer->Waiting() && scan.transfer->WaitingBytes() > most_waiting) {
-    scan.transfer->TakeInNext();
+    // What could not be read is to come again.
+    if (!scan.transfer->TakeInNext() && options_.burst)
+      options_.burst->SetHave(scan.transfer->Have());
     if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
   }
   Show(scan, left_bytes);
@@ -497,6 +526,11 @@ void ScanFetcher::Show(Fetched& scan, std::int64_t left_bytes) {
     early = EarlyScanOf(builder);
   }
   const std::lock_guard lock(mutex_);
+  // A stream beside bursts tells only of what is small: the file at the head says about how much
+  // there is.
+  if (const auto there = on_head_.find(scan.header.uuid);
+      thin_ && options_.burst && there != on_head_.end())
+    left_bytes = std::max(left_bytes, there->second.bytes() - scan.transfer->TakenBytes());
   scan.shown.lines = static_cast<int>(progress.lines);
   scan.shown.images = static_cast<int>(progress.frames);
   scan.shown.left_bytes = left_bytes;
@@ -515,6 +549,8 @@ link::Wishes ScanFetcher::Wishes() {
   if ((rate && *rate > 2.0 * kThinBytesPerS) ||
       (round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s))
     thin_ = false;
+  // What is beside a burst path carries what is small.
+  if (options_.burst && options_.burst->Carries()) thin_ = true;
   if (thin_) wishes.set_bytes_per_s(static_cast<std::int64_t>(kThinBytesPerS) - 1);
   if (region_) {
     wishes.mutable_lines_first()->set_first(region_->first);

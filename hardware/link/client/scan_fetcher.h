@@ -14,6 +14,7 @@
 
 #include "hardware/api/head_link.h"
 #include "hardware/api/sensor_head.h"
+#include "hardware/link/client/burst_client.h"
 #include "hardware/link/client/link_session.h"
 #include "hardware/link/client/scan_archive.h"
 #include "hardware/link/client/scan_transfer.h"
@@ -32,6 +33,7 @@ class ScanFetcher {
     std::shared_ptr<ScanArchive> archive;   ///< may be null: sinks are all there is
     std::function<std::string()> rig_yaml;  ///< that is in force on the head, if known
     std::function<double()> round_trip;     ///< of the link, s; 0 = not known
+    BurstClient* burst = nullptr;           ///< null = no burst path. Outlives the fetcher.
   };
 
   /// `session` outlives it.
@@ -98,6 +100,7 @@ class ScanFetcher {
   Status Receive(Fetched& scan, Stream& stream, Inbox& inbox);
   Status Acknowledge(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
                      std::int64_t left_bytes);
+  Result<bool> KeepBurst(Fetched& scan, Stream& stream);
   Status TakeIn(Fetched& scan, std::int64_t most_waiting, std::int64_t left_bytes);
   Status Finish(Fetched& scan);
   static void SayThatAllIsHere(Stream& stream, Inbox& inbox);

@@ -52,15 +52,16 @@ Result<std::vector<ChunkId>> ScanTransfer::Keep(std::vector<Chunk> chunks) {
   return ids;
 }
 
-void ScanTransfer::TakeInNext() {
+bool ScanTransfer::TakeInNext() {
   const Chunk chunk = std::move(waiting_.front());
   waiting_.pop_front();
   const auto bytes = static_cast<std::int64_t>(chunk.bytes.size());
   waiting_bytes_ -= bytes;
   taken_bytes_ += bytes;
-  if (const auto taken = builder_.Take(chunk); !taken)
-    LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
+  const auto taken = builder_.Take(chunk);
+  if (!taken) LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
   TryRig();
+  return taken.has_value();
 }
 
 }  // namespace foresight

@@ -27,8 +27,9 @@ class ScanTransfer {
   /// Bytes of the chunks that were kept and are not part of the scan yet.
   std::int64_t WaitingBytes() const { return waiting_bytes_; }
   bool Waiting() const { return !waiting_.empty(); }
-  /// Makes the chunk that has waited longest part of the scan. @pre Waiting()
-  void TakeInNext();
+  /// Makes the chunk that has waited longest part of the scan; false where it could not be read,
+  /// and has to come again. @pre Waiting()
+  bool TakeInNext();
 
   /// What the head need not send: what is here, and the rig where we hope to know it.
   ChunkSet Have() const;

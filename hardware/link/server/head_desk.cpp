@@ -25,7 +25,8 @@ HeadDesk::HeadDesk(std::shared_ptr<SensorHead> head, ScanShelf& shelf, const Opt
       options_(options),
       boot_id_(NewUuid()),
       start_(std::chrono::steady_clock::now()),
-      lease_(options.lease_s) {
+      lease_(options.lease_s),
+      bursts_(shelf, options.burst_bytes_per_s) {
   FORESIGHT_EXPECTS(head_ != nullptr, "a desk has a head");
   rig_id_ = RigId(head_->Rig());
 }

@@ -7,6 +7,7 @@
 
 #include "hardware/api/sensor_head.h"
 #include "hardware/link/robot/pose_gate.h"
+#include "hardware/link/server/burst_desk.h"
 #include "hardware/link/server/command_log.h"
 #include "hardware/link/server/control_lease.h"
 #include "hardware/link/server/scan_shelf.h"
@@ -24,6 +25,7 @@ class HeadDesk {
     double lease_s = ControlLease::kUsualLease_s;
     bool simulated = false;
     PoseGate* gate = nullptr;  ///< to the robot; null = there is none. Outlives the desk.
+    double burst_bytes_per_s = BurstDesk::kUsualBytesPerS;  ///< 0 = no bursts
   };
 
   /// `shelf` outlives the desk.
@@ -64,6 +66,7 @@ class HeadDesk {
   double Time() const;
 
   ScanShelf& shelf() { return shelf_; }
+  BurstDesk& bursts() { return bursts_; }
   SensorHead& head() { return *head_; }
 
  private:
@@ -81,6 +84,7 @@ class HeadDesk {
   const std::string boot_id_;
   const std::chrono::steady_clock::time_point start_;
   ControlLease lease_;
+  BurstDesk bursts_;
 
   std::mutex commands_;  ///< one command at a time; guards the log
   CommandLog<link::Outcome> log_;

@@ -152,7 +152,8 @@ grpc::Status HeadService::Transfer(grpc::ServerContext* context, TransferStream:
   const Place place(transfers_, kMostTransfers);
   if (!place) return TooMany("transfers of scans", kMostTransfers);
   const auto still_good = [this, context] { return peer_(*context).has_value(); };
-  return TransferStream(desk_.shelf(), cache_, *peer, *context, *stream, still_good).Run(closing_);
+  return TransferStream(desk_.shelf(), cache_, desk_.bursts(), *peer, *context, *stream, still_good)
+      .Run(closing_);
 }
 
 grpc::Status HeadService::Look(grpc::ServerContext* context, const link::LiveViewRequest* request,
@@ -198,6 +199,20 @@ grpc::Status HeadService::PublishPose(grpc::ServerContext* context,
   const Place place(poses_, kMostPoses);
   if (!place) return TooMany("poses", kMostPoses);
   *reply = desk_.PublishPose(*request, *peer);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::OpenBurst(grpc::ServerContext* context, const link::BurstRequest* request,
+                                    link::BurstReply* reply) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  if (!peer->may_operate)
+    return {grpc::StatusCode::PERMISSION_DENIED,
+            peer->name + " is an observer: bursts are for operators"};
+  auto opened = desk_.bursts().Open(*request, peer->name, context->peer());
+  if (!opened) return ToGrpc(opened.error());
+  *reply = std::move(*opened);
   return grpc::Status::OK;
 }
 

@@ -50,6 +50,8 @@ class HeadService final : public link::SensorHead::Service {
                           grpc::ServerWriter<link::StopEvent>* stream) override;
   grpc::Status PublishPose(grpc::ServerContext* context, const link::PoseRequest* request,
                            link::PoseReply* reply) override;
+  grpc::Status OpenBurst(grpc::ServerContext* context, const link::BurstRequest* request,
+                         link::BurstReply* reply) override;
   grpc::Status ListScans(grpc::ServerContext* context, const link::ListScansRequest* request,
                          link::ListScansReply* reply) override;
 

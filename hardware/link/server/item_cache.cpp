@@ -1,6 +1,5 @@
 #include "hardware/link/server/item_cache.h"
 
-
 namespace foresight {
 namespace {
 

@@ -44,6 +44,7 @@ grpc::Status TransferStream::Run(const std::atomic<bool>& closing) {
   {
     const std::jthread reader([this] { Read(); });
     sent = Send(closing);
+    if (burst_) burst_->StreamGone();
     if (!sent.ok()) LogWarning("{}: scan {}: {}", peer_.name, scan_id_, sent.error_message());
     // The reader waits for a station that has nothing more to say.
     bool gone = false;
@@ -62,16 +63,19 @@ grpc::Status TransferStream::Begin(const link::TransferStart& start) {
   auto have = ChunkSet::Decode(start.have());
   if (!have) return {grpc::StatusCode::INVALID_ARGUMENT, have.error().message};
   credit_ = start.credit_bytes();
-  TakeWishes(start.wishes());
+  if (start.burst_key_id() != 0) burst_ = bursts_.Find(start.burst_key_id(), peer_.name);
   // A scan that was asked for this moment may not have begun.
   for (int i = 0; i < 100; ++i) {
     const std::int64_t news = shelf_.News();
     const auto scan = shelf_.Snapshot(scan_id_);
     if (scan) {
+      const ScanToSend source{**scan, shelf_.DeviceHealthJson(scan_id_)};
+      if (burst_) burst_->Begin(source, *have);
+      TakeWishes(start.wishes());
       cache_.Prepare(scan_id_, *have, *wishes_);
-      source_.emplace(
-          ScanToSend{**scan, shelf_.DeviceHealthJson(scan_id_)}, std::move(*have),
-          [this](const ScanToSend& source, const ItemId& id) { return cache_.Get(source, id); });
+      source_.emplace(source, std::move(*have), [this](const ScanToSend& now, const ItemId& id) {
+        return cache_.Get(now, id);
+      });
       news_ = news;
       return grpc::Status::OK;
     }
@@ -90,6 +94,7 @@ void TransferStream::Read() {
     if (request.has_acknowledge()) TakeAcknowledge(request.acknowledge());
     wake_.notify_all();
   }
+  if (burst_ && !still_good_()) burst_->End();
   const std::lock_guard lock(mutex_);
   gone_ = true;
   wake_.notify_all();
@@ -104,6 +109,7 @@ void TransferStream::TakeWishes(const link::Wishes& wishes) {
   if (wishes.images_first_size() <= kMostImagesFirst)
     taken.images_first.assign(wishes.images_first().begin(), wishes.images_first().end());
   paused_ = wishes.pause();
+  if (burst_) burst_->SetWishes(taken, paused_);
   wishes_ = std::move(taken);
 }
 
@@ -114,6 +120,10 @@ void TransferStream::TakeAcknowledge(const link::Acknowledge& acknowledge) {
     in_flight_ -= found->second;
     cache_.Acknowledged(scan_id_, found->first);
     sent_.erase(found);
+  }
+  if (auto have = ChunkSet::Decode(acknowledge.have()); have && !acknowledge.have().empty()) {
+    if (burst_) burst_->SetHave(*have);
+    have_ = std::move(*have);
   }
   if (acknowledge.credit_bytes() > 0) credit_ = acknowledge.credit_bytes();
   if (acknowledge.all()) confirmed_ = true;
@@ -149,6 +159,7 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
         cache_.SetWishes(scan_id_, *wishes_);
         source_->SetWishes(*std::exchange(wishes_, std::nullopt));
       }
+      if (have_) source_->AddHave(*std::exchange(have_, std::nullopt));
     }
     if (!may) continue;
     if (const Status fresh = Refresh(); !fresh) return Refusal(fresh.error());
@@ -176,6 +187,7 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
 /// With the mutex held.
 grpc::Status TransferStream::Confirm() {
   if (!peer_.may_operate) return grpc::Status::OK;
+  if (burst_) burst_->End();
   const Status confirmed = shelf_.Confirm(scan_id_, peer_.name);
   if (!confirmed) return Refusal(confirmed.error());
   cache_.Forget(scan_id_);

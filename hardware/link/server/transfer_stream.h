@@ -23,10 +23,11 @@ class TransferStream {
  public:
   using Stream = grpc::ServerReaderWriter<link::Chunk, link::TransferRequest>;
 
-  TransferStream(ScanShelf& shelf, ItemCache& cache, HeadDesk::Peer peer, grpc::ServerContext& context,
-                 Stream& stream, std::function<bool()> still_good)
+  TransferStream(ScanShelf& shelf, ItemCache& cache, const BurstDesk& bursts, HeadDesk::Peer peer,
+                 grpc::ServerContext& context, Stream& stream, std::function<bool()> still_good)
       : shelf_(shelf),
         cache_(cache),
+        bursts_(bursts),
         peer_(std::move(peer)),
         context_(context),
         stream_(stream),
@@ -47,13 +48,15 @@ class TransferStream {
 
   ScanShelf& shelf_;
   ItemCache& cache_;
+  const BurstDesk& bursts_;
   const HeadDesk::Peer peer_;
   grpc::ServerContext& context_;
   Stream& stream_;
   const std::function<bool()> still_good_;  ///< asked at each message of the station
   std::string scan_id_;
-  std::optional<ChunkSource> source_;  ///< of the sending thread alone
-  std::int64_t news_ = -1;             ///< of the shelf, that source_ has
+  std::optional<ChunkSource> source_;    ///< of the sending thread alone
+  std::int64_t news_ = -1;               ///< of the shelf, that source_ has
+  std::shared_ptr<BurstSession> burst_;  ///< carries the scan too; null = none
 
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable wake_;
@@ -64,6 +67,7 @@ class TransferStream {
   std::int64_t in_flight_ = 0;  ///< bytes that were sent and not acknowledged
   std::map<ChunkId, std::int64_t> sent_;
   std::optional<TransferWishes> wishes_;  ///< that came and were not taken over yet
+  std::optional<ChunkSet> have_;          ///< as wishes_
 };
 
 }  // namespace foresight

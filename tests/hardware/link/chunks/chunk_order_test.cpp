@@ -193,6 +193,18 @@ TEST(ChunkSource, LeavesOutWhatTheStationHasDownToTheParts) {
   }
 }
 
+TEST(ChunkSource, LeavesOutWhatComesByAnotherWayMeanwhile) {
+  const ScanToSend scan{RandomScan(6, 40, 1), ""};
+  ChunkSource source(scan, {});
+  const Chunk first = **source.Next();
+  ChunkSet have;
+  for (int kind = 1; kind <= kChunkKinds; ++kind) have.Add(static_cast<ChunkKind>(kind), {0, 1000});
+  source.AddHave(have);
+  EXPECT_EQ(first.id.kind, ChunkKind::kHeader);
+  EXPECT_FALSE(*source.Next());
+  EXPECT_EQ(source.LeftBytes(), 0);
+}
+
 TEST(ChunkSource, AnItemThatCannotBeMadeDoesNotHoldUpTheOthers) {
   Scan scan = RandomScan(2, 16, 0);
   scan.lines.Edit(0).time_s = INFINITY;

@@ -64,6 +64,25 @@ TEST(ChunkSet, OfAWholeScanTakesFewBytes) {
   EXPECT_LT(set.Encode().size(), 100U);
 }
 
+TEST(ChunkSet, WithAnotherOneHasWhatEitherHas) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    const ChunkSet one = RandomSet(random), other = RandomSet(random);
+    ChunkSet both = one;
+    both.Add(other);
+    for (int kind = 1; kind <= kChunkKinds; ++kind)
+      for (std::int64_t item = 0; item < 3000; ++item) {
+        const ItemId id{static_cast<ChunkKind>(kind), item};
+        ASSERT_EQ(both.Has(id), one.Has(id) || other.Has(id)) << seed;
+      }
+    const auto parts =
+        SplitItem({ChunkKind::kImage, 10000}, std::string(5 * kMaxPartBytes, 'x')).value();
+    for (const Chunk& part : parts)
+      ASSERT_EQ(both.HasPart(part.id, part.item_crc),
+                one.HasPart(part.id, part.item_crc) || other.HasPart(part.id, part.item_crc));
+  }
+}
+
 TEST(ChunkSet, TheLastPartMakesAnItemWhole) {
   ChunkSet set;
   const auto parts = SplitItem({ChunkKind::kImage, 2}, std::string(kMaxPartBytes + 1, 'x')).value();

@@ -38,6 +38,18 @@ TEST(TransferRate, AThinPathHasLittleOnItsWay) {
   EXPECT_EQ(rate.credit(), TransferRate::kLeastCredit);
 }
 
+TEST(TransferRate, APathOfShortRoundTripsBeginsWithALargeCredit) {
+  TransferRate rate;
+  rate.Begin(0.0, true);
+  EXPECT_EQ(rate.credit(), TransferRate::kWideCredit);
+  // And gets more: a burst of a second is used up by one credit after the other.
+  double now_s = 0.0;
+  for (int i = 0; i < 20; ++i) rate.Received(TransferRate::kMostCredit, kMuch, now_s += 0.1);
+  EXPECT_EQ(rate.credit(), TransferRate::kMostCredit);
+  rate.Begin(now_s, true);
+  EXPECT_EQ(rate.credit(), TransferRate::kMostCredit) << "what was learned stays";
+}
+
 TEST(TransferRate, ThePathsRateIsKnownOnlyWhereThereWasMoreToSend) {
   TransferRate rate;
   rate.Begin(0.0);
