@@ -90,7 +90,9 @@ Status WaitForAll(const RemoteHead& head, const std::vector<std::string>& wanted
 
 Result<ExitCode> Run(const FetchArguments& arguments, const RunContext& context) {
   const auto archive = std::make_shared<MissionArchive>();
-  const fs::path spool = arguments.out.empty() ? fs::path() : fs::path(arguments.out + ".spool");
+  // A list fetches nothing, also not what another run left: its spool is where none can be.
+  const fs::path spool =
+      arguments.list ? fs::path("/dev/null/spool") : fs::path(arguments.out + ".spool");
   FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, archive, spool.string()));
   const std::vector<LinkedScan> there = head->Scans();
   if (arguments.list) {

@@ -50,6 +50,9 @@ class Network:
         run("ip", "link", "add", f"v{part}0", "netns", end, "type", "veth", "peer", "name", f"v{part}1", "netns", middle)
         self.within(end, "ip", "addr", "add", f"{address}/24", "dev", f"v{part}0")
         self.within(middle, "ip", "addr", "add", f"{router}/24", "dev", f"v{part}1")
+        for space, device in ((end, f"v{part}0"), (middle, f"v{part}1")):
+            # Each packet is one of a wire, and counts with its headers: no segments that are cut up later.
+            self.within(space, "ip", "link", "set", "dev", device, "gso_max_segs", "1")
         for space, device in ((end, "lo"), (end, f"v{part}0"), (middle, f"v{part}1")):
             self.within(space, "ip", "link", "set", device, "up")
         self.within(end, "ip", "route", "add", "default", "via", router)

@@ -298,7 +298,8 @@ void ScanFetcher::Work(const std::stop_token& stop) {
     SetComing(scan->header.uuid);
     const Status fetched = Bring(*scan, stop);
     SetComing("");
-    // A link that broke is tried again at once; a disk or a mission that takes nothing is not.
+    if (fetched && scan->transfer && scan->transfer->TakeMistakenRig()) continue;
+    // A link that broke is tried again soon; a disk or a mission that takes nothing is not.
     const bool disk = !fetched && fetched.error().code != ErrorCode::kDevice;
     if (disk) LogError("{}", fetched.error().message);
     const std::lock_guard lock(mutex_);
@@ -417,7 +418,7 @@ Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
     const std::int64_t most =
         came || came_by_burst ? kMostWaiting : scan.transfer->WaitingBytes() - 1;
     FORESIGHT_CHECK(TakeIn(scan, most, inbox.LeftBytes()));
-    if (scan.done || !scan.transfer || scan.transfer->TakeMistakenRig()) return {};
+    if (scan.done || !scan.transfer || scan.transfer->MistakenRig()) return {};
     link::TransferRequest request;
     const bool was_thin = thin_;
     *request.mutable_wishes() = Wishes();

@@ -32,10 +32,6 @@ ChunkSet ScanTransfer::Have() const {
   return have;
 }
 
-bool ScanTransfer::TakeMistakenRig() {
-  return std::exchange(mistaken_rig_, false);
-}
-
 Result<std::vector<ChunkId>> ScanTransfer::Keep(std::vector<Chunk> chunks) {
   std::erase_if(chunks, [&](const Chunk& chunk) {
     const Status good = CheckChunk(chunk);

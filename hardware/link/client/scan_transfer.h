@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hardware/link/chunks/scan_builder.h"
@@ -33,8 +34,10 @@ class ScanTransfer {
 
   /// What the head need not send: what is here, and the rig where we hope to know it.
   ChunkSet Have() const;
-  /// The scan has another rig than was hoped: Have() changed.
-  bool TakeMistakenRig();
+  /// The scan has another rig than was hoped: Have() changed, and a stream that began before that
+  /// leaves the rig out.
+  bool MistakenRig() const { return mistaken_rig_; }
+  bool TakeMistakenRig() { return std::exchange(mistaken_rig_, false); }
 
   ScanBuilder& builder() { return builder_; }
   /// Bytes that came since the program started.

@@ -77,6 +77,7 @@ grpc::Status TransferStream::Begin(const link::TransferStart& start) {
         return cache_.Get(now, id);
       });
       news_ = news;
+      LogInfo("{} fetches scan {}", peer_.name, scan_id_);
       return grpc::Status::OK;
     }
     if (scan.error().code != ErrorCode::kState) return Refusal(scan.error());
