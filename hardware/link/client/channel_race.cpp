@@ -1,6 +1,7 @@
 #include "hardware/link/client/channel_race.h"
 
 #include <grpcpp/channel.h>
+#include <grpcpp/completion_queue.h>
 
 #include "core/base/contract.h"
 
@@ -15,13 +16,10 @@ constexpr std::chrono::milliseconds kLook{100};
 ChannelRace::ChannelRace(std::vector<std::shared_ptr<grpc::Channel>> channels)
     : channels_(std::move(channels)), connected_(channels_.size()) {
   FORESIGHT_EXPECTS(!channels_.empty(), "a race has one channel at least");
-  for (std::size_t i = 0; i < channels_.size(); ++i)
-    watchers_.emplace_back([this, i](const std::stop_token& stop) { Watch(i, stop); });
+  watcher_ = std::jthread([this](const std::stop_token& stop) { Watch(stop); });
 }
 
-ChannelRace::~ChannelRace() {
-  for (std::jthread& watcher : watchers_) watcher.request_stop();
-}
+ChannelRace::~ChannelRace() = default;
 
 std::size_t ChannelRace::Current() const {
   const std::lock_guard lock(mutex_);
@@ -57,13 +55,28 @@ void ChannelRace::Told(std::size_t channel, bool connected) {
 }
 
 /// gRPC moves a connection on only while somebody waits for it: that is what this thread is for.
-void ChannelRace::Watch(std::size_t channel, const std::stop_token& stop) {
-  grpc::Channel& watched = *channels_[channel];
-  while (!stop.stop_requested()) {
+void ChannelRace::Watch(const std::stop_token& stop) {
+  grpc::CompletionQueue changes;
+  std::vector<char> tags(channels_.size());  // a tag is an address
+  const auto look = [&](std::size_t channel) {
+    grpc::Channel& watched = *channels_[channel];
     const grpc_connectivity_state state = watched.GetState(MayConnect(channel));
     Told(channel, state == GRPC_CHANNEL_READY);
-    watched.WaitForStateChange(state, std::chrono::system_clock::now() + kLook);
+    watched.NotifyOnStateChange(state, std::chrono::system_clock::now() + kLook, &changes,
+                                &tags[channel]);
+  };
+  for (std::size_t channel = 0; channel < channels_.size(); ++channel) look(channel);
+  std::size_t watched = channels_.size();
+  void* tag = nullptr;
+  bool changed = false;
+  while (watched > 0 && changes.Next(&tag, &changed)) {
+    if (stop.stop_requested())
+      --watched;
+    else
+      look(static_cast<std::size_t>(static_cast<char*>(tag) - tags.data()));
   }
+  changes.Shutdown();
+  while (changes.Next(&tag, &changed)) continue;
 }
 
 }  // namespace foresight

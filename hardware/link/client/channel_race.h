@@ -3,7 +3,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <stop_token>
@@ -16,9 +15,8 @@ class Channel;
 
 namespace foresight {
 
-/// Channels to one head whose attempts to connect last differently long: short ones find a window
-/// that opens within a few hundredths of a second, long ones get through where a round trip takes
-/// long. While none is connected all of them try; the first one that is connected is used until it
+/// Channels to one head: many whose attempts to connect are short find a window that opens within a
+/// few hundredths of a second, others with longer ones get through where a round trip takes long. While none is connected all of them try; the first one that is connected is used until it
 /// breaks, and the others rest. Safe from any thread.
 class ChannelRace {
  public:
@@ -37,7 +35,7 @@ class ChannelRace {
   bool Wait(const std::stop_token& stop) const;
 
  private:
-  void Watch(std::size_t channel, const std::stop_token& stop);
+  void Watch(const std::stop_token& stop);
   bool MayConnect(std::size_t channel) const;
   void Told(std::size_t channel, bool connected);
 
@@ -46,7 +44,7 @@ class ChannelRace {
   mutable std::condition_variable_any changed_;
   std::size_t current_ = 0;
   std::vector<bool> connected_;
-  std::vector<std::jthread> watchers_;
+  std::jthread watcher_;
 };
 
 }  // namespace foresight

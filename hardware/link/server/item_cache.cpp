@@ -1,5 +1,7 @@
 #include "hardware/link/server/item_cache.h"
 
+#include "core/base/thread_priority.h"
+
 namespace foresight {
 namespace {
 
@@ -131,6 +133,7 @@ std::optional<ItemId> ItemCache::NextToMake() const {
 }
 
 void ItemCache::Work(const std::stop_token& stop) {
+  LetOthersGoFirst();  // the sweep, and the stream that sends
   while (!stop.stop_requested()) {
     Refresh();
     std::unique_lock lock(mutex_);

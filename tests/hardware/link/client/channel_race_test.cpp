@@ -13,7 +13,6 @@ class ChannelRaceTest : public ::testing::Test {
   static std::shared_ptr<grpc::Channel> ChannelTo(int port, int attempt_ms) {
     grpc::ChannelArguments arguments;
     SetStationArguments(arguments, LinkPath::kBursts, attempt_ms);
-    arguments.SetInt("foresight.test", attempt_ms);  // channels of equal arguments share a socket
     return grpc::CreateCustomChannel("127.0.0.1:" + std::to_string(port),
                                      grpc::InsecureChannelCredentials(), arguments);
   }
@@ -49,6 +48,14 @@ TEST_F(ChannelRaceTest, AWaitWithoutAnEndEndsWhereItIsStopped) {
     stop.request_stop();
   }
   EXPECT_FALSE(connected);
+}
+
+TEST_F(ChannelRaceTest, ChannelsOfTheSameArgumentsTryEachForItself) {
+  const std::vector<std::shared_ptr<grpc::Channel>> channels = {ChannelTo(bench.port(), 100),
+                                                                ChannelTo(bench.port(), 100)};
+  // What one does leaves the other alone.
+  ASSERT_TRUE(channels[0]->WaitForConnected(system_clock::now() + milliseconds(10'000)));
+  EXPECT_EQ(channels[1]->GetState(false), GRPC_CHANNEL_IDLE);
 }
 
 TEST_F(ChannelRaceTest, AHeadThatComesBackIsFoundAgain) {
