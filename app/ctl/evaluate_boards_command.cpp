@@ -18,7 +18,8 @@ struct EvaluateBoardsArguments {
 
 /// What became of the boards of all images.
 struct Tally {
-  int whole = 0, right = 0, wrong = 0, missed = 0;
+  int whole = 0, right = 0, wrong = 0;
+  int missed = 0;  ///< whole and not found
 };
 
 Tally TallyOf(const BoardSearchTrial& trial) {
@@ -27,7 +28,7 @@ Tally TallyOf(const BoardSearchTrial& trial) {
     tally.whole += board.whole ? 1 : 0;
     tally.right += board.Right() ? 1 : 0;
     tally.wrong += board.Wrong() ? 1 : 0;
-    tally.missed += board.whole && !board.Right() ? 1 : 0;
+    tally.missed += board.whole && !board.found ? 1 : 0;
   }
   return tally;
 }

@@ -7,6 +7,14 @@
 namespace foresight {
 namespace {
 
+/// Places between lines where some are missing.
+int GapsOf(const Scan& scan) {
+  int gaps = 0;
+  for (std::size_t i = 1; i < scan.lines.size(); ++i)
+    gaps += scan.lines[i].seq != scan.lines[i - 1].seq + 1 ? 1 : 0;
+  return gaps;
+}
+
 Result<ExitCode> ShowDigests(const std::string& file, bool json) {
   FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(file));
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
@@ -15,7 +23,13 @@ Result<ExitCode> ShowDigests(const std::string& file, bool json) {
     FORESIGHT_TRY(const Scan scan, mission->LoadScan(summary.id));
     const std::string digest = ScanDigest(scan);
     if (!json) PrintLine(fmt::format("{}  scan {}  {}", digest, summary.id, summary.uuid));
-    list.push_back({{"scan", summary.id}, {"uuid", summary.uuid}, {"digest", digest}});
+    list.push_back({{"scan", summary.id},
+                    {"uuid", summary.uuid},
+                    {"digest", digest},
+                    {"state", ToString(scan.state)},
+                    {"lines", scan.lines.size()},
+                    {"gaps", GapsOf(scan)},
+                    {"images", scan.frames.size()}});
   }
   if (json) PrintJson({{"mission", file}, {"scans", list}});
   return ExitCode::kDone;

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -79,6 +80,17 @@ Status PutCalibrationInForce(SensorHead& head, const std::string& file) {
   return head.SetRig(rig);
 }
 
+/// What has come when this ends early is where foresightctl fetch looks for it.
+Result<ExitCode> ScanOverLink(const ScanCommandArguments& arguments, const RunContext& context) {
+  const std::string spool = arguments.out + ".spool";
+  FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, nullptr, spool));
+  FORESIGHT_CHECK(PutCalibrationInForce(*head, arguments.calibration));
+  auto scanned = RecordScan(*head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
+  std::error_code not_empty;
+  std::filesystem::remove(spool, not_empty);
+  return scanned;
+}
+
 Result<ExitCode> ScanOnBench(const ScanCommandArguments& arguments, const RunContext& context) {
   FORESIGHT_CHECK(PlanFrom(arguments, {}).Check());
   if (arguments.predict) return Predict(arguments, PlanFrom(arguments, {}));
@@ -90,9 +102,7 @@ Result<ExitCode> ScanOnBench(const ScanCommandArguments& arguments, const RunCon
                       context);
   }
   if (!arguments.link.head.empty()) {
-    FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, nullptr));
-    FORESIGHT_CHECK(PutCalibrationInForce(*head, arguments.calibration));
-    return RecordScan(*head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
+    return ScanOverLink(arguments, context);
   }
   FORESIGHT_TRY(const SimulatedBench bench, SetUpBench(arguments.simulation));
   FORESIGHT_CHECK(PutCalibrationInForce(*bench.head, arguments.calibration));

@@ -7,6 +7,7 @@
 #include "core/evaluation/calibration_images.h"
 #include "core/evaluation/calibration_scene.h"
 #include "core/geometry/angles.h"
+#include "core/simulation/motor_simulator.h"
 
 namespace foresight {
 namespace {
@@ -37,6 +38,19 @@ Status WriteScene(const SimulatedCalibration& made, const std::filesystem::path&
   return SaveSensorRig(made.session.prior, folder / "prior.yaml");
 }
 
+/// The plate of an emulated head follows the head's own motor, not its rig: at the session's stops
+/// the truth has that motor's angles. Which motor it is depends on the head's seed; here its
+/// default.
+Status TakeEmulatedAngles(SensorRig* truth) {
+  const MotorSimulator motor(WorldOptions().motor, WorldOptions().seed);
+  const auto stops = truth->angle_correction.knots();
+  std::vector<AngleCorrection::Knot> knots(stops.begin(), stops.end());
+  for (AngleCorrection::Knot& knot : knots)
+    knot.plate_rad = motor.PlateAngle(knot.motor_rad, true) - motor.PlateAngle(0.0, true);
+  FORESIGHT_TRY(truth->angle_correction, AngleCorrection::FromKnots(std::move(knots)));
+  return {};
+}
+
 Result<ExitCode> Simulate(const SimulateArguments& arguments, const RunContext& context) {
   CalibrationSimulation simulation = arguments.simulation;
   simulation.distinct_boards = arguments.images || arguments.scene;
@@ -49,13 +63,15 @@ Result<ExitCode> Simulate(const SimulateArguments& arguments, const RunContext& 
   simulation.repeatability_rad = RadiansFromDegrees(arguments.repeatability_deg);
   simulation.dihedral_error_rad = RadiansFromDegrees(arguments.dihedral_error_deg);
   FORESIGHT_TRY(SimulatedCalibration made, SimulateCalibration(simulation));
-  if (arguments.scene) MarkBoards(&made.session.mount);
-  if (arguments.scene)
+  if (arguments.scene) {
+    MarkBoards(&made.session.mount);
+    FORESIGHT_CHECK(TakeEmulatedAngles(&made.truth));
     FORESIGHT_CHECK(WriteScene(made, arguments.folder));
-  else if (arguments.images)
+  } else if (arguments.images) {
     FORESIGHT_CHECK(WriteSimulatedImages(made, simulation.seed, arguments.folder, context));
-  else
+  } else {
     FORESIGHT_CHECK(WriteCalibrationSession(made.session, arguments.folder));
+  }
   const std::filesystem::path truth = std::filesystem::path(arguments.folder) / "truth.yaml";
   FORESIGHT_CHECK(SaveSensorRig(made.truth, truth));
   PrintLine(fmt::format("{}: {} poses of the stand, {} intrinsic images; the truth is in {}",

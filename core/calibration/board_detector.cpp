@@ -23,14 +23,19 @@ std::string WithFault(std::string text, const GrayImage& image) {
   return fault.empty() ? text : fmt::format("{}; {}", text, fault);
 }
 
-std::string WhyNotFound(const GrayImage& image, const CalibrationBoard& board,
-                        const CheckerboardSearch& search) {
+/// Without what is wrong with the whole image.
+struct Miss {
+  std::string text;
+  bool image_may_say_why = false;
+};
+
+Miss WhyNotFound(const GrayImage& image, const CalibrationBoard& board,
+                 const CheckerboardSearch& search) {
   const std::string asked = fmt::format("{}x{}", board.columns, board.rows);
-  if (!search.other)
-    return WithFault(fmt::format("no board of {} inner corners was found", asked), image);
+  if (!search.other) return {fmt::format("no board of {} inner corners was found", asked), true};
   // Blur and glare make patterns of their own.
   if (const std::string fault = RatingFault(RateImage(image, *search.other)); !fault.empty())
-    return fmt::format("no board of {} inner corners was found; {}", asked, fault);
+    return {fmt::format("no board of {} inner corners was found; {}", asked, fault)};
   int columns = search.other->columns, rows = search.other->rows;
   // A board has no upright: as it is nearest to what was asked for.
   if (std::abs(columns - board.columns) + std::abs(rows - board.rows) >
@@ -38,20 +43,24 @@ std::string WhyNotFound(const GrayImage& image, const CalibrationBoard& board,
     std::swap(columns, rows);
   const std::string found = fmt::format("{}x{}", columns, rows);
   if (search.other_is_whole)
-    return fmt::format("a board of {} inner corners was found where {} was asked for", found,
-                       asked);
-  return WithFault(fmt::format("only {} inner corners of a board were found where {} was asked "
-                               "for; it may be cut off or covered",
-                               found, asked),
-                   image);
+    return {
+        fmt::format("a board of {} inner corners was found where {} was asked for", found, asked)};
+  return {fmt::format("only {} inner corners of a board were found where {} was asked "
+                      "for; it may be cut off or covered",
+                      found, asked),
+          true};
 }
 
 BoardDetection DetectCheckerboard(const GrayImage& image, const std::vector<CornerGrid>& grids,
-                                  const CalibrationBoard& board, SearchEffort effort) {
+                                  const CalibrationBoard& board, SearchEffort effort,
+                                  bool look_at_image) {
   BoardDetection detection;
   CheckerboardSearch search = FindCheckerboard(image, grids, board.columns, board.rows, effort);
   if (!search.grid) {
-    detection.rejection = WhyNotFound(image, board, search);
+    Miss miss = WhyNotFound(image, board, search);
+    detection.rejection = miss.image_may_say_why && look_at_image
+                              ? WithFault(std::move(miss.text), image)
+                              : std::move(miss.text);
     return detection;
   }
   // The square beside corner 0 is black. A board that looks the same upside down has no other way.
@@ -95,7 +104,8 @@ BoardDetection DetectCharuco(const GrayImage& image, const CalibrationBoard& boa
         image);
   } else {
     detection.rating = RateView(image, board, search.view);
-    detection.view = std::move(search.view);
+    if (detection.rating.light_level > 0.0) detection.rejection = RatingFault(detection.rating);
+    if (detection.rejection.empty()) detection.view = std::move(search.view);
   }
   return detection;
 }
@@ -104,9 +114,10 @@ BoardDetection DetectCharuco(const GrayImage& image, const CalibrationBoard& boa
 
 BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board,
                            SearchEffort effort) {
-  const bool checkerboard = board.kind == CalibrationBoard::Kind::kCheckerboard;
-  return DetectBoard(image, checkerboard ? FindGrids(image) : std::vector<CornerGrid>(), board,
-                     effort);
+  FORESIGHT_EXPECTS(board.Check().has_value(), "a board that can be");
+  return board.kind == CalibrationBoard::Kind::kCharuco
+             ? DetectCharuco(image, board)
+             : DetectCheckerboard(image, FindGrids(image), board, effort, true);
 }
 
 BoardDetection DetectBoard(const GrayImage& image, const std::vector<CornerGrid>& grids,
@@ -114,7 +125,7 @@ BoardDetection DetectBoard(const GrayImage& image, const std::vector<CornerGrid>
   FORESIGHT_EXPECTS(board.Check().has_value(), "a board that can be");
   return board.kind == CalibrationBoard::Kind::kCharuco
              ? DetectCharuco(image, board)
-             : DetectCheckerboard(image, grids, board, effort);
+             : DetectCheckerboard(image, grids, board, effort, false);
 }
 
 }  // namespace foresight

@@ -37,7 +37,8 @@ struct BoardDetection {
 /// either. @pre board.Check()
 BoardDetection DetectBoard(const GrayImage& image, const CalibrationBoard& board,
                            SearchEffort effort = SearchEffort::kThorough);
-/// The same of an image whose checkerboards were looked for.
+/// The same of an image whose checkerboards were looked for; a rejection does not say what is wrong
+/// with the whole image.
 BoardDetection DetectBoard(const GrayImage& image, const std::vector<CornerGrid>& grids,
                            const CalibrationBoard& board, SearchEffort effort);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/calibration/saddle_grids.h"
+#include "core/calibration/grid_edges.h"
 
 namespace foresight {
 namespace {

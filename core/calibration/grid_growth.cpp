@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/calibration/grid_checks.h"
+#include "core/calibration/grid_edges.h"
 #include "core/calibration/refine_corners.h"
-#include "core/calibration/saddle_grids.h"
 
 namespace foresight {
 namespace {
@@ -110,6 +110,7 @@ bool Ends(const GrayImage& image, const CornerGrid& grid, OutsideImage outside) 
       const Extension more = Extended(image, grid, side, guess);
       const int along = side.above_or_below ? grid.columns : grid.rows;
       if (2 * more.hidden > along && outside == OutsideImage::kIsNoEnd) return false;
+      // Below what growth asks for (kCornersThatPass): one more row that is covered in part is one.
       if (more.asked >= 3 && more.passed >= 0.6 * more.asked) return false;
     }
   return true;

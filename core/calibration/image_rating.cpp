@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace foresight {
@@ -165,6 +166,49 @@ ImageRating RateImage(const GrayImage& image, const CornerGrid& grid) {
   return rating;
 }
 
+namespace {
+
+/// Levels of the squares whose four corners are in the view: of black ones in the middle, of white
+/// ones in the margin of their marker.
+void RateLevels(const GrayImage& image, const CalibrationBoard& board, const BoardView& view,
+                ImageRating* rating) {
+  std::map<int, Eigen::Vector2d> pixels;
+  for (std::size_t i = 0; i < view.corner_ids.size(); ++i)
+    pixels[view.corner_ids[i]] = view.pixels[i];
+  const double margin = 0.25 * (1.0 - board.marker_per_square);
+  std::vector<double> dark, light;
+  for (const auto& [id, upper_left] : pixels) {
+    const auto right = pixels.find(id + 1), below = pixels.find(id + board.columns),
+               opposite = pixels.find(id + board.columns + 1);
+    const int column = id % board.columns;
+    if (column + 1 == board.columns || right == pixels.end() || below == pixels.end() ||
+        opposite == pixels.end())
+      continue;
+    const auto measure = [&](double x, double y, std::vector<double>* greys) {
+      const Eigen::Vector2d top = (1.0 - x) * upper_left + x * right->second;
+      const Eigen::Vector2d bottom = (1.0 - x) * below->second + x * opposite->second;
+      if (const auto grey = GreyAt(image, (1.0 - y) * top + y * bottom)) greys->push_back(*grey);
+    };
+    if (CalibrationBoard::IsBlack(column + 1, id / board.columns + 1)) {
+      measure(0.5, 0.5, &dark);
+    } else {
+      for (const double m : {margin, 1.0 - margin}) {
+        measure(m, 0.5, &light);
+        measure(0.5, m, &light);
+      }
+    }
+  }
+  if (dark.empty() || light.empty()) return;
+  rating->saturated =
+      static_cast<double>(std::count_if(light.begin(), light.end(),
+                                        [](double grey) { return grey >= kSaturated; })) /
+      static_cast<double>(light.size());
+  rating->dark_level = Median(std::move(dark));
+  rating->light_level = Median(std::move(light));
+}
+
+}  // namespace
+
 ImageRating RateView(const GrayImage& image, const CalibrationBoard& board, const BoardView& view) {
   ImageRating rating;
   rating.coverage = HullArea(view.pixels) / (static_cast<double>(image.width()) * image.height());
@@ -175,6 +219,7 @@ ImageRating RateView(const GrayImage& image, const CalibrationBoard& board, cons
           1.1 * board.square_m)
         spacings.push_back((view.pixels[i] - view.pixels[j]).norm());
   if (!spacings.empty()) rating.spacing_px = Median(spacings);
+  if (board.kind == CalibrationBoard::Kind::kCharuco) RateLevels(image, board, view, &rating);
   return rating;
 }
 

@@ -6,7 +6,8 @@
 namespace foresight {
 
 ImageRating RateImage(const GrayImage& image, const CornerGrid& grid);
-/// Of a view that may be partial: coverage and spacing only.
+/// Of a view that may be partial: coverage and spacing; of a ChArUco board also levels and
+/// saturation, where a black and a white square are whole.
 ImageRating RateView(const GrayImage& image, const CalibrationBoard& board, const BoardView& view);
 
 /// Why an image in which the board was found cannot be used; empty where it can.

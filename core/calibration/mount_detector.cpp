@@ -64,6 +64,8 @@ bool Contains(const CalibrationBoard& large, const CalibrationBoard& small) {
 /// How far two grids are from standing to each other as drawn, in parts of what a roughly known
 /// camera makes of it: above 1 they do not.
 double MisfitOf(const Candidate& a, const Candidate& b, const BoardMount& mount) {
+  // Wide on purpose: two grids one square apart differ by 50 mm, but BestPair asks for the best one
+  // clearly. A rough camera whose focal length is a third off tells distances a third wrong.
   constexpr double kMostTurn_rad = 0.6, kMostShift_m = 0.05, kMostShiftRatio = 0.35;
   if (!a.pose || !b.pose) return std::numeric_limits<double>::infinity();
   const auto step = StepBetween(mount.a_from_b, a.pose->Inverse() * *b.pose);
@@ -158,6 +160,8 @@ MountView DetectCheckerboards(const GrayImage& image, const BoardMount& mount,
   const std::vector<CornerGrid> grids = FindGrids(image);
   const auto all_a = CandidatesFor(mount.a, image, grids, camera, &view.fault);
   const auto all_b = CandidatesFor(b, image, grids, camera, &view.fault);
+  // A symmetric board's other order is half a turn off, an equal board elsewhere at least its
+  // width: both are many times the misfit of the right pair.
   constexpr double kClearlyBetter = 2.0;
   const Pair pair = BestPair(all_a, all_b, mount);
   if (pair.misfit <= 1.0 && kClearlyBetter * pair.misfit < pair.second) {
@@ -190,7 +194,10 @@ MountView DetectEach(const GrayImage& image, const BoardMount& mount) {
   MountView view;
   const auto find = [&](const CalibrationBoard& board, std::optional<BoardView>* found) {
     BoardDetection detection = DetectBoard(image, board, SearchEffort::kQuick);
-    if (detection.rejection.empty()) *found = std::move(detection.view);
+    if (detection.rejection.empty())
+      *found = std::move(detection.view);
+    else if (detection.rating.light_level > 0.0)  // the board was there
+      view.fault = std::move(detection.rejection);
   };
   find(mount.a, &view.a);
   if (mount.b) find(*mount.b, &view.b);

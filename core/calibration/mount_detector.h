@@ -11,8 +11,9 @@ namespace foresight {
 /// other board, cut off by the image's border or covered, is taken only where the other board is
 /// found too or a white margin shows that no square is missing. A checkerboard that looks the same
 /// upside down is taken only together with the other one, which tells its upper side. A board
-/// that is blurred or overexposed is not taken, and the view says so; so it does of an image
-/// without a board that is itself dark, overexposed or blurred. `camera` may be known roughly.
+/// whose corners were found but whose squares are overexposed, blurred or without contrast is not
+/// taken, and `fault` says so; where no corners were found it says what is wrong with the image, if
+/// there is no board in it at all. `camera` may be known roughly.
 /// Where CheckInImages fails nothing is found.
 /// @pre mount.Check()
 MountView DetectMount(const GrayImage& image, const BoardMount& mount, const CameraModel& camera);

@@ -9,6 +9,7 @@
 #include <queue>
 #include <utility>
 
+#include "core/calibration/grid_edges.h"
 #include "core/calibration/saddle_points.h"
 
 namespace foresight {
@@ -17,26 +18,6 @@ namespace {
 constexpr int kNone = -1;
 constexpr double kLeastCosine = 0.93;  // 21 deg: edges of a fisheye image bend
 constexpr int kTries = 4;              // of the nearest points in a direction
-
-/// Light on which side of the way from one to the other: 1 = on the side that angles grow to, -1 =
-/// on the other, 0 = neither, or not all along.
-int LightSide(const GrayImage& image, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-              double least_contrast) {
-  const Eigen::Vector2d along = to - from;
-  const double length = along.norm();
-  const Eigen::Vector2d aside =
-      std::max(1.5, 0.12 * length) / length * Eigen::Vector2d(-along.y(), along.x());
-  int side = 0;
-  for (const double t : {0.12, 0.25, 0.35, 0.42, 0.5, 0.58, 0.65, 0.75, 0.88}) {
-    const auto one = GreyAt(image, from + t * along + aside);
-    const auto other = GreyAt(image, from + t * along - aside);
-    if (!one || !other || std::abs(*one - *other) < least_contrast) return 0;
-    const int here = *one > *other ? 1 : -1;
-    if (side != 0 && here != side) return 0;
-    side = here;
-  }
-  return side;
-}
 
 /// The points, and which edge of which other point an edge of each leads to.
 class Links {
@@ -174,11 +155,6 @@ std::optional<CornerGrid> LargestRectangle(const Places& places,
 }
 
 }  // namespace
-
-bool IsEdge(const GrayImage& image, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-            double least_contrast) {
-  return LightSide(image, from, to, least_contrast) != 0;
-}
 
 std::vector<CornerGrid> FindSaddleGrids(const GrayImage& image) {
   const std::vector<SaddlePoint> points = FindSaddlePoints(image);

@@ -155,7 +155,10 @@ class Loader {
     }
     for (const ViewJob& job : jobs_)
       if (!job.view.fault.empty())
-        session_.unusable_images.push_back(fmt::format("{}: {}", job.view.source, job.view.fault));
+        session_.unusable_images.push_back(
+            job.view.empty() ? fmt::format("{}: {}", job.view.source, job.view.fault)
+                             : fmt::format("board {} of {}: {}", job.view.a ? "B" : "A",
+                                           job.view.source, job.view.fault));
     return {};
   }
 

@@ -1,5 +1,6 @@
 #include "core/calibration/session_folder.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/atomic_file.h"
@@ -84,21 +85,25 @@ bool& Flag(SessionIndex& index, const SessionCapture& capture) {
   }
 }
 
+/// The capture, and those of which one takes the place of the other: the stops of one angle, the
+/// sweeps of one place.
+std::vector<SessionCapture> OneOf(const SessionCapture& capture, const SessionIndex& index) {
+  if (capture.kind != Kind::kStop && capture.kind != Kind::kSweep) return {capture};
+  std::vector<SessionCapture> same;
+  const SessionPoseFiles& pose = At(index.poses, capture.pose);
+  const bool stop = capture.kind == Kind::kStop;
+  const double angle_rad = stop ? At(pose.stops, capture.number).motor_rad : 0.0;
+  const int last = stop ? LastOf(pose.stops) : LastOf(pose.sweeps);
+  for (int i = 0; i <= last; ++i)
+    if (!stop || std::abs(At(pose.stops, i).motor_rad - angle_rad) < kSameStop_rad)
+      same.push_back({capture.kind, capture.pose, i});
+  return same;
+}
+
 /// Excludes what the capture, which is used now, takes the place of.
 void ExcludeReplaced(const SessionCapture& capture, SessionIndex* index) {
-  if (capture.pose < 0) return;
-  SessionPoseFiles& pose = At(index->poses, capture.pose);
-  if (capture.kind == Kind::kStop) {
-    const double angle_rad = At(pose.stops, capture.number).motor_rad;
-    for (int i = 0; i <= LastOf(pose.stops); ++i) {
-      SessionStopFiles& other = At(pose.stops, i);
-      if (i != capture.number && std::abs(other.motor_rad - angle_rad) < kSameStop_rad)
-        other.excluded = true;
-    }
-  }
-  if (capture.kind == Kind::kSweep)
-    for (int i = 0; i <= LastOf(pose.sweeps); ++i)
-      if (i != capture.number) At(pose.sweeps, i).excluded = true;
+  for (const SessionCapture& other : OneOf(capture, *index))
+    if (other != capture) Flag(*index, other) = true;
 }
 
 }  // namespace
@@ -226,11 +231,25 @@ Result<SessionCapture> SessionFolder::AddSweep(int pose, const MountSweep& sweep
   return capture;
 }
 
-Status SessionFolder::SetExcluded(const SessionCapture& capture, bool excluded) {
+Result<SessionFolder::LeftOut> SessionFolder::SetExcluded(const SessionCapture& capture,
+                                                          bool excluded) {
+  return Restore({{capture, excluded}});
+}
+
+Result<SessionFolder::LeftOut> SessionFolder::Restore(const LeftOut& before) {
   SessionIndex index = index_;
-  Flag(index, capture) = excluded;
-  if (!excluded) ExcludeReplaced(capture, &index);
-  return Keep(std::move(index));
+  LeftOut now;
+  for (const auto& [capture, excluded] : before) {
+    for (const SessionCapture& other : OneOf(capture, index)) {
+      const auto known = std::any_of(now.begin(), now.end(),
+                                     [&](const auto& entry) { return entry.first == other; });
+      if (!known) now.emplace_back(other, Flag(index, other));
+    }
+    Flag(index, capture) = excluded;
+    if (!excluded) ExcludeReplaced(capture, &index);
+  }
+  FORESIGHT_CHECK(Keep(std::move(index)));
+  return now;
 }
 
 bool SessionFolder::Used(const SessionCapture& capture) const {
@@ -261,7 +280,8 @@ Status SessionFolder::CheckLines(const std::vector<LidarLine>& lines,
 
 Status SessionFolder::MakeFolder(const std::string& name) const {
   std::error_code error;
-  fs::create_directories(folder_ / name, error);
+  // In the session's own folder: where that is gone, what was captured before is gone with it.
+  fs::create_directory(folder_ / name, error);
   if (error) return Fail(ErrorCode::kIo, "{}: {}", (folder_ / name).string(), error.message());
   return {};
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/image.h"
@@ -74,10 +75,16 @@ class SessionFolder {
   /// A further sweep excludes the earlier one.
   Result<SessionCapture> AddSweep(int pose, const MountSweep& sweep);
 
+  /// Which of some captures are excluded.
+  using LeftOut = std::vector<std::pair<SessionCapture, bool>>;
   /// Leaves a capture out of the calibration, or takes it in again, which leaves out what it takes
   /// the place of: the undo of AddStop is to take in the stop before, or to exclude the stop.
+  /// Returns how it was before: of the capture, and of all that take its place or it theirs.
   /// @pre the capture is there
-  Status SetExcluded(const SessionCapture& capture, bool excluded);
+  Result<LeftOut> SetExcluded(const SessionCapture& capture, bool excluded);
+  /// Goes back to how captures were before; one that came since is left out where one that is taken
+  /// in takes its place. Returns as SetExcluded. @pre the captures are there
+  Result<LeftOut> Restore(const LeftOut& before);
   /// Whether it takes part in the calibration.
   bool Used(const SessionCapture& capture) const;
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/contract.h"
+#include "core/objects/board_dictionaries.h"
 
 namespace foresight {
 namespace {
@@ -168,6 +169,12 @@ int CalibrationBoard::MarkerAt(int column, int row) const {
 
 int CalibrationBoard::MarkerCount() const {
   return kind == Kind::kCheckerboard ? 0 : (columns + 1) * (rows + 1) / 2;
+}
+
+std::vector<CalibrationBoard::Dictionary> BoardDictionaries() {
+  std::vector<D> all;
+  for (const DictionaryRow& row : kDictionaries) all.push_back(row.dictionary);
+  return all;
 }
 
 std::string_view ToString(CalibrationBoard::Dictionary dictionary) {

@@ -18,6 +18,7 @@
 #include "hardware/simulated/simulated_head.h"
 #include "tests/display/mouse.h"
 #include "tests/display/running_window.h"
+#include "tests/support/shrink_camera.h"
 #include "tests/ui/wait_for.h"
 #include "ui/panels/chain_calibration_panel.h"
 #include "ui/viewmodels/camera_calibration_model.h"
@@ -26,15 +27,6 @@ namespace foresight {
 namespace {
 
 constexpr int kLimit_ms = 400'000;  // a full session on a machine that is busy
-
-void Shrink(double scale, CameraModel* camera) {
-  camera->width = static_cast<int>(camera->width * scale);
-  camera->height = static_cast<int>(camera->height * scale);
-  camera->fx *= scale;
-  camera->fy *= scale;
-  camera->cx = scale * (camera->cx + 0.5) - 0.5;
-  camera->cy = scale * (camera->cy + 0.5) - 0.5;
-}
 
 /// Squared errors of some scans.
 struct Errors {
@@ -244,6 +236,9 @@ TEST_F(CalibrationEndToEnd, AShortSessionGivesAUsableRig) {
   ASSERT_NO_FATAL_FAILURE(Open(options, 0.5));
   ASSERT_NO_FATAL_FAILURE(CalibrateByClicks());
   ASSERT_NO_FATAL_FAILURE(ScanTheValve(1));
+  // A third of the data and one scan: errors of rig and fit add up or cancel by chance, by a factor
+  // of 1.3 even after a full session with this seed. The drawn rig, 100 mm off, has 30 times the
+  // valve's 3 mm.
   ExpectAsGoodAsTheTrueRig(3.0);
 }
 

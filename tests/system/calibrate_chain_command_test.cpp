@@ -8,6 +8,7 @@
 #include "core/calibration/compare_rigs.h"
 #include "core/evaluation/simulate_calibration.h"
 #include "core/geometry/angles.h"
+#include "core/simulation/world.h"
 #include "tests/support/run_program.h"
 
 namespace foresight {
@@ -34,6 +35,18 @@ class CalibrateChainCommand : public testing::Test {
 
   TemporaryFolder folder_;
 };
+
+// A head that is emulated in the scene turns its plate as its own motor does.
+TEST_F(CalibrateChainCommand, TheTruthOfASceneHasTheAnglesOfTheHeadThatRecordsThere) {
+  const std::string room = Simulate({"--scene"});
+  auto scene = LoadScene(room + "/scene.yaml");
+  const auto truth = LoadSensorRig(room + "/truth.yaml");
+  ASSERT_TRUE(scene && truth);
+  const World world(std::make_shared<const Scene>(std::move(*scene)), *truth, {});
+  for (const auto& knot : truth->angle_correction.knots())
+    EXPECT_NEAR(knot.plate_rad,
+                world.PlateAngle(knot.motor_rad, true) - world.PlateAngle(0.0, true), 1e-9);
+}
 
 TEST_F(CalibrateChainCommand, AllWritesARigCloseToTheTruthWithItsDeviations) {
   const std::string session = Simulate();

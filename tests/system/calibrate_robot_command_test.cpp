@@ -11,19 +11,12 @@
 #include "core/simulation/world.h"
 #include "tests/support/run_program.h"
 #include "tests/support/small_camera.h"
+#include "tests/support/yaml_of_pose.h"
 
 namespace foresight {
 namespace {
 
 using ::testing::HasSubstr;
-
-template <class To, class From>
-std::string Yaml(const Rigid<To, From>& pose) {
-  const Eigen::Quaterniond& q = pose.rotation();
-  const Eigen::Vector3d& t = pose.translation();
-  return fmt::format("{{quaternion_wxyz: [{}, {}, {}, {}], translation_m: [{}, {}, {}]}}", q.w(),
-                     q.x(), q.y(), q.z(), t.x(), t.y(), t.z());
-}
 
 /// A robot that holds a board before its head and turns it about three axes; the head is not where
 /// the rig has it.

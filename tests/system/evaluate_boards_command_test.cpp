@@ -32,9 +32,11 @@ class EvaluateBoards : public testing::Test {
                                  "places: [{stand: two, name: ahead, position_m: " +
                                  position + "}]\n";
   }
-  ProgramResult Evaluate() const {
-    return RunProgram(FORESIGHTCTL,
-                      {"evaluate-boards", session_, "--scene", scene_, "--rig", rig_, "--json"});
+  ProgramResult Evaluate(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"evaluate-boards", session_, "--scene", scene_,
+                                          "--rig",           rig_,     "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunProgram(FORESIGHTCTL, arguments);
   }
 
   TemporaryFolder folder_;
@@ -57,6 +59,30 @@ TEST_F(EvaluateBoards, CallsBoardsWrongThatAreElsewhere) {
   const ProgramResult result = Evaluate();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(nlohmann::json::parse(result.output)["wrong"], 4);
+}
+
+// The cover of a board leaves it whole where it lies beside the corners.
+TEST_F(EvaluateBoards, CoversHalfOfTheBoardsWhereToldTo) {
+  int whole = 0;
+  for (const char* seed : {"1", "2", "3", "4"}) {
+    const ProgramResult result = Evaluate({"--cover", "--cover-seed", seed});
+    ASSERT_EQ(result.exit_code, 0) << result.errors << result.output;
+    const auto json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["wrong"], 0) << "seed " << seed;
+    EXPECT_LE(json["right"], 4);
+    whole += json["whole"].get<int>();
+  }
+  EXPECT_LT(whole, 16) << "of 16 boards some are covered";
+  EXPECT_GT(whole, 0) << "and some are not";
+  const auto boards = [&](const char* seed) {
+    return nlohmann::json::parse(Evaluate({"--cover", "--cover-seed", seed}).output)["boards"];
+  };
+  EXPECT_EQ(boards("1"), boards("1")) << "the same seed, the same covers";
+}
+
+TEST_F(EvaluateBoards, DoesNotCountAWrongBoardAsNotFound) {
+  WriteScene("[0.9, 0.1, 1.4]");
+  EXPECT_EQ(nlohmann::json::parse(Evaluate().output)["missed"], 0);
 }
 
 TEST_F(EvaluateBoards, RefusesASceneOfOtherBoards) {

@@ -13,6 +13,7 @@
 #include "core/evaluation/calibration_scene.h"
 #include "core/geometry/angles.h"
 #include "hardware/simulated/simulated_head.h"
+#include "tests/support/shrink_camera.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -135,15 +136,6 @@ class RecordedCalibration : public testing::Test {
     EXPECT_LT(1e3 * error_.lidar_m, 3.0);
     EXPECT_LT(1e3 * std::abs(error_.stamp_offset_s), 1.0);
     EXPECT_LT(detection_s_ + solve_s_, 60.0);
-  }
-
-  static void Shrink(double scale, CameraModel* camera) {
-    camera->width = static_cast<int>(camera->width * scale);
-    camera->height = static_cast<int>(camera->height * scale);
-    camera->fx *= scale;
-    camera->fy *= scale;
-    camera->cx = scale * (camera->cx + 0.5) - 0.5;
-    camera->cy = scale * (camera->cy + 0.5) - 0.5;
   }
 
   TemporaryFolder folder_;

@@ -5,6 +5,7 @@
 
 #include <QCoreApplication>
 #include <QDir>
+#include <QFile>
 #include <QTemporaryDir>
 
 #include "core/geometry/angles.h"
@@ -210,6 +211,9 @@ TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfte
   again.OpenSession(again.LastSession());
   ASSERT_TRUE(Settled(again));
   again.Recorder()->SetPlan(plan);
+  EXPECT_THAT(again.Recorder()->WhyNotCapture().toStdString(), HasSubstr("still at 'pose 1'?"))
+      << "nobody but the operator knows";
+  again.Recorder()->samePlace();
   again.Recorder()->captureStops();
   ASSERT_EQ(head->stop_plan.angles_rad.size(), 1u) << "only what is missing";
   EXPECT_NEAR(head->stop_plan.angles_rad[0], RadiansFromDegrees(10.0), 1e-9);
@@ -217,6 +221,75 @@ TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfte
   head_model.Poll();
   ASSERT_TRUE(Settled(again));
   EXPECT_EQ(again.Places()[0].stops[1].state, StopLamp::State::kNoBoard);
+}
+
+TEST_F(ChainCalibration, AnOpenedSessionIsAddedToAtANewPlaceOnceTheOperatorSaysSo) {
+  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  CalibrationRecorder* recorder = model.Recorder();
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(Settled());
+  const QString first = model.Folder();
+  const std::size_t stops = recorder->Index().poses[0].stops.size();
+  model.startNew();
+  model.OpenSession(first);
+  ASSERT_TRUE(Settled());
+  EXPECT_FALSE(recorder->WhyNotSweep().isEmpty());
+  recorder->newPlace();
+  recorder->newPlace();  // a double click
+  ASSERT_TRUE(Settled());
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(Settled());
+  ASSERT_EQ(recorder->Index().poses.size(), 2u);
+  EXPECT_EQ(recorder->Index().poses[0].stops.size(), stops);
+  EXPECT_EQ(recorder->Index().poses[1].stops.size(), stops);
+}
+
+TEST_F(ChainCalibration, AHeadThatRefusesTheStopsLeavesNoEmptyPlace) {
+  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  head->SetState(HeadState::kSweeping);  // the window has not heard of it yet
+  model.Recorder()->captureStops();
+  ASSERT_TRUE(WaitFor([&] { return !model.Recorder()->Writing(); }));
+  EXPECT_TRUE(model.Recorder()->Index().poses.empty());
+  EXPECT_TRUE(model.Folder().isEmpty());
+  EXPECT_EQ(notices.size(), 1u);
+}
+
+TEST_F(ChainCalibration, UndoOfAnExclusionGoesBackAlsoWhereTheStopWasCapturedAgain) {
+  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  StandPlan plan;
+  plan.first_deg = plan.last_deg = 0.0;
+  model.Recorder()->SetPlan(plan);
+  const auto deliver = [&] {
+    head->DeliverStops(DarkCapture);
+    head_model.Poll();
+    return Settled();
+  };
+  const auto excluded = [&] {
+    std::vector<bool> flags;
+    for (const SessionStopFiles& stop : model.Recorder()->Index().poses[0].stops)
+      flags.push_back(stop.excluded);
+    return flags;
+  };
+  model.Recorder()->captureStops();
+  ASSERT_TRUE(deliver());
+  model.SetExcluded({Kind::kStop, 0, 0}, true);
+  ASSERT_TRUE(Settled());
+  model.Recorder()->CaptureStopAgain(0.0);
+  ASSERT_TRUE(deliver());
+  ASSERT_THAT(excluded(), testing::ElementsAre(true, false));
+  session.Undo()->undo();
+  ASSERT_TRUE(Settled());
+  EXPECT_THAT(excluded(), testing::ElementsAre(false, true));
+  session.Undo()->redo();
+  ASSERT_TRUE(Settled());
+  EXPECT_THAT(excluded(), testing::ElementsAre(true, false)) << "one of them is always used";
+  session.Undo()->undo();
+  ASSERT_TRUE(Settled());
+  EXPECT_THAT(excluded(), testing::ElementsAre(false, true));
 }
 
 TEST_F(ChainCalibration, AHeadThatWasStoppedCapturesNothing) {
@@ -252,7 +325,31 @@ TEST_F(ChainCalibration, ASweepGoesThereAndBackAndIsKeptWithThePlace) {
   EXPECT_EQ(session.CurrentScan(), nullptr) << "it is no scan of the mission";
 }
 
+/// Sharp edges and good light, and no board.
+StopCapture StripedCapture(double angle_rad) {
+  StopCapture capture = DarkCapture(angle_rad);
+  ColorImage& image = capture.image->image;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      if (x / 16 % 2 == 0) image(x, y) = {200, 200, 200};
+  return capture;
+}
+
 TEST_F(ChainCalibration, BoardsThatAreInNoImageAreCalledWrong) {
+  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  StandPlan plan;
+  plan.first_deg = 0.0;
+  plan.last_deg = 20.0;
+  model.Recorder()->SetPlan(plan);
+  model.Recorder()->captureStops();
+  head->DeliverStops(StripedCapture);
+  head_model.Poll();
+  ASSERT_TRUE(Settled());
+  EXPECT_THAT(model.StateText().toStdString(),
+              HasSubstr("None of 3 images shows a checkerboard with 9 x 6 inner corners or"));
+}
+
+TEST_F(ChainCalibration, DarkImagesAreNotBlamedOnTheBoards) {
   ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
   StandPlan plan;
   plan.first_deg = 0.0;
@@ -262,13 +359,16 @@ TEST_F(ChainCalibration, BoardsThatAreInNoImageAreCalledWrong) {
   head->DeliverStops(DarkCapture);
   head_model.Poll();
   ASSERT_TRUE(Settled());
-  EXPECT_THAT(model.StateText().toStdString(),
-              HasSubstr("None of 3 images shows a checkerboard with 9 x 6 inner corners or"));
+  const std::string state = model.StateText().toStdString();
+  EXPECT_THAT(state, HasSubstr("3 of them cannot be used, such as: underexposed"));
+  EXPECT_THAT(state, testing::Not(HasSubstr("step 1")));
 }
 
-/// Two places: the single board, then the mount.
+/// Three places: the single board, then the mount twice.
 class FakeStand : public MovingStand {
  public:
+  explicit FakeStand(BoardMount mount = UsualBoardMount()) : mount_(std::move(mount)) {}
+
   const BoardMount& Mount() const override { return mount_; }
   const CalibrationBoard& SingleBoard() const override { return mount_.a; }
   const std::vector<Place>& Places() const override { return places_; }
@@ -278,7 +378,7 @@ class FakeStand : public MovingStand {
   int at = 0;
 
  private:
-  BoardMount mount_ = UsualBoardMount();
+  BoardMount mount_;
   std::vector<Place> places_ = {{"view", false}, {"upright", true}, {"level", true}};
 };
 
@@ -407,6 +507,92 @@ TEST_F(MovingStandCalibration, StopsOfAPlaceThatIsNotKeptGoIntoNoOtherPlace) {
   ASSERT_TRUE(WaitFor([&] { return recorder->WhyNotMoveStand().isEmpty(); }));
   EXPECT_EQ(recorder->Index().poses[0].stops.size(), 2u);
   EXPECT_FALSE(notices.empty());
+}
+
+TEST_F(MovingStandCalibration, ATourDoesNotRepeatWhatTheSessionHas) {
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour());
+  moving.Tour()->start();  // the stand is at the last place
+  ASSERT_TRUE(ServeTour());
+  EXPECT_EQ(recorder->Index().poses[1].sweeps.size(), 1u);
+  recorder->MoveStand(0);
+  moving.Tour()->start();
+  ASSERT_TRUE(ServeTour());
+  EXPECT_EQ(recorder->Index().intrinsic_views.size(), 1u) << "an image counts once in the solve";
+}
+
+TEST_F(MovingStandCalibration, ATourEndsWhereACaptureCannotBeKept) {
+  moving.Tour()->start();
+  ASSERT_TRUE(WaitFor([&] {
+    if (head->WaitsForStops() && recorder->CapturingBoardImage()) head->DeliverStops(DarkCapture);
+    head_model.Poll();
+    return head->WaitsForStops() && !recorder->CapturingBoardImage() && !recorder->Writing();
+  }));
+  const QString hidden = moving.Folder() + ".away";
+  ASSERT_TRUE(QDir().rename(moving.Folder(), hidden));
+  head->DeliverStops(DarkCapture);
+  ASSERT_TRUE(ServeTour());
+  EXPECT_EQ(stand->at, 1) << "the tour does not go on to the next place";
+  EXPECT_FALSE(notices.empty());
+}
+
+TEST_F(MovingStandCalibration, ATourWithoutStopsIsRefused) {
+  StandPlan plan;
+  plan.first_deg = 20.0;
+  plan.last_deg = 10.0;
+  recorder->SetPlan(plan);
+  EXPECT_EQ(moving.Tour()->WhyNot(), "The plan has no stops.");
+  moving.Tour()->start();
+  EXPECT_FALSE(moving.Tour()->Running());
+  EXPECT_FALSE(head->WaitsForStops());
+}
+
+TEST_F(MovingStandCalibration, ASweepThatCannotBeginSaysWhy) {
+  recorder->MoveStand(1);
+  recorder->captureSweep();
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_THAT(notices[0].next.toStdString(), HasSubstr("Capture the stops of a place first"));
+}
+
+TEST_F(MovingStandCalibration, BoardsThatImagesDoNotTellApartAreRefusedBeforeACapture) {
+  BoardMount alike = UsualBoardMount();
+  alike.a.kind = alike.b->kind = CalibrationBoard::Kind::kCharuco;
+  const auto two = std::make_shared<FakeStand>(alike);
+  ChainCalibrationModel other{&head_model, &session, folder.filePath("alike"), two};
+  two->at = 1;
+  EXPECT_THAT(other.Recorder()->WhyNotCapture().toStdString(), HasSubstr("dictionary"));
+  EXPECT_THAT(other.Tour()->WhyNot().toStdString(), HasSubstr("dictionary"));
+  other.Recorder()->captureStops();
+  other.Recorder()->captureBoardImage();
+  other.Tour()->start();
+  EXPECT_FALSE(head->WaitsForStops());
+  EXPECT_TRUE(other.Folder().isEmpty());
+}
+
+// No folder can be made where a file is.
+TEST_F(MovingStandCalibration, ASessionThatCouldNotBeMadeIsTriedAgain) {
+  const QString root = folder.filePath("moving");
+  QFile file(root);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.close();
+  recorder->MoveStand(1);
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(WaitFor([&] { return recorder->WhyNotMoveStand().isEmpty(); }));
+  EXPECT_FALSE(notices.empty());
+  EXPECT_TRUE(moving.Folder().isEmpty());
+  ASSERT_TRUE(file.remove());
+  BoardMount mount = UsualBoardMount();
+  mount.a.columns = 11;
+  ASSERT_TRUE(moving.SetBoards(mount, mount.a));
+  recorder->captureStops();
+  head->DeliverStops(DarkCapture);
+  head_model.Poll();
+  ASSERT_TRUE(WaitFor([&] { return recorder->WhyNotMoveStand().isEmpty(); }));
+  ASSERT_EQ(recorder->Index().poses.size(), 1u);
+  EXPECT_EQ(recorder->Index().poses[0].stops.size(), 2u);
+  EXPECT_EQ(recorder->Index().mount.a.columns, 11) << "the boards as they are now";
 }
 
 TEST_F(MovingStandCalibration, AStandThatIsMovedBeginsAPlace) {

@@ -6,6 +6,7 @@
 #include <QTemporaryDir>
 
 #include "core/io/image_file.h"
+#include "core/objects/board_mount.h"
 #include "tests/ui/board_pictures.h"
 #include "tests/ui/fake_head.h"
 #include "tests/ui/wait_for.h"
@@ -46,24 +47,45 @@ TEST_F(LiveBoard, TheNumberOfCornersIsTestedWhileTheBoardIsSeen) {
   const LiveImage image = ImageOfBoard(&board);
   CalibrationBoard wrong = board;
   wrong.columns = board.columns + 1;
-  model.SetBoards({wrong});
+  model.SetBoard(wrong);
   model.start();
   ASSERT_TRUE(head->live_view);
   ASSERT_TRUE(Look(image));
   EXPECT_THAT(model.Text().toStdString(),
               HasSubstr("7x6 inner corners was found where 8x6 was asked for"));
   EXPECT_TRUE(model.Corners().empty());
-  model.SetBoards({board});
+  model.SetBoard(board);
   ASSERT_TRUE(Look(image));
   EXPECT_THAT(model.Text().toStdString(), HasSubstr("Found: 7 x 6"));
   ASSERT_EQ(model.Corners().size(), 1u);
   EXPECT_EQ(model.Corners()[0].size(), 42u);
 }
 
+// Without its left column of squares the larger board could be the smaller one.
+TEST_F(LiveBoard, ABoardThatMayBeAPartOfTheOtherOneIsNotCalledFound) {
+  CalibrationBoard board;
+  LiveImage image = ImageOfBoard(&board);
+  BoardMount mount = UsualBoardMount();
+  mount.b = board;
+  mount.a.columns = board.columns + 2;
+  mount.a.rows = board.rows;
+  model.SetMount(mount, head->Rig().camera);
+  model.start();
+  ASSERT_TRUE(Look(image));
+  EXPECT_THAT(model.Text().toStdString(), HasSubstr("Found: 7 x 6")) << "its margin is in sight";
+  double left = image.image.width();
+  for (const Eigen::Vector2d& corner : model.Corners().at(0)) left = std::min(left, corner.x());
+  for (int y = 0; y < image.image.height(); ++y)
+    for (int x = 0; x < static_cast<int>(left) - 8; ++x) image.image(x, y) = {110, 110, 110};
+  ASSERT_TRUE(Look(image));
+  EXPECT_THAT(model.Text().toStdString(), testing::Not(HasSubstr("Found")));
+  EXPECT_THAT(model.Text().toStdString(), HasSubstr("7 x 6: this may be a part of the other"));
+}
+
 TEST_F(LiveBoard, OfManyImagesTheNewestIsLookedAt) {
   CalibrationBoard board;
   LiveImage image = ImageOfBoard(&board);
-  model.SetBoards({board});
+  model.SetBoard(board);
   model.start();
   for (int i = 1; i <= 20; ++i) {
     image.time_s = i;

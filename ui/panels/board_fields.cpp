@@ -7,16 +7,11 @@
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <algorithm>
-#include <array>
+
+#include "core/objects/board_dictionaries.h"
 
 namespace foresight {
 namespace {
-
-using Dictionary = CalibrationBoard::Dictionary;
-constexpr std::array kDictionaries = {
-    Dictionary::k4x4_50, Dictionary::k4x4_100, Dictionary::k4x4_250,
-    Dictionary::k5x5_50, Dictionary::k5x5_100, Dictionary::k5x5_250,
-    Dictionary::k6x6_50, Dictionary::k6x6_100, Dictionary::k6x6_250};
 
 QSpinBox* CornerNumber(const QString& name) {
   auto* box = new QSpinBox;
@@ -41,7 +36,7 @@ BoardFields::BoardFields(QWidget* parent)
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(3, 1);
   kind_->addItem(tr("Checkerboard"));
-  for (const CalibrationBoard::Dictionary dictionary : kDictionaries)
+  for (const CalibrationBoard::Dictionary dictionary : BoardDictionaries())
     kind_->addItem(
         tr("ChArUco, %1").arg(QString::fromStdString(std::string(ToString(dictionary)))));
   kind_->setAccessibleName(tr("Kind of board"));
@@ -69,10 +64,11 @@ BoardFields::BoardFields(QWidget* parent)
 void BoardFields::Show(const CalibrationBoard& board) {
   shown_ = board;
   const QSignalBlocker quiet_columns(columns_), quiet_rows(rows_), quiet_square(square_mm_);
-  const auto at = std::find(kDictionaries.begin(), kDictionaries.end(), board.dictionary);
+  const auto all = BoardDictionaries();
+  const auto at = std::find(all.begin(), all.end(), board.dictionary);
   kind_->setCurrentIndex(board.kind == CalibrationBoard::Kind::kCheckerboard
                              ? 0
-                             : 1 + static_cast<int>(at - kDictionaries.begin()));
+                             : 1 + static_cast<int>(at - all.begin()));
   if (!columns_->hasFocus()) columns_->setValue(board.columns);
   if (!rows_->hasFocus()) rows_->setValue(board.rows);
   if (!square_mm_->hasFocus()) square_mm_->setValue(1e3 * board.square_m);
@@ -82,7 +78,7 @@ CalibrationBoard BoardFields::Board() const {
   CalibrationBoard board = shown_;
   const int kind = kind_->currentIndex();
   board.kind = kind == 0 ? CalibrationBoard::Kind::kCheckerboard : CalibrationBoard::Kind::kCharuco;
-  if (kind > 0) board.dictionary = kDictionaries[static_cast<std::size_t>(kind - 1)];
+  if (kind > 0) board.dictionary = BoardDictionaries()[static_cast<std::size_t>(kind - 1)];
   board.columns = columns_->value();
   board.rows = rows_->value();
   board.square_m = 1e-3 * square_mm_->value();

@@ -140,16 +140,20 @@ QWidget* RecordPage::BuildCaptures() {
   sweep_ = NarrowButton("captureSweep", tr("Sweep"));
   place_ = NarrowButton("newPlace", tr("New place"));
   image_ = NarrowButton("captureBoardImage", tr("Image for camera"));
+  same_place_ = NarrowButton("samePlace", tr("Same place"),
+                             tr("The stand is still where the session's last stops were captured"));
   end_ = NarrowButton("endCapture", tr("End"), tr("End the captures; those that came are kept"));
   grid->addWidget(stops_, 0, 0);
   grid->addWidget(sweep_, 0, 1);
   grid->addWidget(place_, 0, 2);
   grid->addWidget(image_, 1, 0, 1, 2);
   grid->addWidget(end_, 1, 2);
+  grid->addWidget(same_place_, 2, 0, 1, 3);
   CalibrationRecorder* recorder = model_->Recorder();
   connect(stops_, &QPushButton::clicked, recorder, &CalibrationRecorder::captureStops);
   connect(sweep_, &QPushButton::clicked, recorder, &CalibrationRecorder::captureSweep);
   connect(place_, &QPushButton::clicked, recorder, &CalibrationRecorder::newPlace);
+  connect(same_place_, &QPushButton::clicked, recorder, &CalibrationRecorder::samePlace);
   connect(image_, &QPushButton::clicked, recorder, &CalibrationRecorder::captureBoardImage);
   connect(end_, &QPushButton::clicked, model_->Tour(), &StandTour::end);
   connect(end_, &QPushButton::clicked, recorder->Captures(), &HeadCaptures::end);
@@ -205,7 +209,8 @@ void RecordPage::Refresh() {
   ShowPossible(place_, tr("The stand was put to another place"),
                model_->Recorder()->WhyNotNewPlace());
   ShowPossible(image_, tr("One image of the board for the camera alone, where the head stands"),
-               model_->Recorder()->Captures()->WhyNot());
+               model_->Recorder()->WhyNotBoardImage());
+  same_place_->setVisible(model_->Recorder()->PlaceInQuestion() >= 0);
   end_->setEnabled(model_->Recorder()->Capturing() || model_->Tour()->Running());
   lamps_->Show(model_->Places(), model_->SelectedPlace(), model_->SelectedStop());
   ShowSelected();

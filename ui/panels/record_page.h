@@ -41,6 +41,7 @@ class RecordPage : public QWidget {
   QPushButton* stops_ = nullptr;
   QPushButton* sweep_ = nullptr;
   QPushButton* place_ = nullptr;
+  QPushButton* same_place_ = nullptr;  ///< while it is in question whether the stand was moved
   QPushButton* image_ = nullptr;
   QPushButton* end_ = nullptr;
   StandLamps* lamps_;

@@ -2,8 +2,12 @@
 
 #include <QDateTime>
 #include <QDir>
+#include <algorithm>
+#include <utility>
 
+#include "core/calibration/mount_detector.h"
 #include "core/geometry/angles.h"
+#include "ui/viewmodels/sentence.h"
 #include "ui/viewmodels/stand_rows.h"
 
 namespace foresight {
@@ -56,7 +60,7 @@ void CalibrationRecorder::Forget() {
   folder_.clear();
   holder_ = std::make_shared<std::optional<SessionFolder>>();
   index_ = {};
-  present_place_ = -1;
+  present_place_ = place_in_question_ = -1;
   begun_place_.reset();
 }
 
@@ -67,19 +71,23 @@ void CalibrationRecorder::Take(const QString& folder, SessionFolder session) {
   *holder_ = std::move(session);
   mount_ = index_.mount;
   if (index_.intrinsic_board) single_board_ = *index_.intrinsic_board;
-  present_place_ = PlaceOfStand();
+  if (stand_)
+    present_place_ = PlaceOfStand();
+  else
+    place_in_question_ = static_cast<int>(index_.poses.size()) - 1;
   Q_EMIT changed();
 }
 
-/// The last place of the session; none where the stand is known to be at another one.
+std::string CalibrationRecorder::NameOfStandsPlace() const {
+  return stand_ && stand_->At() >= 0 ? stand_->Places()[static_cast<std::size_t>(stand_->At())].name
+                                     : std::string();
+}
+
+/// The last place of the session, if the stand is there.
 int CalibrationRecorder::PlaceOfStand() const {
-  const int last = static_cast<int>(index_.poses.size()) - 1;
-  if (!stand_ || last < 0) return last;
-  const int at = stand_->At();
-  if (at < 0) return -1;
-  const bool there =
-      stand_->Places()[static_cast<std::size_t>(at)].name == index_.poses.back().name;
-  return there ? last : -1;
+  const bool there = !index_.poses.empty() && !NameOfStandsPlace().empty() &&
+                     index_.poses.back().name == NameOfStandsPlace();
+  return there ? static_cast<int>(index_.poses.size()) - 1 : -1;
 }
 
 /// The first task of the writer makes the folder.
@@ -98,13 +106,16 @@ void CalibrationRecorder::MakeSession() {
         *holder = std::move(made);
         return true;
       },
-      [this](const Result<bool>& made) {
-        if (!made) documents_->Report(NoticeOf(tr("Beginning the calibration"), made.error()));
+      [this, version = version_](const Result<bool>& made) {
+        if (made) return;
+        documents_->Report(NoticeOf(tr("Beginning the calibration"), made.error()));
+        if (version == version_) folder_.clear();  // the next capture begins another one
       });
 }
 
 void CalibrationRecorder::Write(const QString& title, Change change,
-                                std::function<void(SessionCapture)> done) {
+                                std::function<void(SessionCapture)> done,
+                                std::function<void()> failed) {
   MakeSession();
   struct Written {
     SessionCapture capture;
@@ -118,13 +129,16 @@ void CalibrationRecorder::Write(const QString& title, Change change,
         FORESIGHT_TRY(const SessionCapture capture, change(**holder));
         return Written{capture, (*holder)->Index()};
       },
-      [this, title, done = std::move(done), version = version_](const Result<Written>& written) {
+      [this, title, done = std::move(done), failed = std::move(failed),
+       version = version_](const Result<Written>& written) {
+        if (!written) documents_->Report(NoticeOf(title, written.error()));
+        if (version != version_) return;
         if (!written) {
-          documents_->Report(NoticeOf(title, written.error()));
+          if (failed) failed();
+          Q_EMIT writeFailed();
           Q_EMIT changed();
           return;
         }
-        if (version != version_) return;
         if (done) done(written->capture);
         index_ = written->index;
         Q_EMIT kept();
@@ -166,13 +180,22 @@ void CalibrationRecorder::MoveStand(int place) {
   Q_EMIT changed();
 }
 
-QString CalibrationRecorder::WhyNotCapture() const {
+QString CalibrationRecorder::WhyNotBoardImage() const {
   if (const QString why = captures_.WhyNot(); !why.isEmpty()) return why;
+  const Status told = CheckInImages(mount_);
+  return told ? QString() : Sentence(told.error().message);
+}
+
+QString CalibrationRecorder::WhyNotCapture() const {
+  if (const QString why = WhyNotBoardImage(); !why.isEmpty()) return why;
   if (stand_ && stand_->At() >= 0 &&
       !stand_->Places()[static_cast<std::size_t>(stand_->At())].mount)
     return tr(
         "The stand shows the board for the camera alone: take an image for the camera, or "
         "move the stand on.");
+  if (place_in_question_ >= 0)
+    return tr("Is the stand still at '%1'? Choose Same place or New place.")
+        .arg(NameOf({SessionCapture::Kind::kPose, place_in_question_, -1}));
   return plan_.StopAngles().empty() ? tr("The plan has no stops.") : QString();
 }
 
@@ -191,35 +214,58 @@ std::vector<double> CalibrationRecorder::MissingStops() const {
   return angles;
 }
 
+bool CalibrationRecorder::HasSweep() const {
+  const SessionPoseFiles* pose = PresentPose();
+  return pose != nullptr && std::any_of(pose->sweeps.begin(), pose->sweeps.end(),
+                                        [](const auto& sweep) { return !sweep.excluded; });
+}
+
+bool CalibrationRecorder::HasBoardImage() const {
+  const std::string name = NameOfStandsPlace();
+  return std::any_of(
+      index_.intrinsic_views.begin(), index_.intrinsic_views.end(),
+      [&](const SessionViewFiles& view) { return !view.excluded && view.origin == name; });
+}
+
 QString CalibrationRecorder::WhyNotSweep() const {
-  if (present_place_ < 0) return tr("Capture the stops of a place first.");
-  return captures_.WhyNot();
+  if (const QString why = WhyNotCapture(); !why.isEmpty()) return why;
+  return present_place_ < 0 ? tr("Capture the stops of a place first.") : QString();
 }
 
 QString CalibrationRecorder::WhyNotNewPlace() const {
   if (captures_.Running()) return captures_.WhyNot();
+  if (place_in_question_ >= 0) return {};
   const SessionPoseFiles* pose = PresentPose();
   if (pose == nullptr) return tr("Capture the stops; a place begins by itself.");
   return pose->stops.empty() ? tr("Nothing is captured at the present place yet.") : QString();
 }
 
 void CalibrationRecorder::newPlace() {
-  BeginPlace(stand_ && stand_->At() >= 0
-                 ? stand_->Places()[static_cast<std::size_t>(stand_->At())].name
-                 : std::string());
+  if (WhyNotNewPlace().isEmpty()) BeginPlace();
 }
 
-void CalibrationRecorder::BeginPlace(const std::string& name) {
+void CalibrationRecorder::samePlace() {
+  if (place_in_question_ < 0) return;
+  present_place_ = std::exchange(place_in_question_, -1);
+  Q_EMIT changed();
+}
+
+void CalibrationRecorder::BeginPlace() {
+  present_place_ = place_in_question_ = -1;
   begun_place_ = std::make_shared<std::optional<int>>();
   Write(
       tr("Beginning a place"),
-      [name, begun = begun_place_](SessionFolder& folder) -> Result<SessionCapture> {
+      [name = NameOfStandsPlace(),
+       begun = begun_place_](SessionFolder& folder) -> Result<SessionCapture> {
         FORESIGHT_TRY(const SessionCapture place, folder.AddPose(name));
         *begun = place.pose;
         return place;
       },
       [this, begun = begun_place_](const SessionCapture& place) {
         if (begun == begun_place_) present_place_ = place.pose;
+      },
+      [this, begun = begun_place_] {
+        if (begun == begun_place_) begun_place_.reset();
       });
 }
 
@@ -228,6 +274,10 @@ void CalibrationRecorder::captureBoardImage() {
 }
 
 void CalibrationRecorder::CaptureBoardImageAt(double motor_rad) {
+  if (const QString why = WhyNotBoardImage(); !why.isEmpty()) {
+    documents_->Report({Notice::Level::kInfo, tr("No image can be captured now."), why});
+    return;
+  }
   StopPlan plan;
   plan.angles_rad = {motor_rad};
   plan.lines = 0;
@@ -250,27 +300,30 @@ void CalibrationRecorder::captureStops() {
                         tr("Move the stand and choose New place.")});
     return;
   }
-  if (present_place_ < 0) newPlace();
-  StartCapture(angles);
+  if (StartCapture(angles) && present_place_ < 0 && !begun_place_) BeginPlace();
 }
 
 void CalibrationRecorder::CaptureStopAgain(double motor_rad) {
   StartCapture({motor_rad});
 }
 
-void CalibrationRecorder::StartCapture(const std::vector<double>& angles_rad) {
+bool CalibrationRecorder::StartCapture(const std::vector<double>& angles_rad) {
   StopPlan plan;
   plan.angles_rad = angles_rad;
   plan.lines = plan_.lines;
   plan.exposure_s = 1e-3 * plan_.exposure_ms;
   capturing_board_image_ = false;
-  if (const Status started = captures_.StartStops(plan); !started)
-    documents_->Report(NoticeOf(tr("Capturing the stops"), started.error()));
+  const Status started = captures_.StartStops(plan);
+  if (!started) documents_->Report(NoticeOf(tr("Capturing the stops"), started.error()));
+  return started.has_value();
 }
 
 void CalibrationRecorder::captureSweep() {
+  if (const QString why = WhyNotSweep(); !why.isEmpty()) {
+    documents_->Report({Notice::Level::kInfo, tr("The head cannot sweep now."), why});
+    return;
+  }
   const std::vector<double> angles = plan_.StopAngles();
-  if (angles.empty() || present_place_ < 0) return;
   ScanPlan plan;
   plan.from_rad = angles.front();
   plan.to_rad = angles.back();
@@ -285,9 +338,11 @@ void CalibrationRecorder::captureSweep() {
 void CalibrationRecorder::TakeCapture(const std::shared_ptr<const StopCapture>& capture) {
   if (capturing_board_image_) {
     if (!capture->image) return;
-    Write(tr("Keeping the image"), [capture](SessionFolder& folder) {
-      return folder.AddIntrinsicImage(capture->image->image, "the head's image");
-    });
+    const std::string place = NameOfStandsPlace();
+    Write(tr("Keeping the image"),
+          [capture, origin = place.empty() ? "the head's image" : place](SessionFolder& folder) {
+            return folder.AddIntrinsicImage(capture->image->image, origin);
+          });
     return;
   }
   // The place's number is known when this is written: it may be on its way to the disk.
@@ -330,12 +385,22 @@ void CalibrationRecorder::TakeSweep(const std::shared_ptr<const Scan>& scan) {
   Q_EMIT changed();
 }
 
-void CalibrationRecorder::SetExcluded(const SessionCapture& capture, bool excluded) {
+CalibrationRecorder::LeftOut CalibrationRecorder::SetExcluded(const SessionCapture& capture,
+                                                              bool excluded) {
+  const auto before = std::make_shared<SessionFolder::LeftOut>();
   Write(tr("Keeping the calibration"),
-        [capture, excluded](SessionFolder& folder) -> Result<SessionCapture> {
-          FORESIGHT_CHECK(folder.SetExcluded(capture, excluded));
+        [capture, excluded, before](SessionFolder& folder) -> Result<SessionCapture> {
+          FORESIGHT_TRY(*before, folder.SetExcluded(capture, excluded));
           return capture;
         });
+  return before;
+}
+
+void CalibrationRecorder::Swap(const LeftOut& before) {
+  Write(tr("Keeping the calibration"), [before](SessionFolder& folder) -> Result<SessionCapture> {
+    FORESIGHT_TRY(*before, folder.Restore(*before));
+    return SessionCapture{};
+  });
 }
 
 QString CalibrationRecorder::NameOf(const SessionCapture& capture) const {

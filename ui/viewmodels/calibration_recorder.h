@@ -66,19 +66,32 @@ class CalibrationRecorder : public QObject {
   bool Writing() const { return writer_.Busy(); }
   /// Of the session that captures go to; -1 = none yet.
   int PresentPlace() const { return present_place_; }
-  /// Why the head cannot capture now, as a sentence; empty when it can.
+  /// The last place of a session that was opened, where a carried stand may still be: nobody but
+  /// the operator knows; -1 = there is no question.
+  int PlaceInQuestion() const { return place_in_question_; }
+  /// Why no image for the camera alone can be captured now, as a sentence; empty when it can.
+  QString WhyNotBoardImage() const;
+  /// The same of stops.
   QString WhyNotCapture() const;
   QString WhyNotSweep() const;
   QString WhyNotNewPlace() const;
   /// Stops of the plan that the present place does not have yet.
   std::vector<double> MissingStops() const;
+  /// Whether the present place has a sweep, or the place of the stand its image for the camera
+  /// alone, that is not excluded.
+  bool HasSweep() const;
+  bool HasBoardImage() const;
   /// Captures a stop of the present place once more; the earlier capture stays on the disk.
   void CaptureStopAgain(double motor_rad);
   /// One image of the single board at an angle, for the camera alone.
   void CaptureBoardImageAt(double motor_rad);
 
+  /// What was left out before a change, for the way back; empty until the change is on the disk.
+  using LeftOut = std::shared_ptr<SessionFolder::LeftOut>;
   /// Leaves a capture out, or takes it in again.
-  void SetExcluded(const SessionCapture& capture, bool excluded);
+  LeftOut SetExcluded(const SessionCapture& capture, bool excluded);
+  /// Goes back to what was left out before a change; a second call takes that back.
+  void Swap(const LeftOut& before);
   /// "pose 2, 40°"
   QString NameOf(const SessionCapture& capture) const;
 
@@ -87,6 +100,8 @@ class CalibrationRecorder : public QObject {
   void captureBoardImage();
   /// The stand was put to another place.
   void newPlace();
+  /// The stand is still at the place in question.
+  void samePlace();
   /// The stops of the present place that are not captured yet; begins the first place.
   void captureStops();
   void captureSweep();
@@ -96,6 +111,8 @@ class CalibrationRecorder : public QObject {
   void kept();
   /// A capture of the operator's came to its end; what there is of it is being kept.
   void captureEnded(bool complete);
+  /// Something of this session could not be kept; why was told.
+  void writeFailed();
   void changed();
 
  private:
@@ -104,13 +121,17 @@ class CalibrationRecorder : public QObject {
 
   void MakeSession();
   /// Writes something into the session's folder.
-  void Write(const QString& title, Change change, std::function<void(SessionCapture)> done = {});
-  void BeginPlace(const std::string& name);
+  void Write(const QString& title, Change change, std::function<void(SessionCapture)> done = {},
+             std::function<void()> failed = {});
+  void BeginPlace();
+  /// Of the place that the stand is known to be at; empty = not known.
+  std::string NameOfStandsPlace() const;
   int PlaceOfStand() const;
   void TakeCapture(const std::shared_ptr<const StopCapture>& capture);
   void TakeStopsEnd(bool complete, const QString& reason);
   void TakeSweep(const std::shared_ptr<const Scan>& scan);
-  void StartCapture(const std::vector<double>& angles_rad);
+  /// Whether it began.
+  bool StartCapture(const std::vector<double>& angles_rad);
   const SessionPoseFiles* PresentPose() const;
 
   HeadViewModel* head_;
@@ -125,8 +146,9 @@ class CalibrationRecorder : public QObject {
   Holder holder_ = std::make_shared<std::optional<SessionFolder>>();
   SessionIndex index_;
   int present_place_ = -1;
+  int place_in_question_ = -1;
   /// Number of the place that was begun last; empty until it is on the disk. Touched by the
-  /// writer's tasks only.
+  /// writer's tasks only. nullptr = none was begun since the stand was moved.
   std::shared_ptr<std::optional<int>> begun_place_;
   bool capturing_board_image_ = false;
   int version_ = 0;  ///< of the session: answers that are on their way may be of another one

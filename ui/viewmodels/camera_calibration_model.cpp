@@ -14,6 +14,7 @@
 #include "core/geometry/angles.h"
 #include "core/io/image_file.h"
 #include "core/io/png.h"
+#include "ui/viewmodels/sentence.h"
 
 namespace foresight {
 namespace {
@@ -49,12 +50,6 @@ GrayImage ThumbnailOf(const GrayImage& image) {
       small(x, y) = static_cast<std::uint8_t>(sum / std::max(1, (right - left) * (bottom - top)));
     }
   return small;
-}
-
-QString Sentence(const std::string& text) {
-  QString sentence = QString::fromStdString(text);
-  if (!sentence.isEmpty()) sentence[0] = sentence[0].toUpper();
-  return sentence;
 }
 
 /// "fx 601.234 ± 0.051 px", one a line.
@@ -152,7 +147,7 @@ CameraCalibrationModel::CameraCalibrationModel(HeadViewModel* head, SessionModel
       session_->Report({Notice::Level::kWarning, tr("No image was captured: %1.").arg(reason),
                         tr("Try again.")});
   });
-  live_.SetBoards({board_});
+  live_.SetBoard(board_);
   connect(&rig_, &RigVersionModel::changed, this, &CameraCalibrationModel::changed);
   connect(session_, &SessionModel::imageChanged, this, &CameraCalibrationModel::changed);
 }
@@ -229,7 +224,7 @@ void CameraCalibrationModel::OpenSession(const QString& folder) {
         folder_ = folder;
         rig_.SetFolder(folder);
         board_ = loaded->board;
-        live_.SetBoards({board_});
+        live_.SetBoard(board_);
         models_ = loaded->models;
         for (const CameraSessionImage& image : loaded->images) {
           entries_.push_back({.kept = image, .on_disk = true});
@@ -244,7 +239,7 @@ Status CameraCalibrationModel::SetBoard(const CalibrationBoard& board) {
   FORESIGHT_CHECK(board.Check());
   if (board == board_) return {};
   board_ = board;
-  live_.SetBoards({board_});
+  live_.SetBoard(board_);
   ++*board_version_;
   for (Entry& entry : entries_) {
     if (!entry.on_disk) continue;
@@ -484,7 +479,7 @@ void CameraCalibrationModel::TakeResult(Result<IntrinsicsCalibration> result) {
   if (!result) {
     failure_ = result.error().code == ErrorCode::kCancelled
                    ? tr("The solve was cancelled; Solve starts it again.")
-                   : Sentence(result.error().message) + QLatin1Char('.');
+                   : Sentence(result.error().message);
     result_.reset();
     chosen_ = -1;
     Announce();
@@ -492,7 +487,7 @@ void CameraCalibrationModel::TakeResult(Result<IntrinsicsCalibration> result) {
   }
   failure_.clear();
   chosen_ = result->best;
-  if (chosen_ < 0) failure_ = Sentence(result->models.front().failure) + QLatin1Char('.');
+  if (chosen_ < 0) failure_ = Sentence(result->models.front().failure);
   result_ = std::make_shared<const IntrinsicsCalibration>(std::move(*result));
   MakeMaps();
   Announce();
@@ -663,7 +658,7 @@ std::vector<CalibrationCheck> CameraCalibrationModel::Verdict() const {
                                           CheckFocal(*model), CheckCoverage(coverage_),
                                           CheckNumber(coverage_)};
   for (const std::string& warning : model->warnings)
-    checks.push_back({Level::kCaution, Sentence(warning) + QLatin1Char('.')});
+    checks.push_back({Level::kCaution, Sentence(warning)});
   return checks;
 }
 

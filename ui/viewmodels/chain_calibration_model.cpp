@@ -5,6 +5,7 @@
 #include "core/calibration/mount_detector.h"
 #include "core/io/image_file.h"
 #include "ui/viewmodels/camera_calibration_model.h"
+#include "ui/viewmodels/sentence.h"
 #include "ui/viewmodels/stand_rows.h"
 
 namespace foresight {
@@ -13,12 +14,6 @@ namespace {
 const QString kUndoTopic = QStringLiteral("head calibration");
 /// Below this number of places the motor's axis is hardly told.
 constexpr int kMinPlaces = 3;
-
-QString Sentence(const std::string& text) {
-  QString sentence = QString::fromStdString(text);
-  if (!sentence.isEmpty()) sentence[0] = sentence[0].toUpper();
-  return sentence + QLatin1Char('.');
-}
 
 /// "checkerboard with 9 x 6 inner corners"
 QString InWords(const CalibrationBoard& board) {
@@ -134,7 +129,8 @@ Status ChainCalibrationModel::SetBoards(const BoardMount& mount,
 void ChainCalibrationModel::CaptureStopAgain(int place, int stop) {
   if (place < 0 || place >= static_cast<int>(places_.size()) || place != recorder_.PresentPlace()) {
     documents_->Report({Notice::Level::kInfo, tr("This stop cannot be captured again."),
-                        tr("The stand has been moved since.")});
+                        recorder_.PlaceInQuestion() >= 0 ? recorder_.WhyNotCapture()
+                                                         : tr("The stand has been moved since.")});
     return;
   }
   const auto& stops = places_[static_cast<std::size_t>(place)].stops;
@@ -144,11 +140,11 @@ void ChainCalibrationModel::CaptureStopAgain(int place, int stop) {
 
 void ChainCalibrationModel::SetExcluded(const SessionCapture& capture, bool excluded) {
   const QString text = excluded ? tr("Exclude %1") : tr("Include %1");
+  // It may have been captured again before this is undone.
+  const auto before = recorder_.SetExcluded(capture, excluded);
   documents_->Undo()->Push(
-      text.arg(recorder_.NameOf(capture)), kUndoTopic,
-      [this, capture, excluded] { recorder_.SetExcluded(capture, !excluded); },
-      [this, capture, excluded] { recorder_.SetExcluded(capture, excluded); });
-  recorder_.SetExcluded(capture, excluded);
+      text.arg(recorder_.NameOf(capture)), kUndoTopic, [this, before] { recorder_.Swap(before); },
+      [this, before] { recorder_.Swap(before); });
 }
 
 bool ChainCalibrationModel::Busy() const {
@@ -295,17 +291,27 @@ QString ChainCalibrationModel::StateText() const {
   return why.isEmpty() ? tr("Not calibrated yet.") : why;
 }
 
-/// Where the boards that were typed are in none of some images, they are the wrong ones.
+/// Where the boards that were typed are in none of some images that can be used, they are the wrong
+/// ones.
 QString ChainCalibrationModel::NoBoardFound() const {
   constexpr int kSome = 3;
-  int without = 0;
+  int without = 0, unusable = 0;
+  QString fault;
   for (const StandPlaceRow& row : places_)
     for (const StopLamp& lamp : row.stops) {
       if (lamp.state == StopLamp::State::kOneBoard || lamp.state == StopLamp::State::kBothBoards)
         return {};
-      without += lamp.state == StopLamp::State::kNoBoard ? 1 : 0;
+      if (lamp.state != StopLamp::State::kNoBoard) continue;
+      ++(lamp.fault.isEmpty() ? without : unusable);
+      if (fault.isEmpty()) fault = lamp.fault;
     }
-  if (without < kSome) return {};
+  if (without < kSome)
+    return unusable < kSome ? QString()
+                            : tr("None of %1 images shows a board, and %2 of them cannot be used, "
+                                 "such as: %3. Check the exposure and the focus.")
+                                  .arg(without + unusable)
+                                  .arg(unusable)
+                                  .arg(fault);
   return tr("None of %1 images shows %2: check the boards in step 1, and what the camera sees.")
       .arg(without)
       .arg(Mount().b ? tr("a %1 or a %2").arg(InWords(Mount().a), InWords(*Mount().b))
@@ -409,9 +415,7 @@ void ChainCalibrationModel::MakeRows() {
 void ChainCalibrationModel::Announce() {
   MakeRows();
   rig_.SetFolder(Folder());
-  std::vector<CalibrationBoard> boards = {Mount().a};
-  if (Mount().b) boards.push_back(*Mount().b);
-  live_.SetBoards(boards);
+  live_.SetMount(Mount(), head_->Rig().camera);
   Q_EMIT changed();
 }
 

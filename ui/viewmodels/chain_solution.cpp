@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/angles.h"
+#include "ui/viewmodels/sentence.h"
 
 namespace foresight {
 namespace {
@@ -79,12 +80,6 @@ void CheckBoards(const ChainSolution& solution, const CalibrationSession& sessio
                 worst->on_b ? QStringLiteral("B") : QStringLiteral("A"))
            .arg(1000.0 * off, 0, 'f', 1)
            .arg(1000.0 * kBoardMean_m, 0, 'f', 0)});
-}
-
-QString Sentence(const std::string& text) {
-  QString sentence = QString::fromStdString(text);
-  if (!sentence.isEmpty()) sentence[0] = sentence[0].toUpper();
-  return sentence + QLatin1Char('.');
 }
 
 ImageErrors ErrorsOf(const ChainState& state, const CornerSet& corners) {

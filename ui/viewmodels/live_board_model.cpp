@@ -1,14 +1,41 @@
 #include "ui/viewmodels/live_board_model.h"
 
+#include <cmath>
 #include <mutex>
 
 #include "core/calibration/board_detector.h"
+#include "core/calibration/mount_detector.h"
 #include "core/depth/upsample.h"
+#include "ui/viewmodels/sentence.h"
 
 namespace foresight {
 namespace {
 
 constexpr double kRate_hz = 3.0;
+
+/// The camera as it has smaller images.
+CameraModel ScaledTo(int width, CameraModel camera) {
+  const double scale = static_cast<double>(width) / camera.width;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.cx = scale * (camera.cx + 0.5) - 0.5;
+  camera.cy = scale * (camera.cy + 0.5) - 0.5;
+  camera.width = width;
+  camera.height = static_cast<int>(std::lround(scale * camera.height));
+  return camera;
+}
+
+/// Why a board of a mount was not taken.
+QString WhyNotTaken(const CalibrationBoard& board, const GrayImage& image,
+                    const std::vector<CornerGrid>& grids) {
+  const BoardDetection alone = DetectBoard(image, grids, board, SearchEffort::kQuick);
+  if (!alone.rejection.empty()) return Sentence(alone.rejection);
+  return LiveBoardModel::tr(
+             "%1 x %2: this may be a part of the other board. Show both boards, or all of this "
+             "one with its white margin.")
+      .arg(board.columns)
+      .arg(board.rows);
+}
 
 }  // namespace
 
@@ -60,8 +87,14 @@ LiveBoardModel::~LiveBoardModel() {
   stop();
 }
 
-void LiveBoardModel::SetBoards(const std::vector<CalibrationBoard>& boards) {
-  boards_ = boards;
+void LiveBoardModel::SetBoard(const CalibrationBoard& board) {
+  BoardMount alone;
+  alone.a = board;
+  sought_ = {alone, {}};
+}
+
+void LiveBoardModel::SetMount(const BoardMount& mount, const CameraModel& camera) {
+  sought_ = {mount, camera};
 }
 
 void LiveBoardModel::start() {
@@ -106,8 +139,11 @@ void LiveBoardModel::Look() {
   const auto image = std::exchange(newest_, nullptr);
   looker_.Run<Found>(
       tr("Looking for the board"),
-      [image, boards = boards_](const RunContext&) -> Result<Found> {
-        return LookFor(boards, *image);
+      [image, sought = sought_](const RunContext&) -> Result<Found> {
+        if (!sought) return Found();
+        FORESIGHT_CHECK(sought->mount.Check());
+        const GrayImage gray = ToGray(image->image);
+        return sought->mount.b ? LookForMount(*sought, gray) : LookFor(*sought, gray);
       },
       [this, image](Result<Found> found) {
         if (!Running()) return;
@@ -124,23 +160,30 @@ void LiveBoardModel::Look() {
       });
 }
 
-LiveBoardModel::Found LiveBoardModel::LookFor(const std::vector<CalibrationBoard>& boards,
-                                              const LiveImage& image) {
-  const GrayImage gray = ToGray(image.image);
+LiveBoardModel::Found LiveBoardModel::LookFor(const Sought& sought, const GrayImage& image) {
+  const CalibrationBoard& board = sought.mount.a;
+  BoardDetection detection = DetectBoard(image, board, SearchEffort::kQuick);
+  if (!detection.rejection.empty()) return {{}, Sentence(detection.rejection)};
+  return {{std::move(detection.view.pixels)},
+          tr("Found: %1 x %2.").arg(board.columns).arg(board.rows)};
+}
+
+LiveBoardModel::Found LiveBoardModel::LookForMount(const Sought& sought, const GrayImage& image) {
+  if (const Status told = CheckInImages(sought.mount); !told)
+    return {{}, Sentence(told.error().message)};
+  const MountView view = DetectMount(image, sought.mount, ScaledTo(image.width(), sought.camera));
+  std::vector<CornerGrid> grids;
+  if (!view.a || !view.b) grids = FindGrids(image);
   Found found;
   QStringList texts;
-  for (const CalibrationBoard& board : boards) {
-    if (!board.Check()) continue;
-    BoardDetection detection = DetectBoard(gray, board, SearchEffort::kQuick);
-    if (detection.rejection.empty()) {
-      texts << tr("Found: %1 x %2.").arg(board.columns).arg(board.rows);
-      found.corners.push_back(std::move(detection.view.pixels));
-    } else {
-      QString text = QString::fromStdString(detection.rejection);
-      text[0] = text[0].toUpper();
-      texts << text + QLatin1Char('.');
-    }
-  }
+  const auto take = [&](const CalibrationBoard& board, const std::optional<BoardView>& taken) {
+    if (taken) found.corners.push_back(taken->pixels);
+    texts << (taken ? tr("Found: %1 x %2.").arg(board.columns).arg(board.rows)
+                    : WhyNotTaken(board, image, grids));
+  };
+  take(sought.mount.a, view.a);
+  take(*sought.mount.b, view.b);
+  if (view.empty() && !view.fault.empty()) texts << Sentence(view.fault);
   found.text = texts.join(QLatin1Char('\n'));
   return found;
 }

@@ -3,9 +3,10 @@
 #include <QObject>
 #include <QString>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "core/objects/calibration_board.h"
+#include "core/calibration/calibration_session.h"
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/task_runner.h"
 
@@ -21,14 +22,17 @@ class LiveBoardModel : public QObject {
   LiveBoardModel(HeadViewModel* head, TaskQueue* tasks, QObject* parent = nullptr);
   ~LiveBoardModel() override;
 
-  void SetBoards(const std::vector<CalibrationBoard>& boards);
+  /// One board, for the camera alone.
+  void SetBoard(const CalibrationBoard& board);
+  /// The boards of a stand, as a stop's image is looked at. `camera` may be known roughly.
+  void SetMount(const BoardMount& mount, const CameraModel& camera);
 
   bool Running() const { return relay_ != nullptr; }
   /// The newest image that was looked at; nullptr before the first.
   const std::shared_ptr<const LiveImage>& Image() const { return image_; }
   /// Corners in pixels of Image(), a list a board that was found.
   const std::vector<std::vector<Eigen::Vector2d>>& Corners() const { return corners_; }
-  /// "Found: 8x6." or why not, "a board of 7x6 inner corners was found where 8x6 was asked for".
+  /// "Found: 8 x 6." or why not, "a board of 7x6 inner corners was found where 8x6 was asked for".
   const QString& Text() const { return text_; }
 
  public Q_SLOTS:
@@ -40,6 +44,10 @@ class LiveBoardModel : public QObject {
 
  private:
   class Relay;
+  struct Sought {
+    BoardMount mount;
+    CameraModel camera;  ///< of a mount of two boards only
+  };
   struct Found {
     std::vector<std::vector<Eigen::Vector2d>> corners;
     QString text;
@@ -48,10 +56,11 @@ class LiveBoardModel : public QObject {
   void Take(std::shared_ptr<const LiveImage> image);
   void TakeTrouble(const QString& what);
   void Look();
-  static Found LookFor(const std::vector<CalibrationBoard>& boards, const LiveImage& image);
+  static Found LookFor(const Sought& sought, const GrayImage& image);
+  static Found LookForMount(const Sought& sought, const GrayImage& image);
 
   HeadViewModel* head_;
-  std::vector<CalibrationBoard> boards_;
+  std::optional<Sought> sought_;
   std::shared_ptr<Relay> relay_;
   std::shared_ptr<const LiveImage> newest_;  ///< came while another one was looked at
   std::shared_ptr<const LiveImage> image_;

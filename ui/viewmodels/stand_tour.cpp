@@ -9,13 +9,15 @@ StandTour::StandTour(CalibrationRecorder* recorder, QObject* parent)
   connect(recorder_, &CalibrationRecorder::captureEnded, this, [this](bool complete) {
     if (running_ && !complete) end();
   });
+  connect(recorder_, &CalibrationRecorder::writeFailed, this, &StandTour::end);
   connect(recorder_, &CalibrationRecorder::changed, this, &StandTour::Advance);
 }
 
 QString StandTour::WhyNot() const {
   if (recorder_->Stand() == nullptr) return tr("The stand is moved by hand.");
   if (running_) return tr("The head is capturing.");
-  return recorder_->Captures()->WhyNot();
+  if (const QString why = recorder_->WhyNotBoardImage(); !why.isEmpty()) return why;
+  return recorder_->Plan().StopAngles().empty() ? tr("The plan has no stops.") : QString();
 }
 
 void StandTour::start() {
@@ -54,8 +56,7 @@ void StandTour::Advance() {
     const Step step = steps_.front();
     steps_.pop_front();
     if (step.place != recorder_->Stand()->At()) recorder_->MoveStand(step.place);
-    const bool done_before = step.task == Step::Task::kStops && recorder_->MissingStops().empty();
-    if (done_before) continue;
+    if (IsDone(step)) continue;
     took = Take(step);
     if (!took) steps_.clear();  // why was told
   }
@@ -63,6 +64,18 @@ void StandTour::Advance() {
   if (took) return;
   running_ = false;
   Q_EMIT changed();
+}
+
+bool StandTour::IsDone(const Step& step) const {
+  switch (step.task) {
+    case Step::Task::kImage:
+      return recorder_->HasBoardImage();
+    case Step::Task::kStops:
+      return recorder_->MissingStops().empty();
+    case Step::Task::kSweep:
+      break;
+  }
+  return recorder_->HasSweep();
 }
 
 bool StandTour::Take(const Step& step) {

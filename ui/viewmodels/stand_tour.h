@@ -8,7 +8,8 @@
 namespace foresight {
 
 /// Records a whole session where the stand moves by itself: at each of its places, from where it is
-/// on, an image for the camera alone, or stops and a sweep.
+/// on, an image for the camera alone, or stops and a sweep, as far as the session does not have
+/// them. A capture that fails, or that cannot be kept, ends it.
 class StandTour : public QObject {
   Q_OBJECT
 
@@ -35,6 +36,8 @@ class StandTour : public QObject {
   };
 
   void Advance();
+  /// Whether the session has it already.
+  bool IsDone(const Step& step) const;
   /// Whether a capture began.
   bool Take(const Step& step);
 

@@ -16,7 +16,8 @@ class Channel;
 namespace foresight {
 
 /// Channels to one head: many whose attempts to connect are short find a window that opens within a
-/// few hundredths of a second, others with longer ones get through where a round trip takes long. While none is connected all of them try; the first one that is connected is used until it
+/// few hundredths of a second, others with longer ones get through where a round trip takes long.
+/// While none is connected all of them try; the first one that is connected is used until it
 /// breaks, and the others rest. Safe from any thread.
 class ChannelRace {
  public:

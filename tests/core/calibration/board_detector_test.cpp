@@ -124,6 +124,14 @@ TEST(BoardDetector, SaysThatAnImageIsBlurredOrBadlyExposedOrEmpty) {
   EXPECT_THAT(DetectBoard(wall, kBoard).rejection, HasSubstr("no board of 7x6 inner corners"));
 }
 
+// Grids are asked one by one; the whole image is looked at once, by who asks.
+TEST(BoardDetector, OfGridsOnlyTheGridsAreJudged) {
+  const GrayImage dark(640, 480);
+  EXPECT_THAT(DetectBoard(dark, kBoard).rejection, HasSubstr("underexposed"));
+  EXPECT_EQ(DetectBoard(dark, {}, kBoard, SearchEffort::kQuick).rejection,
+            "no board of 7x6 inner corners was found");
+}
+
 TEST(BoardDetector, RatesSharpnessAndCoverage) {
   const auto pose = PoseOf(kBoard, 0.6, 0.0);
   const GrayImage image = RenderBoard(kBoard, SmallFisheye(), pose);

@@ -8,7 +8,9 @@
 
 #include "core/base/atomic_file.h"
 #include "core/calibration/board_detector.h"
+#include "core/calibration/mount_detector.h"
 #include "core/io/image_file.h"
+#include "core/sensor/sensor_rig.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -52,6 +54,26 @@ TEST(BoardPrint, PrintsWhatTheDetectorFindsInItsTrueSize) {
       EXPECT_LT((found.view.pixels[i] - expected).norm(), 1.2);
     }
   }
+}
+
+TEST(BoardPrint, ACharucoBoardThatIsOverexposedIsNotTaken) {
+  const CalibrationBoard board = CalibrationBoardFromText("charuco:7x6:25").value();
+  auto image = Rasterised(*BoardPdf(board, PaperFromText("A4", board).value()), 100);
+  if (!image) GTEST_SKIP() << "needs pdftoppm (poppler-utils)";
+  const BoardDetection good = DetectBoard(*image, board);
+  EXPECT_EQ(good.rejection, "");
+  EXPECT_LT(good.rating.dark_level, 10.0);
+  EXPECT_GT(good.rating.light_level, 245.0);
+  for (int y = 0; y < image->height(); ++y)
+    for (int x = 0; x < image->width(); ++x)
+      (*image)(x, y) = static_cast<std::uint8_t>(std::min(255, 150 + (*image)(x, y)));
+  const BoardDetection bright = DetectBoard(*image, board);
+  EXPECT_THAT(bright.rejection, HasSubstr("overexposed: 100 % of the white squares"));
+  EXPECT_TRUE(bright.view.pixels.empty());
+  BoardMount mount;
+  mount.a = board;
+  CameraModel camera = DefaultSensorRig().camera;
+  EXPECT_THAT(DetectMount(*image, mount, camera).fault, HasSubstr("of the white squares"));
 }
 
 TEST(BoardPrint, TwoPrintsOfOneBoardAreEqual) {

@@ -135,6 +135,19 @@ TEST(MountDetector, PrefersTheBoardThatStandsAsDrawn) {
   const MountView view = DetectMount(stand.Image({{kA, elsewhere}}), stand.mount, Fisheye());
   EXPECT_GE(WorstOf(view.a, kA, stand.camera_from_a), 0.0);
   EXPECT_LT(WorstOf(view.a, kA, stand.camera_from_a), kRight_px);
+  EXPECT_GE(WorstOf(view.b, kB, stand.CameraFromB()), 0.0);
+  EXPECT_LT(WorstOf(view.b, kB, stand.CameraFromB()), kRight_px);
+}
+
+// What is beside the board that is alone must be of the other one, or the board is taken for
+// another.
+TEST(MountDetector, TakesNoBoardAloneWhereAGridLiesBesideTheOtherOne) {
+  const CalibrationBoard small{.columns = 5, .rows = 4, .square_m = 0.05};
+  const Stand stand({0.05, 0.0, 1.1}, 0.8, 0.0);
+  const CameraFromBoard below(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-0.6, 0.35, 1.1));
+  const GrayImage image =
+      BoardPainter(Fisheye()).Paint({{kB, stand.CameraFromB()}, {small, below}}, 1.0, 1);
+  EXPECT_TRUE(DetectMount(image, stand.mount, Fisheye()).empty());
 }
 
 // Turned upside down, such a stand looks as before.
@@ -192,6 +205,19 @@ TEST(MountDetector, SaysWhichMountsImagesCannotTell) {
   EXPECT_THAT(told().error().message, HasSubstr("dictionary 5x5_250"));
   b.dictionary = CalibrationBoard::Dictionary::k4x4_50;
   EXPECT_TRUE(told());
+}
+
+TEST(MountDetector, SaysWhyTheBoardBesideAGoodOneIsNotTaken) {
+  const Stand stand({0.05, 0.0, 1.1}, 0.8, 0.0);
+  GrayImage image = stand.Image();
+  const int hinge = static_cast<int>(Fisheye().Project({0.05, 0.0, 1.1})->x());
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = hinge; x < image.width(); ++x)
+      image(x, y) = static_cast<std::uint8_t>(std::min(255, 130 + image(x, y)));
+  const MountView view = DetectMount(image, stand.mount, Fisheye());
+  EXPECT_TRUE(view.a);
+  EXPECT_FALSE(view.b);
+  EXPECT_THAT(view.fault, HasSubstr("overexposed"));
 }
 
 TEST(MountDetector, SaysThatAnImageIsOverexposedOrDark) {

@@ -8,19 +8,12 @@
 #include "core/geometry/angles.h"
 #include "core/objects/calibration_board.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/yaml_of_pose.h"
 
 namespace foresight {
 namespace {
 
 using ::testing::HasSubstr;
-
-template <class To, class From>
-std::string Yaml(const Rigid<To, From>& pose) {
-  const Eigen::Quaterniond& q = pose.rotation();
-  const Eigen::Vector3d& t = pose.translation();
-  return fmt::format("{{quaternion_wxyz: [{}, {}, {}, {}], translation_m: [{}, {}, {}]}}", q.w(),
-                     q.x(), q.y(), q.z(), t.x(), t.y(), t.z());
-}
 
 /// A head that sees a board on the hand at several turns of hand and motor.
 class RobotFrame : public ::testing::Test {

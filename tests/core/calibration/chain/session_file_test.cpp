@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/atomic_file.h"
+#include "core/evaluation/calibration_images.h"
 #include "core/evaluation/simulate_calibration.h"
 #include "core/io/png.h"
 #include "tests/support/temporary_folder.h"
@@ -125,6 +126,39 @@ TEST_F(SessionFile, RefusesAnImageOfAnotherCamera) {
 TEST_F(SessionFile, RefusesAnotherVersion) {
   Replace("session.yaml", "foresight_calibration_session: 1", "foresight_calibration_session: 2");
   EXPECT_THAT(Message(), HasSubstr("version 2"));
+}
+
+TEST(SessionFileImages, ABoardThatIsNotUsedIsNotTheWholeImage) {
+  CalibrationSimulation options;
+  options.intrinsic_views = 2;
+  options.poses = 2;
+  options.stop_step_deg = 20.0;
+  options.distinct_boards = true;
+  const CalibrationSession session = SimulateCalibration(options)->session;
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "session";
+  ASSERT_TRUE(WriteCalibrationSession(session, path));
+  const BoardMount& mount = session.mount;
+  const Eigen::Vector3d hinge(0.05, 0.0, 1.1);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(-0.8, Eigen::Vector3d::UnitY()));
+  const Eigen::Vector3d hinge_in_a((mount.a.columns - 1) * mount.a.square_m + kHinge_m, 0.125, 0.0);
+  const Rigid<frame::Camera, frame::Pattern> camera_from_a(turn, hinge - turn * hinge_in_a);
+  const CameraModel& camera = session.prior.camera;
+  GrayImage image = BoardPainter(camera).Paint(
+      {{mount.a, camera_from_a}, {*mount.b, camera_from_a * mount.a_from_b}}, 1.0, 1);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = static_cast<int>(camera.Project(hinge)->x()); x < image.width(); ++x)
+      image(x, y) = static_cast<std::uint8_t>(std::min(255, 130 + image(x, y)));
+  ASSERT_TRUE(WritePng(path / "bright_b.png", image));
+  std::string index = *ReadFile(path / "session.yaml");
+  const std::size_t poses = index.find("poses:"), at = index.find("corners: ", poses);
+  ASSERT_NE(at, std::string::npos);
+  index.replace(at, index.find_first_of(",}\n", at) - at, "image: bright_b.png");
+  ASSERT_TRUE(WriteFileAtomically(path / "session.yaml", index));
+  const auto read = ReadCalibrationSession(path, {});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_THAT(read->unusable_images,
+              testing::ElementsAre(testing::StartsWith("board B of bright_b.png: overexposed")));
 }
 
 }  // namespace
