@@ -96,6 +96,12 @@ void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
 
 void AddFitArguments(CLI::App& command, FitArguments& arguments) {
   AddSubjectArguments(command, arguments);
+  CLI::Option* head = AddLinkOptions(command, arguments.link);
+  command
+      .add_option("--head-scan", arguments.head_scan,
+                  "With --head: the scan that the head fits in, by its id or how that begins; "
+                  "default: the newest")
+      ->needs(head);
   AddOptionFlags(command, FitOptionTable(arguments.kind), arguments.given);
   command.add_flag("--save", arguments.save, "Write the answer into the mission file");
   command.add_option("--gallery", arguments.gallery,
@@ -132,6 +138,12 @@ Status CheckForScan(const FitArguments& a) {
   return {};
 }
 
+Status CheckForHead(const FitArguments& a) {
+  FORESIGHT_CHECK(RefuseGiven(a, {"--scan"}, "is of a mission; --head-scan is of a head"));
+  FORESIGHT_CHECK(RefuseGiven(a, {"--picture"}, "needs the image here: foresightctl fetch"));
+  return CheckForScan(a);
+}
+
 Status CheckForDepthMap(const FitArguments& a) {
   FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --depth"));
   FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission: the map of --depth is made already"));
@@ -151,10 +163,11 @@ Status CheckForCloud(const FitArguments& a) {
 }  // namespace
 
 Status CheckFitArguments(const FitArguments& a) {
-  const int subjects =
-      int(!a.scan.mission.empty()) + int(!a.depth_file.empty()) + int(!a.cloud_file.empty());
+  const int subjects = int(!a.scan.mission.empty()) + int(!a.depth_file.empty()) +
+                       int(!a.cloud_file.empty()) + int(!a.link.head.empty());
   if (subjects != 1)
-    return Fail(ErrorCode::kInvalidOptions, "give one of: a mission file, --depth, --cloud");
+    return Fail(ErrorCode::kInvalidOptions,
+                "give one of: a mission file, --depth, --cloud, --head");
   const RegionArguments& r = a.region;
   const int regions = int(!r.rectangle.empty()) + int(!r.polygon.empty()) +
                       int(!r.two_clicks.empty()) + int(!r.box.empty());
@@ -171,6 +184,7 @@ Status CheckFitArguments(const FitArguments& a) {
   if (a.scan.mission.empty() && (a.save || !a.gallery.empty()))
     return Fail(ErrorCode::kInvalidOptions, "--save and --gallery need a mission file");
   if (!a.scan.mission.empty()) return CheckForScan(a);
+  if (!a.link.head.empty()) return CheckForHead(a);
   return a.depth_file.empty() ? CheckForCloud(a) : CheckForDepthMap(a);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/common/link_arguments.h"
 #include "app/common/option_flags.h"
 #include "app/ctl/depth_files.h"
 #include "app/ctl/open_scan.h"
@@ -33,6 +34,9 @@ struct FitArguments {
   std::vector<double> viewpoint;
   std::vector<double> up = {0.0, 0.0, 1.0};
   std::string rig;
+
+  LinkArguments link;     ///< the head makes the fit, in a scan that it has
+  std::string head_scan;  ///< its id, or how that begins; empty = the newest
 
   GivenFlags given;  ///< of FitOptionTable
 

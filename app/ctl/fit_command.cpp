@@ -1,10 +1,11 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "app/ctl/fit_at_head.h"
 #include "app/ctl/fit_gallery.h"
+#include "app/ctl/fit_output.h"
 #include "app/ctl/fit_subject.h"
 #include "core/detection/detection_json.h"
-#include "core/detection/facts.h"
 #include "core/io/png.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/new_records.h"
@@ -28,17 +29,6 @@ Status Save(const FitArguments& arguments, const FitSubject& subject, const FitA
   return mission->Close();
 }
 
-void PrintSummary(const Detection& detection, const SensorRig& rig) {
-  const Verdict& verdict = VerdictOf(detection);
-  PrintLine(fmt::format("{} ({}): {}", ToString(verdict.level),
-                        ProbabilityText(verdict.probability), verdict.reason));
-  const auto* terrain = std::get_if<TerrainDetection>(&detection);
-  const int parts = terrain == nullptr ? 1 : static_cast<int>(terrain->surfaces.size());
-  for (int part = 0; part < parts; ++part)
-    for (const Fact& fact : FactsOf(detection, part, rig.robot_from_base))
-      PrintLine(fmt::format("{:<15} {}", fact.name, fact.value));
-}
-
 /// A fit in a scan tells how that scan ended.
 std::string WithScanState(const std::string& detection, const FitSubject& subject) {
   if (!subject.scan) return detection;
@@ -50,20 +40,15 @@ std::string WithScanState(const std::string& detection, const FitSubject& subjec
 
 Result<ExitCode> Fit(const FitArguments& arguments, const RunContext& context) {
   FORESIGHT_CHECK(CheckFitArguments(arguments));
+  if (!arguments.link.head.empty()) return FitAtHead(arguments, context);
   FORESIGHT_TRY(const FitSubject subject, OpenFitSubject(arguments, context.Part(0.0, 0.1)));
   const double all = arguments.gallery.empty() ? 1.0 : 0.3;
   const FitAnswer answer = FitIn(subject, arguments, arguments.source, context.Part(0.1, all));
   if (!arguments.gallery.empty())
     FORESIGHT_CHECK(
         WriteFitGallery(subject, arguments, answer, arguments.gallery, context.Part(all, 1.0)));
-  if (!answer.detection && arguments.json && IsNegative(answer.detection.error())) {
-    PrintNote("foresightctl: {}", answer.detection.error().message);
-    PrintJson({{"kind", ToString(arguments.kind)},
-               {"verdict", "UNSURE"},
-               {"probability", 0.0},
-               {"reason", answer.detection.error().message}});
-    return ExitCode::kNegative;
-  }
+  if (!answer.detection && arguments.json && IsNegative(answer.detection.error()))
+    return PrintNothingFound(arguments.kind, answer.detection.error());
   FORESIGHT_TRY(const Detection detection, answer.detection);
   if (arguments.save) FORESIGHT_CHECK(Save(arguments, subject, answer));
   if (!arguments.picture.empty())

@@ -105,10 +105,7 @@ Result<Detection> FitInPlainRays(const Result<RaySet>& rays, const FitSubject& s
 /// A scan's depth map by the method that a source names.
 Result<DepthResult> DepthFor(const FitSubject& subject, const FitArguments& arguments,
                              const std::string& source, const RunContext& context) {
-  DepthArguments depth_arguments = arguments.depth;
-  if (const auto named = FitSourceFromName(source))
-    depth_arguments.method = InfoOf(named->method).name;
-  FORESIGHT_TRY(const DepthOptions options, DepthOptionsFrom(depth_arguments));
+  FORESIGHT_TRY(const DepthOptions options, DepthOptionsFor(arguments, source));
   return ComputeDepthInFrame(subject.cloud, subject.rig, subject.scan->frame, options, context);
 }
 
@@ -169,6 +166,18 @@ Result<FitSubject> OpenFitSubject(const FitArguments& arguments, const RunContex
   return subject;
 }
 
+FitSource FitSourceOf(const std::string& source) {
+  if (source == "raw") return FitSource::kRaw;
+  return source.ends_with(kAloneSuffix) ? FitSource::kDepthAlone : FitSource::kDepth;
+}
+
+Result<DepthOptions> DepthOptionsFor(const FitArguments& arguments, const std::string& source) {
+  DepthArguments depth_arguments = arguments.depth;
+  if (const auto named = FitSourceFromName(source))
+    depth_arguments.method = InfoOf(named->method).name;
+  return DepthOptionsFrom(depth_arguments);
+}
+
 Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, BoxRays box_rays,
                       const RunContext& context) {
   if (!subject.depth_m.empty())
@@ -204,10 +213,8 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
         {}};
   auto depth = DepthFor(subject, arguments, source, context.Part(0.0, 0.6));
   if (!depth) return {tl::unexpected(depth.error()), {}};
-  const auto fit_source =
-      source.ends_with(kAloneSuffix) ? FitSource::kDepthAlone : FitSource::kDepth;
-  auto detection = FitInScan({subject.rig, subject.cloud, &*depth}, fit_source, subject.roi,
-                             *options, context.Part(0.6, 1.0));
+  auto detection = FitInScan({subject.rig, subject.cloud, &*depth}, FitSourceOf(source),
+                             subject.roi, *options, context.Part(0.6, 1.0));
   return {std::move(detection), std::move(*depth)};
 }
 

@@ -33,6 +33,11 @@ struct FitAnswer {
 /// is none.
 Result<FitSubject> OpenFitSubject(const FitArguments& arguments, const RunContext& context);
 
+/// What a --source stands for.
+FitSource FitSourceOf(const std::string& source);
+/// How the depth map of a --source is made. Fails as DepthOptionsFrom does.
+Result<DepthOptions> DepthOptionsFor(const FitArguments& arguments, const std::string& source);
+
 /// The rays of the region as a fit of its own wants them, from the source that the arguments name.
 /// Fails as RaysInScan, RaysInDepthMap, RaysFromCloud and ComputeDepthInFrame do.
 Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, BoxRays box_rays,

@@ -28,6 +28,7 @@ int Main(int argc, char** argv) {
   AddEmulateCommand(app, invocation);
   AddHealthCommand(app, invocation);
   AddFetchCommand(app, invocation);
+  AddImageCommand(app, invocation);
   AddHeadsCommand(app, invocation);
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);

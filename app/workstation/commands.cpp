@@ -148,6 +148,22 @@ void AddFitCommands(Workbench* bench) {
        .run = [bench] { bench->Shown().gallery.start(); },
        .why_not = Because([bench] { return bench->Shown().gallery.CanStart(); },
                           Commands::tr("Draw a region over the object first."))});
+  if (bench->robot_fit)
+    bench->commands.Add(
+        {.id = "object.fit_on_robot",
+         .menu = "object",
+         .icon = "fit",
+         .text = Commands::tr("Fit on robot"),
+         .tip = Commands::tr(
+             "Have the robot fit in the scan that is still coming: only the pose crosses the link"),
+         .keys = QStringLiteral("Ctrl+F"),
+         .in_tool_bar = true,
+         .run = [bench] { bench->robot_fit->fit(); },
+         .why_not = [bench]() -> QString {
+           return bench->ShowsReview()
+                      ? Commands::tr("The robot fits in live scans. Go back to live.")
+                      : bench->robot_fit->WhyNot();
+         }});
   const Why none = Because([bench] { return bench->Shown().session.Selected() != nullptr; },
                            Commands::tr("No object is selected."));
   const auto add = [&](const char* id, const char* text, const char* tip, const char* keys,

@@ -44,6 +44,7 @@ void Workbench::ConnectLink(const std::shared_ptr<SensorHead>& sensor_head) {
   if (sensor_head->Link() == nullptr) return;
   link = std::make_unique<LinkViewModel>(sensor_head, &tasks);
   send_pose = std::make_unique<SendPoseModel>(sensor_head, &live.session);
+  robot_fit = std::make_unique<RobotFitModel>(sensor_head, &live.session, &live.fit, &live.depth);
   connect(link.get(), &LinkViewModel::noticed, &log, &LogModel::add);
   connect(link.get(), &LinkViewModel::scanArrived, &recording, &RecordingViewModel::refreshList);
 }
@@ -54,6 +55,7 @@ void Workbench::KeepCommandsCurrent() {
   connect(&head, &HeadViewModel::statusChanged, &commands, refresh);
   connect(&head, &HeadViewModel::planChanged, &commands, refresh);
   if (send_pose) connect(send_pose.get(), &SendPoseModel::changed, &commands, refresh);
+  if (robot_fit) connect(robot_fit.get(), &RobotFitModel::changed, &commands, refresh);
   connect(&recording, &RecordingViewModel::changed, &commands, refresh);
   connect(&reviewer, &ReviewViewModel::changed, &commands, refresh);
   connect(this, &Workbench::shownChanged, &commands, refresh);

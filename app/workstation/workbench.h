@@ -13,6 +13,7 @@
 #include "ui/viewmodels/log_model.h"
 #include "ui/viewmodels/recording_view_model.h"
 #include "ui/viewmodels/review_view_model.h"
+#include "ui/viewmodels/robot_fit_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/send_pose_model.h"
 
@@ -43,6 +44,7 @@ class Workbench : public QObject {
   /// Of a head that is elsewhere; nullptr where it is in this process.
   std::unique_ptr<LinkViewModel> link;
   std::unique_ptr<SendPoseModel> send_pose;
+  std::unique_ptr<RobotFitModel> robot_fit;
   CommandTable commands;
 
   /// Whether the window shows the document for review.

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/depth/depth_option_table.h"
 #include "core/detection/detection_json.h"
 #include "core/io/json_reader.h"
 #include "core/mission/depth_numbers.h"
-#include "core/registration/register_scan.h"
-#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -64,41 +61,15 @@ const char* ToString(Recomputed::Outcome outcome) {
 }
 
 Status Recomputer::OpenScan(const std::string& uuid, const RunContext& context) {
-  if (opened_.uuid == uuid) return {};
+  if (bench_.scan() && bench_.scan()->uuid == uuid) return {};
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, scans_.ListScans());
   const auto at = std::find_if(scans.begin(), scans.end(),
                                [&](const ScanSummary& scan) { return scan.uuid == uuid; });
   if (at == scans.end())
     return Fail(ErrorCode::kInvalidInput, "{} does not hold the scan {}", scans_.path().string(),
                 uuid);
-  opened_ = {};
-  FORESIGHT_TRY(opened_.scan, scans_.LoadScan(at->id));
-  FORESIGHT_TRY(opened_.cloud, RegisterScan(opened_.scan, context));
-  opened_.uuid = uuid;
-  return {};
-}
-
-Status Recomputer::Prepare(const Provenance& provenance, const RunContext& context) {
-  const std::string rig_id = RigId(opened_.scan.rig);
-  if (rig_id != provenance.rig_id)
-    return Fail(ErrorCode::kInvalidInput, "made with the rig {}, but the scan has the rig {}",
-                provenance.rig_id, rig_id);
-  if (!provenance.depth) return {};
-  const auto& frames = opened_.scan.frames;
-  if (provenance.image_position < 0 ||
-      provenance.image_position >= static_cast<std::int64_t>(frames.size()))
-    return Fail(ErrorCode::kInvalidInput, "made on image {}, but the scan has {} images",
-                provenance.image_position, frames.size());
-  const std::string options = DepthOptionsToJson(*provenance.depth);
-  if (opened_.depth_image == provenance.image_position && opened_.depth_options == options)
-    return {};
-  const CameraFrame& frame = frames[static_cast<std::size_t>(provenance.image_position)];
-  opened_.depth_image = -1;
-  FORESIGHT_TRY(opened_.depth, ComputeDepthInFrame(opened_.cloud, opened_.scan.rig, frame,
-                                                   *provenance.depth, context));
-  opened_.depth_image = provenance.image_position;
-  opened_.depth_options = options;
-  return {};
+  FORESIGHT_TRY(Scan scan, scans_.LoadScan(at->id));
+  return bench_.Take(std::make_shared<const Scan>(std::move(scan)), context);
 }
 
 Result<Recomputed> Recomputer::RemakeDetection(const DetectionRecord& record,
@@ -108,22 +79,10 @@ Result<Recomputed> Recomputer::RemakeDetection(const DetectionRecord& record,
       return Fail(ErrorCode::kInvalidInput, "it has no provenance: an earlier program wrote it");
     FORESIGHT_TRY(const Provenance provenance,
                   ProvenanceFromJson(record.provenance_json, "detection " + record.uuid));
-    if (!provenance.fit || !provenance.roi)
-      return Fail(ErrorCode::kBadData, "its provenance names no fit");
-    FORESIGHT_TRY(const NamedSource source, FitSourceFromName(provenance.source));
     FORESIGHT_CHECK(OpenScan(record.scan_uuid, context.Part(0.0, 0.2)));
-    FORESIGHT_CHECK(Prepare(provenance, context.Part(0.2, 0.6)));
-    RegisteredScan cloud = opened_.cloud;
-    if (provenance.part) {
-      FORESIGHT_TRY(const Scan part, TakePart(opened_.scan, *provenance.part));
-      FORESIGHT_TRY(cloud, RegisterScan(part, context.Part(0.55, 0.6)));
-    }
-    const ProcessedScan processed{opened_.scan.rig, cloud,
-                                  provenance.depth ? &opened_.depth : nullptr};
-    FORESIGHT_TRY(const Detection found, FitInScan(processed, source.source, *provenance.roi,
-                                                   *provenance.fit, context.Part(0.6, 1.0)));
+    FORESIGHT_TRY(const Detection found, bench_.Fit(provenance, context.Part(0.2, 1.0)));
     Json was = ParseJson(record.json);
-    Json is = ParseJson(DetectionToJson(found, opened_.scan.rig.robot_from_base));
+    Json is = ParseJson(DetectionToJson(found, bench_.scan()->rig.robot_from_base));
     for (Json* json : {&was, &is}) json->erase("seconds");
     Recomputed answer;
     Compare(was, is, "", answer);
@@ -137,14 +96,13 @@ Result<Recomputed> Recomputer::RemakeDepth(const DepthRecord& record, const RunC
   const auto made_again = [&]() -> Result<Recomputed> {
     FORESIGHT_TRY(const Provenance provenance,
                   ProvenanceFromJson(record.provenance_json, "depth map " + record.uuid));
-    if (!provenance.depth) return Fail(ErrorCode::kBadData, "its provenance names no depth map");
     FORESIGHT_CHECK(OpenScan(record.scan_uuid, context.Part(0.0, 0.2)));
-    FORESIGHT_CHECK(Prepare(provenance, context.Part(0.2, 1.0)));
+    FORESIGHT_TRY(const DepthResult* depth, bench_.Depth(provenance, context.Part(0.2, 1.0)));
     Recomputed answer;
-    const std::string digest = DigestOf(opened_.depth.dense, opened_.depth.mask);
+    const std::string digest = DigestOf(depth->dense, depth->mask);
     if (digest == record.digest) return answer;
     const DepthStatistics was = record.statistics;
-    const DepthStatistics is = StatisticsOf(opened_.depth.dense, opened_.depth.mask);
+    const DepthStatistics is = StatisticsOf(depth->dense, depth->mask);
     AddDifference(answer, fmt::format("digest: was {}, is {}", record.digest, digest));
     AddDifference(
         answer, fmt::format("pixels with depth: was {}, is {}; masked: was {}, is {}; median "

@@ -6,7 +6,7 @@
 
 #include "core/base/run_context.h"
 #include "core/mission/mission_file.h"
-#include "core/mission/provenance.h"
+#include "core/mission/scan_workbench.h"
 
 namespace foresight {
 
@@ -38,23 +38,11 @@ class Recomputer {
   Result<Recomputed> RemakeDepth(const DepthRecord& record, const RunContext& context);
 
  private:
-  /// A scan with all that was made of it; empty `uuid` = none.
-  struct Opened {
-    std::string uuid;
-    Scan scan;
-    RegisteredScan cloud;
-    std::int64_t depth_image = -1;
-    std::string depth_options;
-    DepthResult depth;
-  };
-
   /// Fails with kInvalidInput where the mission does not hold the scan.
   Status OpenScan(const std::string& uuid, const RunContext& context);
-  /// Fails with kInvalidInput where the rig or the image is another one.
-  Status Prepare(const Provenance& provenance, const RunContext& context);
 
   const MissionFile& scans_;
-  Opened opened_;
+  ScanWorkbench bench_;
 };
 
 }  // namespace foresight

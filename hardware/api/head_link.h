@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/sensor/scan.h"
+#include "hardware/api/head_fit.h"
+#include "hardware/api/head_image.h"
 #include "hardware/api/link_health.h"
 #include "hardware/api/robot_answer.h"
 
@@ -80,6 +83,13 @@ class HeadLink {
   /// the robot hears it once. Fails with kDevice where the head did not answer: the robot may have
   /// it.
   virtual Result<RobotAnswer> SendPose(const std::string& pose_json) = 0;
+
+  /// A fit by the head's own program in a scan that it has: region and pose alone cross the link.
+  /// Fails as the fit did, with kCancelled, kDevice where the head does not answer, kState where it
+  /// fits for somebody else.
+  virtual Result<HeadFit> Fit(const HeadFitOrder& order, const RunContext& context) = 0;
+  /// Fails with kDevice where the head does not answer, kState where it has no such image.
+  virtual Result<HeadImage> FetchImage(const HeadImageOrder& order) = 0;
 };
 
 }  // namespace foresight

@@ -14,6 +14,24 @@ using testing::HasSubstr;
 
 const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
 
+/// Where two documents differ by more than the last digits of a number; "" = nowhere. What crosses
+/// the link is read from JSON and made into rotations again.
+std::string Difference(const nlohmann::json& a, const nlohmann::json& b) {
+  if (a.is_number() && b.is_number())
+    return std::abs(a.get<double>() - b.get<double>()) < 1e-12 ? "" : a.dump() + " " + b.dump();
+  if (!a.is_structured() || a.size() != b.size() || a.type() != b.type())
+    return a == b ? "" : a.dump() + " " + b.dump();
+  const nlohmann::json flat_a = a.flatten();
+  const nlohmann::json flat_b = b.flatten();
+  if (flat_a.size() != flat_b.size()) return "other members";
+  for (const auto& [key, value] : flat_a.items()) {
+    const std::string difference =
+        flat_b.contains(key) ? Difference(value, flat_b[key]) : "is missing";
+    if (!difference.empty()) return key + ": " + difference;
+  }
+  return "";
+}
+
 class LinkedPrograms : public testing::Test {
  protected:
   /// Empty where it does not listen.
@@ -26,13 +44,16 @@ class LinkedPrograms : public testing::Test {
     });
     return address;
   }
-  std::vector<std::string> DigestsOf(const std::filesystem::path& mission) const {
-    std::vector<std::string> digests;
+  static nlohmann::json ScansOf(const std::filesystem::path& mission) {
     const ProgramResult shown =
         RunProgram(FORESIGHTCTL, {"mission", "digest", mission.string(), "--json"});
     const auto json = nlohmann::json::parse(shown.output, nullptr, false);
-    if (!json.is_object()) return digests;
-    for (const auto& scan : json["scans"]) digests.push_back(scan["digest"]);
+    return json.is_object() ? json.value("scans", nlohmann::json::array())
+                            : nlohmann::json::array();
+  }
+  static std::vector<std::string> DigestsOf(const std::filesystem::path& mission) {
+    std::vector<std::string> digests;
+    for (const auto& scan : ScansOf(mission)) digests.push_back(scan["digest"]);
     return digests;
   }
   std::filesystem::path OnlyScanOfHead() const {
@@ -98,6 +119,88 @@ TEST_F(LinkedPrograms, FetchBringsWhatTheHeadKeeps) {
 TEST_F(LinkedPrograms, FetchSaysWhatItNeeds) {
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"fetch", "--head", "127.0.0.1"}).exit_code, 2);
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"fetch", "--out", folder / "a.foresight"}).exit_code, 2);
+}
+
+TEST_F(LinkedPrograms, AFitOnTheHeadIsTheFitHere) {
+  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--plaintext",
+                                       "--scans", folder / "scans", "--json"});
+  const std::vector<std::string> link = {"--head", AddressOf(head), "--plaintext"};
+  const auto run = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunProgram(FORESIGHTCTL, arguments);
+  };
+  const std::string mission = folder / "station.foresight";
+  ASSERT_EQ(run({"scan", "--from", "-20", "--to", "20", "--images", "0", "--out", mission}, link)
+                .exit_code,
+            0);
+  for (const std::string source : {"raw", "foresight"}) {
+    const std::vector<std::string> fit = {"fit",  "terrain", "--roi",  "400",      "600",
+                                          "1000", "1000",    "--json", "--source", source};
+    const ProgramResult here = run(fit, {mission});
+    const ProgramResult there = run(fit, link);
+    EXPECT_EQ(there.exit_code, here.exit_code) << there.errors;
+    auto found_here = nlohmann::json::parse(here.output);
+    auto found_there = nlohmann::json::parse(there.output);
+    ASSERT_TRUE(found_here.contains("verdict")) << here.output;
+    found_here.erase("seconds");
+    found_there.erase("seconds");
+    found_there.erase("link_bytes");
+    EXPECT_EQ(Difference(found_there, found_here), "") << source;
+  }
+  const ProgramResult unknown =
+      run({"fit", "terrain", "--roi", "400", "600", "1000", "1000", "--head-scan", "none"}, link);
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_EQ(unknown.ErrorLines(), 1) << unknown.errors;
+  EXPECT_THAT(unknown.errors, HasSubstr("no scan"));
+
+  const std::string png = folder / "image.png";
+  const ProgramResult image =
+      run({"image", "--out", png, "--part", "100", "200", "300", "150"}, link);
+  ASSERT_EQ(image.exit_code, 0) << image.errors;
+  const std::string all = folder / "all.jpg";
+  ASSERT_EQ(run({"image", "--out", all, "--largest-side", "320"}, link).exit_code, 0);
+  EXPECT_EQ(run({"image", "--out", all, "--number", "9"}, link).exit_code, 3);
+}
+
+/// The station dies in the middle of a scan, and then the head: nothing is lost, nothing doubled.
+TEST_F(LinkedPrograms, ADeathLosesNothingAndDoublesNothing) {
+  const std::vector<std::string> daemon = {"--emulate",     kRoom,     "--plaintext",
+                                           "--no-announce", "--scans", folder / "scans",
+                                           "--json",        "--listen"};
+  const auto start = [&](const std::string& address) {
+    std::vector<std::string> arguments = daemon;
+    arguments.push_back(address);
+    return std::make_unique<RunningProgram>(FORESIGHT_HEAD, arguments);
+  };
+  auto head = start("127.0.0.1:0");
+  const std::string address = AddressOf(*head);
+  ASSERT_NE(address, "");
+  const std::string mission = folder / "station.foresight";
+  const std::vector<std::string> scan = {"scan",   "--from", "-10",         "--to",  "10",
+                                         "--head", address,  "--plaintext", "--out", mission};
+  const auto some_lines = [&] {
+    return WaitUntil([&] {
+      const auto scans = ScansOf(OnlyScanOfHead());
+      return !scans.empty() && scans[0]["lines"] >= 4;
+    });
+  };
+  {
+    RunningProgram station(FORESIGHTCTL, scan);
+    ASSERT_TRUE(some_lines());
+    station.Signal(SIGKILL);
+    station.Wait();
+  }
+  head->Signal(SIGKILL);
+  head->Wait();
+  head = start(address);
+  ASSERT_EQ(AddressOf(*head), address);
+  const ProgramResult fetched =
+      RunProgram(FORESIGHTCTL, {"fetch", "--head", address, "--plaintext", "--out", mission});
+  ASSERT_EQ(fetched.exit_code, 0) << fetched.errors;
+  const auto here = DigestsOf(mission);
+  EXPECT_EQ(here.size(), 1u);
+  EXPECT_EQ(here, DigestsOf(OnlyScanOfHead()));
+  EXPECT_FALSE(std::filesystem::exists(mission + ".spool"));
 }
 
 TEST_F(LinkedPrograms, WithoutEncryptionOnlyThisComputerIsServed) {

@@ -38,6 +38,16 @@ class FakeLink final : public HeadLink {
     const std::lock_guard lock(mutex);
     return answer;
   }
+  Result<HeadFit> Fit(const HeadFitOrder& order, const RunContext& /*context*/) override {
+    Note("fit " + order.scan_id);
+    const std::lock_guard lock(mutex);
+    fit_order = order;
+    return fit;
+  }
+  Result<HeadImage> FetchImage(const HeadImageOrder& order) override {
+    Note("image " + order.scan_id);
+    return Fail(ErrorCode::kState, "no image");
+  }
   std::vector<std::string> Asked() const {
     const std::lock_guard lock(mutex);
     return asked;
@@ -49,6 +59,8 @@ class FakeLink final : public HeadLink {
   std::shared_ptr<const EarlyScan> early;
   bool may_operate = true;
   Status control;
+  HeadFitOrder fit_order;
+  Result<HeadFit> fit = Fail(ErrorCode::kState, "no fit");
   Result<RobotAnswer> answer = RobotAnswer{RobotAnswer::Kind::kAccepted, ""};
 
  private:

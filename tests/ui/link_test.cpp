@@ -2,8 +2,7 @@
 
 #include "core/mission/pose_json.h"
 #include "core/sensor/rig_id.h"
-#include "tests/ui/fake_head.h"
-#include "tests/ui/fake_link.h"
+#include "tests/ui/linked_head.h"
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
 #include "ui/viewmodels/bytes_text.h"
@@ -13,13 +12,6 @@
 
 namespace foresight {
 namespace {
-
-class LinkedHead final : public FakeHead {
- public:
-  using FakeHead::FakeHead;
-  HeadLink* Link() override { return &link; }
-  FakeLink link;
-};
 
 struct LinkTest : testing::Test {
   LinkTest() {

@@ -136,7 +136,7 @@ void FitViewModel::resetOptions() {
 }
 
 FitOptions FitViewModel::UsualOptionsFor(ObjectKind kind) const {
-  const auto& scan = session_->ScanToFit();
+  const auto& scan = session_->ShownScan();
   const SensorRig& rig = scan ? scan->rig : session_->Rig();
   FitOptions options = FitOptionsFor(kind, rig.robot_from_base);
   auto* terrain = std::get_if<FitTerrainOptions>(&options);

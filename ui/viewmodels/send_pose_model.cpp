@@ -55,7 +55,7 @@ QString SendPoseModel::WhyNot() const {
 }
 
 Result<PoseMessage> SendPoseModel::Message(const FoundObject& object) const {
-  const auto& scan = session_->CurrentScan();
+  const auto& scan = session_->ShownScan();
   if (!scan) return Fail(ErrorCode::kState, "there is no scan");
   PoseContext context;
   context.detection_uuid = object.uuid;

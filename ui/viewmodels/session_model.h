@@ -41,6 +41,7 @@ struct FoundObject {
   std::string provenance_json;   ///< all that is needed to make it again (core/mission)
   bool kept = false;             ///< it is on the disk
   std::optional<ScanPart> part;  ///< it was made from, before all lines were here
+  bool by_robot = false;         ///< the head fitted it
 };
 
 /// Of what lines the cloud is while its scan is not whole.

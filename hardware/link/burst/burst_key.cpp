@@ -1,24 +1,19 @@
 #include "hardware/link/burst/burst_key.h"
 
-#include <openssl/rand.h>
-
 #include <algorithm>
 
-#include "hardware/link/pki/openssl_handles.h"
+#include "hardware/link/pki/random_bytes.h"
 
 namespace foresight {
 
 Result<BurstKey> BurstKey::Make() {
-  const OpenSslErrors errors;
   BurstKey key;
-  std::array<unsigned char, sizeof key.id> id{};
+  std::array<std::uint8_t, sizeof key.id> id{};
   while (key.id == 0) {
-    if (RAND_bytes(id.data(), static_cast<int>(id.size())) != 1 ||
-        RAND_priv_bytes(key.secret.data(), static_cast<int>(key.secret.size())) != 1)
-      return Fail(ErrorCode::kDevice, "key of a burst path: no random numbers: {}",
-                  OpenSslErrors::Last());
-    for (const unsigned char byte : id) key.id = key.id << 8 | byte;
+    FORESIGHT_CHECK(FillRandom(id));
+    for (const std::uint8_t byte : id) key.id = key.id << 8 | byte;
   }
+  FORESIGHT_CHECK(FillSecret(key.secret));
   return key;
 }
 

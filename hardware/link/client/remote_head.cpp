@@ -6,6 +6,8 @@
 #include "core/base/log.h"
 #include "core/mission/plan_json.h"
 #include "core/sensor/rig_id.h"
+#include "hardware/link/client/fit_client.h"
+#include "hardware/link/client/image_client.h"
 #include "hardware/link/client/pose_sender.h"
 
 namespace foresight {
@@ -181,6 +183,14 @@ Status RemoteHead::GiveControl(const std::string& successor) {
 
 Result<RobotAnswer> RemoteHead::SendPose(const std::string& pose_json) {
   return foresight::SendPose(session_, pose_json);
+}
+
+Result<HeadFit> RemoteHead::Fit(const HeadFitOrder& order, const RunContext& context) {
+  return FitOnHead(session_, order, context);
+}
+
+Result<HeadImage> RemoteHead::FetchImage(const HeadImageOrder& order) {
+  return FetchHeadImage(session_, order);
 }
 
 Status RemoteHead::MayAct(const char* what) const {

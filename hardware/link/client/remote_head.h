@@ -67,6 +67,8 @@ class RemoteHead final : public SensorHead, public HeadLink {
   foresight::Status TakeControl() override;
   foresight::Status GiveControl(const std::string& successor) override;
   Result<RobotAnswer> SendPose(const std::string& pose_json) override;
+  Result<HeadFit> Fit(const HeadFitOrder& order, const RunContext& context) override;
+  Result<HeadImage> FetchImage(const HeadImageOrder& order) override;
 
   bool Simulated() const { return session_.Greeting().simulated(); }
 

@@ -4,6 +4,7 @@
 #include "core/base/log.h"
 #include "hardware/link/protocol/messages.h"
 #include "hardware/link/protocol/stop_messages.h"
+#include "hardware/link/server/image_desk.h"
 #include "hardware/link/server/look_stream.h"
 #include "hardware/link/server/transfer_stream.h"
 #include "hardware/link/server/watch_stream.h"
@@ -52,7 +53,7 @@ int ProtocolOf(const grpc::ServerContext& context) {
 }  // namespace
 
 HeadService::HeadService(HeadDesk& desk, PeerReader peer)
-    : desk_(desk), cache_(desk.shelf()), peer_(std::move(peer)) {
+    : desk_(desk), cache_(desk.shelf()), fits_(desk.shelf()), peer_(std::move(peer)) {
   FORESIGHT_EXPECTS(peer_ != nullptr, "a service knows who calls");
 }
 
@@ -213,6 +214,35 @@ grpc::Status HeadService::OpenBurst(grpc::ServerContext* context, const link::Bu
   auto opened = desk_.bursts().Open(*request, peer->name, context->peer());
   if (!opened) return ToGrpc(opened.error());
   *reply = std::move(*opened);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::Fit(grpc::ServerContext* context, const link::FitRequest* request,
+                              link::FitReply* reply) {
+  grpc::Status refusal;
+  const auto peer = Admit(*context, &refusal);
+  if (!peer) return refusal;
+  if (!peer->may_operate)
+    return {grpc::StatusCode::PERMISSION_DENIED,
+            peer->name + " is an observer: the head fits for operators"};
+  const Place place(fitting_, kMostFits);
+  if (!place) return TooMany("fits", kMostFits);
+  context->set_compression_algorithm(GRPC_COMPRESS_GZIP);  // JSON, perhaps on a thin link
+  auto fitted = fits_.Fit(*request, peer->name, [&] { return closing_ || context->IsCancelled(); });
+  if (!fitted) return ToGrpc(fitted.error());
+  *reply = std::move(*fitted);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::FetchImage(grpc::ServerContext* context,
+                                     const link::ImageRequest* request, link::ImageReply* reply) {
+  grpc::Status refusal;
+  if (!Admit(*context, &refusal)) return refusal;
+  const Place place(images_, kMostImages);
+  if (!place) return TooMany("images", kMostImages);
+  const auto made = MakeImage(desk_.shelf(), *request);
+  if (!made) return ToGrpc(made.error());
+  *reply = *made;
   return grpc::Status::OK;
 }
 

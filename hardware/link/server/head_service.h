@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "hardware/link/server/fit_desk.h"
 #include "hardware/link/server/head_desk.h"
 #include "hardware/link/server/item_cache.h"
 #include "sensor_head.grpc.pb.h"
@@ -23,6 +24,8 @@ class HeadService final : public link::SensorHead::Service {
   static constexpr int kMostTransfers = 16;
   static constexpr int kMostLooks = 8;
   static constexpr int kMostPoses = 4;  ///< that wait for the robot
+  static constexpr int kMostFits = 4;   ///< that wait for the head
+  static constexpr int kMostImages = 4;
 
   HeadService(HeadDesk& desk, PeerReader peer);
   void Close();
@@ -52,6 +55,10 @@ class HeadService final : public link::SensorHead::Service {
                            link::PoseReply* reply) override;
   grpc::Status OpenBurst(grpc::ServerContext* context, const link::BurstRequest* request,
                          link::BurstReply* reply) override;
+  grpc::Status Fit(grpc::ServerContext* context, const link::FitRequest* request,
+                   link::FitReply* reply) override;
+  grpc::Status FetchImage(grpc::ServerContext* context, const link::ImageRequest* request,
+                          link::ImageReply* reply) override;
   grpc::Status ListScans(grpc::ServerContext* context, const link::ListScansRequest* request,
                          link::ListScansReply* reply) override;
 
@@ -60,12 +67,15 @@ class HeadService final : public link::SensorHead::Service {
 
   HeadDesk& desk_;
   ItemCache cache_;
+  FitDesk fits_;
   const PeerReader peer_;
   std::atomic<bool> closing_{false};
   std::atomic<int> watches_{0};
   std::atomic<int> transfers_{0};
   std::atomic<int> looks_{0};
   std::atomic<int> poses_{0};
+  std::atomic<int> fitting_{0};
+  std::atomic<int> images_{0};
 };
 
 }  // namespace foresight
