@@ -122,6 +122,7 @@ Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
   const LinkPath path = arguments.thin ? LinkPath::kThin : LinkPath::kBursts;
   options.address = address;
   options.status_rate_hz = arguments.thin ? 0.5 : 10.0;
+  options.thin = arguments.thin;
   options.spool = spool.empty() ? SpoolFolder() : std::filesystem::path(spool);
   options.archive = std::move(archive);
   return RemoteHead::Connect(StationChannels(address, credentials, path, certificate_host), options,

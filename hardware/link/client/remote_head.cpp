@@ -49,6 +49,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(
     return raw->rig_yaml_;
   };
   fetching.burst = head->burst_.get();
+  fetching.thin = options.thin;
   fetching.round_trip = [raw] { return raw->watch_ ? raw->watch_->RoundTrip() : 0.0; };
   head->stopper_ = std::make_unique<StopSender>(head->session_);
   head->commands_ = std::make_unique<CommandSender>(head->session_, options.command_good_s);

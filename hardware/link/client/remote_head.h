@@ -28,6 +28,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
   struct Options {
     std::string address;                   ///< for messages
     double status_rate_hz = 10.0;          ///< of a head that moves; 1 suits a thin path
+    bool thin = false;                     ///< the path is known to carry some kilobits a second
     double command_good_s = 8.0;           ///< what the head did not get by then is void
     std::filesystem::path spool;           ///< folder for what has come of scans that are not whole
     std::shared_ptr<ScanArchive> archive;  ///< may be null: sinks are all there is

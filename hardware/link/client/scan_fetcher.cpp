@@ -338,11 +338,10 @@ link::TransferStart ScanFetcher::StartOf(const Fetched& scan) {
   link::TransferStart start;
   start.set_scan_id(scan.header.uuid);
   if (scan.transfer) start.set_have(scan.transfer->Have().Encode());
-  thin_ = false;
+  thin_ = options_.thin;
   {
     const std::lock_guard lock(mutex_);
-    const double round_trip_s = options_.round_trip ? options_.round_trip() : 0.0;
-    rate_.Begin(LinkSession::Now(), round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s);
+    rate_.Begin(LinkSession::Now(), SeemsWide());
     start.set_credit_bytes(rate_.credit());
   }
   *start.mutable_wishes() = Wishes();
@@ -540,16 +539,21 @@ void ScanFetcher::Show(Fetched& scan, std::int64_t left_bytes) {
   if (look && scan.header.uuid == newest_) early_ = std::move(early);
 }
 
+/// By its round trip. A path that is known to be thin may have a queue that lets a short message
+/// pass at once.
+bool ScanFetcher::SeemsWide() const {
+  if (options_.thin || !options_.round_trip) return false;
+  const double round_trip_s = options_.round_trip();
+  return round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s;
+}
+
 link::Wishes ScanFetcher::Wishes() {
   const std::lock_guard lock(mutex_);
   link::Wishes wishes;
   const auto rate = rate_.PathBytesPerS(LinkSession::Now());
   if (rate && *rate < kThinBytesPerS) thin_ = true;
   // A thin path that has nothing more to carry shows by its round trip that it became wide.
-  const double round_trip_s = options_.round_trip ? options_.round_trip() : 0.0;
-  if ((rate && *rate > 2.0 * kThinBytesPerS) ||
-      (round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s))
-    thin_ = false;
+  if ((rate && *rate > 2.0 * kThinBytesPerS) || SeemsWide()) thin_ = false;
   // What is beside a burst path carries what is small.
   if (options_.burst && options_.burst->Carries()) thin_ = true;
   if (thin_) wishes.set_bytes_per_s(static_cast<std::int64_t>(kThinBytesPerS) - 1);

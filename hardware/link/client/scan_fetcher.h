@@ -34,6 +34,7 @@ class ScanFetcher {
     std::function<std::string()> rig_yaml;  ///< that is in force on the head, if known
     std::function<double()> round_trip;     ///< of the link, s; 0 = not known
     BurstClient* burst = nullptr;           ///< null = no burst path. Outlives the fetcher.
+    bool thin = false;  ///< until it is measured: before that, a block of ranges fills a thin path
   };
 
   /// `session` outlives it.
@@ -105,6 +106,7 @@ class ScanFetcher {
   Status Finish(Fetched& scan);
   static void SayThatAllIsHere(Stream& stream, Inbox& inbox);
   void Show(Fetched& scan, std::int64_t left_bytes);
+  bool SeemsWide() const;
   link::Wishes Wishes();
 
   LinkSession& session_;
@@ -122,7 +124,7 @@ class ScanFetcher {
   std::shared_ptr<const EarlyScan> early_;
   TransferRate rate_;
   double early_s_ = 0.0;  ///< of the thread alone, as what follows
-  bool thin_ = false;     ///< the path was measured, and only what is small may travel
+  bool thin_ = false;     ///< the path is known to be thin: only what is small may travel
   std::jthread thread_;   ///< last: starts when everything else is there
 };
 

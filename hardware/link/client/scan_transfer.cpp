@@ -56,6 +56,9 @@ bool ScanTransfer::TakeInNext() {
   taken_bytes_ += bytes;
   const auto taken = builder_.Take(chunk);
   if (!taken) LogWarning("scan {}: {}", builder_.scan_id(), taken.error().message);
+  if (taken && chunk.id.kind == ChunkKind::kCoarseCloud && !coarse_)
+    LogInfo("scan {}: the first coarse cloud is here", builder_.scan_id());
+  coarse_ = coarse_ || chunk.id.kind == ChunkKind::kCoarseCloud;
   TryRig();
   return taken.has_value();
 }

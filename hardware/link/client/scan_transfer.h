@@ -54,6 +54,7 @@ class ScanTransfer {
   std::unique_ptr<SpoolFile> spool_;
   std::string rig_yaml_;
   bool mistaken_rig_ = false;
+  bool coarse_ = false;  ///< some of the coarse cloud is here
   std::deque<Chunk> waiting_;
   std::int64_t waiting_bytes_ = 0;
   std::int64_t taken_bytes_ = 0;

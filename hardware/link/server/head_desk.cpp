@@ -168,6 +168,7 @@ Status HeadDesk::EndScan(const link::EndScan& end) {
   }
   if (!end.scan_id().empty() && end.scan_id() != running)
     return Fail(ErrorCode::kState, "scan {} does not run, so it was not ended", end.scan_id());
+  LogInfo("scan {} is to end: {}", end.scan_id(), end.reason());
   head_->EndScan(end.reason().empty() ? "the operator ended the scan" : end.reason());
   return {};
 }

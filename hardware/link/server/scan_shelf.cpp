@@ -74,7 +74,9 @@ class ScanShelf::Recording final : public ScanSink {
   }
   void OnLine(const LidarLine& line) override {
     assembler_.OnLine(line);
-    Tell([&](Entry& entry) { ++entry.scan.lines; });
+    Tell([&](Entry& entry) {
+      if (entry.scan.lines++ == 0) LogInfo("scan {}: the first line is here", uuid_);
+    });
   }
   void OnMotorSamples(std::span<const MotorSample> samples) override {
     assembler_.OnMotorSamples(samples);

@@ -12,6 +12,7 @@ constexpr double kLook_s = 0.02;         ///< how soon a change is noticed
 constexpr double kSilence_s = 1.0;       ///< a station hears something once a second
 constexpr double kShortest_s = 0.05;     ///< between events, whatever the rate
 constexpr double kScansEvery_s = 0.5;    ///< counts of a scan that runs
+constexpr double kScansOfThin_s = 5.0;   ///< where nobody asks for a high rate
 constexpr double kHealthEvery_s = 30.0;  ///< where nobody asks for a high rate
 /// A station that wants at least so many events has the path for the devices' health.
 constexpr double kFastRate_hz = 5.0;
@@ -78,9 +79,12 @@ bool WatchStream::Due(const link::Event& event, double rate_hz) const {
 }
 
 /// With the scans that changed since the station heard of them.
-bool WatchStream::Send(link::Event event) {
+bool WatchStream::Send(link::Event event, bool fast) {
   const std::int64_t news = desk_.shelf().News();
-  if (news != news_ && event.desk_time_s() - scans_s_ >= kScansEvery_s) {
+  const bool another = event.status().scan_id() != sent_.status().scan_id() ||
+                       event.status().state() != sent_.status().state();
+  const double every_s = fast || another ? kScansEvery_s : kScansOfThin_s;
+  if (news != news_ && event.desk_time_s() - scans_s_ >= every_s) {
     std::vector<ShelvedScan> scans = desk_.shelf().List();
     if (news_ < 0) {
       // All scans of a long mission take minutes on a thin path: ListScans has them.
@@ -105,7 +109,8 @@ void WatchStream::Run(const std::atomic<bool>& closing) {
   while (!closing && !gone_) {
     const link::SignOfLife sign = LastSign();
     link::Event event = Compose(sign);
-    if (Due(event, sign.status_rate_hz()) && !Send(std::move(event))) break;
+    const bool fast = sign.status_rate_hz() >= kFastRate_hz;
+    if (Due(event, sign.status_rate_hz()) && !Send(std::move(event), fast)) break;
     std::this_thread::sleep_for(std::chrono::duration<double>(kLook_s));
   }
   context_.TryCancel();  // or the reader would wait for a station that says nothing more

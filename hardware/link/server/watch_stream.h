@@ -28,7 +28,7 @@ class WatchStream {
   link::SignOfLife LastSign();
   link::Event Compose(const link::SignOfLife& sign) const;
   bool Due(const link::Event& event, double rate_hz) const;
-  bool Send(link::Event event);
+  bool Send(link::Event event, bool fast);
 
   HeadDesk& desk_;
   grpc::ServerContext& context_;
