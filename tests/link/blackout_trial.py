@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A room scan through blackouts: head and station in network namespaces, with a router between them that forwards
 for a second at a time. Needs root, iproute2 and openssl; addresses are those of the namespaces alone.
 
@@ -232,7 +232,7 @@ def main():
     arguments.scene = arguments.scene.resolve()
     if os.geteuid() != 0 or not shutil.which("ip"):
         print("blackout_trial: needs root and iproute2 for network namespaces", file=sys.stderr)
-        return 2
+        return 77
     outcomes = []
     with tempfile.TemporaryDirectory() as name:
         folder = arguments.keep or pathlib.Path(name)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A room scan over two paths at once: a thin one both ways that is always open (the link), and a wide one from head to
 station alone that opens for a second at a time (bursts). Head, router and station are network namespaces. Needs root,
 iproute2 and openssl.
@@ -223,7 +223,7 @@ def main():
     arguments.scene = arguments.scene.resolve()
     if os.geteuid() != 0 or not shutil.which("ip"):
         print("burst_trial: needs root and iproute2 for network namespaces", file=sys.stderr)
-        return 2
+        return 77
     outcomes = []
     with tempfile.TemporaryDirectory() as name:
         folder = arguments.keep or pathlib.Path(name)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """kill -9 of the head's or the station's program at a random moment of a scan over the link, then a restart of it.
 
     tests/link/kill_trial.py --bin build/release/bin --scene resources/scenes/room.yaml --runs 50 --seed 1

@@ -22,7 +22,11 @@ import tempfile
 import threading
 import time
 
-import grpc
+try:
+    import grpc
+except ImportError:
+    print("security_trial: python3-grpcio is not there", file=sys.stderr)
+    sys.exit(77)
 
 # At most so many open files: what a service of a usual Linux gets.
 OPEN_FILES = 1024
@@ -420,7 +424,7 @@ def main():
     for tool in ("protoc", "openssl", "prlimit"):
         if not shutil.which(tool):
             print(f"security_trial: {tool} is not there", file=sys.stderr)
-            return 2
+            return 77
     with tempfile.TemporaryDirectory() as name:
         folder = arguments.keep or pathlib.Path(name)
         folder.mkdir(parents=True, exist_ok=True)

@@ -119,7 +119,7 @@ def main():
     arguments.bin, arguments.scene = arguments.bin.resolve(), arguments.scene.resolve()
     if os.geteuid() != 0 or not shutil.which("ip"):
         print("thin_trial: needs root and iproute2 for network namespaces", file=sys.stderr)
-        return 2
+        return 77
     outcomes = []
     with tempfile.TemporaryDirectory() as name:
         folder = arguments.keep or pathlib.Path(name)

@@ -1,0 +1,93 @@
+#include "hardware/link/client/scan_fetcher.h"
+
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "hardware/link/chunks/chunk_order.h"
+#include "hardware/link/wire/channel_arguments.h"
+#include "tests/support/temporary_folder.h"
+
+namespace foresight {
+namespace {
+
+/// A head that sends nothing, and keeps what the first transfer asked for.
+class SilentHead final : public link::SensorHead::Service {
+ public:
+  SilentHead() {
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
+    builder.RegisterService(this);
+    server_ = builder.BuildAndStart();
+  }
+  ~SilentHead() override { server_->Shutdown(std::chrono::system_clock::now()); }
+
+  grpc::Status Transfer(
+      grpc::ServerContext* /*context*/,
+      grpc::ServerReaderWriter<link::Chunk, link::TransferRequest>* stream) override {
+    link::TransferRequest request;
+    if (stream->Read(&request) && !asked_.exchange(true)) start_.set_value(request.start());
+    while (stream->Read(&request)) {
+    }
+    return grpc::Status::OK;
+  }
+
+  std::shared_ptr<grpc::Channel> Channel() const {
+    grpc::ChannelArguments arguments;
+    SetStationArguments(arguments, LinkPath::kBursts, 100);
+    return grpc::CreateCustomChannel("127.0.0.1:" + std::to_string(port_),
+                                     grpc::InsecureChannelCredentials(), arguments);
+  }
+  link::TransferStart Start() {
+    auto start = start_.get_future();
+    if (start.wait_for(std::chrono::seconds(10)) != std::future_status::ready) return {};
+    return start.get();
+  }
+
+ private:
+  int port_ = 0;
+  std::atomic<bool> asked_{false};
+  std::promise<link::TransferStart> start_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+struct ScanFetcherTest : testing::Test {
+  /// What a station asks for whose messages come and go in `round_trip_s`.
+  link::TransferStart Asked(bool thin, double round_trip_s) {
+    LinkSession session({head.Channel()}, "head");
+    ScanFetcher::Options options;
+    options.spool = folder / "spool";
+    options.thin = thin;
+    options.round_trip = [=] { return round_trip_s; };
+    ScanFetcher fetcher(session, std::move(options));
+    link::ScanOnHead scan;
+    scan.set_scan_id("0c2f1a3e-0000-4000-8000-000000000001");
+    scan.set_state("running");
+    fetcher.Heard({scan}, true);
+    fetcher.Fetch(scan.scan_id());
+    return head.Start();
+  }
+
+  const TemporaryFolder folder;
+  SilentHead head;
+};
+
+TEST_F(ScanFetcherTest, APathWithShortRoundTripsIsTakenForWide) {
+  const link::TransferStart start = Asked(false, 0.05);
+  EXPECT_EQ(start.scan_id(), "0c2f1a3e-0000-4000-8000-000000000001");
+  EXPECT_EQ(start.wishes().bytes_per_s(), 0);
+  EXPECT_EQ(start.credit_bytes(), TransferRate::kWideCredit);
+}
+
+/// A short message passes a thin path's queue at once where nothing waits in it.
+TEST_F(ScanFetcherTest, APathThatIsSaidToBeThinIsThinFromTheFirstMoment) {
+  const link::TransferStart start = Asked(true, 0.05);
+  EXPECT_EQ(start.scan_id(), "0c2f1a3e-0000-4000-8000-000000000001");
+  EXPECT_GT(start.wishes().bytes_per_s(), 0);
+  EXPECT_LT(static_cast<double>(start.wishes().bytes_per_s()), kThinBytesPerS);
+  EXPECT_EQ(start.credit_bytes(), TransferRate::kLeastCredit);
+}
+
+}  // namespace
+}  // namespace foresight

@@ -1,0 +1,177 @@
+#!/usr/bin/python3
+"""Scans through blackouts for half an hour, with observers who come and go: whether the head's program stays as it is.
+Head, router and station are network namespaces. Needs root, iproute2 and openssl.
+
+    tests/link/soak.py --bin build/release/bin --scene resources/scenes/room.yaml --minutes 30 --seed 1
+
+One line of JSON a scan and one for the whole: memory, threads and open files of foresight-head, in the second tenth of the
+time and in the last one (medians). Exit 0 when every scan that began is in the end in the station's mission with the
+head's digest, and the head's memory grew by less than --growth-mb, its threads and files by none.
+"""
+import argparse
+import json
+import os
+import pathlib
+import random
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+from blackout_trial import HEAD, PORT, Network, make_link_keys, run
+
+SCAN = ["scan", "--from", "-15", "--to", "15", "--images", "0,10"]
+
+
+class Watcher(threading.Thread):
+    """What a process takes, twice a second."""
+
+    def __init__(self, pid):
+        super().__init__(daemon=True)
+        self.pid, self.samples, self.ended = pid, [], False
+        self.start()
+
+    def run(self):
+        while not self.ended:
+            try:
+                status = pathlib.Path(f"/proc/{self.pid}/status").read_text()
+                files = len(os.listdir(f"/proc/{self.pid}/fd"))
+            except OSError:
+                return
+            field = lambda name: int(status.split(name + ":")[1].split()[0])
+            self.samples.append((time.time(), field("VmRSS") / 1024, field("Threads"), files))
+            time.sleep(0.5)
+
+    def medians(self, begin, end):
+        """Between two ratios of the time."""
+        first, last = self.samples[0][0], self.samples[-1][0]
+        inside = [s[1:] for s in self.samples if begin <= (s[0] - first) / (last - first) <= end]
+        memory, threads, files = (statistics.median(column) for column in zip(*inside))
+        return {"memory_mb": round(memory, 1), "threads": threads, "open_files": files}
+
+
+class Blackouts(threading.Thread):
+    def __init__(self, network, rng, arguments):
+        super().__init__(daemon=True)
+        self.network, self.rng, self.arguments, self.ended = network, rng, arguments, False
+        self.start()
+
+    def run(self):
+        while not self.ended:
+            self.network.open(False)
+            time.sleep(self.rng.uniform(self.arguments.shortest_s, self.arguments.longest_s))
+            self.network.open(True)
+            time.sleep(self.arguments.window_s)
+
+
+class Observers(threading.Thread):
+    """Up to three at a time, for a second to fifteen each."""
+
+    def __init__(self, start, rng):
+        super().__init__(daemon=True)
+        self.start_one, self.rng, self.ended, self.count = start, rng, False, 0
+        self.start()
+
+    def run(self):
+        there = []
+        while not self.ended:
+            for process, end in list(there):
+                if process.poll() is not None or time.time() > end:
+                    process.kill()
+                    process.wait()
+                    there.remove((process, end))
+            if len(there) < 3:
+                there.append((self.start_one(), time.time() + self.rng.uniform(1.0, 15.0)))
+                self.count += 1
+            time.sleep(self.rng.uniform(0.5, 3.0))
+        for process, _ in there:
+            process.kill()
+            process.wait()
+
+
+def digests(arguments, mission):
+    shown = subprocess.run([arguments.bin / "foresightctl", "mission", "digest", mission, "--json"], capture_output=True,
+                           text=True)
+    return [scan["digest"] for scan in json.loads(shown.stdout or "{}").get("scans", [])]
+
+
+def soak(arguments, folder):
+    rng = random.Random(arguments.seed)
+    network = Network(f"fsk{os.getpid() % 1000}", arguments.mbit)
+    environment = dict(os.environ, XDG_STATE_HOME=str(folder / "state"))
+    log = open(folder / "station.log", "w")
+
+    def station(who, *command):
+        return subprocess.Popen(
+            ["ip", "netns", "exec", f"{network.name}-s", arguments.bin / "foresightctl", *command, "--head", HEAD,
+             "--link-keys", arguments.keys / f"ca/machines/{who}"], stdout=log, stderr=log, env=environment)
+
+    head = subprocess.Popen(
+        ["ip", "netns", "exec", f"{network.name}-h", arguments.bin / "foresight-head", "--emulate", arguments.scene, "--seed",
+         str(arguments.seed), "--listen", f"{HEAD}:{PORT}", "--link-keys", arguments.keys / "ca/machines/trial", "--scans",
+         folder / "head-scans"], stdout=open(folder / "head.log", "w"), stderr=subprocess.STDOUT)
+    try:
+        while "listening" not in (folder / "head.log").read_text():
+            time.sleep(0.05)
+        pid = int(run("pgrep", "-f", f"foresight-head.*{folder}").stdout.split()[0])
+        watcher = Watcher(pid)
+        blackouts = Blackouts(network, rng, arguments)
+        observers = Observers(lambda: station("otto", "fetch", "--list"), random.Random(arguments.seed + 1))
+        mission, codes = folder / "station.foresight", []
+        end = time.time() + 60 * arguments.minutes
+        while time.time() < end:
+            began = time.time()
+            codes.append(station("anna", *SCAN, "--out", mission).wait())
+            print(json.dumps({"scan": len(codes), "exit": codes[-1], "seconds": round(time.time() - began, 1),
+                              "memory_mb": round(watcher.samples[-1][1])}), flush=True)
+        blackouts.ended = observers.ended = True
+        blackouts.join()
+        observers.join()
+        watcher.ended = True
+        network.open(True)
+        station("anna", "fetch", "--out", mission).wait()
+        here = sorted(digests(arguments, mission))
+        there = sorted(d for file in (folder / "head-scans").glob("*.foresight") for d in digests(arguments, file))
+        early, late = watcher.medians(0.1, 0.2), watcher.medians(0.9, 1.0)
+        whole = {"scans": len(codes), "exit_0": codes.count(0), "observers": observers.count, "identical": here == there,
+                 "early": early, "late": late}
+        print(json.dumps(whole))
+        return (here == there and late["memory_mb"] - early["memory_mb"] < arguments.growth_mb
+                and late["threads"] <= early["threads"] and late["open_files"] <= early["open_files"])
+    finally:
+        head.kill()
+        network.close()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--bin", type=pathlib.Path, default=pathlib.Path("build/release/bin"))
+    parser.add_argument("--scene", type=pathlib.Path, default=pathlib.Path("resources/scenes/room.yaml"))
+    parser.add_argument("--minutes", type=float, default=30.0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--mbit", type=float, default=300.0, help="of the open window")
+    parser.add_argument("--window-s", type=float, default=1.0)
+    parser.add_argument("--shortest-s", type=float, default=1.0, help="blackout")
+    parser.add_argument("--longest-s", type=float, default=30.0, help="blackout")
+    parser.add_argument("--growth-mb", type=float, default=10.0)
+    parser.add_argument("--keep", type=pathlib.Path, help="folder for logs and missions (default: a temporary one)")
+    arguments = parser.parse_args()
+    arguments.bin, arguments.scene = arguments.bin.resolve(), arguments.scene.resolve()
+    if os.geteuid() != 0 or not shutil.which("ip"):
+        print("soak: needs root and iproute2 for network namespaces", file=sys.stderr)
+        return 77
+    with tempfile.TemporaryDirectory() as name:
+        folder = arguments.keep or pathlib.Path(name)
+        folder.mkdir(parents=True, exist_ok=True)
+        arguments.keys = folder / "keys"
+        arguments.keys.mkdir()
+        make_link_keys(arguments)
+        run(arguments.bin / "foresightctl", "pki", "observer", "otto", "--pki", arguments.keys / "ca")
+        return 0 if soak(arguments, folder) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
