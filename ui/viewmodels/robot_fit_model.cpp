@@ -25,7 +25,8 @@ QString RobotFitModel::WhyNot() const {
   if (!session_->ShownScan()) return tr("There is no scan yet.");
   if (session_->CurrentScan()) return tr("All of the scan is here. Fit it here (F).");
   if (!session_->Region()) return tr("Draw a region over the object first.");
-  if (!link_->MayOperate()) return tr("This certificate is an observer's: the robot fits for operators.");
+  if (!link_->MayOperate())
+    return tr("This certificate is an observer's: the robot fits for operators.");
   return link_->Health().connected ? QString() : tr("The link is lost. Wait until it is back.");
 }
 
