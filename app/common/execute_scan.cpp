@@ -47,7 +47,7 @@ bool HoldsNothing(const std::string& path) {
          head[103] == 0 && head[104] == 0;
 }
 
-/// Waits for the end of a scan: over a link it comes after the sweep's.
+/// Whether a scan has ended.
 class EndOfScan final : public ScanSink {
  public:
   void OnScanStarted(const Scan& /*header*/) override {}
@@ -56,19 +56,7 @@ class EndOfScan final : public ScanSink {
   void OnFrame(const CameraFrame& /*frame*/) override {}
   void OnScanEnded(ScanState /*state*/, const std::string& /*reason*/) override { ended_ = true; }
 
-  /// False where it was cancelled, and does not come in a while either.
-  bool Wait(SensorHead& head, const RunContext& context) const {
-    constexpr std::chrono::seconds kPatience{10};
-    std::optional<std::chrono::steady_clock::time_point> cancelled;
-    while (!ended_) {
-      head.OperatorSeen();
-      const auto now = std::chrono::steady_clock::now();
-      if (context.Cancelled() && !cancelled) cancelled = now;
-      if (cancelled && now - *cancelled > kPatience) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return true;
-  }
+  bool Ended() const { return ended_; }
 
  private:
   std::atomic<bool> ended_{false};
@@ -106,7 +94,8 @@ Result<ExecutedScan> ExecuteScan(SensorHead& head, const ScanPlan& plan,
   FORESIGHT_CHECK(head.StartScan(
       plan, std::make_shared<ScanFanout>(std::vector<std::shared_ptr<ScanSink>>{recorder, end})));
   const HeadStatus status = WaitWhile(head, {HeadState::kSweeping, HeadState::kStopping}, context);
-  const bool came = end->Wait(head, context);
+  const bool came = WaitForEnd(
+      head, [&] { return end->Ended(); }, context);
   ExecutedScan executed;
   executed.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <string>
 
-#include "hardware/link/client/remote_head.h"
+#include "core/base/result.h"
 
 namespace foresight {
 
@@ -27,16 +26,7 @@ Result<std::string> LinkAddress(const std::string& text);
 /// The host of HOST:PORT, without the brackets of an IPv6 address.
 std::string HostOf(const std::string& address);
 
-/// "47131" or "10.0.0.2:47131". Fails with kInvalidOptions.
-Result<BurstClient::Options> BurstOptions(const std::string& text);
-
 /// --head and what goes with it; returns the option --head.
 CLI::Option* AddLinkOptions(CLI::App& command, LinkArguments& arguments);
-
-/// Connects to the head. `spool` is the folder for what has come of scans that are not whole; empty
-/// = the user's.
-Result<std::shared_ptr<RemoteHead>> ConnectHead(const LinkArguments& arguments,
-                                                std::shared_ptr<ScanArchive> archive,
-                                                const std::string& spool = "");
 
 }  // namespace foresight

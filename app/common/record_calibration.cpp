@@ -22,8 +22,13 @@ class StopQueue final : public StopSink {
     const std::lock_guard lock(mutex_);
     complete_ = state == ScanState::kComplete;
     reason_ = reason;
+    ended_ = true;
   }
 
+  bool Ended() const {
+    const std::lock_guard lock(mutex_);
+    return ended_;
+  }
   std::vector<StopCapture> TakeAll() {
     const std::lock_guard lock(mutex_);
     return std::exchange(waiting_, {});
@@ -40,6 +45,7 @@ class StopQueue final : public StopSink {
  private:
   mutable std::mutex mutex_;
   std::vector<StopCapture> waiting_;
+  bool ended_ = false;
   bool complete_ = false;
   std::string reason_ = "the captures did not end";
 };
@@ -61,8 +67,13 @@ class SweepCollector final : public ScanSink {
     const std::lock_guard lock(mutex_);
     complete_ = state == ScanState::kComplete;
     reason_ = reason;
+    ended_ = true;
   }
 
+  bool Ended() const {
+    const std::lock_guard lock(mutex_);
+    return ended_;
+  }
   /// Why there is none, in the error.
   Result<MountSweep> Take() {
     const std::lock_guard lock(mutex_);
@@ -71,8 +82,9 @@ class SweepCollector final : public ScanSink {
   }
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   MountSweep sweep_;
+  bool ended_ = false;
   bool complete_ = false;
   std::string reason_ = "the sweep did not end";
 };
@@ -109,6 +121,8 @@ class PoseRecorder {
     };
     const HeadStatus status =
         WaitWhile(head_, {HeadState::kSweeping, HeadState::kStopping}, context_, keep_all);
+    WaitForEnd(
+        head_, [&] { return queue->Ended(); }, context_, keep_all);
     keep_all();
     FORESIGHT_CHECK(kept);
     FORESIGHT_CHECK(FaultOf(status));
@@ -139,6 +153,8 @@ class PoseRecorder {
     FORESIGHT_CHECK(head_.StartScan(*recording_.sweep, collector));
     const HeadStatus status =
         WaitWhile(head_, {HeadState::kSweeping, HeadState::kStopping}, context_);
+    WaitForEnd(
+        head_, [&] { return collector->Ended(); }, context_);
     FORESIGHT_CHECK(FaultOf(status));
     const Result<MountSweep> sweep = collector->Take();
     if (!sweep) {
@@ -174,6 +190,8 @@ Status RecordIntrinsicView(SensorHead& head, const StopPlan& stop, const std::st
   const auto queue = std::make_shared<StopQueue>();
   FORESIGHT_CHECK(head.StartStops(stop, queue));
   const HeadStatus status = WaitWhile(head, {HeadState::kSweeping, HeadState::kStopping}, context);
+  WaitForEnd(
+      head, [&] { return queue->Ended(); }, context);
   for (const StopCapture& capture : queue->TakeAll()) {
     if (!capture.image) continue;
     FORESIGHT_CHECK(folder.AddIntrinsicImage(capture.image->image, origin));

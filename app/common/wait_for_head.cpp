@@ -44,6 +44,21 @@ HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
   }
 }
 
+bool WaitForEnd(SensorHead& head, const std::function<bool()>& ended, const RunContext& context,
+                const std::function<void()>& meanwhile) {
+  constexpr std::chrono::seconds kLast{10};
+  std::optional<std::chrono::steady_clock::time_point> cancelled;
+  while (!ended()) {
+    head.OperatorSeen();
+    const auto now = std::chrono::steady_clock::now();
+    if (context.Cancelled() && !cancelled) cancelled = now;
+    if (cancelled && now - *cancelled > kLast) return false;
+    if (meanwhile) meanwhile();
+    std::this_thread::sleep_for(kPoll);
+  }
+  return true;
+}
+
 Status HomeAndWait(SensorHead& head, const RunContext& context) {
   head.OperatorSeen();
   FORESIGHT_CHECK(head.Home());

@@ -13,6 +13,12 @@ namespace foresight {
 HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
                      const RunContext& context, const std::function<void()>& meanwhile = {});
 
+/// Waits for the end of what a head gives: over a link it comes after the head's own. Stands for
+/// the operator meanwhile. False where that was cancelled, and the end does not come in a while
+/// either.
+bool WaitForEnd(SensorHead& head, const std::function<bool()>& ended, const RunContext& context,
+                const std::function<void()>& meanwhile = {});
+
 /// Fails with kDevice, also where that was cancelled.
 Status HomeAndWait(SensorHead& head, const RunContext& context);
 

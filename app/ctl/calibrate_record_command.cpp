@@ -1,8 +1,10 @@
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
+#include "app/common/connect_head.h"
 #include "app/common/emulation.h"
 #include "app/common/record_calibration.h"
 #include "app/common/simulated_bench.h"
@@ -10,6 +12,7 @@
 #include "app/ctl/command.h"
 #include "core/geometry/angles.h"
 #include "hardware/assembly/real_head.h"
+#include "hardware/link/client/remote_head.h"
 #include "hardware/simulated/simulated_head.h"
 
 namespace foresight {
@@ -20,6 +23,7 @@ struct RecordArguments {
   EmulationArguments emulation;  ///< also of the head that is simulated in this process
   bool emulate = false;
   std::string head_config;  ///< of a real head, in place of a scene
+  LinkArguments link;       ///< to a head elsewhere
   std::string prior;
   std::string name = "unnamed";
   std::string mount;
@@ -39,8 +43,13 @@ struct RecordingBench {
   std::shared_ptr<const World> world;  ///< nullptr: a real head
   std::unique_ptr<EmulatedDevices> emulated;
   CameraSettings exposure;
-  std::unique_ptr<SensorHead> head;  ///< last: goes first
+  std::shared_ptr<SensorHead> head;  ///< last: goes first
 };
+
+/// For a sweep over a link, until it is whole.
+std::string SpoolBeside(const std::string& session) {
+  return session + ".spool";
+}
 
 Result<RecordingBench> SetUp(const RecordArguments& arguments) {
   RecordingBench bench;
@@ -48,6 +57,9 @@ Result<RecordingBench> SetUp(const RecordArguments& arguments) {
     FORESIGHT_TRY(const HeadConfig config, LoadHeadConfig(arguments.head_config));
     bench.exposure = config.exposure;
     bench.head = MakeRealHead(config);
+  } else if (!arguments.link.head.empty()) {
+    FORESIGHT_TRY(bench.head, ConnectHead(arguments.link, HeadUse::kOperate, nullptr,
+                                          SpoolBeside(arguments.folder)));
   } else if (arguments.emulate) {
     FORESIGHT_TRY(bench.emulated, StartEmulation(arguments.emulation));
     bench.world = bench.emulated->world();
@@ -236,6 +248,8 @@ Result<ExitCode> Record(const RecordArguments& arguments, const RunContext& cont
   Tally tally;
   const Status recorded = RecordAll(arguments, pose, bench, folder, tally, context);
   PrintTally(arguments, tally);
+  std::error_code not_there_or_not_empty;
+  std::filesystem::remove(SpoolBeside(arguments.folder), not_there_or_not_empty);
   FORESIGHT_CHECK(recorded);
   const bool complete = tally.missing.empty() && !context.Cancelled();
   return complete ? ExitCode::kDone : ExitCode::kNegative;
@@ -267,6 +281,7 @@ void AddCalibrateRecordCommand(CLI::App& calibrate, Invocation& invocation) {
       ->add_option("--head-config", arguments->head_config,
                    "A real head and its devices (YAML), in place of a scene")
       ->excludes(scene);
+  AddLinkOptions(*command, arguments->link)->excludes(scene)->excludes("--head-config");
   command->add_option("--place-name", arguments->place_name,
                       "What the stand's place is called, of a real head");
   command->add_flag("--view", arguments->view,
@@ -290,8 +305,9 @@ void AddCalibrateRecordCommand(CLI::App& calibrate, Invocation& invocation) {
          "What a new session knows before: the CAD rig (YAML); default: the head's");
   command->add_flag("--json", arguments->json, "Print what was recorded as JSON");
   command->callback([&invocation, arguments] {
-    if (arguments->emulation.scene.empty() && arguments->head_config.empty())
-      throw CLI::RequiredError("--scene or --head-config");
+    if (arguments->emulation.scene.empty() && arguments->head_config.empty() &&
+        arguments->link.head.empty())
+      throw CLI::RequiredError("--scene, --head-config or --head");
     invocation = [arguments](const RunContext& context) { return Record(*arguments, context); };
   });
 }

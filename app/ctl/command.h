@@ -33,6 +33,7 @@ void AddEmulateCommand(CLI::App& app, Invocation& invocation);
 void AddHealthCommand(CLI::App& app, Invocation& invocation);
 void AddFetchCommand(CLI::App& app, Invocation& invocation);
 void AddImageCommand(CLI::App& app, Invocation& invocation);
+void AddStopCommand(CLI::App& app, Invocation& invocation);
 void AddHeadsCommand(CLI::App& app, Invocation& invocation);
 void AddMissionCommand(CLI::App& app, Invocation& invocation);
 /// `mission` is the command of that name.

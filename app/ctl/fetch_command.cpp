@@ -4,10 +4,11 @@
 #include <memory>
 #include <thread>
 
+#include "app/common/connect_head.h"
 #include "app/common/execute_scan.h"
-#include "app/common/link_arguments.h"
 #include "app/ctl/command.h"
 #include "hardware/link/client/mission_archive.h"
+#include "hardware/link/client/remote_head.h"
 
 namespace foresight {
 namespace {
@@ -93,7 +94,8 @@ Result<ExitCode> Run(const FetchArguments& arguments, const RunContext& context)
   // A list fetches nothing, also not what another run left: its spool is where none can be.
   const fs::path spool =
       arguments.list ? fs::path("/dev/null/spool") : fs::path(arguments.out + ".spool");
-  FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, archive, spool.string()));
+  FORESIGHT_TRY(const auto head,
+                ConnectHead(arguments.link, HeadUse::kRead, archive, spool.string()));
   const std::vector<LinkedScan> there = head->Scans();
   if (arguments.list) {
     Print(there, arguments.json);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/common/connect_head.h"
 #include "app/common/output.h"
 #include "app/ctl/fit_output.h"
 #include "app/ctl/fit_subject.h"
@@ -45,7 +46,7 @@ std::string WithScanAndLink(const HeadFit& fit) {
 }  // namespace
 
 Result<ExitCode> FitAtHead(const FitArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, nullptr));
+  FORESIGHT_TRY(const auto head, LookAtHead(arguments.link));
   const SensorRig rig = head->Rig();
   FORESIGHT_TRY(HeadFitOrder order, OrderFrom(arguments, rig));
   FORESIGHT_TRY(order.scan_id, ChooseScanOfHead(*head, arguments.link.head, arguments.head_scan));

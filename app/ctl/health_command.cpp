@@ -1,11 +1,14 @@
 #include <chrono>
 #include <memory>
+#include <optional>
 
+#include "app/common/connect_head.h"
 #include "app/common/emulation.h"
 #include "app/ctl/command.h"
 #include "hardware/api/health_watch.h"
 #include "hardware/assembly/real_head.h"
 #include "hardware/head/real_time_clock.h"
+#include "hardware/link/client/remote_head.h"
 
 namespace foresight {
 namespace {
@@ -15,18 +18,36 @@ constexpr double kReportPeriod_s = 1.0;
 struct HealthArguments {
   std::string head_config;
   EmulationArguments emulation;
+  LinkArguments link;    ///< to a head elsewhere
   double seconds = 0.0;  ///< 0: until somebody stops it
   bool json = false;
 };
 
+/// What is reported.
+struct HealthReport {
+  HeadHealth devices;
+  std::optional<LinkHealth> link;  ///< of a head elsewhere
+};
+
+/// Where devices are.
+class HealthSource {
+ public:
+  virtual ~HealthSource() = default;
+  virtual Status Connect() = 0;
+  virtual double Now() const = 0;
+  virtual HealthReport Report() const = 0;
+  /// Until `time_s`, or until cancelled.
+  virtual void Work(double time_s, const RunContext& context) = 0;
+};
+
 /// A head's devices without a head: they are connected and the lidar measures, but nothing moves.
-class DeviceBench {
+class DeviceBench final : public HealthSource {
  public:
   explicit DeviceBench(const HeadConfig& config)
       : devices_(MakeDrivers(config, std::make_shared<RealTimeClock>())) {}
 
   /// Fails when not a single device can be reached; says on stderr which ones cannot.
-  Status Connect() {
+  Status Connect() override {
     const Status lidar = devices_.lidar->Connect();
     const Status camera = devices_.camera->Connect();
     const Status motor = devices_.motor->Connect();
@@ -39,12 +60,11 @@ class DeviceBench {
     return {};
   }
 
-  double Now() const { return devices_.clock->Now(); }
-  HeadHealth Health() const { return ReadHealth(devices_); }
+  double Now() const override { return devices_.clock->Now(); }
+  HealthReport Report() const override { return {ReadHealth(devices_), {}}; }
 
-  /// Lets the devices work until `time_s`, or until cancelled. Nobody wants what they measure, but
-  /// it must not pile up.
-  void Work(double time_s, const RunContext& context) {
+  /// Nobody wants what the devices measure, but it must not pile up.
+  void Work(double time_s, const RunContext& context) override {
     constexpr std::chrono::milliseconds kWait{50};
     while (Now() < time_s && !context.Cancelled()) {
       if (!devices_.lidar->WaitForLine(kWait)) devices_.clock->Sleep(kWait);
@@ -56,6 +76,35 @@ class DeviceBench {
   HeadDevices devices_;
 };
 
+/// What a head elsewhere says of its devices. They are as that head keeps them: this changes
+/// nothing.
+class HeadElsewhere final : public HealthSource {
+ public:
+  explicit HeadElsewhere(const LinkArguments& link) : link_(link) {}
+
+  Status Connect() override {
+    FORESIGHT_TRY(head_, LookAtHead(link_));
+    return {};
+  }
+  double Now() const override { return clock_.Now(); }
+  HealthReport Report() const override { return {head_->Status().health, head_->Health()}; }
+  void Work(double time_s, const RunContext& context) override {
+    constexpr std::chrono::milliseconds kLook{50};
+    while (Now() < time_s && !context.Cancelled()) clock_.Sleep(kLook);
+  }
+
+ private:
+  const LinkArguments link_;
+  RealTimeClock clock_;
+  std::shared_ptr<RemoteHead> head_;
+};
+
+/// Of devices whose head says nothing, nothing is known.
+DeviceCondition WorstOf(const HealthReport& report, const HeadDiagnosis& diagnosis) {
+  const bool lost = report.link && !report.link->connected;
+  return lost ? DeviceCondition::kMissing : diagnosis.Worst();
+}
+
 std::string Row(const char* device, const DeviceDiagnosis& diagnosis, const std::string& numbers) {
   if (diagnosis.condition == DeviceCondition::kMissing)
     return fmt::format("{} missing: {}", device, diagnosis.problem);
@@ -63,15 +112,29 @@ std::string Row(const char* device, const DeviceDiagnosis& diagnosis, const std:
                      diagnosis.problem.empty() ? "" : " (" + diagnosis.problem + ")");
 }
 
-std::string AsText(const HeadHealth& health, const HeadDiagnosis& diagnosis) {
-  return fmt::format("{} | {} | {}", Row("lidar", diagnosis.lidar, Describe(health.lidar)),
-                     Row("camera", diagnosis.camera, Describe(health.camera)),
-                     Row("motor", diagnosis.motor, Describe(health.motor)));
+std::string AsText(const LinkHealth& link) {
+  if (link.connected)
+    return fmt::format(" | link well: round trip {:.0f} ms", 1e3 * link.round_trip_s);
+  return fmt::format(" | link missing: no word for {:.0f} s ({})", link.age_s, link.trouble);
 }
 
-std::string AsJson(double time_s, const HeadHealth& health, const HeadDiagnosis& diagnosis) {
-  nlohmann::ordered_json line{{"time_s", time_s}, {"condition", ToString(diagnosis.Worst())}};
-  line.update(nlohmann::ordered_json::parse(ToJson(health)));
+std::string AsText(const HealthReport& report, const HeadDiagnosis& diagnosis) {
+  const HeadHealth& health = report.devices;
+  return fmt::format("{} | {} | {}{}", Row("lidar", diagnosis.lidar, Describe(health.lidar)),
+                     Row("camera", diagnosis.camera, Describe(health.camera)),
+                     Row("motor", diagnosis.motor, Describe(health.motor)),
+                     report.link ? AsText(*report.link) : "");
+}
+
+std::string AsJson(double time_s, const HealthReport& report, const HeadDiagnosis& diagnosis) {
+  nlohmann::ordered_json line{{"time_s", time_s},
+                              {"condition", ToString(WorstOf(report, diagnosis))}};
+  line.update(nlohmann::ordered_json::parse(ToJson(report.devices)));
+  if (report.link)
+    line["link"] = {{"connected", report.link->connected},
+                    {"age_s", report.link->age_s},
+                    {"round_trip_s", report.link->round_trip_s},
+                    {"problem", report.link->trouble}};
   const auto add = [&](const char* device, const DeviceDiagnosis& found) {
     line[device]["condition"] = ToString(found.condition);
     line[device]["problem"] = found.problem;
@@ -82,7 +145,7 @@ std::string AsJson(double time_s, const HeadHealth& health, const HeadDiagnosis&
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Result<ExitCode> Report(DeviceBench& bench, const HealthArguments& arguments,
+Result<ExitCode> Report(HealthSource& bench, const HealthArguments& arguments,
                         const RunContext& context) {
   FORESIGHT_CHECK(bench.Connect());
   const double start_s = bench.Now();
@@ -92,16 +155,20 @@ Result<ExitCode> Report(DeviceBench& bench, const HealthArguments& arguments,
     bench.Work(start_s + i * kReportPeriod_s, context);
     if (context.Cancelled()) break;
     const double time_s = bench.Now() - start_s;
-    const HeadHealth health = bench.Health();
-    const HeadDiagnosis diagnosis = watch.Update(time_s, health);
-    worst = std::max(worst, diagnosis.Worst());
-    PrintLine(arguments.json ? AsJson(time_s, health, diagnosis) : AsText(health, diagnosis));
+    const HealthReport report = bench.Report();
+    const HeadDiagnosis diagnosis = watch.Update(time_s, report.devices);
+    worst = std::max(worst, WorstOf(report, diagnosis));
+    PrintLine(arguments.json ? AsJson(time_s, report, diagnosis) : AsText(report, diagnosis));
     FORESIGHT_CHECK(CheckOutput());  // nobody reads on
   }
   return worst == DeviceCondition::kWell ? ExitCode::kDone : ExitCode::kNegative;
 }
 
 Result<ExitCode> ShowHealth(const HealthArguments& arguments, const RunContext& context) {
+  if (!arguments.link.head.empty()) {
+    HeadElsewhere head(arguments.link);
+    return Report(head, arguments, context);
+  }
   std::unique_ptr<EmulatedDevices> emulated;
   HeadConfig config;
   if (arguments.emulation.scene.empty()) {
@@ -126,13 +193,15 @@ void AddHealthCommand(CLI::App& app, Invocation& invocation) {
       "--emulate", arguments->emulation.scene,
       "Scene file (YAML): emulate the devices in this process, on real sockets");
   config->excludes(emulate);
+  AddLinkOptions(*command, arguments->link)->excludes(config)->excludes(emulate);
   AddEmulationOptions(*command, emulate, arguments->emulation);
   command->add_option("--seconds", arguments->seconds, "End after so long; default: when stopped")
       ->check(CLI::Range(1.0, 1e9));
   command->add_flag("--json", arguments->json, "One JSON object a second");
   command->callback([&invocation, arguments] {
-    if (arguments->head_config.empty() && arguments->emulation.scene.empty())
-      throw CLI::RequiredError("--head-config or --emulate");
+    if (arguments->head_config.empty() && arguments->emulation.scene.empty() &&
+        arguments->link.head.empty())
+      throw CLI::RequiredError("--head-config, --emulate or --head");
     invocation = [arguments](const RunContext& context) { return ShowHealth(*arguments, context); };
   });
 }

@@ -2,11 +2,12 @@
 #include <limits>
 #include <memory>
 
-#include "app/common/link_arguments.h"
+#include "app/common/connect_head.h"
 #include "app/ctl/command.h"
 #include "app/ctl/head_scan.h"
 #include "core/base/atomic_file.h"
 #include "core/geometry/angles.h"
+#include "hardware/link/client/remote_head.h"
 
 namespace foresight {
 namespace {
@@ -35,7 +36,7 @@ HeadImageOrder OrderFrom(const ImageArguments& arguments, const std::string& sca
 }
 
 Result<ExitCode> Run(const ImageArguments& arguments, const RunContext& /*context*/) {
-  FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, nullptr, "/dev/null/spool"));
+  FORESIGHT_TRY(const auto head, LookAtHead(arguments.link));
   FORESIGHT_TRY(const std::string scan,
                 ChooseScanOfHead(*head, arguments.link.head, arguments.scan));
   FORESIGHT_TRY(const HeadImage image, head->FetchImage(OrderFrom(arguments, scan)));

@@ -29,6 +29,7 @@ int Main(int argc, char** argv) {
   AddHealthCommand(app, invocation);
   AddFetchCommand(app, invocation);
   AddImageCommand(app, invocation);
+  AddStopCommand(app, invocation);
   AddHeadsCommand(app, invocation);
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);

@@ -2,13 +2,14 @@
 #include <memory>
 #include <optional>
 
-#include "app/common/link_arguments.h"
+#include "app/common/connect_head.h"
 #include "app/common/record_scan.h"
 #include "app/common/seed_option.h"
 #include "app/common/simulated_bench.h"
 #include "app/ctl/command.h"
 #include "core/geometry/angles.h"
 #include "hardware/assembly/real_head.h"
+#include "hardware/link/client/remote_head.h"
 
 namespace foresight {
 namespace {
@@ -83,7 +84,7 @@ Status PutCalibrationInForce(SensorHead& head, const std::string& file) {
 /// What has come when this ends early is where foresightctl fetch looks for it.
 Result<ExitCode> ScanOverLink(const ScanCommandArguments& arguments, const RunContext& context) {
   const std::string spool = arguments.out + ".spool";
-  FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, nullptr, spool));
+  FORESIGHT_TRY(const auto head, ConnectHead(arguments.link, HeadUse::kOperate, nullptr, spool));
   FORESIGHT_CHECK(PutCalibrationInForce(*head, arguments.calibration));
   auto scanned = RecordScan(*head, PlanFrom(arguments, {}), arguments.out, arguments.json, context);
   std::error_code not_empty;

@@ -11,6 +11,7 @@
 #include "app/common/run_program.h"
 #include "app/head/listen.h"
 #include "core/base/atomic_file.h"
+#include "core/base/memory.h"
 #include "core/base/version.h"
 #include "core/mission/plan_json.h"
 #include "hardware/assembly/real_head.h"
@@ -149,6 +150,7 @@ int Main(int argc, char** argv) {
 }  // namespace foresight
 
 int main(int argc, char** argv) {
+  foresight::KeepFewArenas();
   try {
     return foresight::Main(argc, argv);
   } catch (const std::exception& error) {

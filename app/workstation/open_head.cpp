@@ -4,8 +4,10 @@
 #include <QDir>
 #include <QFile>
 
+#include "app/common/connect_head.h"
 #include "app/workstation/simulated_stand.h"
 #include "hardware/assembly/real_head.h"
+#include "hardware/link/client/remote_head.h"
 #include "hardware/simulated/simulated_head.h"
 
 namespace foresight {
@@ -59,7 +61,7 @@ Result<OpenedHead> MakeHeadOnScene(const HeadChoice& choice) {
 Result<OpenedHead> OpenRemoteHead(const LinkArguments& link) {
   OpenedHead head;
   head.archive = std::make_shared<MissionArchive>();
-  FORESIGHT_TRY(const auto remote, ConnectHead(link, head.archive));
+  FORESIGHT_TRY(const auto remote, ConnectHead(link, HeadUse::kOperate, head.archive));
   head.mode = remote->Simulated() ? SessionMode::kSimulation : SessionMode::kLive;
   head.head = remote;
   return head;

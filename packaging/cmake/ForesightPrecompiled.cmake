@@ -6,7 +6,16 @@ if(FORESIGHT_FUZZ)
   set(FORESIGHT_PRECOMPILED OFF)  # a few files only, by another compiler
 endif()
 
+# Three quarters of the time that a command or a test took to compile went into making it fast, and
+# nothing in it needs to be: what takes time is in the libraries.
+function(foresight_compile_quickly target kind)
+  if(kind STREQUAL command_line OR kind STREQUAL test)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+
 function(foresight_precompiled target kind)
+  foresight_compile_quickly(${target} ${kind})
   if(NOT FORESIGHT_PRECOMPILED)
     return()
   endif()
@@ -25,6 +34,7 @@ function(foresight_precompiled target kind)
     elseif(kind STREQUAL test)
       target_link_libraries(${owner} PRIVATE GTest::gmock GTest::gtest)
     endif()
+    foresight_compile_quickly(${owner} ${kind})
     target_precompile_headers(${owner} PRIVATE
       ${PROJECT_SOURCE_DIR}/packaging/cmake/precompiled/${kind}.h)
   endif()

@@ -21,13 +21,14 @@ using SteadyClock = std::chrono::steady_clock;
 
 enum class Transport { kMutualTls, kPlaintext };
 
-/// Sends as many bytes as the station gives credit for, in chunks of as many as it wishes; greets.
+/// Sends as many bytes as the station gives credit for, in chunks of as many as it prefers;
+/// identifies itself.
 class SendingHead : public link::SensorHead::Service {
  public:
   explicit SendingHead(CertificateGate* gate) : gate_(gate) {}
 
-  grpc::Status Greet(grpc::ServerContext* context, const link::GreetRequest*,
-                     link::GreetReply* reply) override {
+  grpc::Status Identify(grpc::ServerContext* context, const link::IdentifyRequest*,
+                        link::IdentifyReply* reply) override {
     const auto peer = CheckPeer(*context->auth_context(), gate_);
     if (!peer) return {grpc::StatusCode::UNAUTHENTICATED, peer.error().message};
     reply->set_your_name(peer->name);
@@ -41,7 +42,7 @@ class SendingHead : public link::SensorHead::Service {
     link::Chunk chunk;
     while (stream->Read(&request)) {
       chunk.set_bytes(
-          std::string(static_cast<std::size_t>(request.start().wishes().bytes_per_s()), 'x'));
+          std::string(static_cast<std::size_t>(request.start().preferences().bytes_per_s()), 'x'));
       const auto size = static_cast<std::int64_t>(chunk.bytes().size());
       for (std::int64_t left = request.start().credit_bytes(); left > 0; left -= size)
         if (!stream->Write(chunk)) return grpc::Status::OK;
@@ -101,7 +102,7 @@ void Stream(benchmark::State& state, Transport transport, std::int64_t chunk_byt
   const auto stream = pair.stub().Transfer(&context);
   link::TransferRequest request;
   request.mutable_start()->set_credit_bytes(kBurst);
-  request.mutable_start()->mutable_wishes()->set_bytes_per_s(chunk_bytes);
+  request.mutable_start()->mutable_preferences()->set_bytes_per_s(chunk_bytes);
   link::Chunk chunk;
   for (auto _ : state) {
     if (!stream->Write(request)) return state.SkipWithError("the stream broke");
@@ -116,11 +117,11 @@ void Stream(benchmark::State& state, Transport transport, std::int64_t chunk_byt
 void RoundTrip(benchmark::State& state, Transport transport) {
   Pair pair(transport);
   std::vector<double> times_ms;
-  link::GreetReply reply;
+  link::IdentifyReply reply;
   for (auto _ : state) {
     const auto begin = SteadyClock::now();
     grpc::ClientContext context;
-    const grpc::Status status = pair.stub().Greet(&context, {}, &reply);
+    const grpc::Status status = pair.stub().Identify(&context, {}, &reply);
     if (!status.ok()) return state.SkipWithError(status.error_message().c_str());
     times_ms.push_back(
         std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count());

@@ -43,7 +43,7 @@ struct EmulatedHead {
     config.camera.address = devices->camera().address();
     config.camera.frame_timeout_s = 10.0;  // the image is rendered, on a busy machine
     if (change) change(config);
-    head = std::make_unique<CaptureHead>(MakeDrivers(config, devices->clock()), config.rig,
+    head = std::make_shared<CaptureHead>(MakeDrivers(config, devices->clock()), config.rig,
                                          config.capture);
   }
 
@@ -81,7 +81,7 @@ struct EmulatedHead {
 
   std::unique_ptr<EmulatedDevices> devices;
   HeadConfig config;
-  std::unique_ptr<CaptureHead> head;  ///< last: goes first
+  std::shared_ptr<SensorHead> head;  ///< last: goes first
 };
 
 }  // namespace foresight

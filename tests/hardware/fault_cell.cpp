@@ -4,7 +4,9 @@
 #include <future>
 #include <regex>
 
+#include "hardware/link/chunks/scan_digest.h"
 #include "tests/hardware/emulated_head.h"
+#include "tests/hardware/link/head_bench.h"
 
 namespace foresight {
 namespace {
@@ -37,11 +39,17 @@ ScanPlan Plan() {
 /// One head's way through one fault.
 class Cell {
  public:
-  Cell(const HeadFault& fault, HeadPhase phase, const DeviceFaults& from_power_on = {})
+  Cell(const HeadFault& fault, HeadPhase phase, HeadAccess access,
+       const DeviceFaults& from_power_on = {})
       : fault_(fault),
         phase_(phase),
         bench_(std::make_shared<const Scene>(TinyWorld()->scene()), SmallDevices(from_power_on),
-               HastyConfig) {}
+               HastyConfig) {
+    if (access == HeadAccess::kDirect) return;
+    link_ = std::make_unique<HeadBench>(bench_.head);
+    bench_.head = link_->Connect().value();
+  }
+  ~Cell() { bench_.head.reset(); }  // the station goes before the head's server
 
   FaultOutcome Run() {
     ExecuteWithFault();
@@ -82,6 +90,13 @@ class Cell {
     const HeadState state = State();
     return state == HeadState::kReady || state == HeadState::kFault ||
            state == HeadState::kDisconnected;
+  }
+
+  /// Not what a scan before had.
+  bool SweepsWithLines() const {
+    constexpr int kSome = 10;
+    const HeadStatus status = bench_.head->Status();
+    return status.state == HeadState::kSweeping && status.lines >= kSome;
   }
 
   void BeginFault() {
@@ -141,7 +156,6 @@ class Cell {
   /// Executes the plan; begins the fault on the way where that is the phase.
   void Scan() {
     const auto watch = std::make_shared<ScanWatch>();
-    if (phase_ == HeadPhase::kSweeping) watch->action = [this] { BeginFault(); };
     assembler_ = std::make_shared<ScanAssembler>();
     const auto sinks =
         std::make_shared<ScanFanout>(std::vector<std::shared_ptr<ScanSink>>{assembler_, watch});
@@ -150,6 +164,8 @@ class Cell {
       refused_ = started.error().message;
       return;
     }
+    if (phase_ == HeadPhase::kSweeping && WaitFor([this] { return SweepsWithLines() || Idle(); }))
+      BeginFault();
     if (phase_ == HeadPhase::kStopping &&
         WaitFor([this] { return State() == HeadState::kStopping || Idle(); }))
       BeginFault();
@@ -165,6 +181,7 @@ class Cell {
     if (outcome_.effects == 0 && std::ranges::count(fault_.unmet, phase_) == 0)
       Violation("the fault had no effect");
     if (assembler_) JudgeScan(*assembler_->Snapshot());
+    if (assembler_ && link_) JudgeTransfer(*assembler_->Snapshot());
     if (status.state == HeadState::kFault) {
       if (status.message.find('\n') != std::string::npos || status.message.empty())
         Violation("the message is no sentence: " + status.message);
@@ -197,6 +214,16 @@ class Cell {
           fmt::format("{} lines and {} lost ones make no complete scan", scan.lines.size(), lost));
   }
 
+  /// A scan that the head did not begin is at the station alone, without a line.
+  void JudgeTransfer(const foresight::Scan& scan) {
+    const auto at_head = link_->shelf().Snapshot(scan.uuid);
+    if (!at_head) {
+      if (!scan.lines.empty()) Violation("not on the head's disk: " + at_head.error().message);
+    } else if (ScanDigest(scan) != ScanDigest(**at_head)) {
+      Violation("the station's scan is not the head's");
+    }
+  }
+
   /// The same head, the same emulators, as soon as the fault is over.
   void Recover() {
     std::this_thread::sleep_until(over_at_);
@@ -206,6 +233,7 @@ class Cell {
     if (scan->state != ScanState::kComplete) Violation("did not recover: " + scan->reason);
     if (scan->frames.size() != 1) Violation("no image after the recovery");
     if (bench_.head->Status().lost_lines != 0) Violation("lines are lost after the recovery");
+    if (link_) JudgeTransfer(*scan);
   }
 
   /// The first device that a message names.
@@ -228,6 +256,7 @@ class Cell {
   const HeadFault& fault_;
   const HeadPhase phase_;
   EmulatedHead bench_;
+  std::unique_ptr<HeadBench> link_;  ///< where the head is watched over a link
   std::shared_ptr<ScanAssembler> assembler_;
   std::string refused_;
   std::jthread beside_;  ///< of the fault
@@ -258,14 +287,15 @@ const char* ToString(HeadPhase phase) {
   return "unknown";
 }
 
-FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase) {
-  return Cell(fault, phase).Run();
+FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase, HeadAccess access) {
+  return Cell(fault, phase, access).Run();
 }
 
 FaultOutcome RunPlannedFault(const PlannedFault& fault) {
   const HeadFault nothing_more{
       fault.device, fault.name, [](EmulatedDevices&) { return std::jthread(); }, 0.0, {}, {}};
-  return Cell(nothing_more, HeadPhase::kConnecting, fault.plan).RunWithoutRecovery(fault.harmless);
+  return Cell(nothing_more, HeadPhase::kConnecting, HeadAccess::kDirect, fault.plan)
+      .RunWithoutRecovery(fault.harmless);
 }
 
 std::vector<std::pair<const PlannedFault*, FaultOutcome>> RunPlannedFaults() {

@@ -19,6 +19,9 @@ const char* ToString(HeadPhase phase);
 /// one the first data packets of the first two images are lost, and come when asked for again.
 inline constexpr std::uint64_t kLossyCameraSeed = 2234;
 
+/// Where the scan is watched from: beside the head, or at the far end of a link on loopback.
+enum class HeadAccess { kDirect, kLinked };
+
 /// Something that goes wrong with one device while a head runs.
 struct HeadFault {
   std::string device;  ///< "lidar", "motor" or "camera"
@@ -58,8 +61,10 @@ struct FaultOutcome {
 /// Executes a small scan with the real drivers on emulated devices, lets the fault begin in
 /// `phase`, and looks whether the fault had an effect, the motor ends at rest, the scan is kept and
 /// marked, a fault is told in one sentence that names its device, and the same head executes a
-/// complete scan once the fault is over. Takes some ten seconds, most of them waiting.
-FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase);
+/// complete scan once the fault is over. Over a link also whether each scan that began is on the
+/// head's disk, bit by bit as the station has it. Takes some ten seconds, most of them waiting.
+FaultOutcome RunFaultCell(const HeadFault& fault, HeadPhase phase,
+                          HeadAccess access = HeadAccess::kDirect);
 /// The same with a fault from power-on and without what comes after: homes, executes, and looks.
 FaultOutcome RunPlannedFault(const PlannedFault& fault);
 /// All of PlannedFaults(), several at once.

@@ -12,8 +12,8 @@ namespace {
 std::string Row(const HeadFault& fault) {
   std::vector<std::future<FaultOutcome>> outcomes;
   for (int i = 0; i < kHeadPhases; ++i)
-    outcomes.push_back(
-        std::async(std::launch::async, RunFaultCell, std::cref(fault), static_cast<HeadPhase>(i)));
+    outcomes.push_back(std::async(std::launch::async, RunFaultCell, std::cref(fault),
+                                  static_cast<HeadPhase>(i), HeadAccess::kDirect));
   std::string row = fmt::format("| {} | {} |", fault.device, fault.name);
   for (auto& future : outcomes) {
     const FaultOutcome outcome = future.get();

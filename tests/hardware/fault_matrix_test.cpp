@@ -20,10 +20,12 @@ namespace {
 class FaultMatrix : public testing::TestWithParam<HeadFault> {};
 
 /// The states run side by side: most of their time is waiting.
-void ExpectWellIn(const std::vector<HeadPhase>& phases, const HeadFault& fault) {
+void ExpectWellIn(const std::vector<HeadPhase>& phases, const HeadFault& fault,
+                  HeadAccess access = HeadAccess::kDirect) {
   std::vector<std::future<FaultOutcome>> outcomes;
   for (const HeadPhase phase : phases)
-    outcomes.push_back(std::async(std::launch::async, RunFaultCell, std::cref(fault), phase));
+    outcomes.push_back(
+        std::async(std::launch::async, RunFaultCell, std::cref(fault), phase, access));
   for (std::size_t i = 0; i < phases.size(); ++i) {
     const FaultOutcome outcome = outcomes[i].get();
     for (const std::string& violation : outcome.violations)
@@ -42,6 +44,12 @@ TEST_P(FaultMatrix, TheMotorStopsTheScanIsKeptAndTheHeadRecoversInEveryState) {
 
 TEST_P(FaultMatrix, TheHeadRecoversAlsoFromAFaultBeforeItIsConnectedOrInFault) {
   ExpectWellIn({HeadPhase::kDisconnected, HeadPhase::kFault}, GetParam());
+}
+
+TEST_P(FaultMatrix, TheSameHoldsAtTheFarEndOfALink) {
+  ExpectWellIn({HeadPhase::kDisconnected, HeadPhase::kConnecting, HeadPhase::kHoming,
+                HeadPhase::kReady, HeadPhase::kSweeping, HeadPhase::kStopping, HeadPhase::kFault},
+               GetParam(), HeadAccess::kLinked);
 }
 
 TEST(HeadFaults, AreMetInMostStates) {

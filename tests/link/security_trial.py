@@ -88,7 +88,7 @@ class Caller:
         self.messages, self.channel = messages, channel
         service = messages.DESCRIPTOR.services_by_name["SensorHead"]
         self.methods = {method.name: method for method in service.methods}
-        self.version = [("foresight-protocol", str(self.call("Greet", messages.GreetRequest(protocol=1)).protocol))]
+        self.version = [("foresight-protocol", str(self.call("Identify", messages.IdentifyRequest(protocol=1)).protocol))]
 
     def call(self, name, request, timeout=5.0, raw=None):
         """`raw`: these bytes in place of the request."""
@@ -179,7 +179,7 @@ def no_certificate(trial):
     credentials = grpc.ssl_channel_credentials(read(trial.head.keys("trial") / "ca.crt"))
     channel = grpc.secure_channel(f"127.0.0.1:{trial.head.port}", credentials)
     code = raw_code(channel, trial)
-    return [] if code == "UNAVAILABLE" else [f"Greet: {code}"], {"code": code}
+    return [] if code == "UNAVAILABLE" else [f"Identify: {code}"], {"code": code}
 
 
 def foreign_ca(trial):
@@ -187,18 +187,58 @@ def foreign_ca(trial):
     run(trial.arguments.bin / "foresightctl", "pki", "init", "--pki", other)
     run(trial.arguments.bin / "foresightctl", "pki", "operator", "anna", "--pki", other)
     code = raw_code(trial.head.channel(other / "machines/anna"), trial)
-    return [] if code == "UNAVAILABLE" else [f"Greet: {code}"], {"code": code}
+    return [] if code == "UNAVAILABLE" else [f"Identify: {code}"], {"code": code}
 
 
 def head_as_operator(trial):
     code = raw_code(trial.head.channel("trial"), trial)
-    return [] if code == "UNAVAILABLE" else [f"Greet: {code}"], {"code": code}
+    return [] if code == "UNAVAILABLE" else [f"Identify: {code}"], {"code": code}
+
+
+def signed_by_openssl(trial, name, days):
+    """A folder with an operator's keys and a certificate of the head's own CA for so many days, made by openssl."""
+    run(trial.arguments.bin / "foresightctl", "pki", "operator", name, "--pki", trial.head.ca)
+    folder = trial.head.keys(name)
+    certificate, request = folder / "link.crt", folder / "request"
+    run("openssl", "x509", "-x509toreq", "-in", certificate, "-signkey", folder / "link.key", "-copy_extensions", "copyall",
+        "-out", request)
+    run("openssl", "x509", "-req", "-in", request, "-CA", trial.head.ca / "ca.crt", "-CAkey", trial.head.ca / "ca.key",
+        "-days", str(days), "-copy_extensions", "copyall", "-out", certificate)
+    return folder
+
+
+def expired(trial):
+    """Yesterday's certificate; one made the same way for today is let in, so the date alone is refused."""
+    today = raw_code(trial.head.channel(signed_by_openssl(trial, "today", 1)), trial)
+    yesterday = raw_code(trial.head.channel(signed_by_openssl(trial, "yesterday", -1)), trial)
+    faults = [] if today == "OK" else [f"one that is good today: {today}"]
+    if yesterday != "UNAVAILABLE":
+        faults.append(f"one that ended yesterday: {yesterday}")
+    return faults, {"today": today, "yesterday": yesterday}
+
+
+def revoked(trial):
+    """While the head runs: the connection that is open, and a new one."""
+    ctl = trial.arguments.bin / "foresightctl"
+    run(ctl, "pki", "operator", "mallory", "--pki", trial.head.ca)
+    stolen = trial.folder / "stolen"
+    shutil.copytree(trial.head.keys("mallory"), stolen)
+    mallory = Caller(trial.messages, trial.head.channel(stolen))
+    before = mallory.code("ListScans", trial.messages.ListScansRequest())
+    run(ctl, "pki", "revoke", "mallory", "--pki", trial.head.ca)
+    shutil.copy(trial.head.ca / "ca.crl", trial.head.keys("trial") / "ca.crl")
+    same = mallory.code("ListScans", trial.messages.ListScansRequest())
+    anew = raw_code(trial.head.channel(stolen), trial)
+    faults = [f"{what}: {code}" for what, code, right in
+              (("before", before, "OK"), ("the open connection", same, "UNAUTHENTICATED"), ("a new one", anew, "UNAVAILABLE"))
+              if code != right]
+    return faults, {"before": before, "open_connection": same, "new_connection": anew}
 
 
 def raw_code(channel, trial):
-    call = channel.unary_unary("/foresight.link.SensorHead/Greet", request_serializer=bytes)
+    call = channel.unary_unary("/foresight.link.SensorHead/Identify", request_serializer=bytes)
     try:
-        call(trial.messages.GreetRequest(protocol=1).SerializeToString(), timeout=5)
+        call(trial.messages.IdentifyRequest(protocol=1).SerializeToString(), timeout=5)
         return "OK"
     except grpc.RpcError as error:
         return error.code().name
@@ -235,9 +275,9 @@ def replay(trial):
     """One command twice, then late, then without the lease and with another's."""
     messages, anna = trial.messages, trial.operator
     control = anna.call("TakeControl", messages.ControlRequest())
-    greeting = anna.call("Greet", messages.GreetRequest(protocol=int(anna.version[0][1])))
+    identity = anna.call("Identify", messages.IdentifyRequest(protocol=int(anna.version[0][1])))
     command = messages.Command(command_id="c0ffee00-0000-4000-8000-000000000003", control_token=control.token,
-                               boot_id=greeting.boot_id, void_after_s=greeting.desk_time_s + 30)
+                               boot_id=identity.boot_id, void_after_s=identity.desk_time_s + 30)
     command.end_scan.scan_id = "none"
     first, again = anna.call("Execute", command), anna.call("Execute", command)
     faults = [] if again.repeated and not first.repeated else ["a repeat was carried out"]
@@ -365,7 +405,7 @@ def thousand_connections(trial):
     return faults, {"connections": len(peers), "open_files": open_files, "newcomer_s": round(newcomer, 3)}
 
 
-ATTACKS = [port_scan, no_certificate, foreign_ca, head_as_operator, observer_acts, replay, oversized, fuzzed, slow_loris,
+ATTACKS = [port_scan, no_certificate, foreign_ca, expired, revoked, head_as_operator, observer_acts, replay, oversized, fuzzed, slow_loris,
            thousand_connections]
 
 

@@ -203,6 +203,65 @@ TEST_F(LinkedPrograms, ADeathLosesNothingAndDoublesNothing) {
   EXPECT_FALSE(std::filesystem::exists(mission + ".spool"));
 }
 
+TEST_F(LinkedPrograms, StopEndsASweepOfWhoeverHasControl) {
+  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--plaintext",
+                                       "--scans", folder / "scans", "--json"});
+  const std::string address = AddressOf(head);
+  ASSERT_NE(address, "");
+  RunningProgram station(FORESIGHTCTL, {"scan", "--head", address, "--plaintext", "--from", "-30",
+                                        "--to", "80", "--out", folder / "station.foresight"});
+  ASSERT_TRUE(WaitUntil([&] {
+    const auto scans = ScansOf(OnlyScanOfHead());
+    return !scans.empty() && scans[0]["lines"] >= 4;
+  }));
+  const ProgramResult stopped =
+      RunProgram(FORESIGHTCTL, {"stop", "--head", address, "--plaintext", "--json"});
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.errors;
+  EXPECT_EQ(nlohmann::json::parse(stopped.output).at("stopped"), true);
+  EXPECT_NE(station.Wait().exit_code, 0);
+  const auto scans = ScansOf(OnlyScanOfHead());
+  ASSERT_EQ(scans.size(), 1u);
+  EXPECT_EQ(scans[0]["state"], "aborted");
+  EXPECT_LT(scans[0]["lines"], 400);
+}
+
+/// Neither takes control from whoever has it.
+TEST_F(LinkedPrograms, HealthAndACalibrationSessionComeOverTheLink) {
+  RunningProgram head(
+      FORESIGHT_HEAD,
+      {"--emulate", FORESIGHT_SOURCE_DIR "/resources/scenes/calibration.yaml", "--listen",
+       "127.0.0.1:0", "--plaintext", "--scans", folder / "scans", "--json"});
+  const std::vector<std::string> link = {"--head", AddressOf(head), "--plaintext"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), link.begin(), link.end());
+    return RunProgram(FORESIGHTCTL, arguments);
+  };
+  const ProgramResult recorded = run(
+      {"calibrate", "record", folder / "session", "--stops", "0:10:10", "--lines", "2", "--json"});
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.errors;
+  const auto tally = nlohmann::json::parse(recorded.output);
+  EXPECT_EQ(tally.at("stops"), 2);
+  EXPECT_EQ(tally.at("images"), 2);
+  EXPECT_EQ(tally.at("sweeps"), 1);
+  EXPECT_FALSE(std::filesystem::exists(folder / "session.spool"));
+
+  const ProgramResult health = run({"health", "--seconds", "1", "--json"});
+  ASSERT_EQ(health.exit_code, 0) << health.errors;
+  const auto line = nlohmann::json::parse(health.output);
+  EXPECT_EQ(line.at("condition"), "well");
+  EXPECT_EQ(line.at("link").at("connected"), true);
+  head.Signal(SIGTERM);
+  EXPECT_EQ(head.Wait().exit_code, 0);
+}
+
+TEST_F(LinkedPrograms, StopSaysThatNobodyAnswers) {
+  const ProgramResult stopped = RunProgram(
+      "/usr/bin/timeout",
+      {"--signal=INT", "3", FORESIGHTCTL, "stop", "--head", "127.0.0.1:1", "--plaintext"});
+  EXPECT_THAT(stopped.errors, HasSubstr("the head has not answered the stop"));
+  EXPECT_EQ(stopped.ErrorLines(), 1) << stopped.errors;
+}
+
 TEST_F(LinkedPrograms, WithoutEncryptionOnlyThisComputerIsServed) {
   const ProgramResult head = RunProgram(
       FORESIGHT_HEAD,

@@ -5,6 +5,8 @@
 
 #include <QFile>
 #include <QTemporaryDir>
+#include <atomic>
+#include <thread>
 
 #include "core/sensor/rig_id.h"
 #include "tests/ui/board_pictures.h"
@@ -199,7 +201,21 @@ TEST_F(RigVersionTest, TheHeadTakesTheRigAndGetsTheOldOneBackInOneAction) {
   again.SetFolder(folder.path());
   ASSERT_TRUE(again.WhyNotRollBack().isEmpty()) << again.WhyNotRollBack().toStdString();
   again.rollBack();
+  ASSERT_TRUE(WaitFor([&] { return !again.Busy(); }));
   EXPECT_EQ(RigId(head->Rig()), old_id);
+}
+
+/// Over a link the head's answer takes seconds.
+TEST_F(RigVersionTest, TheWindowDoesNotWaitForTheHeadsAnswer) {
+  ASSERT_TRUE(Save());
+  std::atomic<bool> in_the_windows_thread{true};
+  head->on_rig = [&, window = std::this_thread::get_id()] {
+    in_the_windows_thread = std::this_thread::get_id() == window;
+  };
+  rig->putInForce();
+  ASSERT_TRUE(WaitFor([&] { return !rig->Busy(); }));
+  EXPECT_FALSE(in_the_windows_thread);
+  EXPECT_NE(RigId(head->Rig()), old_id);
 }
 
 TEST_F(RigVersionTest, AHeadThatIsBusyKeepsItsRig) {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <mutex>
 
 #include "hardware/api/sensor_head.h"
 
@@ -14,11 +15,16 @@ class FakeHead : public SensorHead {
 
   std::string Describe() const override { return "fake"; }
   HeadStatus Status() const override { return status_; }
-  SensorRig Rig() const override { return rig_; }
+  SensorRig Rig() const override {
+    const std::lock_guard lock(rig_mutex_);
+    return rig_;
+  }
   foresight::Status SetRig(const SensorRig& rig) override {
     FORESIGHT_CHECK(rig.Check());
     if (status_.state != HeadState::kReady && status_.state != HeadState::kDisconnected)
       return Fail(ErrorCode::kState, "fake head: it is {}", ToString(status_.state));
+    if (on_rig) on_rig();
+    const std::lock_guard lock(rig_mutex_);
     rig_ = rig;
     return {};
   }
@@ -125,8 +131,11 @@ class FakeHead : public SensorHead {
   bool Stopped() const { return stopped_; }
   int TimesOperatorSeen() const { return operator_seen_; }
 
+  std::function<void()> on_rig;  ///< before another rig is taken
+
  private:
-  SensorRig rig_;
+  mutable std::mutex rig_mutex_;
+  SensorRig rig_;  ///< guarded by rig_mutex_: a window gives it from a task
   HeadStatus status_;
   ScanPlan plan_;
   std::shared_ptr<ScanSink> sink_;

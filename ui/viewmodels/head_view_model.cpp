@@ -206,15 +206,21 @@ QVector<DeviceRow> HeadViewModel::DescribeDevices() const {
   return rows;
 }
 
-Status HeadViewModel::SetRig(const SensorRig& rig) {
-  FORESIGHT_CHECK(head_->SetRig(rig));
-  if (const std::string id = RigId(head_->Rig()); id != RigId(rig))
-    return Fail(ErrorCode::kInvalidInput,
-                "the head was given the rig {} and says that it has {}; put the rig in force again",
-                RigId(rig).substr(0, 8), id.substr(0, 8));
+std::function<Status()> HeadViewModel::RigChange(const SensorRig& rig) const {
+  return [head = head_, rig]() -> Status {
+    FORESIGHT_CHECK(head->SetRig(rig));
+    if (const std::string id = RigId(head->Rig()); id != RigId(rig))
+      return Fail(
+          ErrorCode::kInvalidInput,
+          "the head was given the rig {} and says that it has {}; put the rig in force again",
+          RigId(rig).substr(0, 8), id.substr(0, 8));
+    return {};
+  };
+}
+
+void HeadViewModel::ShowRig() {
   Q_EMIT statusChanged();
   Q_EMIT planChanged();  // what a plan gives depends on the camera
-  return {};
 }
 
 QString HeadViewModel::RigText() const {

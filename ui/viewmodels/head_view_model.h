@@ -78,9 +78,12 @@ class HeadViewModel : public QObject {
 
   /// The calibration in force on the head.
   SensorRig Rig() const { return head_->Rig(); }
-  /// Another one from the next scan on, read back and compared. Fails with kState while the head is
-  /// busy, with kInvalidInput for one of another head and where the head keeps another one.
-  Status SetRig(const SensorRig& rig);
+  /// Puts another one in force from the next scan on, reads it back and compares. Waits for the
+  /// head's answer, which takes seconds over a link: for a task. Fails with kState while the head
+  /// is busy, with kInvalidInput for one of another head and where the head keeps another one.
+  std::function<Status()> RigChange(const SensorRig& rig) const;
+  /// The head has another rig: shows what depends on it.
+  void ShowRig();
   /// The rig in force: its name, short id and camera model.
   QString RigText() const;
 

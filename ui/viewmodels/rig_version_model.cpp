@@ -120,7 +120,7 @@ QString RigVersionModel::WhyNotPutInForce() const {
     return tr("The head is %1; it takes a rig while it is ready.")
         .arg(QString::fromUtf8(ToString(head_->LastStatus().state)));
   if (RigId(*saved_) == RigId(head_->Rig())) return tr("This rig is in force.");
-  return Busy() ? tr("A rig is being written.") : QString();
+  return Busy() ? tr("A rig is being written or put in force.") : QString();
 }
 
 QString RigVersionModel::WhyNotRollBack() const {
@@ -129,7 +129,7 @@ QString RigVersionModel::WhyNotRollBack() const {
     return tr("The head is %1; it takes a rig while it is ready.")
         .arg(QString::fromUtf8(ToString(head_->LastStatus().state)));
   if (RigId(*before_) == RigId(head_->Rig())) return tr("The rig before is in force.");
-  return {};
+  return Busy() ? tr("A rig is being written or put in force.") : QString();
 }
 
 void RigVersionModel::putInForce() {
@@ -164,14 +164,22 @@ void RigVersionModel::rollBack() {
 }
 
 void RigVersionModel::Give(const SensorRig& rig, const QString& doing) {
-  if (const Status given = head_->SetRig(rig); !given)
-    session_->Report(NoticeOf(doing, given.error()));
-  else
-    session_->Report(
-        {Notice::Level::kInfo,
-         tr("The rig %1 is in force on the head; it was read back and compared.").arg(ShortId(rig)),
-         tr("The next scan has it; scans that are there keep theirs.")});
-  Q_EMIT changed();
+  const auto give = [change = head_->RigChange(rig)](const RunContext&) -> Result<bool> {
+    FORESIGHT_CHECK(change());
+    return true;
+  };
+  writer_.Run<bool>(doing, give, [this, rig, doing](const Result<bool>& given) {
+    if (!given) {
+      session_->Report(NoticeOf(doing, given.error()));
+    } else {
+      head_->ShowRig();
+      session_->Report({Notice::Level::kInfo,
+                        tr("The rig %1 is in force on the head; it was read back and compared.")
+                            .arg(ShortId(rig)),
+                        tr("The next scan has it; scans that are there keep theirs.")});
+    }
+    Q_EMIT changed();
+  });
 }
 
 }  // namespace foresight

@@ -1,12 +1,12 @@
 #include "ui/viewmodels/task_queue.h"
 
-#include <malloc.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <thread>
 
+#include "core/base/memory.h"
 #include "ui/viewmodels/task_runner.h"
 
 namespace foresight {
@@ -53,7 +53,7 @@ void TaskQueue::Discard(std::shared_ptr<const void> value) {
 }
 
 void TaskQueue::GiveMemoryBack() {
-  Enqueue([] { malloc_trim(0); });
+  Enqueue([] { foresight::GiveMemoryBack(); });
 }
 
 void TaskQueue::cancel(quint64 id) {

@@ -43,7 +43,7 @@ std::optional<ItemId> BurstCarousel::NextToEncode() const {
   ChunkSet done = have_;
   done.Add(left_out_);
   for (const auto& [id, parts] : encoded_) done.Add(id);
-  return NextItem(source_, counts_, done, wishes_);
+  return NextItem(source_, counts_, done, preferences_);
 }
 
 void BurstCarousel::Add(const ItemId& id, std::vector<Chunk> parts) {
@@ -59,7 +59,7 @@ std::shared_ptr<const Chunk> BurstCarousel::Next() {
       if (!have_.HasPart(chunk.id, chunk.item_crc)) return {open_, &chunk};
     }
     open_.reset();
-    const auto id = NextItem(source_, counts_, round_, wishes_);
+    const auto id = NextItem(source_, counts_, round_, preferences_);
     if (!id) return nullptr;
     round_.Add(*id);
     const auto found = encoded_.find(*id);

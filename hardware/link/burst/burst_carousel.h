@@ -22,7 +22,7 @@ class BurstCarousel {
 
   /// The scan as it is now; of the same uuid.
   void Update(ScanToSend source);
-  void SetWishes(TransferWishes wishes) { wishes_ = std::move(wishes); }
+  void SetPreferences(TransferPreferences preferences) { preferences_ = std::move(preferences); }
   /// What the station has now. It replaces what it had: what it could not read comes again.
   void SetHave(ChunkSet have);
 
@@ -45,7 +45,7 @@ class BurstCarousel {
   ScanToSend source_;
   ItemCounts counts_;
   const std::size_t most_bytes_;
-  TransferWishes wishes_;
+  TransferPreferences preferences_;
   ChunkSet have_;
   ChunkSet left_out_;
   ChunkSet round_;  ///< what the station has, and what this round sent or had to pass over

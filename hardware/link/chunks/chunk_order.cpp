@@ -107,11 +107,11 @@ std::optional<ItemId> InReversedOrder(ChunkKind kind, std::int64_t first, std::i
 }
 
 std::optional<ItemId> NextBlock(ChunkKind kind, const ScanToSend& source, const ItemCounts& counts,
-                                const ChunkSet& done, const TransferWishes& wishes) {
+                                const ChunkSet& done, const TransferPreferences& preferences) {
   const std::int64_t last = counts[kind] - 1;
   if (done.Count(kind) > last) return std::nullopt;
-  if (wishes.lines_first) {
-    const NumberSet::Interval region = BlocksOfRegion(source.scan, *wishes.lines_first);
+  if (preferences.lines_first) {
+    const NumberSet::Interval region = BlocksOfRegion(source.scan, *preferences.lines_first);
     if (auto id = InReversedOrder(kind, region.first, std::min(region.last, last), done)) return id;
   }
   return InReversedOrder(kind, 0, last, done);
@@ -135,16 +135,16 @@ std::optional<ItemId> NextSmallView(const ItemCounts& counts, const ChunkSet& do
 }
 
 std::optional<ItemId> NextFor(ChunkKind kind, const ScanToSend& source, const ItemCounts& counts,
-                              const ChunkSet& done, const TransferWishes& wishes) {
+                              const ChunkSet& done, const TransferPreferences& preferences) {
   if (kind == ChunkKind::kThumbnail) return NextSmallView(counts, done);
   if (kind == ChunkKind::kRanges || kind == ChunkKind::kIntensities)
-    return NextBlock(kind, source, counts, done, wishes);
+    return NextBlock(kind, source, counts, done, preferences);
   return NextOfKind(kind, counts, done);
 }
 
 std::optional<ItemId> NextRequestedImage(const ItemCounts& counts, const ChunkSet& done,
-                                         const TransferWishes& wishes) {
-  for (const std::int64_t position : wishes.images_first) {
+                                         const TransferPreferences& preferences) {
+  for (const std::int64_t position : preferences.images_first) {
     const ItemId id{ChunkKind::kImage, position};
     if (position >= 0 && position < counts[id.kind] && !done.Has(id)) return id;
   }
@@ -154,22 +154,22 @@ std::optional<ItemId> NextRequestedImage(const ItemCounts& counts, const ChunkSe
 }  // namespace
 
 std::optional<ItemId> NextItem(const ScanToSend& source, const ItemCounts& counts,
-                               const ChunkSet& done, const TransferWishes& wishes) {
+                               const ChunkSet& done, const TransferPreferences& preferences) {
   for (const ChunkKind kind : kOrder) {
     if (kind == ChunkKind::kTrack)
-      if (auto id = NextRequestedImage(counts, done, wishes)) return id;
-    if (!Travels(kind, wishes.bytes_per_s)) continue;
-    if (auto id = NextFor(kind, source, counts, done, wishes)) return id;
+      if (auto id = NextRequestedImage(counts, done, preferences)) return id;
+    if (!Travels(kind, preferences.bytes_per_s)) continue;
+    if (auto id = NextFor(kind, source, counts, done, preferences)) return id;
   }
   return std::nullopt;
 }
 
 bool MayTravel(const ItemId& id, const ItemCounts& counts, const ChunkSet& done,
-               const TransferWishes& wishes) {
+               const TransferPreferences& preferences) {
   if (!IsLeft(id, counts, done)) return false;
-  if (Travels(id.kind, wishes.bytes_per_s)) return true;
+  if (Travels(id.kind, preferences.bytes_per_s)) return true;
   return id.kind == ChunkKind::kImage &&
-         std::count(wishes.images_first.begin(), wishes.images_first.end(), id.item) > 0;
+         std::count(preferences.images_first.begin(), preferences.images_first.end(), id.item) > 0;
 }
 
 }  // namespace foresight

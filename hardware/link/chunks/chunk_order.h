@@ -10,7 +10,7 @@
 namespace foresight {
 
 /// What the station wants of a transfer, besides all of it.
-struct TransferWishes {
+struct TransferPreferences {
   /// Of the path; 0 = not known, as fast as it goes.
   double bytes_per_s = 0.0;
   /// seq of the lines of the region of interest, first and last.
@@ -18,7 +18,7 @@ struct TransferWishes {
   /// Positions of frames whose lossless image goes before lines.
   std::vector<std::int64_t> images_first;
 
-  bool operator==(const TransferWishes&) const = default;
+  bool operator==(const TransferPreferences&) const = default;
 };
 
 /// A path is thin below this rate: only header, rig, end, coarse clouds, thumbnails and what
@@ -30,16 +30,16 @@ inline constexpr double kFineCloudBelowBytesPerS = 160'000.0;
 
 /// The item of which a chunk goes next; nullopt = nothing is left of what there is now and may
 /// travel. `done` is what the station has, and what was sent to it. Asked again for each chunk,
-/// since scan, wishes and rate change: header, rig, end, coarse clouds and thumbnails in turn,
+/// since scan, preferences and rate change: header, rig, end, coarse clouds and thumbnails in turn,
 /// images on request, track, device health, previews, fine clouds, ranges, JPEGs, intensities,
 /// images. Blocks of lines go in bit-reversed order, so that what has arrived covers the whole
 /// scope; those with a line of `lines_first` before others. What a better item has made superfluous
 /// is left out (a preview once the image is done). O(items of the kinds that are done).
 std::optional<ItemId> NextItem(const ScanToSend& source, const ItemCounts& counts,
-                               const ChunkSet& done, const TransferWishes& wishes);
+                               const ChunkSet& done, const TransferPreferences& preferences);
 
 /// Whether the item is one that NextItem may still return.
 bool MayTravel(const ItemId& id, const ItemCounts& counts, const ChunkSet& done,
-               const TransferWishes& wishes);
+               const TransferPreferences& preferences);
 
 }  // namespace foresight

@@ -30,7 +30,7 @@ void ChunkSource::AddHave(const ChunkSet& have) {
 }
 
 Result<std::optional<Chunk>> ChunkSource::Next() {
-  while (const auto id = NextItem(source_, counts_, done_, wishes_)) {
+  while (const auto id = NextItem(source_, counts_, done_, preferences_)) {
     const auto parts = Parts(*id);
     if (!parts) {
       done_.Add(*id);
@@ -66,7 +66,7 @@ std::int64_t ChunkSource::LeftBytes() const {
     const auto kind = static_cast<ChunkKind>(number);
     for (std::int64_t item = 0; item < counts_[kind]; ++item) {
       const ItemId id{kind, item};
-      if (!MayTravel(id, counts_, done_, wishes_)) continue;
+      if (!MayTravel(id, counts_, done_, preferences_)) continue;
       const auto open = open_.find(id);
       if (open == open_.end()) {
         bytes += ExpectedBytes(source_, id);

@@ -30,7 +30,7 @@ class ChunkSource {
   void Update(ScanToSend source);
   /// The station has these by another way: they are not sent.
   void AddHave(const ChunkSet& have);
-  void SetWishes(TransferWishes wishes) { wishes_ = std::move(wishes); }
+  void SetPreferences(TransferPreferences preferences) { preferences_ = std::move(preferences); }
 
   /// The next chunk; it counts as sent. nullopt = nothing to send now. Fails as EncodeItem does:
   /// the item is left out from then on, and the next call goes on with others.
@@ -47,7 +47,7 @@ class ChunkSource {
   ScanToSend source_;
   ItemCounts counts_;
   ChunkSet done_;
-  TransferWishes wishes_;
+  TransferPreferences preferences_;
   PartsOf parts_of_;
   std::map<ItemId, SharedParts> open_;  ///< items of which some parts were sent
 };

@@ -41,7 +41,7 @@ Result<std::uint32_t> BurstClient::Open(LinkSession& session, const std::string&
   request.set_port(receiver_->address().port);
   request.set_datagram_bytes(options_.datagram_bytes);
   link::BurstReply reply;
-  link::SensorHead::Stub* stub = session.WaitForStub(stop);
+  const auto stub = session.WaitForStub(stop);
   if (stub == nullptr) return 0;
   const auto context = LinkSession::Context(kTimeout);
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });

@@ -46,7 +46,7 @@ void CommandSender::Work(const std::stop_token& stop) {
 CommandEnd CommandSender::Carry(const Waiting& waiting, const std::stop_token& stop) {
   link::Command command = waiting.command;
   command.set_command_id(NewUuid());
-  const std::string boot_id = session_.Greeting().boot_id();
+  const std::string boot_id = session_.HeadIdentity().boot_id();
   command.set_boot_id(boot_id);
   const double end_s = waiting.asked_s + good_s_;
   command.set_void_after_s(session_.DeskTime() + end_s - LinkSession::Now());
@@ -59,7 +59,7 @@ CommandEnd CommandSender::Carry(const Waiting& waiting, const std::stop_token& s
     link::Outcome outcome;
     const auto context = LinkSession::Context(
         std::chrono::milliseconds(static_cast<int>(1e3 * std::min(left_s, kTry_s)) + 1));
-    const grpc::Status called = session_.stub(*context).Execute(context.get(), command, &outcome);
+    const grpc::Status called = session_.stub(*context)->Execute(context.get(), command, &outcome);
     if (called.ok()) {
       session_.Heard(outcome.desk_time_s());
       const Status status = FromMessage(outcome);

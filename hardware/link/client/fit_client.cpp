@@ -32,7 +32,7 @@ void TellCancelled(LinkSession& session, link::FitRequest request) {
   request.clear_provenance_json();
   link::FitReply ignored;
   const auto context = LinkSession::Context(kCancelTry);
-  session.stub(*context).Fit(context.get(), request, &ignored);
+  session.stub(*context)->Fit(context.get(), request, &ignored);
 }
 
 Result<HeadFit> FromReply(const link::FitRequest& request, const link::FitReply& reply) {
@@ -58,13 +58,13 @@ Result<HeadFit> FitOnHead(LinkSession& session, const HeadFitOrder& order,
   request.set_scan_id(order.scan_id);
   request.set_provenance_json(order.provenance_json);
   request.set_image(ToMessage(order.image));
-  context.Report(0.0, "fitting on the robot");
+  context.Report(0.0, "waiting for the head");
   for (;;) {
     link::FitReply reply;
     const auto call = LinkSession::Context(kTry);
     call->set_compression_algorithm(GRPC_COMPRESS_GZIP);
     const std::stop_callback cancel(context.stop, [&] { call->TryCancel(); });
-    const grpc::Status called = session.stub(*call).Fit(call.get(), request, &reply);
+    const grpc::Status called = session.stub(*call)->Fit(call.get(), request, &reply);
     if (called.ok()) return FromReply(request, reply);
     if (context.Cancelled()) {
       TellCancelled(session, request);

@@ -21,7 +21,7 @@ Result<HeadImage> FetchHeadImage(LinkSession& session, const HeadImageOrder& ord
   }
   link::ImageReply reply;
   const auto context = LinkSession::Context(kTimeout);
-  const grpc::Status called = session.stub(*context).FetchImage(context.get(), request, &reply);
+  const grpc::Status called = session.stub(*context)->FetchImage(context.get(), request, &reply);
   if (!called.ok()) return tl::unexpected(session.ToError(called, "an image"));
   return HeadImage{std::move(*reply.mutable_image()), reply.motor_angle_rad(), reply.full_width(),
                    reply.full_height(), reply.images()};

@@ -6,18 +6,25 @@
 
 namespace foresight {
 
-LinkSession::LinkSession(std::vector<std::shared_ptr<grpc::Channel>> channels, std::string address)
-    : address_(std::move(address)), race_(channels) {
-  for (const auto& channel : channels) stubs_.push_back(link::SensorHead::NewStub(channel));
+LinkSession::LinkSession(std::vector<ChannelMaker> channels, std::string address,
+                         bool wants_control)
+    : address_(std::move(address)), race_(std::move(channels)), wants_control_(wants_control) {}
+
+std::shared_ptr<link::SensorHead::Stub> LinkSession::CurrentStub() {
+  auto channel = race_.Current();
+  const std::lock_guard lock(mutex_);
+  if (channel != channel_) stub_ = link::SensorHead::NewStub(channel);
+  channel_ = std::move(channel);
+  return stub_;
 }
 
-link::SensorHead::Stub& LinkSession::stub(const grpc::ClientContext& context) {
+std::shared_ptr<link::SensorHead::Stub> LinkSession::stub(const grpc::ClientContext& context) {
   race_.Wait(context.deadline());
-  return *stubs_[race_.Current()];
+  return CurrentStub();
 }
 
-link::SensorHead::Stub* LinkSession::WaitForStub(const std::stop_token& stop) {
-  return race_.Wait(stop) ? stubs_[race_.Current()].get() : nullptr;
+std::shared_ptr<link::SensorHead::Stub> LinkSession::WaitForStub(const std::stop_token& stop) {
+  return race_.Wait(stop) ? CurrentStub() : nullptr;
 }
 
 double LinkSession::Now() {
@@ -54,14 +61,14 @@ Error LinkSession::ToError(const grpc::Status& status, const char* what) const {
 }
 
 Status LinkSession::Begin(std::chrono::milliseconds timeout) {
-  link::GreetRequest request;
+  link::IdentifyRequest request;
   request.set_protocol(kLinkProtocol);
   request.set_program(std::string("foresight ") + ProgramVersion());
-  link::GreetReply reply;
+  link::IdentifyReply reply;
   const auto context = Context(timeout);
-  if (const grpc::Status called = stub(*context).Greet(context.get(), request, &reply);
+  if (const grpc::Status called = stub(*context)->Identify(context.get(), request, &reply);
       !called.ok())
-    return tl::unexpected(ToError(called, "greeting"));
+    return tl::unexpected(ToError(called, "its identity"));
   if (reply.protocol() != kLinkProtocol)
     return Fail(ErrorCode::kState,
                 "{}: the head speaks version {} of the protocol ({}) and this program version {}: "
@@ -69,12 +76,12 @@ Status LinkSession::Begin(std::chrono::milliseconds timeout) {
                 address_, reply.protocol(), reply.program(), kLinkProtocol);
   {
     const std::lock_guard lock(mutex_);
-    if (reply.boot_id() != greeting_.boot_id()) {
+    if (reply.boot_id() != identity_.boot_id()) {
       clock_.Forget();
       control_changed_desk_s_ = 0.0;
     }
     clock_.Add(reply.desk_time_s(), Now());
-    greeting_ = reply;
+    identity_ = reply;
   }
   if (!reply.may_operate() || !WantsControl()) return {};
   return TakeControl(timeout);
@@ -84,7 +91,7 @@ Status LinkSession::TakeControl(std::chrono::milliseconds timeout) {
   link::ControlReply reply;
   const auto context = Context(timeout);
   if (const grpc::Status called =
-          stub(*context).TakeControl(context.get(), link::ControlRequest(), &reply);
+          stub(*context)->TakeControl(context.get(), link::ControlRequest(), &reply);
       !called.ok())
     return tl::unexpected(ToError(called, "taking control"));
   const std::lock_guard lock(mutex_);
@@ -104,12 +111,12 @@ Status LinkSession::GiveControl(const std::string& successor, std::chrono::milli
   if (successor.empty()) {
     link::ReleaseRequest request;
     request.set_token(token);
-    called = stub(*context).ReleaseControl(context.get(), request, &reply);
+    called = stub(*context)->ReleaseControl(context.get(), request, &reply);
   } else {
     link::ControlRequest request;
     request.set_token(token);
     request.set_hand_over_to(successor);
-    called = stub(*context).TakeControl(context.get(), request, &reply);
+    called = stub(*context)->TakeControl(context.get(), request, &reply);
   }
   if (!called.ok()) return tl::unexpected(ToError(called, "giving control away"));
   if (!successor.empty() && !reply.granted())
@@ -132,12 +139,12 @@ void LinkSession::HeardControl(const std::string& holder, double desk_time_s) {
   const std::lock_guard lock(mutex_);
   if (desk_time_s < control_changed_desk_s_) return;
   holder_ = holder;
-  if (holder != greeting_.your_name()) token_.clear();
+  if (holder != identity_.your_name()) token_.clear();
 }
 
-link::GreetReply LinkSession::Greeting() const {
+link::IdentifyReply LinkSession::HeadIdentity() const {
   const std::lock_guard lock(mutex_);
-  return greeting_;
+  return identity_;
 }
 
 std::string LinkSession::Token() const {

@@ -16,14 +16,22 @@ namespace foresight {
 /// any thread.
 class LinkSession {
  public:
-  LinkSession(std::vector<std::shared_ptr<grpc::Channel>> channels, std::string address);
+  /// `wants_control`: whether Begin() takes it.
+  LinkSession(std::vector<ChannelMaker> channels, std::string address, bool wants_control = true);
 
   /// For a call with this context: of a channel that is connected, where one is by the context's
   /// deadline.
-  link::SensorHead::Stub& stub(const grpc::ClientContext& context);
+  std::shared_ptr<link::SensorHead::Stub> stub(const grpc::ClientContext& context);
   bool Connected() const { return race_.Connected(); }
+  /// Whether calls would go another way than this one's now.
+  bool LeftBehind(const std::shared_ptr<link::SensorHead::Stub>& stub) {
+    return stub != CurrentStub();
+  }
+  /// As ChannelRace has them.
+  void Doubt() { race_.Doubt(); }
+  void Trust() { race_.Trust(); }
   /// For a call without a deadline: waits until a channel is connected; nullptr = stopped before.
-  link::SensorHead::Stub* WaitForStub(const std::stop_token& stop);
+  std::shared_ptr<link::SensorHead::Stub> WaitForStub(const std::stop_token& stop);
   const std::string& address() const { return address_; }
 
   /// A call's context: the protocol's version and, where `timeout` is positive, a deadline until
@@ -32,8 +40,8 @@ class LinkSession {
   /// What gRPC says of a call that failed, in words that name the head.
   Error ToError(const grpc::Status& status, const char* what) const;
 
-  /// Greets the head and takes control, where the certificate may operate, nobody else has it, and
-  /// it was not given away here.
+  /// Identifies both sides to each other and takes control, where the certificate may operate,
+  /// nobody else has it, and it was not given away here.
   Status Begin(std::chrono::milliseconds timeout);
   /// That somebody else has control is no failure: this station looks on.
   Status TakeControl(std::chrono::milliseconds timeout);
@@ -42,7 +50,7 @@ class LinkSession {
   /// Whether control is to be ours when nobody has it.
   bool WantsControl() const;
 
-  link::GreetReply Greeting() const;
+  link::IdentifyReply HeadIdentity() const;
   std::string Token() const;
   std::string Holder() const;
   /// Who has control, as the head said at `desk_time_s`.
@@ -54,14 +62,17 @@ class LinkSession {
   static double Now();
 
  private:
+  std::shared_ptr<link::SensorHead::Stub> CurrentStub();
+
   const std::string address_;
-  std::vector<std::unique_ptr<link::SensorHead::Stub>> stubs_;  ///< one a channel
   ChannelRace race_;
-  mutable std::mutex mutex_;
-  link::GreetReply greeting_;
+  mutable std::mutex mutex_;                ///< guards what follows
+  std::shared_ptr<grpc::Channel> channel_;  ///< that stub_ is for
+  std::shared_ptr<link::SensorHead::Stub> stub_;
+  link::IdentifyReply identity_;
   std::string token_;
   std::string holder_;
-  bool wants_control_ = true;
+  bool wants_control_;
   double control_changed_desk_s_ = 0.0;
   DeskClock clock_;
 };

@@ -23,7 +23,7 @@ void LookClient::Work(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     const auto context = LinkSession::Context(std::chrono::milliseconds(0));
     const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
-    link::SensorHead::Stub* stub = session_.WaitForStub(stop);
+    const auto stub = session_.WaitForStub(stop);
     if (stub == nullptr) return;
     const auto stream = stub->Look(context.get(), request_);
     link::LiveViewImage message;

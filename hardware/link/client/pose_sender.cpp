@@ -26,12 +26,12 @@ Result<RobotAnswer> SendPose(LinkSession& session, const std::string& pose_json)
   link::PoseRequest request;
   request.set_pose_json(pose_json);
   request.set_void_after_s(session.DeskTime() + kGood_s);
-  request.set_boot_id(session.Greeting().boot_id());
+  request.set_boot_id(session.HeadIdentity().boot_id());
   for (;;) {
     request.set_control_token(session.Token());
     link::PoseReply reply;
     const auto context = LinkSession::Context(kTry);
-    const grpc::Status called = session.stub(*context).PublishPose(context.get(), request, &reply);
+    const grpc::Status called = session.stub(*context)->PublishPose(context.get(), request, &reply);
     if (called.ok()) return FromMessage(reply);
     const bool lost = called.error_code() == grpc::StatusCode::UNAVAILABLE ||
                       called.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;

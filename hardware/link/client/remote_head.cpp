@@ -20,12 +20,14 @@ constexpr std::chrono::milliseconds kControlTimeout{4000};
 
 }  // namespace
 
-RemoteHead::RemoteHead(std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options)
-    : options_(options), session_(std::move(channels), options.address), mirror_(options.address) {}
+RemoteHead::RemoteHead(std::vector<ChannelMaker> channels, const Options& options)
+    : options_(options),
+      session_(std::move(channels), options.address, !options.looks_on),
+      mirror_(options.address) {}
 
-Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(
-    std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options,
-    std::chrono::milliseconds timeout) {
+Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::vector<ChannelMaker> channels,
+                                                        const Options& options,
+                                                        std::chrono::milliseconds timeout) {
   auto head = std::shared_ptr<RemoteHead>(new RemoteHead(std::move(channels), options));
   if (options.burst) {
     FORESIGHT_TRY(head->burst_, BurstClient::Listen(*options.burst));
@@ -39,7 +41,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(
       return tl::unexpected(begun.error());
     std::this_thread::sleep_for(std::chrono::milliseconds(250));
   }
-  FORESIGHT_TRY(head->motion_, FromMessage(head->session_.Greeting().motion()));
+  FORESIGHT_TRY(head->motion_, FromMessage(head->session_.HeadIdentity().motion()));
   ScanFetcher::Options fetching;
   fetching.spool = options.spool;
   fetching.archive = options.archive;
@@ -63,7 +65,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(
   while (!head->mirror_.Connected() && LinkSession::Now() < end_s)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   if (!head->mirror_.Connected())
-    return Fail(ErrorCode::kDevice, "{}: the head was greeted and then says nothing",
+    return Fail(ErrorCode::kDevice, "{}: the head said who it is and then nothing more",
                 options.address);
   return head;
 }
@@ -82,7 +84,7 @@ Status RemoteHead::FetchRig() {
   link::RigReply reply;
   const auto context = LinkSession::Context(kRigTimeout);
   const grpc::Status called =
-      session_.stub(*context).GetRig(context.get(), link::RigRequest(), &reply);
+      session_.stub(*context)->GetRig(context.get(), link::RigRequest(), &reply);
   if (!called.ok()) return tl::unexpected(session_.ToError(called, "its calibration"));
   FORESIGHT_TRY(SensorRig rig, SensorRigFromYaml(reply.yaml(), options_.address));
   const std::lock_guard lock(mutex_);
@@ -94,7 +96,7 @@ Status RemoteHead::FetchRig() {
 
 /// The link is there, perhaps after a long time: what changed meanwhile is asked for.
 void RemoteHead::OnBegin() {
-  const std::string boot_id = session_.Greeting().boot_id();
+  const std::string boot_id = session_.HeadIdentity().boot_id();
   {
     const std::lock_guard lock(mutex_);
     if (boot_id != boot_id_) mirror_.Forget();
@@ -103,7 +105,7 @@ void RemoteHead::OnBegin() {
   link::ListScansReply scans;
   const auto context = LinkSession::Context(kRigTimeout);
   const grpc::Status called =
-      session_.stub(*context).ListScans(context.get(), link::ListScansRequest(), &scans);
+      session_.stub(*context)->ListScans(context.get(), link::ListScansRequest(), &scans);
   if (called.ok()) fetcher_->Heard({scans.scans().begin(), scans.scans().end()}, true);
 }
 
@@ -126,7 +128,7 @@ void RemoteHead::OnEvent(const link::Event& event) {
 }
 
 std::string RemoteHead::Describe() const {
-  return fmt::format("{} at {}", session_.Greeting().description(), options_.address);
+  return fmt::format("{} at {}", session_.HeadIdentity().description(), options_.address);
 }
 
 HeadStatus RemoteHead::Status() const {
@@ -198,7 +200,7 @@ Status RemoteHead::MayAct(const char* what) const {
   if (!mirror_.Connected())
     return Fail(ErrorCode::kState, "{}: cannot {}: no word from the head for {:.0f} s",
                 options_.address, what, mirror_.Age());
-  if (!session_.Greeting().may_operate())
+  if (!session_.HeadIdentity().may_operate())
     return Fail(ErrorCode::kState, "{}: cannot {}: this certificate is an observer's",
                 options_.address, what);
   if (session_.Token().empty())

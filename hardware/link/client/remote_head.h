@@ -29,17 +29,18 @@ class RemoteHead final : public SensorHead, public HeadLink {
     std::string address;                   ///< for messages
     double status_rate_hz = 10.0;          ///< of a head that moves; 1 suits a thin path
     bool thin = false;                     ///< the path is known to carry some kilobits a second
+    bool looks_on = false;                 ///< leaves control to whoever has it, or nobody
     double command_good_s = 8.0;           ///< what the head did not get by then is void
     std::filesystem::path spool;           ///< folder for what has come of scans that are not whole
     std::shared_ptr<ScanArchive> archive;  ///< may be null: sinks are all there is
     std::optional<BurstClient::Options> burst;  ///< a one-way path from the head, beside the link
   };
 
-  /// Greets the head and fetches its rig. Fails with kDevice where nobody answers in time, kState
-  /// where the head speaks another version of the protocol.
-  static Result<std::shared_ptr<RemoteHead>> Connect(
-      std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options,
-      std::chrono::milliseconds timeout);
+  /// Identifies both sides to each other and fetches its rig. Fails with kDevice where nobody
+  /// answers in time, kState where the head speaks another version of the protocol.
+  static Result<std::shared_ptr<RemoteHead>> Connect(std::vector<ChannelMaker> channels,
+                                                     const Options& options,
+                                                     std::chrono::milliseconds timeout);
   ~RemoteHead() override;
 
   std::string Describe() const override;
@@ -64,17 +65,17 @@ class RemoteHead final : public SensorHead, public HeadLink {
   void Fetch(const std::string& scan_id) override { fetcher_->Fetch(scan_id); }
   void FetchFirst(const std::string& scan_id) override { fetcher_->FetchFirst(scan_id); }
   void Pause(const std::string& scan_id) override { fetcher_->Pause(scan_id); }
-  bool MayOperate() const override { return session_.Greeting().may_operate(); }
+  bool MayOperate() const override { return session_.HeadIdentity().may_operate(); }
   foresight::Status TakeControl() override;
   foresight::Status GiveControl(const std::string& successor) override;
   Result<RobotAnswer> SendPose(const std::string& pose_json) override;
   Result<HeadFit> Fit(const HeadFitOrder& order, const RunContext& context) override;
   Result<HeadImage> FetchImage(const HeadImageOrder& order) override;
 
-  bool Simulated() const { return session_.Greeting().simulated(); }
+  bool Simulated() const { return session_.HeadIdentity().simulated(); }
 
  private:
-  RemoteHead(std::vector<std::shared_ptr<grpc::Channel>> channels, const Options& options);
+  RemoteHead(std::vector<ChannelMaker> channels, const Options& options);
   foresight::Status FetchRig();
   foresight::Status MayAct(const char* what) const;
   void OnBegin();

@@ -16,7 +16,10 @@ constexpr std::int64_t kMostWaiting = std::int64_t{80} << 20;
 constexpr double kRetry_s = 0.25;     ///< after the link broke
 constexpr double kRetryDisk_s = 2.0;  ///< after this computer's disk did not take something
 constexpr double kEarlyEvery_s = 0.3;
-constexpr double kConfirm_s = 5.0;  ///< for the head's answer that it heard of the end
+/// The head has more to send and nothing comes: then the connection is doubted.
+constexpr double kQuiet_s = 0.3;
+constexpr double kMostQuiet_s = 2.4;  ///< of a head that is slow, and stays so on a fresh one
+constexpr double kConfirm_s = 5.0;    ///< for the head's answer that it heard of the end
 /// A sign of life and its answer, 300 bytes with all that is around them, take 0.25 s at 9600
 /// bit/s.
 constexpr double kWideRoundTrip_s = 0.12;
@@ -38,6 +41,9 @@ Chunk FromMessage(link::Chunk& message) {
 /// What the reading thread brings, until the stream ends.
 class ScanFetcher::Inbox {
  public:
+  /// `left_bytes`: as the stream before said.
+  explicit Inbox(std::int64_t left_bytes) : left_bytes_(left_bytes) {}
+
   void Push(link::Chunk message) {
     const std::lock_guard lock(mutex_);
     left_bytes_ = message.left_bytes();
@@ -68,12 +74,12 @@ class ScanFetcher::Inbox {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::vector<Chunk> chunks_;
-  std::int64_t left_bytes_ = 0;
+  std::int64_t left_bytes_;
   bool closed_ = false;
 };
 
 ScanFetcher::ScanFetcher(LinkSession& session, Options options)
-    : session_(session), options_(std::move(options)) {
+    : session_(session), options_(std::move(options)), quiet_s_(kQuiet_s) {
   if (options_.archive) TakeInSpools();
   thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
 }
@@ -240,13 +246,13 @@ std::shared_ptr<const EarlyScan> ScanFetcher::Early() const {
 void ScanFetcher::SetRegion(std::optional<NumberSet::Interval> lines) {
   const std::lock_guard lock(mutex_);
   region_ = lines;
-  ++wishes_changed_;
+  ++preferences_changed_;
 }
 
-void ScanFetcher::WishImage(std::int64_t position) {
+void ScanFetcher::RequestImage(std::int64_t position) {
   const std::lock_guard lock(mutex_);
   images_first_.push_back(position);
-  ++wishes_changed_;
+  ++preferences_changed_;
 }
 
 void ScanFetcher::Pause(const std::string& scan_id) {
@@ -299,6 +305,7 @@ void ScanFetcher::Work(const std::stop_token& stop) {
     const Status fetched = Bring(*scan, stop);
     SetComing("");
     if (fetched && scan->transfer && scan->transfer->TakeMistakenRig()) continue;
+    if (fetched && std::exchange(left_behind_, false)) continue;
     // A link that broke is tried again soon; a disk or a mission that takes nothing is not.
     const bool disk = !fetched && fetched.error().code != ErrorCode::kDevice;
     if (disk) LogError("{}", fetched.error().message);
@@ -344,8 +351,8 @@ link::TransferStart ScanFetcher::StartOf(const Fetched& scan) {
     rate_.Begin(LinkSession::Now(), SeemsWide());
     start.set_credit_bytes(rate_.credit());
   }
-  *start.mutable_wishes() = Wishes();
-  if (scan.done) start.mutable_wishes()->set_pause(true);
+  *start.mutable_preferences() = Preferences();
+  if (scan.done) start.mutable_preferences()->set_pause(true);
   return start;
 }
 
@@ -365,14 +372,14 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
   while (scan.transfer && scan.transfer->Waiting() && !session_.Connected() &&
          !stop.stop_requested())
     FORESIGHT_CHECK(TakeIn(scan, scan.transfer->WaitingBytes() - 1, scan.shown.left_bytes));
-  link::SensorHead::Stub* stub = session_.WaitForStub(stop);
+  const auto stub = session_.WaitForStub(stop);
   if (stub == nullptr) return {};
   const auto stream = stub->Transfer(context.get());
   link::TransferRequest request;
   *request.mutable_start() = StartOf(scan);
   request.mutable_start()->set_burst_key_id(burst_key);
   if (!stream->Write(request)) return tl::unexpected(session_.ToError(stream->Finish(), "a scan"));
-  Inbox inbox;
+  Inbox inbox(scan.shown.left_bytes);
   Status received;
   {
     const std::jthread reader([&] {
@@ -380,7 +387,7 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
       while (stream->Read(&message)) inbox.Push(std::move(message));
       inbox.Close();
     });
-    if (!scan.done) received = Receive(scan, *stream, inbox);
+    if (!scan.done) received = Receive(scan, stub, *stream, inbox);
     if (received && scan.done) SayThatAllIsHere(*stream, inbox);
     if (!inbox.Closed()) context->TryCancel();
   }
@@ -405,12 +412,25 @@ void ScanFetcher::SayThatAllIsHere(Stream& stream, Inbox& inbox) {
   while (!inbox.Closed() && LinkSession::Now() < end_s) inbox.TakeAll(kTick);
 }
 
-Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
-  std::int64_t wishes_sent = 0;
+Status ScanFetcher::Receive(Fetched& scan, const Stub& stub, Stream& stream, Inbox& inbox) {
+  std::int64_t preferences_sent = 0;
+  double heard_s = LinkSession::Now();
+  bool doubted = false;
   while (!inbox.Closed() && !Superseded(scan)) {
+    left_behind_ = session_.LeftBehind(stub);
+    if (left_behind_) break;
     std::vector<Chunk> chunks = inbox.TakeAll(scan.transfer->Waiting() ? kNoWait : kTick);
     if (Superseded(scan)) break;  // what is not taken in comes again
     const bool came = !chunks.empty();
+    if (came || inbox.LeftBytes() == 0) {
+      if (std::exchange(doubted, false)) session_.Trust();
+      if (came) quiet_s_ = kQuiet_s;
+      heard_s = LinkSession::Now();
+    } else if (!doubted && !thin_ && LinkSession::Now() - heard_s > quiet_s_ + RoundTrip()) {
+      session_.Doubt();
+      doubted = true;
+      quiet_s_ = std::min(2.0 * quiet_s_, kMostQuiet_s);
+    }
     FORESIGHT_CHECK(Acknowledge(scan, stream, std::move(chunks), inbox.LeftBytes()));
     FORESIGHT_TRY(const bool came_by_burst, KeepBurst(scan, stream));
     // The link goes first: what came is decoded when nothing more comes for a moment.
@@ -420,14 +440,14 @@ Status ScanFetcher::Receive(Fetched& scan, Stream& stream, Inbox& inbox) {
     if (scan.done || !scan.transfer || scan.transfer->MistakenRig()) return {};
     link::TransferRequest request;
     const bool was_thin = thin_;
-    *request.mutable_wishes() = Wishes();
+    *request.mutable_preferences() = Preferences();
     std::int64_t changed = 0;
     {
       const std::lock_guard lock(mutex_);
-      changed = wishes_changed_;
+      changed = preferences_changed_;
     }
-    if (changed == wishes_sent && was_thin == thin_) continue;
-    wishes_sent = changed;
+    if (changed == preferences_sent && was_thin == thin_) continue;
+    preferences_sent = changed;
     if (!stream.Write(request)) break;
   }
   return {};
@@ -542,27 +562,30 @@ void ScanFetcher::Show(Fetched& scan, std::int64_t left_bytes) {
 /// By its round trip. A path that is known to be thin may have a queue that lets a short message
 /// pass at once.
 bool ScanFetcher::SeemsWide() const {
-  if (options_.thin || !options_.round_trip) return false;
-  const double round_trip_s = options_.round_trip();
-  return round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s;
+  const double round_trip_s = RoundTrip();
+  return !options_.thin && round_trip_s > 0.0 && round_trip_s < kWideRoundTrip_s;
 }
 
-link::Wishes ScanFetcher::Wishes() {
+double ScanFetcher::RoundTrip() const {
+  return options_.round_trip ? options_.round_trip() : 0.0;
+}
+
+link::TransferPreferences ScanFetcher::Preferences() {
   const std::lock_guard lock(mutex_);
-  link::Wishes wishes;
+  link::TransferPreferences preferences;
   const auto rate = rate_.PathBytesPerS(LinkSession::Now());
   if (rate && *rate < kThinBytesPerS) thin_ = true;
   // A thin path that has nothing more to carry shows by its round trip that it became wide.
   if ((rate && *rate > 2.0 * kThinBytesPerS) || SeemsWide()) thin_ = false;
   // What is beside a burst path carries what is small.
   if (options_.burst && options_.burst->Carries()) thin_ = true;
-  if (thin_) wishes.set_bytes_per_s(static_cast<std::int64_t>(kThinBytesPerS) - 1);
+  if (thin_) preferences.set_bytes_per_s(static_cast<std::int64_t>(kThinBytesPerS) - 1);
   if (region_) {
-    wishes.mutable_lines_first()->set_first(region_->first);
-    wishes.mutable_lines_first()->set_last(region_->last);
+    preferences.mutable_lines_first()->set_first(region_->first);
+    preferences.mutable_lines_first()->set_last(region_->last);
   }
-  for (const std::int64_t position : images_first_) wishes.add_images_first(position);
-  return wishes;
+  for (const std::int64_t position : images_first_) preferences.add_images_first(position);
+  return preferences;
 }
 
 }  // namespace foresight

@@ -64,7 +64,7 @@ class ScanFetcher {
   /// seq of lines that go first, of the newest scan; nullopt = none.
   void SetRegion(std::optional<NumberSet::Interval> lines);
   /// The lossless image of the newest scan at this position goes first.
-  void WishImage(std::int64_t position);
+  void RequestImage(std::int64_t position);
 
  private:
   struct Fetched {
@@ -83,6 +83,7 @@ class ScanFetcher {
   };
 
   class Inbox;
+  using Stub = std::shared_ptr<link::SensorHead::Stub>;
   using Stream = grpc::ClientReaderWriter<link::TransferRequest, link::Chunk>;
 
   void TakeInSpools();
@@ -98,7 +99,7 @@ class ScanFetcher {
   Status Bring(Fetched& scan, const std::stop_token& stop);
   Fetched& Queued(const std::string& scan_id);
   link::TransferStart StartOf(const Fetched& scan);
-  Status Receive(Fetched& scan, Stream& stream, Inbox& inbox);
+  Status Receive(Fetched& scan, const Stub& stub, Stream& stream, Inbox& inbox);
   Status Acknowledge(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
                      std::int64_t left_bytes);
   Result<bool> KeepBurst(Fetched& scan, Stream& stream);
@@ -107,7 +108,8 @@ class ScanFetcher {
   static void SayThatAllIsHere(Stream& stream, Inbox& inbox);
   void Show(Fetched& scan, std::int64_t left_bytes);
   bool SeemsWide() const;
-  link::Wishes Wishes();
+  double RoundTrip() const;
+  link::TransferPreferences Preferences();
 
   LinkSession& session_;
   const Options options_;
@@ -118,14 +120,16 @@ class ScanFetcher {
   std::string coming_;  ///< the scan whose stream is open; empty = none
   std::string newest_;  ///< that was asked for: the scan that Early() is about
   std::int64_t order_ = 0;
-  std::int64_t wishes_changed_ = 0;
+  std::int64_t preferences_changed_ = 0;
   std::optional<NumberSet::Interval> region_;
   std::vector<std::int64_t> images_first_;
   std::shared_ptr<const EarlyScan> early_;
   TransferRate rate_;
-  double early_s_ = 0.0;  ///< of the thread alone, as what follows
-  bool thin_ = false;     ///< the path is known to be thin: only what is small may travel
-  std::jthread thread_;   ///< last: starts when everything else is there
+  double early_s_ = 0.0;      ///< of the thread alone, as what follows
+  double quiet_s_;            ///< a silence so long is doubtful
+  bool left_behind_ = false;  ///< the stream's connection was, for a fresh one
+  bool thin_ = false;         ///< the path is known to be thin: only what is small may travel
+  std::jthread thread_;       ///< last: starts when everything else is there
 };
 
 }  // namespace foresight

@@ -4,9 +4,16 @@
 #include <mutex>
 #include <thread>
 
+#include "core/base/run_context.h"
 #include "hardware/link/client/link_session.h"
 
 namespace foresight {
+
+/// Stops the head over a session that need not have begun: by an operator's certificate alone,
+/// whoever has control. Sends until the head answers; how it is then. Fails with kState where the
+/// head refuses, kDevice where no answer came in `patience`, kCancelled.
+Result<HeadStatus> StopHead(LinkSession& session, std::chrono::milliseconds patience,
+                            const RunContext& context);
 
 /// The stop button's own way to the head: nothing is queued before it, and what was pressed is
 /// sent until the head has answered or a minute is over (by then the head stops by itself, because

@@ -39,7 +39,7 @@ void StopsClient::Work(const std::stop_token& stop) {
     request.set_from(next);
     const auto context = LinkSession::Context(std::chrono::milliseconds(0));
     const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
-    link::SensorHead::Stub* stub = session_.WaitForStub(stop);
+    const auto stub = session_.WaitForStub(stop);
     if (stub == nullptr) return;
     const auto stream = stub->FetchStops(context.get(), request);
     link::StopEvent event;

@@ -7,7 +7,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kGreeting{10'000};  ///< a first call takes 4 s at 9600 bit/s
+constexpr std::chrono::milliseconds kIdentify{10'000};  ///< a first call takes 4 s at 9600 bit/s
 constexpr std::chrono::milliseconds kPause{250};        ///< before the next try
 constexpr double kSignEvery_s = 1.0;
 constexpr double kThere_s = 1.5;  ///< who was seen so long ago is not there any more
@@ -34,11 +34,11 @@ void WatchClient::Work(const std::stop_token& stop) {
 
 /// Until the stream breaks.
 Status WatchClient::Watch(const std::stop_token& stop) {
-  FORESIGHT_CHECK(session_.Begin(kGreeting));
+  FORESIGHT_CHECK(session_.Begin(kIdentify));
   if (hooks_.on_begin) hooks_.on_begin();
   const auto context = LinkSession::Context(std::chrono::milliseconds(0));
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
-  link::SensorHead::Stub* stub = session_.WaitForStub(stop);
+  const auto stub = session_.WaitForStub(stop);
   if (stub == nullptr) return {};
   const auto stream = stub->Watch(context.get());
   std::jthread signer([&](const std::stop_token& ended) { Sign(ended, *stream); });

@@ -9,13 +9,14 @@
 
 namespace foresight {
 
-/// Keeps the stream of the head's status open, through whatever happens to the link: greets, takes
-/// control, sends the operator's signs of life and hands on what comes.
+/// Keeps the stream of the head's status open, through whatever happens to the link: identifies
+/// itself, takes control, sends the operator's signs of life and hands on what comes.
 class WatchClient {
  public:
   struct Hooks {
     std::function<void(const link::Event&)> on_event;
-    std::function<void()> on_begin;  ///< the head was greeted: what is known of it may be old
+    std::function<void()>
+        on_begin;  ///< the head has identified itself: what is known of it may be old
     std::function<void(const Error&)> on_lost;
   };
 

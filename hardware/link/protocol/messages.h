@@ -7,7 +7,7 @@ namespace foresight {
 
 /// Raised when a message or an item of a scan changes its meaning; both sides must have the same.
 inline constexpr int kLinkProtocol = 1;
-/// Each call but Greet carries the station's version under this key.
+/// Each call but Identify carries the station's version under this key.
 inline constexpr const char* kProtocolKey = "foresight-protocol";
 
 /// The protocol's messages <-> values. What comes from the other side is checked: the readers fail

@@ -50,11 +50,11 @@ void BurstSession::SetHave(const ChunkSet& have) {
   if (carousel_) carousel_->SetHave(have);
 }
 
-void BurstSession::SetWishes(const TransferWishes& wishes, bool paused) {
+void BurstSession::SetPreferences(const TransferPreferences& preferences, bool paused) {
   const std::lock_guard lock(mutex_);
-  TransferWishes ours = wishes;
+  TransferPreferences ours = preferences;
   ours.bytes_per_s = 0.0;  // that is the stream's path; this one is wide
-  if (carousel_) carousel_->SetWishes(ours);
+  if (carousel_) carousel_->SetPreferences(ours);
   paused_ = paused;
   wake_.notify_all();
 }

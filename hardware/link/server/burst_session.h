@@ -38,7 +38,7 @@ class BurstSession {
   /// A stream of the scan began; `have` is what its station said that it has.
   void Begin(const ScanToSend& source, const ChunkSet& have);
   void SetHave(const ChunkSet& have);
-  void SetWishes(const TransferWishes& wishes, bool paused);
+  void SetPreferences(const TransferPreferences& preferences, bool paused);
   /// The stream broke, or the station has all.
   void StreamGone();
   void End();

@@ -35,8 +35,8 @@ double HeadDesk::Time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-link::GreetReply HeadDesk::Greet(const Peer& peer) const {
-  link::GreetReply reply;
+link::IdentifyReply HeadDesk::Identify(const Peer& peer) const {
+  link::IdentifyReply reply;
   reply.set_protocol(kLinkProtocol);
   reply.set_program(std::string("foresight-head ") + ProgramVersion());
   reply.set_description(head_->Describe());

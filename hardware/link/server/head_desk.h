@@ -37,7 +37,7 @@ class HeadDesk {
     bool may_operate = false;
   };
 
-  link::GreetReply Greet(const Peer& peer) const;
+  link::IdentifyReply Identify(const Peer& peer) const;
   link::ControlReply TakeControl(const link::ControlRequest& request, const Peer& peer);
   link::ControlReply ReleaseControl(const link::ReleaseRequest& request);
   link::Outcome Execute(const link::Command& command, const Peer& peer);

@@ -80,11 +80,12 @@ Result<HeadDesk::Peer> HeadService::Admit(const grpc::ServerContext& context,
   return peer;
 }
 
-grpc::Status HeadService::Greet(grpc::ServerContext* context, const link::GreetRequest* /*request*/,
-                                link::GreetReply* reply) {
+grpc::Status HeadService::Identify(grpc::ServerContext* context,
+                                   const link::IdentifyRequest* /*request*/,
+                                   link::IdentifyReply* reply) {
   const auto peer = peer_(*context);
   if (!peer) return {grpc::StatusCode::UNAUTHENTICATED, peer.error().message};
-  *reply = desk_.Greet(*peer);
+  *reply = desk_.Identify(*peer);
   return grpc::Status::OK;
 }
 

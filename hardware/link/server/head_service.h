@@ -30,8 +30,8 @@ class HeadService final : public link::SensorHead::Service {
   HeadService(HeadDesk& desk, PeerReader peer);
   void Close();
 
-  grpc::Status Greet(grpc::ServerContext* context, const link::GreetRequest* request,
-                     link::GreetReply* reply) override;
+  grpc::Status Identify(grpc::ServerContext* context, const link::IdentifyRequest* request,
+                        link::IdentifyReply* reply) override;
   grpc::Status Watch(grpc::ServerContext* context,
                      grpc::ServerReaderWriter<link::Event, link::SignOfLife>* stream) override;
   grpc::Status TakeControl(grpc::ServerContext* context, const link::ControlRequest* request,

@@ -18,12 +18,12 @@ ItemCache::ItemCache(ScanShelf& shelf, std::int64_t most_bytes)
 ItemCache::~ItemCache() = default;
 
 void ItemCache::Prepare(const std::string& scan_id, const ChunkSet& have,
-                        const TransferWishes& wishes) {
+                        const TransferPreferences& preferences) {
   const std::lock_guard lock(mutex_);
   if (scan_id_ != scan_id) Clear();
   scan_id_ = scan_id;
   news_ = -1;
-  wishes_ = wishes;
+  preferences_ = preferences;
   done_ = have;
   for (auto item = items_.begin(); item != items_.end();) {
     if (have.Has(item->first)) {
@@ -38,10 +38,10 @@ void ItemCache::Prepare(const std::string& scan_id, const ChunkSet& have,
   changed_.notify_all();
 }
 
-void ItemCache::SetWishes(const std::string& scan_id, const TransferWishes& wishes) {
+void ItemCache::SetPreferences(const std::string& scan_id, const TransferPreferences& preferences) {
   const std::lock_guard lock(mutex_);
   if (scan_id_ != scan_id) return;
-  wishes_ = wishes;
+  preferences_ = preferences;
   changed_.notify_all();
 }
 
@@ -129,7 +129,7 @@ std::optional<ItemId> ItemCache::NextToMake() const {
   if (!source_ || bytes_ >= most_bytes_) return std::nullopt;
   ChunkSet done = done_;
   for (const ItemId& id : making_) done.Add(id);
-  return NextItem(*source_, ItemsOf(*source_), done, wishes_);
+  return NextItem(*source_, ItemsOf(*source_), done, preferences_);
 }
 
 void ItemCache::Work(const std::stop_token& stop) {

@@ -31,9 +31,10 @@ class ItemCache {
   ItemCache& operator=(const ItemCache&) = delete;
 
   /// A station wants this scan next, and has this of it. Items of other scans are let go of.
-  void Prepare(const std::string& scan_id, const ChunkSet& have, const TransferWishes& wishes);
+  void Prepare(const std::string& scan_id, const ChunkSet& have,
+               const TransferPreferences& preferences);
   /// The station wants something else of it.
-  void SetWishes(const std::string& scan_id, const TransferWishes& wishes);
+  void SetPreferences(const std::string& scan_id, const TransferPreferences& preferences);
   /// The item's parts: those that are here, or made now; where they are being made, this waits for
   /// them. Fails as EncodeParts does.
   Result<SharedParts> Get(const ScanToSend& source, const ItemId& id);
@@ -69,7 +70,7 @@ class ItemCache {
   std::optional<ScanToSend> source_;
   std::int64_t news_ = -1;  ///< of the shelf, that source_ has
   ChunkSet done_;           ///< what the station has, and what was made
-  TransferWishes wishes_;
+  TransferPreferences preferences_;
   std::map<ItemId, Item> items_;
   std::int64_t bytes_ = 0;
   std::set<ItemId> making_;  ///< by the worker and by streams

@@ -8,6 +8,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "core/base/utc_text.h"
 #include "core/mission/mission_file.h"
 #include "core/sensor/rig_id.h"
@@ -414,6 +415,8 @@ void ScanShelf::Tidy(const std::stop_token& stop) {
       if (!changed_.wait(lock, stop, find)) return;
     }
     Finish(uuid, *ended);
+    ended.reset();
+    GiveMemoryBack();
   }
 }
 

@@ -71,8 +71,8 @@ grpc::Status TransferStream::Begin(const link::TransferStart& start) {
     if (scan) {
       const ScanToSend source{**scan, shelf_.DeviceHealthJson(scan_id_)};
       if (burst_) burst_->Begin(source, *have);
-      TakeWishes(start.wishes());
-      cache_.Prepare(scan_id_, *have, *wishes_);
+      TakePreferences(start.preferences());
+      cache_.Prepare(scan_id_, *have, *preferences_);
       source_.emplace(source, std::move(*have), [this](const ScanToSend& now, const ItemId& id) {
         return cache_.Get(now, id);
       });
@@ -91,7 +91,7 @@ void TransferStream::Read() {
   link::TransferRequest request;
   while (stream_.Read(&request) && still_good_()) {
     const std::lock_guard lock(mutex_);
-    if (request.has_wishes()) TakeWishes(request.wishes());
+    if (request.has_preferences()) TakePreferences(request.preferences());
     if (request.has_acknowledge()) TakeAcknowledge(request.acknowledge());
     wake_.notify_all();
   }
@@ -101,17 +101,18 @@ void TransferStream::Read() {
   wake_.notify_all();
 }
 
-void TransferStream::TakeWishes(const link::Wishes& wishes) {
-  TransferWishes taken;
-  taken.bytes_per_s = static_cast<double>(std::max<std::int64_t>(0, wishes.bytes_per_s()));
-  if (wishes.has_lines_first() && wishes.lines_first().first() <= wishes.lines_first().last())
+void TransferStream::TakePreferences(const link::TransferPreferences& preferences) {
+  TransferPreferences taken;
+  taken.bytes_per_s = static_cast<double>(std::max<std::int64_t>(0, preferences.bytes_per_s()));
+  if (preferences.has_lines_first() &&
+      preferences.lines_first().first() <= preferences.lines_first().last())
     taken.lines_first =
-        NumberSet::Interval{wishes.lines_first().first(), wishes.lines_first().last()};
-  if (wishes.images_first_size() <= kMostImagesFirst)
-    taken.images_first.assign(wishes.images_first().begin(), wishes.images_first().end());
-  paused_ = wishes.pause();
-  if (burst_) burst_->SetWishes(taken, paused_);
-  wishes_ = std::move(taken);
+        NumberSet::Interval{preferences.lines_first().first(), preferences.lines_first().last()};
+  if (preferences.images_first_size() <= kMostImagesFirst)
+    taken.images_first.assign(preferences.images_first().begin(), preferences.images_first().end());
+  paused_ = preferences.pause();
+  if (burst_) burst_->SetPreferences(taken, paused_);
+  preferences_ = std::move(taken);
 }
 
 void TransferStream::TakeAcknowledge(const link::Acknowledge& acknowledge) {
@@ -156,9 +157,9 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
       const std::lock_guard lock(mutex_);
       if (confirmed_) return Confirm();
       if (gone_) return grpc::Status::OK;
-      if (wishes_) {
-        cache_.SetWishes(scan_id_, *wishes_);
-        source_->SetWishes(*std::exchange(wishes_, std::nullopt));
+      if (preferences_) {
+        cache_.SetPreferences(scan_id_, *preferences_);
+        source_->SetPreferences(*std::exchange(preferences_, std::nullopt));
       }
       if (have_) source_->AddHave(*std::exchange(have_, std::nullopt));
     }

@@ -39,7 +39,7 @@ class TransferStream {
  private:
   grpc::Status Begin(const link::TransferStart& start);
   void Read();
-  void TakeWishes(const link::Wishes& wishes);
+  void TakePreferences(const link::TransferPreferences& preferences);
   void TakeAcknowledge(const link::Acknowledge& acknowledge);
   grpc::Status Send(const std::atomic<bool>& closing);
   Status Refresh();
@@ -66,8 +66,8 @@ class TransferStream {
   std::int64_t credit_ = 0;
   std::int64_t in_flight_ = 0;  ///< bytes that were sent and not acknowledged
   std::map<ChunkId, std::int64_t> sent_;
-  std::optional<TransferWishes> wishes_;  ///< that came and were not taken over yet
-  std::optional<ChunkSet> have_;          ///< as wishes_
+  std::optional<TransferPreferences> preferences_;  ///< that came and were not taken over yet
+  std::optional<ChunkSet> have_;                    ///< as preferences_
 };
 
 }  // namespace foresight

@@ -6,17 +6,19 @@
 
 namespace foresight {
 
-std::vector<std::shared_ptr<grpc::Channel>> StationChannels(
+std::vector<ChannelMaker> StationChannels(
     const std::string& address, const std::shared_ptr<grpc::ChannelCredentials>& credentials,
     LinkPath path, const std::string& certificate_host) {
-  std::vector<std::shared_ptr<grpc::Channel>> channels;
+  std::vector<ChannelMaker> makers;
   for (const int attempt_ms : AttemptsOn(path)) {
     grpc::ChannelArguments arguments;
     SetStationArguments(arguments, path, attempt_ms);
     if (!certificate_host.empty()) arguments.SetSslTargetNameOverride(certificate_host);
-    channels.push_back(grpc::CreateCustomChannel(address, credentials, arguments));
+    makers.push_back([address, credentials, arguments] {
+      return grpc::CreateCustomChannel(address, credentials, arguments);
+    });
   }
-  return channels;
+  return makers;
 }
 
 }  // namespace foresight

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,10 +14,13 @@ class ChannelCredentials;
 
 namespace foresight {
 
+/// Makes a channel that has not begun to connect.
+using ChannelMaker = std::function<std::shared_ptr<grpc::Channel>()>;
+
 /// A station's channels to the head at HOST:PORT, for a ChannelRace: one for each length of an
 /// attempt that suits the path. `certificate_host`: what must stand in the head's certificate;
 /// empty = the host.
-std::vector<std::shared_ptr<grpc::Channel>> StationChannels(
+std::vector<ChannelMaker> StationChannels(
     const std::string& address, const std::shared_ptr<grpc::ChannelCredentials>& credentials,
     LinkPath path, const std::string& certificate_host = "");
 

@@ -50,18 +50,21 @@ class HeadBench {
     shelf_.reset();
   }
 
-  std::shared_ptr<grpc::Channel> Channel() const {
-    grpc::ChannelArguments arguments;
-    SetStationArguments(arguments, LinkPath::kBursts, 250);
-    return grpc::CreateCustomChannel("127.0.0.1:" + std::to_string(port_),
-                                     grpc::InsecureChannelCredentials(), arguments);
+  ChannelMaker Channel() const {
+    return [address = "127.0.0.1:" + std::to_string(port_)] {
+      grpc::ChannelArguments arguments;
+      SetStationArguments(arguments, LinkPath::kBursts, 250);
+      return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+    };
   }
-  Result<std::shared_ptr<RemoteHead>> Connect(std::shared_ptr<ScanArchive> archive = nullptr) {
+  Result<std::shared_ptr<RemoteHead>> Connect(std::shared_ptr<ScanArchive> archive = nullptr,
+                                              bool looks_on = false) {
     RemoteHead::Options options;
     options.address = "127.0.0.1:" + std::to_string(port_);
     options.spool = folder / "spool";
     options.archive = std::move(archive);
     options.command_good_s = 3.0;
+    options.looks_on = looks_on;
     return RemoteHead::Connect({Channel()}, options, std::chrono::milliseconds(3000));
   }
 

@@ -12,18 +12,18 @@ using testing::RandomScan;
 using testing::WithHealth;
 
 /// What goes over the path, item by item.
-std::vector<ItemId> OrderOf(const ScanToSend& source, const TransferWishes& wishes,
+std::vector<ItemId> OrderOf(const ScanToSend& source, const TransferPreferences& preferences,
                             ChunkSet done = {}) {
   std::vector<ItemId> order;
   const ItemCounts counts = ItemsOf(source);
-  while (const auto id = NextItem(source, counts, done, wishes)) {
-    EXPECT_TRUE(MayTravel(*id, counts, done, wishes));
+  while (const auto id = NextItem(source, counts, done, preferences)) {
+    EXPECT_TRUE(MayTravel(*id, counts, done, preferences));
     order.push_back(*id);
     done.Add(*id);
   }
   for (int kind = 1; kind <= kChunkKinds; ++kind)
     for (std::int64_t item = 0; item < counts[static_cast<ChunkKind>(kind)]; ++item)
-      EXPECT_FALSE(MayTravel({static_cast<ChunkKind>(kind), item}, counts, done, wishes));
+      EXPECT_FALSE(MayTravel({static_cast<ChunkKind>(kind), item}, counts, done, preferences));
   return order;
 }
 
@@ -51,26 +51,26 @@ TEST(ChunkOrder, GoesFromWhatIsNeededFirstToWhatOnlyTheRecordNeeds) {
 }
 
 TEST(ChunkOrder, AThinPathCarriesTheSmallThingsOnly) {
-  TransferWishes wishes;
-  wishes.bytes_per_s = 1200.0;
+  TransferPreferences preferences;
+  preferences.bytes_per_s = 1200.0;
   using enum ChunkKind;
-  EXPECT_EQ(KindsOf(OrderOf(WithHealth(RandomScan(1, 200, 2)), wishes)),
+  EXPECT_EQ(KindsOf(OrderOf(WithHealth(RandomScan(1, 200, 2)), preferences)),
             (std::vector{kHeader, kRig, kEnd, kCoarseCloud, kThumbnail, kCoarseCloud, kThumbnail,
                          kCoarseCloud}));
 }
 
 TEST(ChunkOrder, AnImageOnRequestGoesOverAThinPathToo) {
-  TransferWishes wishes;
-  wishes.bytes_per_s = 1200.0;
-  wishes.images_first = {1, 77, -1};
-  const auto order = OrderOf(WithHealth(RandomScan(1, 200, 2)), wishes);
+  TransferPreferences preferences;
+  preferences.bytes_per_s = 1200.0;
+  preferences.images_first = {1, 77, -1};
+  const auto order = OrderOf(WithHealth(RandomScan(1, 200, 2)), preferences);
   EXPECT_EQ(order.back(), (ItemId{ChunkKind::kImage, 1}));
 }
 
 TEST(ChunkOrder, AnImageOnRequestGoesBeforeLines) {
-  TransferWishes wishes;
-  wishes.images_first = {1};
-  const auto order = OrderOf(WithHealth(RandomScan(1, 200, 2)), wishes);
+  TransferPreferences preferences;
+  preferences.images_first = {1};
+  const auto order = OrderOf(WithHealth(RandomScan(1, 200, 2)), preferences);
   const auto at = [&](const ItemId& id) { return std::find(order.begin(), order.end(), id); };
   EXPECT_LT(at({ChunkKind::kImage, 1}), at({ChunkKind::kTrack, 0}));
   EXPECT_EQ(at({ChunkKind::kPreview, 1}), order.end()) << "the image is better";
@@ -78,9 +78,9 @@ TEST(ChunkOrder, AnImageOnRequestGoesBeforeLines) {
 }
 
 TEST(ChunkOrder, APathOfMiddlingRateGetsAFineCloud) {
-  TransferWishes wishes;
-  wishes.bytes_per_s = 50'000.0;
-  const auto order = OrderOf(WithHealth(RandomScan(1, 200, 2)), wishes);
+  TransferPreferences preferences;
+  preferences.bytes_per_s = 50'000.0;
+  const auto order = OrderOf(WithHealth(RandomScan(1, 200, 2)), preferences);
   EXPECT_EQ(ItemsOfKind(order, ChunkKind::kFineCloud).size(), 4U);
 }
 
@@ -113,10 +113,10 @@ TEST(ChunkOrder, EveryItemGoesOnce) {
 
 TEST(ChunkOrder, LinesOfTheRegionOfInterestGoFirst) {
   const Scan scan = RandomScan(1, 440, 0);
-  TransferWishes wishes;
+  TransferPreferences preferences;
   // Lines 100 to 140 lie in blocks 12 to 17; seq jumps where lines are lost.
-  wishes.lines_first = NumberSet::Interval{scan.lines[100].seq, scan.lines[140].seq};
-  auto blocks = ItemsOfKind(OrderOf({scan, ""}, wishes), ChunkKind::kRanges);
+  preferences.lines_first = NumberSet::Interval{scan.lines[100].seq, scan.lines[140].seq};
+  auto blocks = ItemsOfKind(OrderOf({scan, ""}, preferences), ChunkKind::kRanges);
   ASSERT_EQ(blocks.size(), 55U);
   std::sort(blocks.begin(), blocks.begin() + 6);
   EXPECT_EQ(std::vector(blocks.begin(), blocks.begin() + 6),
@@ -125,12 +125,12 @@ TEST(ChunkOrder, LinesOfTheRegionOfInterestGoFirst) {
 
 TEST(ChunkOrder, ARegionWithoutLinesChangesNothing) {
   const Scan scan = RandomScan(1, 100, 0);
-  TransferWishes wishes;
+  TransferPreferences preferences;
   for (const NumberSet::Interval region :
        {NumberSet::Interval{INT64_MAX, INT64_MAX}, NumberSet::Interval{INT64_MIN, -1},
         NumberSet::Interval{9, 3}}) {
-    wishes.lines_first = region;
-    EXPECT_EQ(OrderOf({scan, ""}, wishes), OrderOf({scan, ""}, {}));
+    preferences.lines_first = region;
+    EXPECT_EQ(OrderOf({scan, ""}, preferences), OrderOf({scan, ""}, {}));
   }
 }
 
@@ -157,9 +157,9 @@ TEST(ChunkSource, SomethingUrgentGoesBetweenThePartsOfAnImage) {
   Chunk chunk;
   while (chunk.id.kind != ChunkKind::kImage) chunk = source.Next().value().value();
   ASSERT_GT(chunk.parts, 2);
-  TransferWishes wishes;
-  wishes.bytes_per_s = 50'000.0;  // fine clouds are of use now
-  source.SetWishes(wishes);
+  TransferPreferences preferences;
+  preferences.bytes_per_s = 50'000.0;  // fine clouds are of use now
+  source.SetPreferences(preferences);
   EXPECT_EQ(source.Next().value()->id.kind, ChunkKind::kImage) << "all its lines have gone";
   scan.frames.push_back(frame);
   source.Update({scan, ""});

@@ -72,7 +72,7 @@ class BurstSessionTest : public ::testing::Test {
   const std::shared_ptr<FakeHead> head = std::make_shared<FakeHead>();
   HeadBench bench{head};
   const std::shared_ptr<Archive> archive = std::make_shared<Archive>();
-  const std::unique_ptr<link::SensorHead::Stub> stub = link::SensorHead::NewStub(bench.Channel());
+  const std::unique_ptr<link::SensorHead::Stub> stub = link::SensorHead::NewStub(bench.Channel()());
 };
 
 TEST_F(BurstSessionTest, AScanComesByBurstsAndIsTheHeads) {

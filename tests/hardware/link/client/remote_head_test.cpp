@@ -240,6 +240,30 @@ TEST_F(RemoteHeadTest, ControlThatWasGivenAwayIsNotTakenBackByItself) {
   EXPECT_TRUE(remote->Health().has_control);
 }
 
+/// Of the same name, as two programs of one person have.
+TEST_F(RemoteHeadTest, WhoLooksOnLeavesControlToWhoHasIt) {
+  const auto operating = Ready();
+  const auto looking = bench.Connect(nullptr, true).value();
+  EXPECT_EQ(looking->Status().state, HeadState::kReady);
+  EXPECT_FALSE(looking->Health().has_control);
+  EXPECT_FALSE(looking->Home());
+  ASSERT_TRUE(operating->Home());
+  EXPECT_TRUE(Eventually([&] { return head->homings == 1; }));
+}
+
+TEST_F(RemoteHeadTest, AStopNeedsNeitherControlNorASessionThatHasBegun) {
+  const auto operating = Ready();
+  LinkSession session({bench.Channel()}, "head");
+  const auto stopped = StopHead(session, std::chrono::milliseconds(3000), RunContext());
+  ASSERT_TRUE(stopped) << stopped.error().message;
+  EXPECT_EQ(head->stops, 1);
+  bench.peer = {"otto", false};
+  const auto refused = StopHead(session, std::chrono::milliseconds(3000), RunContext());
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("otto is an observer"));
+  EXPECT_EQ(head->stops, 1);
+}
+
 TEST_F(RemoteHeadTest, APoseIsAnsweredByTheHead) {
   const auto remote = Ready();
   const auto answer = remote->SendPose("{}");

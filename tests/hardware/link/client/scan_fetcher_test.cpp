@@ -55,7 +55,7 @@ class SilentHead final : public link::SensorHead::Service {
 struct ScanFetcherTest : testing::Test {
   /// What a station asks for whose messages come and go in `round_trip_s`.
   link::TransferStart Asked(bool thin, double round_trip_s) {
-    LinkSession session({head.Channel()}, "head");
+    LinkSession session({[this] { return head.Channel(); }}, "head");
     ScanFetcher::Options options;
     options.spool = folder / "spool";
     options.thin = thin;
@@ -76,7 +76,7 @@ struct ScanFetcherTest : testing::Test {
 TEST_F(ScanFetcherTest, APathWithShortRoundTripsIsTakenForWide) {
   const link::TransferStart start = Asked(false, 0.05);
   EXPECT_EQ(start.scan_id(), "0c2f1a3e-0000-4000-8000-000000000001");
-  EXPECT_EQ(start.wishes().bytes_per_s(), 0);
+  EXPECT_EQ(start.preferences().bytes_per_s(), 0);
   EXPECT_EQ(start.credit_bytes(), TransferRate::kWideCredit);
 }
 
@@ -84,8 +84,8 @@ TEST_F(ScanFetcherTest, APathWithShortRoundTripsIsTakenForWide) {
 TEST_F(ScanFetcherTest, APathThatIsSaidToBeThinIsThinFromTheFirstMoment) {
   const link::TransferStart start = Asked(true, 0.05);
   EXPECT_EQ(start.scan_id(), "0c2f1a3e-0000-4000-8000-000000000001");
-  EXPECT_GT(start.wishes().bytes_per_s(), 0);
-  EXPECT_LT(static_cast<double>(start.wishes().bytes_per_s()), kThinBytesPerS);
+  EXPECT_GT(start.preferences().bytes_per_s(), 0);
+  EXPECT_LT(static_cast<double>(start.preferences().bytes_per_s()), kThinBytesPerS);
   EXPECT_EQ(start.credit_bytes(), TransferRate::kLeastCredit);
 }
 

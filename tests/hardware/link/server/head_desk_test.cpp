@@ -25,7 +25,7 @@ class HeadDeskTest : public testing::Test {
     link::Command command;
     command.set_command_id(id);
     command.set_control_token(token);
-    command.set_boot_id(desk.Greet(anna).boot_id());
+    command.set_boot_id(desk.Identify(anna).boot_id());
     command.set_void_after_s(desk.Time() + 10.0);
     return command;
   }

@@ -43,10 +43,10 @@ class HeadServiceTest : public testing::Test {
   std::unique_ptr<link::SensorHead::Stub> stub;
 };
 
-TEST_F(HeadServiceTest, GreetsWithWhatDoesNotChange) {
+TEST_F(HeadServiceTest, IdentifiesItselfWithWhatDoesNotChange) {
   grpc::ClientContext context;
-  link::GreetReply reply;
-  ASSERT_TRUE(stub->Greet(&context, {}, &reply).ok());
+  link::IdentifyReply reply;
+  ASSERT_TRUE(stub->Identify(&context, {}, &reply).ok());
   EXPECT_EQ(reply.protocol(), kLinkProtocol);
   EXPECT_EQ(reply.description(), "fake head");
   EXPECT_EQ(reply.your_name(), "anna");

@@ -6,7 +6,7 @@
 namespace foresight {
 namespace {
 
-/// Answers a greeting with a description of a set length.
+/// Says who it is with a description of a set length.
 class VerboseHead : public link::SensorHead::Service {
  public:
   explicit VerboseHead(std::size_t reply_bytes) : text_(reply_bytes, 'x') {
@@ -18,13 +18,13 @@ class VerboseHead : public link::SensorHead::Service {
   }
   ~VerboseHead() override { server_->Shutdown(std::chrono::system_clock::now()); }
 
-  grpc::Status Greet(grpc::ServerContext*, const link::GreetRequest*,
-                     link::GreetReply* reply) override {
+  grpc::Status Identify(grpc::ServerContext*, const link::IdentifyRequest*,
+                        link::IdentifyReply* reply) override {
     reply->set_description(text_);
     return grpc::Status::OK;
   }
 
-  grpc::Status Greet(std::size_t request_bytes, std::size_t& reply_bytes) const {
+  grpc::Status Identify(std::size_t request_bytes, std::size_t& reply_bytes) const {
     grpc::ChannelArguments arguments;
     SetStationArguments(arguments, LinkPath::kThin, 20'000);
     const auto stub = link::SensorHead::NewStub(
@@ -32,10 +32,10 @@ class VerboseHead : public link::SensorHead::Service {
                                   PlaintextStationCredentials("127.0.0.1").value(), arguments));
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(20));
-    link::GreetRequest request;
+    link::IdentifyRequest request;
     request.set_program(std::string(request_bytes, 'x'));
-    link::GreetReply reply;
-    const grpc::Status status = stub->Greet(&context, request, &reply);
+    link::IdentifyReply reply;
+    const grpc::Status status = stub->Identify(&context, request, &reply);
     reply_bytes = reply.description().size();
     return status;
   }
@@ -52,16 +52,16 @@ constexpr std::size_t kMuch = kLargestMessageBytes - 64;  // and the message's f
 TEST(LinkArguments, AMessageOfSixteenMebibytesArrives) {
   const VerboseHead head(kMuch);
   std::size_t reply_bytes = 0;
-  const grpc::Status status = head.Greet(kMuch, reply_bytes);
+  const grpc::Status status = head.Identify(kMuch, reply_bytes);
   EXPECT_TRUE(status.ok()) << status.error_message();
   EXPECT_EQ(reply_bytes, kMuch);
 }
 
 TEST(LinkArguments, ALargerOneIsRefusedByEitherSide) {
   std::size_t reply_bytes = 0;
-  EXPECT_EQ(VerboseHead(10).Greet(kTooMuch, reply_bytes).error_code(),
+  EXPECT_EQ(VerboseHead(10).Identify(kTooMuch, reply_bytes).error_code(),
             grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_EQ(VerboseHead(kTooMuch).Greet(10, reply_bytes).error_code(),
+  EXPECT_EQ(VerboseHead(kTooMuch).Identify(10, reply_bytes).error_code(),
             grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
