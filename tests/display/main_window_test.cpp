@@ -2,9 +2,11 @@
 #include <qtadvanceddocking/DockWidget.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
 #include <QSlider>
@@ -86,6 +88,45 @@ TEST_F(Workstation, TheScanButtonStaysInItsPlaceWhenAPlanIsWarnedOf) {
   running->Settle();
   EXPECT_EQ(button->mapToGlobal({0, 0}), before);
   head.SetPlan(plan);
+}
+
+TEST_F(Workstation, TheFieldsShowThePlanThatIsExecuted) {
+  HeadViewModel& head = running->bench().head;
+  const PlanFields before = head.Plan();
+  PlanFields plan = before;
+  plan.from_deg = -12.5;
+  plan.there_and_back = !before.there_and_back;
+  plan.image_angles_deg = {-5.0, 5.0};
+  head.SetPlan(plan);
+  const auto* panel = running->window().findChild<HeadPanel*>();
+  const auto field = [&](const QString& name) -> const QDoubleSpinBox* {
+    for (const QDoubleSpinBox* box : panel->findChildren<QDoubleSpinBox*>())
+      if (box->accessibleName() == name) return box;
+    return nullptr;
+  };
+  ASSERT_NE(field(QStringLiteral("From")), nullptr);
+  EXPECT_EQ(field(QStringLiteral("From"))->value(), -12.5);
+  const auto choices = panel->findChildren<QComboBox*>();
+  const auto sweep = std::ranges::find_if(
+      choices, [](const QComboBox* box) { return box->accessibleName() == "Sweep"; });
+  ASSERT_NE(sweep, choices.end());
+  EXPECT_EQ((*sweep)->currentIndex(), plan.there_and_back ? 1 : 0);
+  const auto lines = panel->findChildren<QLineEdit*>();
+  EXPECT_TRUE(std::ranges::any_of(
+      lines, [](const QLineEdit* line) { return line->text() == QStringLiteral("-5, 5"); }));
+  head.SetPlan(before);
+  EXPECT_EQ(field(QStringLiteral("From"))->value(), before.from_deg);
+}
+
+TEST_F(Workstation, ANumberIsTypedAsItIs) {
+  HeadViewModel& head = running->bench().head;
+  const PlanFields before = head.Plan();
+  auto* speed = running->window().findChild<QDoubleSpinBox*>(QStringLiteral("speed"));
+  ASSERT_NE(speed, nullptr);
+  speed->selectAll();
+  QTest::keyClicks(speed, QStringLiteral("12.5"));
+  EXPECT_EQ(head.Plan().speed_deg_s, 12.5);
+  head.SetPlan(before);
 }
 
 TEST_F(Workstation, TheFieldsOfThePlanAreNotSqueezed) {

@@ -69,8 +69,8 @@ QWidget* HeadPanel::BuildPlan() {
   // says what is wrong with it.
   AddField(form, tr("From"), -9999, 9999, 5, tr("°"), &PlanFields::from_deg);
   AddField(form, tr("To"), -9999, 9999, 5, tr("°"), &PlanFields::to_deg);
-  speed_ = AddField(form, tr("Speed"), 0, 9999, 1, tr(" °/s"), &PlanFields::speed_deg_s);
-  speed_->setObjectName(QStringLiteral("speed"));
+  AddField(form, tr("Speed"), 0, 9999, 1, tr(" °/s"), &PlanFields::speed_deg_s)
+      ->setObjectName(QStringLiteral("speed"));
   fastest_button_ = new QPushButton;
   fastest_button_->setObjectName(QStringLiteral("fastestButton"));
   fastest_button_->setToolTip(
@@ -83,6 +83,9 @@ QWidget* HeadPanel::BuildPlan() {
   angles_->setToolTip(tr("Motor angles in degrees, separated by commas, within the scope"));
   form->addRow(tr("Images, °"), angles_);
   connect(angles_, &QLineEdit::editingFinished, this, &HeadPanel::TakeAngles);
+  show_fields_.push_back([this](const PlanFields& fields) {
+    if (!angles_->hasFocus()) angles_->setText(AnglesAsText(fields.image_angles_deg));
+  });
   AddChoice(form, tr("Taken"), {tr("In passing"), tr("Standing still")},
             &PlanFields::standing_still);
   AddField(form, tr("Exposure"), 0, 9999, 1, tr(" ms"), &PlanFields::exposure_ms);
@@ -107,11 +110,16 @@ QDoubleSpinBox* HeadPanel::AddField(QFormLayout* form, const QString& label, dou
             plan.*field = value;
             head_->SetPlan(plan);
           });
+  show_fields_.push_back([box, field](const PlanFields& fields) {
+    if (box->value() == fields.*field) return;  // a number that is being typed stays as it is
+    const QSignalBlocker quiet(box);
+    box->setValue(fields.*field);
+  });
   return box;
 }
 
-QComboBox* HeadPanel::AddChoice(QFormLayout* form, const QString& label, const QStringList& choices,
-                                bool PlanFields::*field) {
+void HeadPanel::AddChoice(QFormLayout* form, const QString& label, const QStringList& choices,
+                          bool PlanFields::*field) {
   auto* box = new QComboBox;
   box->addItems(choices);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -124,7 +132,10 @@ QComboBox* HeadPanel::AddChoice(QFormLayout* form, const QString& label, const Q
     plan.*field = index == 1;
     head_->SetPlan(plan);
   });
-  return box;
+  show_fields_.push_back([box, field](const PlanFields& fields) {
+    const QSignalBlocker quiet(box);
+    box->setCurrentIndex(fields.*field ? 1 : 0);
+  });
 }
 
 void HeadPanel::TakeAngles() {
@@ -214,8 +225,7 @@ void HeadPanel::ShowPlan() {
                                          : tr("Fastest: not known"));
   fastest_button_->setEnabled(fastest > 0.0 &&
                               std::abs(fastest - head_->Plan().speed_deg_s) > 0.05);
-  const QSignalBlocker quiet(speed_);
-  speed_->setValue(head_->Plan().speed_deg_s);
+  for (const auto& show : show_fields_) show(head_->Plan());
   if (!prediction.method.isEmpty()) sigma_title_->setText(tr("Reach of %1").arg(prediction.method));
   warning_->setText(prediction.warning);
   warning_row_->setVisible(!prediction.warning.isEmpty());

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
+#include <vector>
 
 #include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
 
-class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
@@ -27,15 +28,15 @@ class HeadPanel : public QWidget {
   QWidget* BuildButtons(CommandTable* commands);
   QDoubleSpinBox* AddField(QFormLayout* form, const QString& label, double low, double high,
                            double step, const QString& unit, double PlanFields::*field);
-  QComboBox* AddChoice(QFormLayout* form, const QString& label, const QStringList& choices,
-                       bool PlanFields::*field);
+  void AddChoice(QFormLayout* form, const QString& label, const QStringList& choices,
+                 bool PlanFields::*field);
   void TakeAngles();
   void ShowPlan();
   void ShowStatus();
 
   HeadViewModel* head_;
   QWidget* plan_;
-  QDoubleSpinBox* speed_;
+  std::vector<std::function<void(const PlanFields&)>> show_fields_;  ///< of the plan, one each
   QLineEdit* angles_;
   QLabel* time_;
   QLabel* lines_;

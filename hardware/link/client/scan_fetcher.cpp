@@ -16,10 +16,7 @@ constexpr std::int64_t kMostWaiting = std::int64_t{80} << 20;
 constexpr double kRetry_s = 0.25;     ///< after the link broke
 constexpr double kRetryDisk_s = 2.0;  ///< after this computer's disk did not take something
 constexpr double kEarlyEvery_s = 0.3;
-/// The head has more to send and nothing comes: then the connection is doubted.
-constexpr double kQuiet_s = 0.3;
-constexpr double kMostQuiet_s = 2.4;  ///< of a head that is slow, and stays so on a fresh one
-constexpr double kConfirm_s = 5.0;    ///< for the head's answer that it heard of the end
+constexpr double kConfirm_s = 5.0;  ///< for the head's answer that it heard of the end
 /// A sign of life and its answer, 300 bytes with all that is around them, take 0.25 s at 9600
 /// bit/s.
 constexpr double kWideRoundTrip_s = 0.12;
@@ -79,7 +76,7 @@ class ScanFetcher::Inbox {
 };
 
 ScanFetcher::ScanFetcher(LinkSession& session, Options options)
-    : session_(session), options_(std::move(options)), quiet_s_(kQuiet_s) {
+    : session_(session), options_(std::move(options)) {
   if (options_.archive) TakeInSpools();
   thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
 }
@@ -414,8 +411,7 @@ void ScanFetcher::SayThatAllIsHere(Stream& stream, Inbox& inbox) {
 
 Status ScanFetcher::Receive(Fetched& scan, const Stub& stub, Stream& stream, Inbox& inbox) {
   std::int64_t preferences_sent = 0;
-  double heard_s = LinkSession::Now();
-  bool doubted = false;
+  silence_.Begin(LinkSession::Now());
   while (!inbox.Closed() && !Superseded(scan)) {
     left_behind_ = session_.LeftBehind(stub);
     if (left_behind_) break;
@@ -423,13 +419,9 @@ Status ScanFetcher::Receive(Fetched& scan, const Stub& stub, Stream& stream, Inb
     if (Superseded(scan)) break;  // what is not taken in comes again
     const bool came = !chunks.empty();
     if (came || inbox.LeftBytes() == 0) {
-      if (std::exchange(doubted, false)) session_.Trust();
-      if (came) quiet_s_ = kQuiet_s;
-      heard_s = LinkSession::Now();
-    } else if (!doubted && !thin_ && LinkSession::Now() - heard_s > quiet_s_ + RoundTrip()) {
+      if (silence_.Heard(LinkSession::Now())) session_.Trust();
+    } else if (!thin_ && silence_.Doubts(LinkSession::Now(), RoundTrip())) {
       session_.Doubt();
-      doubted = true;
-      quiet_s_ = std::min(2.0 * quiet_s_, kMostQuiet_s);
     }
     FORESIGHT_CHECK(Acknowledge(scan, stream, std::move(chunks), inbox.LeftBytes()));
     FORESIGHT_TRY(const bool came_by_burst, KeepBurst(scan, stream));

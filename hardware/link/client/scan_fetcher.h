@@ -18,6 +18,7 @@
 #include "hardware/link/client/link_session.h"
 #include "hardware/link/client/scan_archive.h"
 #include "hardware/link/client/scan_transfer.h"
+#include "hardware/link/client/silence_watch.h"
 #include "hardware/link/client/transfer_rate.h"
 
 namespace foresight {
@@ -125,8 +126,8 @@ class ScanFetcher {
   std::vector<std::int64_t> images_first_;
   std::shared_ptr<const EarlyScan> early_;
   TransferRate rate_;
-  double early_s_ = 0.0;      ///< of the thread alone, as what follows
-  double quiet_s_;            ///< a silence so long is doubtful
+  double early_s_ = 0.0;  ///< of the thread alone, as what follows
+  SilenceWatch silence_;
   bool left_behind_ = false;  ///< the stream's connection was, for a fresh one
   bool thin_ = false;         ///< the path is known to be thin: only what is small may travel
   std::jthread thread_;       ///< last: starts when everything else is there

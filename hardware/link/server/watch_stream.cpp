@@ -56,8 +56,12 @@ link::Event WatchStream::Compose(const link::SignOfLife& sign) const {
   const bool fast = sign.status_rate_hz() >= kFastRate_hz;
   const double now_s = desk_.Time();
   link::Event event;
-  *event.mutable_status() =
-      desk_.Now(now_s - health_s_ >= (fast ? kHealthOfFast_s : kHealthEvery_s));
+  *event.mutable_status() = desk_.Now(false);
+  const link::State state = event.status().state();
+  const bool at_rest_again = state != sent_.status().state() &&
+                             (state == link::READY || state == link::FAULT);  // devices may differ
+  if (at_rest_again || now_s - health_s_ >= (fast ? kHealthOfFast_s : kHealthEvery_s))
+    *event.mutable_status() = desk_.Now(true);
   event.set_answers(sign.number());
   event.set_operator_name(desk_.Holder());
   event.set_you_have_control(desk_.HasControl(sign.control_token()));
@@ -113,7 +117,13 @@ void WatchStream::Run(const std::atomic<bool>& closing) {
     if (Due(event, sign.status_rate_hz()) && !Send(std::move(event), fast)) break;
     std::this_thread::sleep_for(std::chrono::duration<double>(kLook_s));
   }
-  context_.TryCancel();  // or the reader would wait for a station that says nothing more
+  if (!gone_ || !still_good_()) {
+    context_.TryCancel();  // or the reader would wait for a station that says nothing more
+    return;
+  }
+  // A station that says nothing more has its last sign answered, which may be its only one.
+  const link::SignOfLife sign = LastSign();
+  if (sign.number() != sent_.answers() || sent_s_ < 0.0) Send(Compose(sign), false);
 }
 
 }  // namespace foresight

@@ -99,6 +99,27 @@ TEST_F(HeadServiceTest, AChangeOfStateComesByItself) {
   }
 }
 
+/// On a thin path the devices' health comes seldom; devices that have just been connected would
+/// show as missing until then.
+TEST_F(HeadServiceTest, AHeadThatBecomesReadyTellsHowItsDevicesDo) {
+  grpc::ClientContext context;
+  Prepare(context);
+  auto watch = stub->Watch(&context);
+  link::SignOfLife sign;
+  sign.set_status_rate_hz(0.5);
+  ASSERT_TRUE(watch->Write(sign));
+  link::Event event;
+  ASSERT_TRUE(watch->Read(&event));
+  EXPECT_NE(event.status().health_json(), "");
+  head->SetState(HeadState::kHoming);
+  while (watch->Read(&event) && event.status().state() != link::HOMING) continue;
+  EXPECT_EQ(event.status().health_json(), "");
+  head->SetState(HeadState::kReady);
+  while (watch->Read(&event) && event.status().state() != link::READY) continue;
+  EXPECT_NE(event.status().health_json(), "");
+  context.TryCancel();
+}
+
 TEST_F(HeadServiceTest, SignsOfLifeAreAnsweredAndRenewTheLease) {
   link::ControlReply control;
   {
@@ -122,6 +143,22 @@ TEST_F(HeadServiceTest, SignsOfLifeAreAnsweredAndRenewTheLease) {
   EXPECT_EQ(event.operator_name(), "anna");
   EXPECT_GE(head->signs, 1);
   context.TryCancel();
+}
+
+TEST_F(HeadServiceTest, AStationThatSaysNothingMoreHasItsLastSignAnswered) {
+  for (std::uint32_t number = 1; number <= 100; ++number) {
+    grpc::ClientContext context;
+    Prepare(context);
+    auto watch = stub->Watch(&context);
+    link::SignOfLife sign;
+    sign.set_number(number);
+    watch->WriteLast(sign, {});
+    std::uint32_t answers = 0;
+    link::Event event;
+    while (watch->Read(&event)) answers = event.answers();
+    EXPECT_EQ(answers, number);
+    EXPECT_TRUE(watch->Finish().ok()) << number;
+  }
 }
 
 TEST_F(HeadServiceTest, ScansThatChangeAreNamedInTheEvents) {
