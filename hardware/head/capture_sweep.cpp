@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/geometry/angles.h"
 
@@ -133,6 +134,7 @@ CaptureSweep::Step CaptureSweep::SweepPass(int pass) {
   if (back) {
     if (Step over = WaitForTurn()) return over;
     gate_ = LineGate(header_.rig.lidar, plan_.to_rad, plan_.from_rad);
+    unplaced_lines_ = 0;
   }
   const double run_out = sign_ * options_.RunUp(plan_.speed_rad_s);
   const double end = back ? plan_.from_rad - run_out : plan_.to_rad + run_out;
@@ -424,6 +426,7 @@ void CaptureSweep::HandOnLines() {
     sink_.OnLine(line);
     ++progress_.lines;
   }
+  progress_.lost_lines += gate_.Unplaced() - std::exchange(unplaced_lines_, gate_.Unplaced());
 }
 
 void CaptureSweep::HandOnImages(bool all) {

@@ -100,6 +100,7 @@ class CaptureSweep {
   MotorTrack track_;
   LineGate gate_;
   std::optional<std::int64_t> last_seq_;
+  int unplaced_lines_ = 0;  ///< of this pass, counted among the lost lines
   double last_line_s_ = 0.0;
   std::optional<double> last_stamp_s_;
   std::string lidar_trouble_;  ///< what it last said is wrong with its lines

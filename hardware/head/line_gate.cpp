@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace foresight {
 
@@ -32,13 +33,18 @@ void LineGate::Judge(LidarLine line, const MotorTrack& track, std::vector<LidarL
   if (passed_) return;
   const double first = sign_ * track.AngleAt(line.time_s + lidar_.BeamTime(0));
   const double last = sign_ * track.AngleAt(line.time_s + lidar_.BeamTime(lidar_.beams - 1));
-  if (std::isnan(first) || std::isnan(last)) return;
+  if (std::isnan(first) || std::isnan(last)) {
+    ++perhaps_unplaced_;
+    return;
+  }
+  const int unplaced = std::exchange(perhaps_unplaced_, 0);
   const auto [lowest, highest] = std::minmax(first, last);
   if (highest <= high_rad_ && lowest < low_rad_) {
     before_ = std::move(line);
     return;
   }
   if (before_) out.push_back(*std::exchange(before_, std::nullopt));
+  unplaced_ += unplaced;
   passed_ = highest > high_rad_;
   out.push_back(std::move(line));
 }

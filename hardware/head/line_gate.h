@@ -24,6 +24,9 @@ class LineGate {
   void DropAfter(double time_s);
   /// Whether the line after the scope has been handed on. Nothing comes after it.
   bool Passed() const { return passed_; }
+  /// Lines of the scope that were left out so far because the motor track has a hole where they
+  /// were measured: nobody can say where they looked.
+  int Unplaced() const { return unplaced_; }
 
  private:
   void Judge(LidarLine line, const MotorTrack& track, std::vector<LidarLine>& out);
@@ -35,6 +38,8 @@ class LineGate {
   std::deque<LidarLine> waiting_;
   std::optional<LidarLine> before_;
   bool passed_ = false;
+  int unplaced_ = 0;
+  int perhaps_unplaced_ = 0;  ///< since the last line that could be placed
 };
 
 }  // namespace foresight

@@ -61,5 +61,31 @@ TEST(LineGate, DropsLinesThatTheTrackDoesNotKnow) {
   EXPECT_TRUE(Taken(gate, Track(1.0)).empty());
 }
 
+/// Samples with a hole between two times.
+MotorTrack TrackWithHole(double from_s, double to_s) {
+  const MotorTrack whole = Track(1.0);
+  MotorTrack track;
+  for (const MotorSample& sample : whole.samples())
+    if (sample.time_s < from_s || sample.time_s > to_s) track.Add(sample);
+  return track;
+}
+
+TEST(LineGate, CountsTheLinesOfTheScopeThatFellIntoAHoleOfTheTrack) {
+  LineGate gate(LidarModel(), RadiansFromDegrees(-2.0), RadiansFromDegrees(6.0));
+  for (int seq = -10; seq <= 30; ++seq) gate.Push(Line(seq));
+  const auto taken = Taken(gate, TrackWithHole(0.1, 0.4));
+  EXPECT_TRUE(gate.Passed());
+  EXPECT_GT(gate.Unplaced(), 5);
+  EXPECT_EQ(static_cast<std::int64_t>(taken.size()) + gate.Unplaced(),
+            taken.back() - taken.front() + 1);
+}
+
+TEST(LineGate, AHoleBeforeTheScopeCostsItNothing) {
+  LineGate gate(LidarModel(), RadiansFromDegrees(5.0), RadiansFromDegrees(6.0));
+  for (int seq = -10; seq <= 30; ++seq) gate.Push(Line(seq));
+  EXPECT_FALSE(Taken(gate, TrackWithHole(0.1, 0.4)).empty());
+  EXPECT_EQ(gate.Unplaced(), 0);
+}
+
 }  // namespace
 }  // namespace foresight

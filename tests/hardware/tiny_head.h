@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "core/geometry/angles.h"
 #include "hardware/head/capture_head.h"
@@ -63,7 +64,11 @@ class ObservedMotor final : public Motor {
     if (failing) return Fail(ErrorCode::kDevice, "test motor: following error 8611h");
     return motor_->Position();
   }
-  std::vector<MotorSample> TakeTrack() override { return motor_->TakeTrack(); }
+  std::vector<MotorSample> TakeTrack() override {
+    std::vector<MotorSample> samples = motor_->TakeTrack();
+    if (keep) std::erase_if(samples, [this](const MotorSample& sample) { return !keep(sample); });
+    return samples;
+  }
   void QuickStop() override {
     ++quick_stops;
     motor_->QuickStop();
@@ -72,6 +77,7 @@ class ObservedMotor final : public Motor {
 
   std::atomic<int> quick_stops{0};
   std::atomic<bool> failing{false};
+  std::function<bool(const MotorSample&)> keep;  ///< of the track; set before the scan
 
  private:
   std::unique_ptr<Motor> motor_;
