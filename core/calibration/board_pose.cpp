@@ -1,11 +1,12 @@
 #include "core/calibration/board_pose.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "core/calibration/rotation_step.h"
+#include "core/geometry/nearest_rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 namespace {
@@ -55,9 +56,9 @@ std::optional<Eigen::Matrix3d> RaysFromPlane(const CenteredCorners& corners) {
       rows.middleCols<3>(3 * column) = point[column] * across;
     normal += rows.transpose() * rows;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
-  if (solver.eigenvalues()[1] < 1e-10 * solver.eigenvalues()[8]) return std::nullopt;
-  Eigen::Matrix3d matrix = Eigen::Map<const Eigen::Matrix3d>(solver.eigenvectors().col(0).data());
+  const SymmetricEigen eigen = EigenOf(normal);
+  if (eigen.values[1] < 1e-10 * eigen.values[8]) return std::nullopt;
+  Eigen::Matrix3d matrix = Eigen::Map<const Eigen::Matrix3d>(eigen.vectors.data());  // column 0
   double along = 0.0;
   for (std::size_t i = 0; i < corners.rays.size(); ++i)
     along += corners.rays[i].dot(
@@ -74,9 +75,8 @@ std::optional<CameraFromPattern> LinearPose(const CenteredCorners& corners) {
   Eigen::Matrix3d axes;
   axes << matrix->col(0) / length, matrix->col(1) / length,
       matrix->col(0).cross(matrix->col(1)) / (length * length);
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  if (!(rotation.determinant() > 0.0)) return std::nullopt;
+  if (!(axes.determinant() > 0.0)) return std::nullopt;
+  const Eigen::Matrix3d rotation = NearestRotation(axes);
   const Eigen::Vector3d center_in_camera = matrix->col(2) * (corners.scale / length);
   return CameraFromPattern(rotation, center_in_camera - rotation * corners.center);
 }

@@ -1,8 +1,8 @@
 #include "core/calibration/bundle_covariance.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 namespace {
@@ -53,11 +53,10 @@ std::optional<Eigen::MatrixXd> Inverse(const Eigen::MatrixXd& matrix) {
   if (!(diagonal.minCoeff() > 0.0) || !diagonal.allFinite()) return std::nullopt;
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
-  if (!(eigenvalues.minCoeff() > kSmallestEigenvalue * eigenvalues.maxCoeff())) return std::nullopt;
-  return scale.asDiagonal() * solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() *
-         solver.eigenvectors().transpose() * scale.asDiagonal();
+  const auto [values, vectors] = EigenOf(scaled);
+  if (!(values.minCoeff() > kSmallestEigenvalue * values.maxCoeff())) return std::nullopt;
+  return scale.asDiagonal() * vectors * values.cwiseInverse().asDiagonal() * vectors.transpose() *
+         scale.asDiagonal();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "core/calibration/calibrate_chain.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "core/calibration/intrinsics.h"
 #include "core/calibration/motor_graph.h"
 #include "core/geometry/angles.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 namespace {
@@ -107,9 +107,8 @@ std::string WeakestInWords(const ChainCovariance& covariance) {
   Eigen::VectorXd scale(count);
   for (Eigen::Index i = 0; i < count; ++i)
     scale[i] = 1.0 / ToleranceOf(covariance.unknowns[static_cast<std::size_t>(i)]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      scale.asDiagonal() * covariance.matrix * scale.asDiagonal());
-  const Eigen::VectorXd direction = solver.eigenvectors().col(count - 1).cwiseAbs();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * covariance.matrix * scale.asDiagonal();
+  const Eigen::VectorXd direction = EigenOf(scaled).vectors.col(count - 1).cwiseAbs();
   Eigen::Index first = 0, second = 0;
   direction.maxCoeff(&first);
   Eigen::VectorXd others = direction;

@@ -1,10 +1,13 @@
 #include "core/calibration/calibrate_lidar.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/calibration/tangent.h"
+#include "core/geometry/nearest_rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 namespace {
@@ -52,14 +55,13 @@ std::optional<Rigid<frame::Camera, frame::Lidar>> LinearPose(const ChainState& s
       rows.push_back({n, p, offset});
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
-  if (solver.eigenvalues()[0] < 1e-9 * solver.eigenvalues()[8]) return std::nullopt;
+  const Eigen::VectorXd spread = EigenOf(normal).values;
+  if (spread[0] < 1e-9 * spread[8]) return std::nullopt;
   const Eigen::Matrix<double, 9, 1> x = normal.ldlt().solve(right);
   Eigen::Matrix3d near;
   near << x.segment<3>(0), x.segment<3>(3), x.segment<3>(0).cross(x.segment<3>(3));
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(near, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  if (rotation.determinant() < 0.0) return std::nullopt;
+  if (near.determinant() < 0.0) return std::nullopt;
+  const Eigen::Matrix3d rotation = NearestRotation(near);
   Eigen::Vector3d right_t = Eigen::Vector3d::Zero();
   for (const Row& row : rows) right_t += row.n * (row.offset - row.n.dot(rotation * row.point));
   return Rigid<frame::Camera, frame::Lidar>(rotation,

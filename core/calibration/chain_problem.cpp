@@ -2,7 +2,6 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "core/base/parallel.h"
@@ -10,6 +9,7 @@
 #include "core/calibration/chain_costs.h"
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 namespace {
@@ -373,19 +373,19 @@ Result<ChainCovariance> CovarianceOfChain(const ChainData& data, const ChainSolv
     return Fail(ErrorCode::kNoConvergence, "calibration: the covariance cannot be computed");
 
   const ScaledNormal normal = NormalOf(jacobian);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(normal.matrix);
+  const SymmetricEigen eigen = EigenOf(normal.matrix);
   const auto shared = static_cast<Eigen::Index>(covariance.unknowns.size());
   constexpr double kLeastEigenvalue = 1e-11;  // rounding leaves 1e-15 times the number of unknowns
-  if (solver.eigenvalues()[0] < kLeastEigenvalue) {
+  if (eigen.values[0] < kLeastEigenvalue) {
     Eigen::Index worst = 0;
-    solver.eigenvectors().col(0).head(shared).cwiseAbs().maxCoeff(&worst);
+    eigen.vectors.col(0).head(shared).cwiseAbs().maxCoeff(&worst);
     const SharedUnknown& unknown = covariance.unknowns[static_cast<std::size_t>(worst)];
     return Fail(ErrorCode::kTooFewPoints, "calibration: the data do not say {}: {}",
                 unknown.in_words, unknown.hint);
   }
   const Eigen::MatrixXd half = normal.scale.head(shared).cwiseInverse().asDiagonal() *
-                               solver.eigenvectors().topRows(shared) *
-                               solver.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+                               eigen.vectors.topRows(shared) *
+                               eigen.values.cwiseSqrt().cwiseInverse().asDiagonal();
   covariance.matrix = half * half.transpose();
   return covariance;
 }

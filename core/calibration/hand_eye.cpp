@@ -1,10 +1,12 @@
 #include "core/calibration/hand_eye.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
+#include "core/geometry/nearest_rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 namespace {
@@ -40,11 +42,9 @@ Richness RichnessOf(const std::vector<Motion>& motions) {
     const Eigen::Vector3d turn = RotationLog(motion.in_robot.rotation());
     moments += turn * turn.transpose() / static_cast<double>(motions.size());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
-  const Eigen::Vector3d& values = solver.eigenvalues();
+  const auto [values, axes] = EigenOf(moments);
   return {std::sqrt(std::max(0.0, values.sum())),
-          std::sqrt(std::max(0.0, values[1]) / std::max(values[2], 1e-12)),
-          solver.eigenvectors().col(2)};
+          std::sqrt(std::max(0.0, values[1]) / std::max(values[2], 1e-12)), axes.col(2)};
 }
 
 Status CheckRichness(const Richness& richness, const HandEyeOptions& options) {
@@ -68,11 +68,7 @@ RobotFromBase StartFromMotions(const std::vector<Motion>& motions) {
   for (const Motion& motion : motions)
     correlation += RotationLog(motion.in_robot.rotation()) *
                    RotationLog(motion.in_base.rotation()).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1.0, 1.0, 1.0);
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;
-  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d rotation = NearestRotation(correlation);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const Motion& motion : motions) {
@@ -120,14 +116,17 @@ HandEyeCalibration Refine(const std::vector<HandEyeSample>& samples, RobotFromBa
                          ResidualsOf(samples, base_down, board_down, options)) /
                         (2.0 * kDelta);
     }
-    const Eigen::VectorXd step = -jacobian.colPivHouseholderQr().solve(residuals);
+    const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    const Eigen::VectorXd step = -normal.ldlt().solve(jacobian.transpose() * residuals);
     std::tie(base, board) = moved(step);
     if (step.norm() < 1e-10) break;
   }
   residuals = ResidualsOf(samples, base, board, options);
   const double freedom = static_cast<double>(residuals.size()) - unknowns;
   const double chi = freedom > 0.0 ? residuals.squaredNorm() / freedom : 1.0;
-  const Eigen::MatrixXd inverse = (jacobian.transpose() * jacobian).inverse();
+  const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  const Eigen::MatrixXd inverse =
+      normal.ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   HandEyeCalibration result;
   result.robot_from_base = base;
   result.hand_from_board = board;

@@ -1,6 +1,6 @@
 #include "core/calibration/initial_motor.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #include "core/calibration/locate_stand.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <limits>
 

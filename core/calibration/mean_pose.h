@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <vector>
 
 #include "core/geometry/rigid.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 
@@ -16,8 +16,7 @@ Rigid<To, From> MeanOf(const std::vector<Rigid<To, From>>& all) {
     sum += one.rotation().coeffs() * one.rotation().coeffs().transpose();
     translation += one.translation();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(sum);
-  return {Eigen::Quaterniond(Eigen::Vector4d(solver.eigenvectors().col(3))),
+  return {Eigen::Quaterniond(Eigen::Vector4d(EigenOf(sum).vectors.col(3))),
           translation / static_cast<double>(all.size())};
 }
 

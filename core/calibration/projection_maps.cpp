@@ -1,6 +1,5 @@
 #include "core/calibration/projection_maps.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,8 @@
 #include <limits>
 
 #include "core/calibration/fit_lens.h"
+#include "core/geometry/nearest_rotation.h"
+#include "core/geometry/symmetric_eigen.h"
 
 namespace foresight {
 namespace {
@@ -46,19 +47,16 @@ Eigen::Isometry3d EvenFromOdd(const CameraHalves& halves, double distance_m) {
   }
   Eigen::Isometry3d even_from_odd = Eigen::Isometry3d::Identity();
   if (count < 3) return even_from_odd;
-  if (!at_infinity) {
-    even_from_odd.matrix() =
-        Eigen::umeyama(Eigen::Matrix3Xd(distance_m * odd.leftCols(count)),
-                       Eigen::Matrix3Xd(distance_m * even.leftCols(count)), false);
-    return even_from_odd;
-  }
   // Directions turn about the camera, not about their mean.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      even.leftCols(count) * odd.leftCols(count).transpose(),
-      Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  signs.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  even_from_odd.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  Eigen::Vector3d odd_mean = Eigen::Vector3d::Zero(), even_mean = Eigen::Vector3d::Zero();
+  if (!at_infinity) {
+    odd_mean = odd.leftCols(count).rowwise().mean();
+    even_mean = even.leftCols(count).rowwise().mean();
+  }
+  even_from_odd.linear() = NearestRotation((even.leftCols(count).colwise() - even_mean) *
+                                           (odd.leftCols(count).colwise() - odd_mean).transpose());
+  if (!at_infinity)
+    even_from_odd.translation() = distance_m * (even_mean - even_from_odd.linear() * odd_mean);
   return even_from_odd;
 }
 
@@ -86,8 +84,7 @@ ImageField ProjectionUncertainty(const BundleCovariance& covariance, int width, 
   return FieldOf(width, height, size, [&](const Eigen::Vector2d& pixel) {
     const auto square = covariance.OfProjection(pixel, distance_m);
     if (!square) return kNone;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(*square, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, solver.eigenvalues().y()));
+    return std::sqrt(std::max(0.0, EigenOf(*square).values[1]));
   });
 }
 

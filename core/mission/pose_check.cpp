@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/printable.h"
+#include "core/geometry/symmetric_eigen.h"
 #include "core/mission/pose_message.h"
 #include "core/sensor/rig_id.h"
 
@@ -81,10 +81,7 @@ Status CheckCovariance(const PoseCovariance& covariance) {
   const PoseCovariance correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
   if (!((correlation - correlation.transpose()).cwiseAbs().maxCoeff() <= kRounding))
     return Fail(ErrorCode::kBadData, "'covariance' is not symmetric");
-  const double least =
-      Eigen::SelfAdjointEigenSolver<PoseCovariance>(correlation, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .minCoeff();
+  const double least = EigenOf(correlation).values.minCoeff();
   if (least >= -kRounding) return {};
   return Fail(ErrorCode::kBadData, "'covariance' is not positive semi-definite");
 }

@@ -134,7 +134,7 @@ CaptureSweep::Step CaptureSweep::SweepPass(int pass) {
   if (back) {
     if (Step over = WaitForTurn()) return over;
     gate_ = LineGate(header_.rig.lidar, plan_.to_rad, plan_.from_rad);
-    unplaced_lines_ = 0;
+    unplaced_of_gate_ = 0;
   }
   const double run_out = sign_ * options_.RunUp(plan_.speed_rad_s);
   const double end = back ? plan_.from_rad - run_out : plan_.to_rad + run_out;
@@ -382,6 +382,15 @@ CaptureSweep::Step CaptureSweep::JudgeLines() {
   const int rounding = 2 * plan_.passes;
   const int least = static_cast<int>(std::ceil(options_.line_floor * (planned->lines - rounding)));
   if (progress_.lines >= least) return std::nullopt;
+  // A computer that stood still read no motor, and the lines of that time have no place.
+  if (progress_.lines + unplaced_lines_ >= least)
+    return SweepEnd{
+        ScanState::kInterrupted,
+        fmt::format("{} of {} planned lines have a place in the cloud: the angle of the "
+                    "motor was not read for up to {:.2f} s, when {} lines were "
+                    "measured; scan again",
+                    progress_.lines, planned->lines, longest_hole_s_, unplaced_lines_),
+        false, false};
   NoteLidarTrouble();
   return SweepEnd{ScanState::kInterrupted,
                   fmt::format("{} of {} planned lines came from the lidar{}{}", progress_.lines,
@@ -412,7 +421,11 @@ CaptureSweep::Step CaptureSweep::PumpTrack() {
 }
 
 void CaptureSweep::KeepTrack(const std::vector<MotorSample>& samples) {
-  for (const MotorSample& sample : samples) track_.Add(sample);
+  for (const MotorSample& sample : samples) {
+    if (!track_.empty())
+      longest_hole_s_ = std::max(longest_hole_s_, sample.time_s - track_.samples().back().time_s);
+    track_.Add(sample);
+  }
   sink_.OnMotorSamples(samples);
   const auto all = track_.samples();
   const MotorSample& last = all.back();
@@ -426,7 +439,9 @@ void CaptureSweep::HandOnLines() {
     sink_.OnLine(line);
     ++progress_.lines;
   }
-  progress_.lost_lines += gate_.Unplaced() - std::exchange(unplaced_lines_, gate_.Unplaced());
+  const int unplaced = gate_.Unplaced() - std::exchange(unplaced_of_gate_, gate_.Unplaced());
+  unplaced_lines_ += unplaced;
+  progress_.lost_lines += unplaced;
 }
 
 void CaptureSweep::HandOnImages(bool all) {

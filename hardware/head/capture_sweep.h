@@ -100,7 +100,9 @@ class CaptureSweep {
   MotorTrack track_;
   LineGate gate_;
   std::optional<std::int64_t> last_seq_;
-  int unplaced_lines_ = 0;  ///< of this pass, counted among the lost lines
+  int unplaced_of_gate_ = 0;  ///< in this pass
+  int unplaced_lines_ = 0;    ///< in all passes, counted among the lost lines
+  double longest_hole_s_ = 0.0;
   double last_line_s_ = 0.0;
   std::optional<double> last_stamp_s_;
   std::string lidar_trouble_;  ///< what it last said is wrong with its lines

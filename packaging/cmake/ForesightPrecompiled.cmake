@@ -1,4 +1,4 @@
-# Precompiled headers: Eigen, fmt, Qt, CLI11 and GoogleTest are parsed once and not once a file, which
+# Precompiled headers: Eigen, fmt, Qt, CLI11, gRPC and GoogleTest are parsed once and not once a file, which
 # halves a build from nothing. `foresight_precompiled(TARGET KIND)`: KIND is a header of
 # packaging/cmake/precompiled. All targets of one kind share one.
 option(FORESIGHT_PRECOMPILED "Parse common headers once" ON)
@@ -9,7 +9,7 @@ endif()
 # Three quarters of the time that a command or a test took to compile went into making it fast, and
 # nothing in it needs to be: what takes time is in the libraries.
 function(foresight_compile_quickly target kind)
-  if(kind STREQUAL command_line OR kind STREQUAL test)
+  if(kind STREQUAL command_line OR kind MATCHES test)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
@@ -31,8 +31,13 @@ function(foresight_precompiled target kind)
       target_compile_definitions(${owner} PRIVATE QT_NO_KEYWORDS)
     elseif(kind STREQUAL command_line)
       target_link_libraries(${owner} PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
-    elseif(kind STREQUAL test)
+    elseif(kind MATCHES test)
       target_link_libraries(${owner} PRIVATE GTest::gmock GTest::gtest)
+    endif()
+    if(kind MATCHES link)
+      target_include_directories(${owner} SYSTEM PRIVATE ${PROJECT_BINARY_DIR}/hardware/link/made)
+      target_link_libraries(${owner} PRIVATE protobuf::libprotobuf PkgConfig::grpc)
+      add_dependencies(${owner} foresight_link_made)
     endif()
     foresight_compile_quickly(${owner} ${kind})
     target_precompile_headers(${owner} PRIVATE

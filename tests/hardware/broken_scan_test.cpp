@@ -1,6 +1,8 @@
 // Scans that devices spoil: they never end as complete, and say what was seen.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "core/base/random.h"
 #include "tests/hardware/tiny_head.h"
 
@@ -129,6 +131,40 @@ TEST(BrokenScan, BothPassesCount) {
   ASSERT_TRUE(scan);
   EXPECT_EQ(scan->state, ScanState::kInterrupted);
   EXPECT_THAT(scan->reason, HasSubstr("of 84 planned lines came from the lidar"));
+}
+
+/// A computer that did not read the motor for so long in the middle of the scope.
+std::shared_ptr<const Scan> RunWithHole(TinyHead& tiny, double hole_s) {
+  const ScanPlan plan = TinyPlan();
+  const double middle_rad = 0.5 * (plan.from_rad + plan.to_rad);
+  const double half_rad = 0.5 * hole_s * plan.speed_rad_s;
+  tiny.motor->keep = [=](const MotorSample& sample) {
+    return std::abs(sample.angle_rad - middle_rad) > half_rad;
+  };
+  return tiny.Run(plan);
+}
+
+/// Nobody can say where lines looked that were measured while the motor was not read: they are
+/// counted, never left out in silence.
+TEST(BrokenScan, LinesWithoutAMotorAngleAreCountedAsLost) {
+  TinyHead tiny;
+  ASSERT_TRUE(tiny.Home());
+  const auto scan = RunWithHole(tiny, 0.15);
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->state, ScanState::kComplete) << scan->reason;
+  const HeadStatus status = tiny.head->Status();
+  EXPECT_GE(status.lost_lines, 1);
+  EXPECT_NEAR(status.lines + status.lost_lines, status.expected_lines, 2);
+}
+
+TEST(BrokenScan, ManyLinesWithoutAMotorAngleAreNotBlamedOnTheLidar) {
+  TinyHead tiny;
+  ASSERT_TRUE(tiny.Home());
+  const auto scan = RunWithHole(tiny, 0.4);
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->state, ScanState::kInterrupted);
+  EXPECT_THAT(scan->reason, HasSubstr("the angle of the motor was not read for up to 0.4"));
+  ASSERT_TRUE(tiny.WaitFor(HeadState::kReady)) << "the operator may try again";
 }
 
 /// Changes the stamps of the lines from the 20th on.

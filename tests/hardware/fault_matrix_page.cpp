@@ -30,7 +30,11 @@ std::string Page() {
       "gets of the scan that was running or came next. In every cell the motor\nends at rest, the "
       "scan is kept and marked, and after the fault the same head homes and executes a complete "
       "scan\n"
-      "(tests/hardware/fault_matrix_test.cpp).\n\n| device | fault |";
+      "(tests/hardware/fault_matrix_test.cpp). By night each cell is run once more with a station "
+      "at "
+      "the far end of a link\n(FaultMatrix.TheSameHoldsAtTheFarEndOfALink): the same is asked of "
+      "what the operator sees there, and the station's scan is the\nhead's to the last bit.\n\n"
+      "| device | fault |";
   std::string rule = "| --- | --- |";
   for (int i = 0; i < kHeadPhases; ++i) {
     page += fmt::format(" {} |", ToString(static_cast<HeadPhase>(i)));
