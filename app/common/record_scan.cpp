@@ -22,9 +22,10 @@ void PrintScan(const std::string& mission_file, const ScanSummary& scan,
                {"seconds", executed.seconds},
                {"cpu_ratio", executed.cpu_fraction}});
   else
-    PrintLine(fmt::format("{}: scan {} {}, {} lines, {} images{}{}", mission_file, scan.id,
+    PrintLine(fmt::format("{}: scan {} {}, {} lines, {} image{}{}{}", mission_file, scan.id,
                           ToString(scan.state), scan.lines, scan.images,
-                          scan.reason.empty() ? "" : ": ", scan.reason));
+                          scan.images == 1 ? "" : "s", scan.reason.empty() ? "" : ": ",
+                          scan.reason));
 }
 
 }  // namespace

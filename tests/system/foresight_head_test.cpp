@@ -161,7 +161,7 @@ TEST_F(ForesightHead, FarFewerLinesThanPlannedAreInterruptedWithTheCounts) {
   EXPECT_THAT(scan.reason, testing::StartsWith(fmt::format(
                                "{} of 41 planned lines came from the lidar: ", scan.lines.size())));
   EXPECT_THAT(scan.reason, testing::HasSubstr("had a bad check sum"));
-  EXPECT_EQ(result.output, fmt::format("{}: scan 1 interrupted, {} lines, 1 images: {}\n", mission_,
+  EXPECT_EQ(result.output, fmt::format("{}: scan 1 interrupted, {} lines, 1 image: {}\n", mission_,
                                        scan.lines.size(), scan.reason));
   const ProgramResult depth =
       RunProgram(FORESIGHTCTL, {"depth", mission_, "--out", folder_ / "depth", "--json"});

@@ -204,7 +204,7 @@ void ChainCalibrationModel::StartRead() {
 }
 
 QString ChainCalibrationModel::WhyNotSolve() const {
-  if (Folder().isEmpty()) return tr("There is no session yet.");
+  if (Folder().isEmpty()) return tr("There is no session yet: the first capture begins one.");
   if (recorder_.Capturing()) return tr("The head is capturing.");
   if (!read_fault_.isEmpty() && !session_) return read_fault_;
   if (session_ && coverage_.poses < kMinPlaces)

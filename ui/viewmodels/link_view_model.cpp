@@ -87,7 +87,10 @@ LinkedScanRow RowOf(const LinkedScan& scan) {
   row.title = LinkViewModel::tr("%1, %2").arg(time, PlaceText(scan.place));
   const bool all = scan.place == LinkedScan::Place::kHere;
   if (all || scan.place == LinkedScan::Place::kAtHead)
-    row.detail = LinkViewModel::tr("%1 lines, %2 images").arg(scan.of_lines).arg(scan.of_images);
+    row.detail =
+        scan.of_images == 1
+            ? LinkViewModel::tr("%1 lines, 1 image").arg(scan.of_lines)
+            : LinkViewModel::tr("%1 lines, %2 images").arg(scan.of_lines).arg(scan.of_images);
   else
     row.detail = LinkViewModel::tr("%1 of %2 lines, %3 of %4 images")
                      .arg(scan.lines)
