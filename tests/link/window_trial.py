@@ -37,6 +37,13 @@ def seconds_of_day(utc_s):
     return at.hour * 3600 + at.minute * 60 + at.second + 1e-6 * at.microsecond
 
 
+def mounted_rig(arguments, file):
+    """The emulated head's rig, with its place on the robot typed in: the robot takes poses in its own frame only."""
+    blackout_trial.run(arguments.bin / "foresightctl", "rig", "set-robot-frame", PROJECT / "resources/rigs/default.yaml", "--position",
+                       "0.1,0,1.4", "--quaternion", "-0.5,0.5,-0.5,0.5", "--out", file)
+    return file
+
+
 def one_run(arguments, seed, folder):
     name = f"fsw{os.getpid() % 1000}"
     network = burst_trial.Network(name, arguments.bit, 1) if arguments.thin else blackout_trial.Network(name, arguments.mbit)
@@ -51,7 +58,7 @@ def one_run(arguments, seed, folder):
         head_log = folder / "head.log"
         processes.append(subprocess.Popen(
             ["ip", "netns", "exec", f"{name}-h", arguments.bin / "foresight-head", "--emulate", arguments.scene, "--seed",
-             str(seed), "--listen", f"{HEAD}:{PORT}", "--link-keys", arguments.keys / "ca/machines/trial", "--scans",
+             str(seed), "--calibration", arguments.rig, "--listen", f"{HEAD}:{PORT}", "--link-keys", arguments.keys / "ca/machines/trial", "--scans",
              folder / "head-scans", "--robot-socket", folder / "robot.sock"],
             stdout=open(head_log, "w"), stderr=subprocess.STDOUT))
         while "listening" not in head_log.read_text():
@@ -119,6 +126,7 @@ def main():
         arguments.keys = folder / "keys"
         arguments.keys.mkdir()
         make_link_keys(arguments)
+        arguments.rig = mounted_rig(arguments, folder / "rig.yaml")
         for number in range(arguments.runs):
             here = folder / str(number)
             here.mkdir()
