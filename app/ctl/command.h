@@ -39,6 +39,12 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation);
 /// `mission` is the command of that name.
 void AddMissionDigestCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionPoseCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionShowCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionRecoverCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionMergeCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionPruneCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionDiffCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionRunCommand(CLI::App& mission, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);
 void AddPkiCommand(CLI::App& app, Invocation& invocation);
 void AddCalibrateCommand(CLI::App& app, Invocation& invocation);

@@ -193,6 +193,12 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   check->callback([&invocation, arguments = check_arguments] {
     invocation = [arguments](const RunContext& context) { return Check(*arguments, context); };
   });
+  AddMissionShowCommand(*mission, invocation);
+  AddMissionRecoverCommand(*mission, invocation);
+  AddMissionMergeCommand(*mission, invocation);
+  AddMissionPruneCommand(*mission, invocation);
+  AddMissionDiffCommand(*mission, invocation);
+  AddMissionRunCommand(*mission, invocation);
   AddMissionDigestCommand(*mission, invocation);
   AddMissionPoseCommand(*mission, invocation);
 }

@@ -107,14 +107,13 @@ Status CreateMissionTable(SqliteDatabase& database, std::string_view name) {
               kMissionFormatVersion);
 }
 
-Status CreateMissionSchema(SqliteDatabase& database) {
+Status CreateMissionSchema(SqliteDatabase& database, int format) {
   FORESIGHT_CHECK(database.Run("BEGIN IMMEDIATE"));
-  for (const Table& table : TablesOf(kMissionFormatVersion))
+  for (const Table& table : TablesOf(format))
     FORESIGHT_CHECK(database.Run(std::string(table.sql).c_str()));
   FORESIGHT_CHECK(
       database.Run(fmt::format("PRAGMA application_id = {}", kMissionApplicationId).c_str()));
-  FORESIGHT_CHECK(
-      database.Run(fmt::format("PRAGMA user_version = {}", kMissionFormatVersion).c_str()));
+  FORESIGHT_CHECK(database.Run(fmt::format("PRAGMA user_version = {}", format).c_str()));
   return database.Run("COMMIT");
 }
 

@@ -7,8 +7,8 @@ namespace foresight {
 inline constexpr int kMissionApplicationId = 0x48434431;  ///< "HCD1", in the file's header
 inline constexpr int kMissionFormatVersion = 2;           ///< user_version of what is written now
 
-/// Makes the tables of the present format in an empty database, in one transaction.
-Status CreateMissionSchema(SqliteDatabase& database);
+/// Makes the tables of a format in an empty database, in one transaction.
+Status CreateMissionSchema(SqliteDatabase& database, int format = kMissionFormatVersion);
 
 /// Runs the statement that makes a table or index of the present format.
 Status CreateMissionTable(SqliteDatabase& database, std::string_view name);

@@ -1,16 +1,13 @@
 #include "core/mission/recompute.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/detection/detection_json.h"
-#include "core/io/json_reader.h"
 #include "core/mission/depth_numbers.h"
+#include "core/mission/json_differences.h"
 
 namespace foresight {
 namespace {
-
-using Json = nlohmann::json;
 
 void AddDifference(Recomputed& answer, const std::string& text) {
   if (answer.differences.size() < Recomputed::kMostDifferences) answer.differences.push_back(text);
@@ -19,26 +16,6 @@ void AddDifference(Recomputed& answer, const std::string& text) {
 
 Recomputed NotPossible(const Error& error) {
   return {Recomputed::Outcome::kNotPossible, {error.message}};
-}
-
-/// Leaf by leaf, under the path that leads there.
-void Compare(const Json& was, const Json& is, const std::string& path, Recomputed& answer) {
-  if (was == is) return;
-  if (was.is_structured() && was.type() == is.type()) {
-    const Json &old_leaves = was.flatten(), &new_leaves = is.flatten();
-    for (const auto& [at, value] : old_leaves.items()) {
-      if (!new_leaves.contains(at))
-        AddDifference(answer, fmt::format("{}{}: was {}, is gone", path, at, value.dump()));
-      else if (new_leaves.at(at) != value)
-        AddDifference(answer, fmt::format("{}{}: was {}, is {}", path, at, value.dump(),
-                                          new_leaves.at(at).dump()));
-    }
-    for (const auto& [at, value] : new_leaves.items())
-      if (!old_leaves.contains(at))
-        AddDifference(answer, fmt::format("{}{}: is new, {}", path, at, value.dump()));
-    return;
-  }
-  AddDifference(answer, fmt::format("{}: was {}, is {}", path, was.dump(), is.dump()));
 }
 
 /// A cancelled or unreadable record ends everything; any other failure is the record's own answer.
@@ -81,11 +58,10 @@ Result<Recomputed> Recomputer::RemakeDetection(const DetectionRecord& record,
                   ProvenanceFromJson(record.provenance_json, "detection " + record.uuid));
     FORESIGHT_CHECK(OpenScan(record.scan_uuid, context.Part(0.0, 0.2)));
     FORESIGHT_TRY(const Detection found, bench_.Fit(provenance, context.Part(0.2, 1.0)));
-    Json was = ParseJson(record.json);
-    Json is = ParseJson(DetectionToJson(found, bench_.scan()->rig.robot_from_base));
-    for (Json* json : {&was, &is}) json->erase("seconds");
     Recomputed answer;
-    Compare(was, is, "", answer);
+    const std::string is = DetectionToJson(found, bench_.scan()->rig.robot_from_base);
+    for (const std::string& difference : JsonDifferences(record.json, is, {"seconds"}))
+      AddDifference(answer, difference);
     return answer;
   }();
   if (!made_again && !EndsAll(made_again.error())) return NotPossible(made_again.error());

@@ -131,9 +131,12 @@ std::int64_t SqliteStatement::Integer(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
 }
 
+bool SqliteStatement::IsNull(int column) const {
+  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+}
+
 double SqliteStatement::Number(int column) const {
-  if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL)
-    return std::numeric_limits<double>::quiet_NaN();
+  if (IsNull(column)) return std::numeric_limits<double>::quiet_NaN();
   return sqlite3_column_double(statement_.get(), column);
 }
 

@@ -32,6 +32,7 @@ class SqliteStatement {
   /// Columns of the present row, counted from 0. A column of another type than asked for gives a
   /// zero or an empty value here, and is caught by the row's checksum.
   std::int64_t Integer(int column) const;
+  bool IsNull(int column) const;
   double Number(int column) const;  ///< NULL is NaN
   std::string Text(int column) const;
   std::string Blob(int column) const { return Text(column); }
