@@ -16,8 +16,7 @@ struct CloudArguments {
 Result<ExitCode> Cloud(const CloudArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const OpenedScan opened, OpenScanWithoutImage(arguments.scan));
   FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(opened.scan, context));
-  FORESIGHT_TRY(const std::size_t points, ExportCloud(cloud, opened.scan.rig, opened.scan.uuid,
-                                                      opened.scan.start_utc_ns, arguments.out));
+  FORESIGHT_TRY(const std::size_t points, ExportCloud(cloud, opened.scan, arguments.out));
   if (arguments.json)
     PrintJson({{"scan", opened.id},
                {"uuid", opened.scan.uuid},

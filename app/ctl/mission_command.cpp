@@ -198,6 +198,7 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   AddMissionMergeCommand(*mission, invocation);
   AddMissionPruneCommand(*mission, invocation);
   AddMissionDiffCommand(*mission, invocation);
+  AddMissionExportCommand(*mission, invocation);
   AddMissionRunCommand(*mission, invocation);
   AddMissionDigestCommand(*mission, invocation);
   AddMissionPoseCommand(*mission, invocation);

@@ -1,29 +1,40 @@
 #include "core/registration/export_cloud.h"
 
+#include <limits>
+
 namespace foresight {
 
-std::vector<CloudPoint> PointsInRobot(const RegisteredScan& cloud, const SensorRig& rig) {
+std::vector<CloudPoint> PointsInRobot(const RegisteredScan& cloud, const Scan& scan) {
   std::vector<CloudPoint> points;
   for (int line = 0; line < cloud.lines; ++line) {
+    const auto row = static_cast<std::size_t>(line);
+    const double line_s =
+        row < scan.lines.size() ? scan.lines[row].time_s : std::numeric_limits<double>::quiet_NaN();
     for (int beam = 0; beam < cloud.beams; ++beam) {
       if (!cloud.Valid(line, beam)) continue;
       const std::size_t index = cloud.Index(line, beam);
-      const Eigen::Vector3f point =
-          (rig.robot_from_base * cloud.points[index].cast<double>()).cast<float>();
-      points.push_back(
-          {point.x(), point.y(), point.z(), cloud.intensity[index], line, beam, Rgb8()});
+      const Eigen::Vector3f place =
+          (scan.rig.robot_from_base * cloud.points[index].cast<double>()).cast<float>();
+      CloudPoint point;
+      point.x = place.x();
+      point.y = place.y();
+      point.z = place.z();
+      point.intensity = cloud.intensity[index];
+      point.line = line;
+      point.beam = beam;
+      point.time_s = line_s + scan.rig.lidar.BeamTime(beam);
+      points.push_back(point);
     }
   }
   return points;
 }
 
-Result<std::size_t> ExportCloud(const RegisteredScan& cloud, const SensorRig& rig,
-                                const std::string& scan_uuid, std::int64_t scan_utc_ns,
+Result<std::size_t> ExportCloud(const RegisteredScan& cloud, const Scan& scan,
                                 const std::filesystem::path& path) {
-  const std::vector<CloudPoint> points = PointsInRobot(cloud, rig);
-  const CloudOrigin origin{"robot", scan_uuid, scan_utc_ns};
+  const std::vector<CloudPoint> points = PointsInRobot(cloud, scan);
+  const CloudOrigin origin{"robot", scan.uuid, scan.start_utc_ns};
   const auto write = path.extension() == ".pcd" ? WritePcd : WritePly;
-  FORESIGHT_CHECK(write(path, points, CloudColors::kNone, origin));
+  FORESIGHT_CHECK(write(path, points, CloudFields::kMeasured, origin));
   return points.size();
 }
 

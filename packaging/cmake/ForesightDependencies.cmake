@@ -46,11 +46,18 @@ add_library(foresight_pcl INTERFACE)
 target_include_directories(foresight_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
 target_link_libraries(foresight_pcl INTERFACE pcl_common pcl_filters pcl_segmentation)
 
+# ROS 1's bag files (core/exchange). Its own package files ask for half of ROS; these are the parts that are used.
+add_library(foresight_rosbag INTERFACE)
+foreach(library rosbag_storage roscpp_serialization rostime cpp_common)
+  find_library(FORESIGHT_${library} ${library} REQUIRED)
+  target_link_libraries(foresight_rosbag INTERFACE ${FORESIGHT_${library}})
+endforeach()
+
 if(FORESIGHT_BUILD_GUI)
   find_package(VTK 9.1 REQUIRED QUIET COMPONENTS CommonCore CommonDataModel CommonColor
     CommonTransforms FiltersCore FiltersGeneral FiltersSources RenderingCore RenderingOpenGL2
     RenderingFreeType RenderingAnnotation RenderingContextOpenGL2 InteractionStyle
-    InteractionWidgets InteractionImage IOImage GUISupportQt)
+    InteractionWidgets InteractionImage IOGeometry IOImage IOPLY IOXML GUISupportQt)
   find_package(Qt${VTK_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets Svg)
   find_package(qtadvanceddocking REQUIRED)
 endif()

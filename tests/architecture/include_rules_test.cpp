@@ -108,7 +108,8 @@ const std::vector<std::string> kCoreOrder = {"base",
                                              "evaluation",
                                              "mission",
                                              "pictures",
-                                             "report"};
+                                             "report",
+                                             "exchange"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);

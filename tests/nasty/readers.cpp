@@ -273,8 +273,8 @@ class GoodFiles {
     FORESIGHT_CHECK(WritePng(*this / "image.png", ColorImage(kWidth, kHeight, {120, 90, 60})));
     FORESIGHT_CHECK(WritePng16(*this / "depth.png", Image<std::uint16_t>(kWidth, kHeight, 1500)));
     FORESIGHT_CHECK(WritePfm(*this / "depth.pfm", FloatImage(kWidth, kHeight, 1500.0f)));
-    FORESIGHT_CHECK(WritePly(*this / "cloud.ply", TablePoints(), CloudColors::kRgb));
-    FORESIGHT_CHECK(WritePcd(*this / "cloud.pcd", TablePoints(), CloudColors::kRgb));
+    FORESIGHT_CHECK(WritePly(*this / "cloud.ply", TablePoints(), CloudFields::kWithImage));
+    FORESIGHT_CHECK(WritePcd(*this / "cloud.pcd", TablePoints(), CloudFields::kWithImage));
     FORESIGHT_CHECK(text("ascii.ply", AsciiPly(TablePoints())));
     FORESIGHT_CHECK(text("cloud.bin", FloatRecords(TablePoints())));
     FORESIGHT_CHECK(WriteStereo());

@@ -12,12 +12,10 @@ void ExportViewModel::ExportCloud(const QString& path) {
         {Notice::Level::kWarning, tr("There is no cloud to export yet."), tr("Press Scan first.")});
     return;
   }
-  const auto work = [cloud = session_->Cloud(), rig = session_->Rig(),
-                     uuid = session_->CurrentScan()->uuid,
-                     utc_ns = session_->CurrentScan()->start_utc_ns,
-                     path = path.toStdString()](const RunContext&) {
-    return foresight::ExportCloud(*cloud, rig, uuid, utc_ns, path);
-  };
+  Scan scan = *session_->CurrentScan();
+  scan.rig = session_->Rig();
+  const auto work = [cloud = session_->Cloud(), scan, path = path.toStdString()](
+                        const RunContext&) { return foresight::ExportCloud(*cloud, scan, path); };
   runner_.Run<std::size_t>(
       tr("Exporting the cloud"), work, [this, path](const Result<std::size_t>& written) {
         if (!written) {

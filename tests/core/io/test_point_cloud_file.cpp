@@ -15,8 +15,8 @@ namespace {
 
 const std::vector<CloudPoint>& Points() {
   static const std::vector<CloudPoint> points = {
-      {1.5f, -2.0f, 3.25f, 1000.0f, 4, 540, {10, 20, 30}},
-      {-1.0f, 0.0f, 2.0f, 7.0f, 5, 541, {255, 0, 128}}};
+      {1.5f, -2.0f, 3.25f, 1000.0f, 4, 540, 0.25, {10, 20, 30}, 0.5f},
+      {-1.0f, 0.0f, 2.0f, 7.0f, 5, 541, 0.5, {255, 0, 128}, 1.0f}};
   return points;
 }
 
@@ -37,7 +37,7 @@ void ExpectPoints(const pcl::PCLPointCloud2& cloud) {
 
 TEST(PointCloudFile, PclReadsThePcdWithItsColors) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(WritePcd(folder / "a.pcd", Points(), CloudColors::kRgb));
+  ASSERT_TRUE(WritePcd(folder / "a.pcd", Points(), CloudFields::kWithImage));
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::io::loadPCDFile(folder / "a.pcd", cloud), 0);
   ExpectPoints(cloud);
@@ -45,7 +45,7 @@ TEST(PointCloudFile, PclReadsThePcdWithItsColors) {
 
 TEST(PointCloudFile, PclReadsThePlyWithItsColors) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudColors::kRgb));
+  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudFields::kWithImage));
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::io::loadPLYFile(folder / "a.ply", cloud), 0);
   ExpectPoints(cloud);
@@ -61,11 +61,11 @@ TEST(PointCloudFile, NamesItsFrameItsScanAndItsUnit) {
   const TemporaryFolder folder;
   // 2026-11-22 13:06:33.25 UTC
   const CloudOrigin origin{"robot", "7b1c", 1795352793250000000};
-  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudColors::kNone, origin));
+  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudFields::kMeasured, origin));
   EXPECT_THAT(HeaderOf(folder / "a.ply", "end_header"),
               testing::HasSubstr("comment unit metre\ncomment frame robot\n"
                                  "comment scan 7b1c 2026-11-22T13:06:33.250Z\n"));
-  ASSERT_TRUE(WritePcd(folder / "a.pcd", Points(), CloudColors::kNone, origin));
+  ASSERT_TRUE(WritePcd(folder / "a.pcd", Points(), CloudFields::kMeasured, origin));
   EXPECT_THAT(HeaderOf(folder / "a.pcd", "DATA"),
               testing::HasSubstr("# unit metre\n# frame robot\n"
                                  "# scan 7b1c 2026-11-22T13:06:33.250Z\n"));
@@ -78,23 +78,23 @@ TEST(PointCloudFile, NamesItsFrameItsScanAndItsUnit) {
 
 TEST(PointCloudFile, ANameWithALineFeedStaysInItsComment) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudColors::kNone,
+  ASSERT_TRUE(WritePly(folder / "a.ply", Points(), CloudFields::kMeasured,
                        {"robot", "x\nelement vertex 9", 0}));
   EXPECT_EQ(ReadPointCloud(folder / "a.ply").value().size(), 2U);
 }
 
-TEST(PointCloudFile, WithoutColorsAPointTakes24Bytes) {
+TEST(PointCloudFile, WithoutAnImageAPointTakes32Bytes) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(WritePcd(folder / "none.pcd", {}, CloudColors::kNone));
-  ASSERT_TRUE(WritePcd(folder / "two.pcd", Points(), CloudColors::kNone));
+  ASSERT_TRUE(WritePcd(folder / "none.pcd", {}, CloudFields::kMeasured));
+  ASSERT_TRUE(WritePcd(folder / "two.pcd", Points(), CloudFields::kMeasured));
   // "0" and "2" in the header are equally long.
   EXPECT_EQ(std::filesystem::file_size(folder / "two.pcd"),
-            std::filesystem::file_size(folder / "none.pcd") + 48);
+            std::filesystem::file_size(folder / "none.pcd") + 64);
 }
 
 TEST(PointCloudFile, AFolderThatIsNotThereIsAnIoError) {
   const TemporaryFolder folder;
-  const auto status = WritePly(folder / "missing/a.ply", Points(), CloudColors::kNone);
+  const auto status = WritePly(folder / "missing/a.ply", Points(), CloudFields::kMeasured);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, ErrorCode::kIo);
 }

@@ -67,9 +67,10 @@ TEST(ReadPointCloud, ReadsWhatPclWritesAsPly) {
 
 TEST(ReadPointCloud, ReadsOurOwnExports) {
   const TemporaryFolder folder;
-  const std::vector<CloudPoint> points = {{1.5f, -2.0f, 3.25f, 1000.0f, 4, 540, {10, 20, 30}}};
-  ASSERT_TRUE(WritePcd(folder / "a.pcd", points, CloudColors::kRgb));
-  ASSERT_TRUE(WritePly(folder / "a.ply", points, CloudColors::kNone));
+  const std::vector<CloudPoint> points = {
+      {1.5f, -2.0f, 3.25f, 1000.0f, 4, 540, 0.25, {10, 20, 30}, 0.5f}};
+  ASSERT_TRUE(WritePcd(folder / "a.pcd", points, CloudFields::kWithImage));
+  ASSERT_TRUE(WritePly(folder / "a.ply", points, CloudFields::kMeasured));
   for (const char* name : {"a.pcd", "a.ply"}) {
     const auto read = ReadPointCloud(folder / name);
     ASSERT_TRUE(read) << read.error().message;

@@ -20,7 +20,7 @@ TEST(ExportCloud, WritesEveryReturnInTheRobotsFrameAndSaysSo) {
   const auto valid = std::count_if(cloud.range_m.begin(), cloud.range_m.end(),
                                    [](float range) { return range > 0.0f; });
   for (const char* name : {"cloud.ply", "cloud.pcd"}) {
-    const auto written = ExportCloud(cloud, scan.rig, scan.uuid, scan.start_utc_ns, folder / name);
+    const auto written = ExportCloud(cloud, scan, folder / name);
     ASSERT_TRUE(written) << written.error().message;
     EXPECT_EQ(*written, static_cast<std::size_t>(valid));
     const auto points = ReadPointCloud(folder / name).value();
