@@ -1,0 +1,161 @@
+// `foresightctl mission`: what a reviewer does with mission files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/atomic_file.h"
+#include "core/mission/mission_file.h"
+#include "tests/support/run_program.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
+const std::string kRegion = "534,413,721,602";  // around the scene's valve
+
+/// Two missions, a scan each; a valve was found in the first.
+class MissionCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    first_ = *folder_ / "first.foresight";
+    second_ = *folder_ / "second.foresight";
+    for (const auto& [file, to] : {std::pair(first_, "12"), std::pair(second_, "8")}) {
+      const ProgramResult scanned =
+          Run({"scan", "--scene", kScene, "--from", "-10", "--to", to, "--out", file});
+      ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
+    }
+    ASSERT_EQ(Run({"fit", "valve", first_, "--roi", kRegion, "--save"}).exit_code, 0);
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static ProgramResult Run(const std::vector<std::string>& arguments) {
+    return RunProgram(FORESIGHTCTL, arguments);
+  }
+  static ProgramResult Mission(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "mission");
+    return Run(arguments);
+  }
+  static nlohmann::json Json(const ProgramResult& result) {
+    return nlohmann::json::parse(result.output);
+  }
+  static std::string In(const std::string& name) { return *folder_ / name; }
+
+  static std::map<std::string, std::string> FilesOf(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_regular_file())
+        files[fs::relative(entry.path(), folder)] = ReadFile(entry.path()).value();
+    return files;
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::string first_;
+  static inline std::string second_;
+};
+
+TEST_F(MissionCommand, ShowTellsWhatAMissionAndAScanHold) {
+  const ProgramResult mission = Mission({"show", first_, "--json"});
+  ASSERT_EQ(mission.exit_code, 0) << mission.errors;
+  const auto all = Json(mission);
+  EXPECT_EQ(all["scans"], 1);
+  EXPECT_EQ(all["detections"][0]["kind"], "valve");
+  EXPECT_EQ(all["closed_properly"], true);
+  const ProgramResult scan = Mission({"show", first_, "--scan", "1", "--json"});
+  ASSERT_EQ(scan.exit_code, 0) << scan.errors;
+  EXPECT_EQ(Json(scan)["images"].size(), 1u);
+  EXPECT_EQ(Json(scan)["state"], "complete");
+  const ProgramResult none = Mission({"show", first_, "--scan", "9"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.errors, HasSubstr("first.foresight: there is no scan 9"));
+}
+
+TEST_F(MissionCommand, MergedAndPrunedMissionsDifferFromTheirSourcesAsTheyShould) {
+  ASSERT_EQ(Mission({"merge", first_, second_, "-o", In("both.foresight")}).exit_code, 0);
+  EXPECT_EQ(Mission({"check", In("both.foresight")}).exit_code, 0);
+  ASSERT_EQ(Mission({"prune", In("both.foresight"), "--with-objects", "-o", In("one.foresight")})
+                .exit_code,
+            0);
+  const ProgramResult same = Mission({"diff", first_, In("one.foresight")});
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+  const ProgramResult different = Mission({"diff", first_, In("both.foresight"), "--json"});
+  EXPECT_EQ(different.exit_code, 1);
+  EXPECT_EQ(Json(different)["differences"].size(), 1u);
+  EXPECT_EQ(Json(different)["differences"][0]["kind"], "only in the second");
+
+  const ProgramResult nothing = Mission({"prune", first_, "-o", In("x.foresight")});
+  EXPECT_EQ(nothing.exit_code, 2);
+  const ProgramResult unknown = Mission({"prune", first_, "--keep", "4", "-o", In("x.foresight")});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.errors, HasSubstr("there is no scan 4"));
+  EXPECT_FALSE(fs::exists(In("x.foresight")));
+}
+
+TEST_F(MissionCommand, ADamagedMissionIsNamedAndRecovered) {
+  std::string bytes = ReadFile(first_).value();
+  std::fill_n(bytes.begin(), 4096, '\xa5');  // its table of contents
+  std::ofstream(In("torn.foresight"), std::ios::binary) << bytes;
+  const ProgramResult check = Mission({"check", In("torn.foresight")});
+  EXPECT_EQ(check.exit_code, 3);
+  EXPECT_THAT(check.errors, HasSubstr("torn.foresight"));
+  const ProgramResult recovered =
+      Mission({"recover", In("torn.foresight"), "-o", In("recovered.foresight"), "--json"});
+  EXPECT_EQ(recovered.exit_code, 0) << recovered.errors << recovered.output;
+  EXPECT_EQ(Json(recovered)["scans"][0]["state"], "complete");
+  const ProgramResult diff = Mission({"diff", first_, In("recovered.foresight")});
+  EXPECT_EQ(diff.exit_code, 0) << diff.output;
+}
+
+TEST_F(MissionCommand, RunGivesTheSameFilesHoweverItIsSplit) {
+  ASSERT_EQ(Mission({"run", first_, second_, "-o", In("whole")}).exit_code, 0);
+  for (const char* part : {"2/2", "1/2"})
+    ASSERT_EQ(Mission({"run", second_, first_, "-o", In("parts"), "--part", part}).exit_code, 0);
+  const auto whole = FilesOf(In("whole"));
+  EXPECT_EQ(whole.size(), 2u);
+  EXPECT_EQ(whole, FilesOf(In("parts")));
+  for (const char* part : {"0/2", "3/2", "1", "1/2x", "a/b"}) {
+    const ProgramResult bad = Mission({"run", first_, "-o", In("parts"), "--part", part});
+    EXPECT_EQ(bad.exit_code, 2) << part;
+    EXPECT_THAT(bad.errors, HasSubstr("K/N"));
+  }
+}
+
+TEST_F(MissionCommand, RunGivesWhatFitGives) {
+  ASSERT_EQ(Mission({"run", first_, "-o", In("again")}).exit_code, 0);
+  const auto files = FilesOf(In("again"));
+  ASSERT_EQ(files.size(), 1u);
+  const auto again = nlohmann::json::parse(files.begin()->second);
+  const auto fitted = Json(Run({"fit", "valve", first_, "--roi", kRegion, "--json"}));
+  EXPECT_EQ(again["fits"][0]["answer"]["best"], fitted["best"]);
+  EXPECT_EQ(again["fits"][0]["source"], "raw");
+  EXPECT_EQ(again["depth_maps"].size(), 1u);
+
+  const ProgramResult other =
+      Mission({"run", first_, "-o", In("other"), "--method", "paper", "--source", "depth"});
+  ASSERT_EQ(other.exit_code, 0) << other.errors;
+  const auto paper = nlohmann::json::parse(FilesOf(In("other")).begin()->second);
+  EXPECT_EQ(paper["fits"][0]["source"], "paper");
+  EXPECT_NE(paper["depth_maps"][0]["digest"], again["depth_maps"][0]["digest"]);
+}
+
+TEST_F(MissionCommand, ExportWritesWhatIsAskedFor) {
+  const ProgramResult exported =
+      Mission({"export", first_, "-o", In("export"), "--what", "pcd,tables,bag", "--json"});
+  ASSERT_EQ(exported.exit_code, 0) << exported.errors;
+  EXPECT_THAT(Json(exported)["files"],
+              testing::UnorderedElementsAre("scans.csv", "detections.csv", "events.csv",
+                                            "scan-0001/cloud.pcd", "mission.bag"));
+  const ProgramResult unknown = Mission({"export", first_, "-o", In("export"), "--what", "dxf"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.errors, HasSubstr("surface-gltf"));
+}
+
+}  // namespace
+}  // namespace foresight
