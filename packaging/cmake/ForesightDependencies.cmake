@@ -48,7 +48,10 @@ target_link_libraries(foresight_pcl INTERFACE pcl_common pcl_filters pcl_segment
 
 # ROS 1's bag files (core/exchange). Its own package files ask for half of ROS; these are the parts that are used.
 add_library(foresight_rosbag INTERFACE)
-foreach(library rosbag_storage roscpp_serialization rostime cpp_common)
+foreach(folder pluginlib class_loader ament_index_cpp rcutils rcpputils)
+  target_include_directories(foresight_rosbag SYSTEM INTERFACE /usr/include/${folder})
+endforeach()
+foreach(library rosbag_storage roscpp_serialization rostime cpp_common class_loader)
   find_library(FORESIGHT_${library} ${library} REQUIRED)
   target_link_libraries(foresight_rosbag INTERFACE ${FORESIGHT_${library}})
 endforeach()

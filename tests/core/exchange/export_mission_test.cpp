@@ -1,18 +1,11 @@
 // Other programs' readers judge what is exported: PCL, VTK, ROS's own bag library.
 #include "core/exchange/export_mission.h"
 
-#include <geometry_msgs/PoseStamped.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <tf2_msgs/TFMessage.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -32,6 +25,7 @@
 #include "core/io/png.h"
 #include "core/mission/new_records.h"
 #include "core/registration/export_cloud.h"
+#include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/ui/synthetic_scan.h"
 
@@ -223,29 +217,46 @@ TEST_F(ExportMissionTest, DepthIsInMillimetres) {
   EXPECT_EQ(ReadPng(OfScan("image-0.png")).value(), scan_.frames[0].image);
 }
 
+/// What ROS's own Python reader finds in the bag, message by message.
+nlohmann::json ReadBag(const std::filesystem::path& bag) {
+  const ProgramResult read = RunProgram(
+      "/usr/bin/python3", {FORESIGHT_SOURCE_DIR "/tests/core/exchange/read_bag.py", bag.string()});
+  EXPECT_EQ(read.exit_code, 0) << read.errors;
+  return nlohmann::json::parse(read.output);
+}
+
+Eigen::Isometry3d PoseOf(const nlohmann::json& pose) {
+  const auto& t = pose.at("position");
+  const auto& q = pose.at("rotation_wxyz");
+  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
+  isometry.translate(Eigen::Vector3d(t[0], t[1], t[2]));
+  isometry.rotate(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  return isometry;
+}
+
 TEST_F(ExportMissionTest, RosReadsTheBag) {
-  rosbag::Bag bag(Out("mission.bag").string());
   std::map<std::string, int> messages;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-    ++messages[message.getTopic()];
-    if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>()) {
-      EXPECT_EQ(cloud->header.frame_id, "robot");
-      EXPECT_EQ(cloud->width, PointsInRobot(cloud_, scan_).size());
-      EXPECT_EQ(cloud->fields.size(), 9u);
-      EXPECT_EQ(cloud->data.size(), std::size_t{cloud->width} * cloud->point_step);
-    } else if (const auto image = message.instantiate<sensor_msgs::Image>()) {
-      EXPECT_EQ(image->width, static_cast<unsigned>(scan_.frames[0].image.width()));
-      EXPECT_EQ(image->data[3], scan_.frames[0].image(1, 0).r);
-    } else if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) {
-      EXPECT_EQ(info->distortion_model, "equidistant") << "the paper's k has no name in ROS";
-      EXPECT_EQ(info->D.size(), 4u);
-      EXPECT_GT(info->K[0], 100.0);
-    } else if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
+  for (const auto& message : ReadBag(Out("mission.bag"))) {
+    const std::string topic = message.at("topic");
+    ++messages[topic];
+    if (topic == "/foresight/cloud") {
+      const CloudPoint truth = PointsInRobot(cloud_, scan_).at(100);
+      EXPECT_EQ(message.at("frame"), "robot");
+      EXPECT_EQ(message.at("points"), PointsInRobot(cloud_, scan_).size());
+      const auto& point = message.at("point_100");
+      EXPECT_EQ(point.at("x").get<float>(), truth.x);
+      EXPECT_EQ(point.at("beam"), truth.beam);
+      EXPECT_EQ(point.at("time").get<double>(), truth.time_s);
+    } else if (topic == "/foresight/camera/image") {
+      EXPECT_EQ(message.at("width"), scan_.frames[0].image.width());
+      EXPECT_EQ(message.at("fourth_byte"), scan_.frames[0].image(1, 0).r);
+    } else if (topic == "/foresight/camera/camera_info") {
+      EXPECT_EQ(message.at("model"), "equidistant") << "the paper's k has no name in ROS";
+      EXPECT_EQ(message.at("D").size(), 4u);
+    } else if (topic == "/foresight/objects/valve") {
       const Eigen::Vector3d truth = scan_.rig.robot_from_base * SyntheticValvePose().translation();
-      EXPECT_NEAR(pose->pose.position.x, truth.x(), 0.01);
-      EXPECT_NEAR(pose->pose.position.y, truth.y(), 0.01);
-      EXPECT_NEAR(pose->pose.position.z, truth.z(), 0.01);
-      EXPECT_EQ(pose->header.stamp.sec, 1795352793u);
+      EXPECT_LT((PoseOf(message).translation() - truth).norm(), 0.01);
+      EXPECT_EQ(message.at("time_ns"), 1795352793250000000);
     }
   }
   EXPECT_EQ(messages["/foresight/cloud"], 1);
@@ -257,21 +268,17 @@ TEST_F(ExportMissionTest, RosReadsTheBag) {
 }
 
 TEST_F(ExportMissionTest, TheChainOfTransformsLeadsFromTheRobotToTheCamera) {
-  rosbag::Bag bag(Out("mission.bag").string());
-  std::map<std::string, Eigen::Isometry3d> parent_from;  // by child, the last one before the image
-  const auto image_time =
-      rosbag::View(bag, rosbag::TopicQuery("/foresight/camera/image")).begin()->getTime();
-  for (const rosbag::MessageInstance& message : rosbag::View(bag))
-    if (const auto tf = message.instantiate<tf2_msgs::TFMessage>())
-      for (const auto& t : tf->transforms) {
-        if (message.getTopic() == "/tf" && message.getTime() != image_time) continue;
-        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-        pose.translate(Eigen::Vector3d(t.transform.translation.x, t.transform.translation.y,
-                                       t.transform.translation.z));
-        pose.rotate(Eigen::Quaterniond(t.transform.rotation.w, t.transform.rotation.x,
-                                       t.transform.rotation.y, t.transform.rotation.z));
-        parent_from[t.child_frame_id] = pose;
-      }
+  const nlohmann::json messages = ReadBag(Out("mission.bag"));
+  const auto image = std::find_if(messages.begin(), messages.end(), [](const auto& message) {
+    return message.at("topic") == "/foresight/camera/image";
+  });
+  std::map<std::string, Eigen::Isometry3d> parent_from;  // by child, at the time of the image
+  for (const auto& message : messages) {
+    if (!message.contains("transforms")) continue;
+    if (message.at("topic") == "/tf" && message.at("time_ns") != image->at("time_ns")) continue;
+    for (const auto& transform : message.at("transforms"))
+      parent_from[transform.at("child")] = PoseOf(transform);
+  }
   const Eigen::Isometry3d robot_from_camera =
       parent_from.at("base") * parent_from.at("head") * parent_from.at("camera");
   const Eigen::Vector3d valve = scan_.rig.robot_from_base * SyntheticValvePose().translation();
