@@ -84,6 +84,10 @@ bool IsHeavy(const std::string& target) {
       target, {"pcl/", "ceres/", "embree", "sqlite3", "opencv2/imgproc", "nlohmann/json.hpp"});
 }
 
+bool IsRos(const std::string& target) {
+  return StartsWithAny(target, {"ros/", "rosbag/", "sensor_msgs/", "geometry_msgs/", "tf2_msgs/"});
+}
+
 bool IsAravis(const std::string& target) {
   return StartsWithAny(target, {"arv", "glib", "gio/"});
 }
@@ -166,8 +170,19 @@ TEST(IncludeRules, EveryFolderOfTheOrderOfCoreExists) {
 TEST(IncludeRules, CoreAndHardwareKnowNeitherQtNorVtk) {
   ExpectNoBreach([](const Include& include) -> Opinion {
     if (!StartsWithAny(include.file, {"core/", "hardware/"})) return std::nullopt;
-    return BreachIf(IsQt(include.target) || IsVtk(include.target),
+    // ADR 0018: what is written for other programs uses VTK's writers.
+    const bool exchange = StartsWith(include.file, "core/exchange/") && !include.header;
+    return BreachIf(IsQt(include.target) || (IsVtk(include.target) && !exchange),
                     "only ui and app/workstation know these");
+  });
+}
+
+TEST(IncludeRules, OneFileKnowsRosAndItsHeaderKnowsNothingOfOurs) {
+  ExpectNoBreach([](const Include& include) -> Opinion {
+    if (include.file == "core/exchange/bag_file.h")
+      return BreachIf(IsOurs(include.target), "it is read as C++17 too");
+    if (!IsRos(include.target)) return std::nullopt;
+    return BreachIf(include.file != "core/exchange/bag_file.cpp", "only that file is C++17");
   });
 }
 
@@ -445,6 +460,7 @@ TEST(IncludeRules, EveryKindOfLibraryThatARuleNamesIsUsed) {
   EXPECT_TRUE(used(IsSocket));
   EXPECT_TRUE(used(IsHeavy));
   EXPECT_TRUE(used(IsAravis));
+  EXPECT_TRUE(used(IsRos));
 }
 
 }  // namespace

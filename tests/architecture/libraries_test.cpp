@@ -56,6 +56,14 @@ TEST(Libraries, TheLinkNeedsTheHeadsInterfaceAndNoEmulators) {
             std::set<std::string>({"foresight_core", "foresight_hardware"}));
 }
 
+TEST(Libraries, ExportsNeedOnlyCore) {
+  EXPECT_EQ(OursNeededBy(FORESIGHT_EXCHANGE_FILE), std::set<std::string>({"foresight_core"}));
+}
+
+TEST(Libraries, TheHeadLoadsNoExports) {
+  EXPECT_FALSE(OursNeededBy(FORESIGHT_HEAD_FILE).contains("foresight_exchange"));
+}
+
 TEST(Libraries, WhatPlaysDevicesNeedsTheSimulationAndNotThePopulations) {
   const std::set<std::string> needed = OursNeededBy(FORESIGHT_EMULATOR_FILE);
   EXPECT_TRUE(needed.contains("foresight_simulation"));

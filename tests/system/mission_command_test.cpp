@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/base/atomic_file.h"
 #include "core/mission/mission_file.h"
@@ -143,6 +144,19 @@ TEST_F(MissionCommand, RunGivesWhatFitGives) {
   const auto paper = nlohmann::json::parse(FilesOf(In("other")).begin()->second);
   EXPECT_EQ(paper["fits"][0]["source"], "paper");
   EXPECT_NE(paper["depth_maps"][0]["digest"], again["depth_maps"][0]["digest"]);
+}
+
+TEST_F(MissionCommand, AReaderInPythonThatKnowsOnlyTheDocumentationReadsTheSame) {
+  const ProgramResult read =
+      RunProgram("/usr/bin/python3", {FORESIGHT_SOURCE_DIR "/docs/read_mission.py", first_});
+  ASSERT_EQ(read.exit_code, 0) << read.errors;
+  const Scan scan = MissionFile::OpenReadOnly(first_).value()->LoadScan(1).value();
+  EXPECT_THAT(read.output, testing::StartsWith("scan 1 " + scan.uuid + " complete\nmotor "));
+  for (const LidarLine& line : scan.lines)
+    ASSERT_THAT(read.output,
+                HasSubstr(fmt::format(
+                    " {} {}\n", std::accumulate(line.range_mm.begin(), line.range_mm.end(), 0),
+                    std::accumulate(line.intensity.begin(), line.intensity.end(), 0))));
 }
 
 TEST_F(MissionCommand, ExportWritesWhatIsAskedFor) {
