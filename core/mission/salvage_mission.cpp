@@ -105,10 +105,11 @@ class Collector {
     if (!row) return TakeNothing(stored);
     const auto* scan = std::get_if<std::int64_t>(&row->at(0));
     const auto* position = std::get_if<std::int64_t>(&row->at(1));
-    const auto* png = std::get_if<std::string>(&row->at(2));
+    const auto* png = std::get_if<StoredBlob>(&row->at(2));
     if (scan == nullptr || position == nullptr || png == nullptr) return TakeNothing(stored);
     const auto wanted = pixels_.find({*scan, *position});
-    if (wanted == pixels_.end() || RowChecksum().Add(*png).value() != wanted->second) return false;
+    if (wanted == pixels_.end() || RowChecksum().Add(png->bytes).value() != wanted->second)
+      return false;
     Insert(table, *row);
     return true;
   }

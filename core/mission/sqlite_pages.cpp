@@ -92,7 +92,9 @@ std::optional<StoredValue> ValueOf(std::uint64_t type, Cursor& body) {
   if (type == 8 || type == 9) return StoredValue(static_cast<std::int64_t>(type - 8));
   if (type < 12) return std::nullopt;
   const std::string_view bytes = body.Take((type - 12) / 2);
-  return body.good() ? std::optional<StoredValue>(std::string(bytes)) : std::nullopt;
+  if (!body.good()) return std::nullopt;
+  const bool is_text = type % 2 == 1;
+  return is_text ? StoredValue(std::string(bytes)) : StoredValue(StoredBlob{std::string(bytes)});
 }
 
 std::optional<std::vector<StoredValue>> DecodeRecord(std::string_view payload) {

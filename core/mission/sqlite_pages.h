@@ -16,8 +16,14 @@
 
 namespace foresight {
 
-/// A value as SQLite keeps it in a record; monostate = NULL, std::string = text or blob.
-using StoredValue = std::variant<std::monostate, std::int64_t, double, std::string>;
+/// Bytes that are no text.
+struct StoredBlob {
+  std::string bytes;
+  auto operator<=>(const StoredBlob&) const = default;
+};
+
+/// A value as SQLite keeps it in a record; monostate = NULL, std::string = text.
+using StoredValue = std::variant<std::monostate, std::int64_t, double, std::string, StoredBlob>;
 
 /// One record found on a page. A column that is the rowid is NULL in `values`.
 struct StoredRow {

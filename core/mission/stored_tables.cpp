@@ -27,7 +27,13 @@ bool Fits(StoredValue& value, Kind kind) {
     return true;
   }
   if (std::holds_alternative<double>(value)) return kind == Kind::kReal;
-  return kind == Kind::kText || kind == Kind::kBlob;
+  return kind == (std::holds_alternative<StoredBlob>(value) ? Kind::kBlob : Kind::kText);
+}
+
+std::string_view BytesOf(const StoredValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* blob = std::get_if<StoredBlob>(&value)) return blob->bytes;
+  return {};
 }
 
 void Add(RowChecksum& checksum, const StoredValue& value, Kind kind) {
@@ -42,20 +48,20 @@ void Add(RowChecksum& checksum, const StoredValue& value, Kind kind) {
       checksum.Add(number != nullptr ? *number : std::numeric_limits<double>::quiet_NaN());
       return;
     }
-    default: {
-      const auto* text = std::get_if<std::string>(&value);
-      checksum.Add(text != nullptr ? std::string_view(*text) : std::string_view());
-    }
+    default:
+      checksum.Add(BytesOf(value));
   }
 }
 
-void Bind(SqliteStatement& statement, const StoredValue& value, Kind kind) {
+void Bind(SqliteStatement& statement, const StoredValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value))
     statement.Bind(*whole);
   else if (const auto* number = std::get_if<double>(&value))
     statement.Bind(*number);
   else if (const auto* text = std::get_if<std::string>(&value))
-    kind == Kind::kBlob ? statement.BindBlob(*text) : statement.BindText(*text);
+    statement.BindText(*text);
+  else if (const auto* blob = std::get_if<StoredBlob>(&value))
+    statement.BindBlob(blob->bytes);
   else
     statement.BindNull();
 }
@@ -135,7 +141,7 @@ Result<bool> InsertStored(SqliteDatabase& database, const StoredTable& table,
                 database.Prepare(fmt::format("INSERT OR IGNORE INTO {} VALUES({}) RETURNING 1",
                                              table.name, places)
                                      .c_str()));
-  for (std::size_t i = 0; i < values.size(); ++i) Bind(insert, values[i], table.columns[i].kind);
+  for (const StoredValue& value : values) Bind(insert, value);
   FORESIGHT_TRY(const bool inserted, insert.Step());
   FORESIGHT_CHECK(insert.Run());
   return inserted;
@@ -160,8 +166,10 @@ Result<std::vector<std::vector<StoredValue>>> ReadStored(const SqliteDatabase& d
         values.emplace_back(select.Integer(column));
       else if (table.columns[i].kind == Kind::kReal)
         values.emplace_back(select.Number(column));
-      else
+      else if (table.columns[i].kind == Kind::kText)
         values.emplace_back(select.Text(column));
+      else
+        values.emplace_back(StoredBlob{select.Blob(column)});
     }
     rows.push_back(std::move(values));
   }

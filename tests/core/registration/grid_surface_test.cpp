@@ -65,7 +65,8 @@ TEST(GridSurface, AnEdgeInDepthStaysOpen) {
   scan.lines = lines;
   const RegisteredScan cloud = RegisterScan(scan, {}).value();
   const std::vector<CloudPoint> points = PointsInRobot(cloud, scan);
-  for (const auto& t : GridSurface(cloud, {}).value()) {
+  const auto triangles = GridSurface(cloud, {}).value();
+  for (const auto& t : triangles) {
     double nearest = 1e9, farthest = 0.0;
     for (const std::int32_t corner : t) {
       const bool on_board = points[static_cast<std::size_t>(corner)].beam >= 500 &&
