@@ -31,6 +31,7 @@ int Main(int argc, char** argv) {
   AddImageCommand(app, invocation);
   AddStopCommand(app, invocation);
   AddHeadsCommand(app, invocation);
+  AddMapCommand(app, invocation);
   AddMissionCommand(app, invocation);
   AddRigCommand(app, invocation);
   AddPkiCommand(app, invocation);

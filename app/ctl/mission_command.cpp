@@ -173,6 +173,9 @@ Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& cont
 
 }  // namespace
 
+/// Here, so that a new subcommand of `mission` does not compile all others.
+void AddMissionSearchCommand(CLI::App& mission, Invocation& invocation);
+
 void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* mission = app.add_subcommand("mission", "What a mission file holds");
   mission->require_subcommand(1);
@@ -194,6 +197,7 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
     invocation = [arguments](const RunContext& context) { return Check(*arguments, context); };
   });
   AddMissionShowCommand(*mission, invocation);
+  AddMissionSearchCommand(*mission, invocation);
   AddMissionRecoverCommand(*mission, invocation);
   AddMissionMergeCommand(*mission, invocation);
   AddMissionPruneCommand(*mission, invocation);

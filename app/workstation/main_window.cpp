@@ -165,6 +165,21 @@ void MainWindow::AddWindowCommands() {
                       return bench_->Shown().exporter.CanExport() ? QString()
                                                                   : tr("There is no cloud yet.");
                     }});
+  commands.Add({.id = "file.export_mission",
+                .menu = "file",
+                .text = tr("Export mission"),
+                .tip = tr("Write clouds, surfaces, depth maps, tables and a ROS bag of the mission "
+                          "that is shown, for other programs"),
+                .keys = QStringLiteral("Ctrl+Shift+E"),
+                .run = [this] {
+                  Desk* desk = &bench_->Shown();
+                  const QString mission =
+                      bench_->ShowsReview() ? bench_->reviewer.Path() : bench_->recording.Path();
+                  ChooseFolder(tr("Export the mission into"),
+                               [desk, mission](const QString& folder) {
+                                 desk->exporter.ExportMission(mission, folder);
+                               });
+                }});
   commands.Add({.id = "file.quit",
                 .menu = "file",
                 .text = tr("Quit"),
@@ -387,13 +402,24 @@ void MainWindow::ResetLayout() {
 void MainWindow::ChooseFile(bool save, const QString& title, const QString& filter,
                             const QString& suffix, const std::function<void(QString)>& chosen) {
   auto* dialog = new QFileDialog(this, title, {}, filter);
+  dialog->setAcceptMode(save ? QFileDialog::AcceptSave : QFileDialog::AcceptOpen);
+  dialog->setFileMode(save ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
+  dialog->setDefaultSuffix(suffix);
+  Show(dialog, chosen);
+}
+
+void MainWindow::ChooseFolder(const QString& title, const std::function<void(QString)>& chosen) {
+  auto* dialog = new QFileDialog(this, title);
+  dialog->setFileMode(QFileDialog::Directory);
+  dialog->setOption(QFileDialog::ShowDirsOnly);
+  Show(dialog, chosen);
+}
+
+void MainWindow::Show(QFileDialog* dialog, const std::function<void(QString)>& chosen) {
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setObjectName(QStringLiteral("file_dialog"));
   // A dialogue of the desktop's would keep the keys to itself, F12 among them.
   dialog->setOption(QFileDialog::DontUseNativeDialog);
-  dialog->setAcceptMode(save ? QFileDialog::AcceptSave : QFileDialog::AcceptOpen);
-  dialog->setFileMode(save ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
-  dialog->setDefaultSuffix(suffix);
   dialog->setDirectory(QFileInfo(bench_->recording.Path()).path());
   connect(dialog, &QFileDialog::fileSelected, this, chosen);
   dialog->setModal(false);  // a scan may be running: the stop button must stay within reach

@@ -11,6 +11,7 @@ class CDockManager;
 class CDockWidget;
 }  // namespace ads
 
+class QFileDialog;
 class QSettings;
 
 namespace foresight {
@@ -66,6 +67,9 @@ class MainWindow : public QMainWindow {
   static void Open(ads::CDockWidget* dock);
   void ShowDocument();
   void BringFloatingDocksBack();
+  /// Opens a dialogue that holds nothing up.
+  void Show(QFileDialog* dialog, const std::function<void(QString)>& chosen);
+  void ChooseFolder(const QString& title, const std::function<void(QString)>& chosen);
   void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
                   const std::function<void(QString)>& chosen);
 

@@ -113,7 +113,8 @@ const std::vector<std::string> kCoreOrder = {"base",
                                              "mission",
                                              "pictures",
                                              "report",
-                                             "exchange"};
+                                             "exchange",
+                                             "mapping"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);

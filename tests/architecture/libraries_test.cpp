@@ -60,8 +60,14 @@ TEST(Libraries, ExportsNeedOnlyCore) {
   EXPECT_EQ(OursNeededBy(FORESIGHT_EXCHANGE_FILE), std::set<std::string>({"foresight_core"}));
 }
 
-TEST(Libraries, TheHeadLoadsNoExports) {
-  EXPECT_FALSE(OursNeededBy(FORESIGHT_HEAD_FILE).contains("foresight_exchange"));
+TEST(Libraries, MapsNeedOnlyCore) {
+  EXPECT_EQ(OursNeededBy(FORESIGHT_MAPPING_FILE), std::set<std::string>({"foresight_core"}));
+}
+
+TEST(Libraries, TheHeadLoadsNeitherExportsNorMaps) {
+  const std::set<std::string> needed = OursNeededBy(FORESIGHT_HEAD_FILE);
+  EXPECT_FALSE(needed.contains("foresight_exchange"));
+  EXPECT_FALSE(needed.contains("foresight_mapping"));
 }
 
 TEST(Libraries, WhatPlaysDevicesNeedsTheSimulationAndNotThePopulations) {

@@ -170,6 +170,26 @@ TEST_F(MissionCommand, AReaderInPythonThatKnowsOnlyTheDocumentationReadsTheSame)
                     std::accumulate(line.intensity.begin(), line.intensity.end(), 0))));
 }
 
+TEST_F(MissionCommand, MapBringsScansTogetherAndFindsNoChangeWhereThereIsNone) {
+  const std::string both = In("for_map.foresight"), cloud = In("map.ply");
+  ASSERT_EQ(Mission({"merge", first_, second_, "-o", both}).exit_code, 0);
+  std::ofstream(In("odometry.csv")) << "scan,x_m,y_m,z_m,qw,qx,qy,qz\n1,5,0,0,1,0,0,0\n"
+                                       "2,5.03,0.02,0,1,0,0,0\n";
+  const ProgramResult map = Run({"map", both, "--odometry", In("odometry.csv"), "--out", cloud,
+                                 "--changes", "1,2", "--json"});
+  ASSERT_EQ(map.exit_code, 0) << map.errors << map.output;
+  const nlohmann::json json = Json(map);
+  const auto& place = json["scans"][1]["map_from_robot"]["translation_m"];
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(place[axis].get<double>(), 0.0, 0.005);
+  EXPECT_EQ(json["changes"].size(), 0u) << map.output;
+  EXPECT_GT(fs::file_size(cloud), 100'000u);
+
+  std::ofstream(In("bad.csv")) << "scan,x_m,y_m,z_m,qw,qx,qy,qz\n1,0,0,0,0,0,0,0\n";
+  const ProgramResult bad = Run({"map", both, "--odometry", In("bad.csv")});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.errors, HasSubstr("bad.csv:2: the quaternion"));
+}
+
 TEST_F(MissionCommand, ExportWritesWhatIsAskedFor) {
   const ProgramResult exported =
       Mission({"export", first_, "-o", In("export"), "--what", "pcd,tables,bag", "--json"});

@@ -1,5 +1,7 @@
 #include "ui/viewmodels/export_view_model.h"
 
+#include "core/depth/depth_method.h"
+#include "core/exchange/export_mission.h"
 #include "core/registration/export_cloud.h"
 
 namespace foresight {
@@ -27,6 +29,34 @@ void ExportViewModel::ExportCloud(const QString& path) {
                               .arg(static_cast<qulonglong>(*written))
                               .arg(path),
                           {}});
+      });
+}
+
+void ExportViewModel::ExportMission(const QString& mission, const QString& folder) {
+  const std::filesystem::path file = mission.toStdString();
+  const std::filesystem::path target =
+      std::filesystem::path(folder.toStdString()) / (file.stem().string() + "-export");
+  const auto work = [file, target](const RunContext& context) -> Result<MissionExportReport> {
+    MissionExportOptions options;
+    options.depth = DefaultsOf(DepthMethod::kForesight);
+    FORESIGHT_TRY(const auto opened, MissionFile::OpenReadOnly(file));
+    return foresight::ExportMission(*opened, target, options, context);
+  };
+  const QString doing = tr("Exporting the mission");
+  mission_runner_.Run<MissionExportReport>(
+      doing, work, [this, doing, target](const Result<MissionExportReport>& report) {
+        if (!report) {
+          session_->Report(NoticeOf(doing, report.error()));
+          return;
+        }
+        const QString wrote = tr("Wrote %1 files to %2.")
+                                  .arg(static_cast<qulonglong>(report->files.size()))
+                                  .arg(QString::fromStdString(target.string()));
+        if (report->left_out.empty())
+          session_->Report({Notice::Level::kInfo, wrote, {}});
+        else
+          session_->Report({Notice::Level::kWarning, wrote,
+                            tr("Left out: %1").arg(QString::fromStdString(report->left_out[0]))});
       });
 }
 

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-/// Writes what is on the screen for other programs.
+/// Writes what is on the screen, and whole missions, for other programs.
 class ExportViewModel : public QObject {
   Q_OBJECT
 
@@ -20,9 +20,16 @@ class ExportViewModel : public QObject {
   /// The lidar's points in the robot's frame, metres, as binary PLY.
   void ExportCloud(const QString& path);
 
+  /// Everything of a mission (core/exchange/export_mission.h), with the default depth method, into
+  /// `NAME-export` in `folder`; also of one that is being recorded. One after the other, each can
+  /// be cancelled.
+  void ExportMission(const QString& mission, const QString& folder);
+  TaskRunner* MissionRunner() { return &mission_runner_; }
+
  private:
   SessionModel* session_;
   TaskRunner runner_{session_->Tasks()};
+  TaskRunner mission_runner_{session_->Tasks(), TaskPolicy::kQueue};
 };
 
 }  // namespace foresight
