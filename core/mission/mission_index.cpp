@@ -73,8 +73,9 @@ class Index {
   static Result<Index> Open(const fs::path& file) {
     auto opened = OpenAsItIs(file);
     if (opened) return opened;
-    LogInfo("{}: the index is made again: {}", file.string(), opened.error().message);
     std::error_code error;
+    if (fs::exists(file, error))
+      LogInfo("{}: the index is made again: {}", file.string(), opened.error().message);
     for (const char* suffix : {"", "-journal", "-wal", "-shm"})
       fs::remove(file.string() + suffix, error);
     return Make(file);
