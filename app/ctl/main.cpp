@@ -6,6 +6,9 @@
 #include "core/base/version.h"
 
 namespace foresight {
+
+void AddBundleCommand(CLI::App& app, Invocation& invocation);
+
 namespace {
 
 int Main(int argc, char** argv) {
@@ -33,6 +36,7 @@ int Main(int argc, char** argv) {
   AddHeadsCommand(app, invocation);
   AddMapCommand(app, invocation);
   AddMissionCommand(app, invocation);
+  AddBundleCommand(app, invocation);
   AddRigCommand(app, invocation);
   AddPkiCommand(app, invocation);
   AddCalibrateCommand(app, invocation);

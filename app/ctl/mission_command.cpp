@@ -173,7 +173,6 @@ Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& cont
 
 }  // namespace
 
-/// Here, so that a new subcommand of `mission` does not compile all others.
 void AddMissionSearchCommand(CLI::App& mission, Invocation& invocation);
 
 void AddMissionCommand(CLI::App& app, Invocation& invocation) {

@@ -11,6 +11,7 @@
 #include "app/workstation/quit_on_signal.h"
 #include "app/workstation/unattended.h"
 #include "core/base/log.h"
+#include "core/base/log_file.h"
 #include "core/base/operator_text.h"
 #include "core/base/version.h"
 #include "ui/panels/theme.h"
@@ -127,6 +128,9 @@ int Run(int argc, char** argv) {
   QApplication::setOrganizationName(QStringLiteral("foresight"));
   QApplication::setApplicationName(QStringLiteral("workstation"));
   ApplyTheme(&application);
+  if (const auto log = LogFileOf("workstation"); !log.empty())
+    if (const Status kept = KeepLogFile(log); !kept)
+      LogWarning("the log is not kept: {}", kept.error().message);
   QTranslator translation;
   if (translation.load(QLocale(), QStringLiteral("foresight"), QStringLiteral("_"),
                        QCoreApplication::applicationDirPath() + QStringLiteral("/../translations")))

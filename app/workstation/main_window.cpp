@@ -4,6 +4,8 @@
 #include <qtadvanceddocking/DockManager.h>
 #include <qtadvanceddocking/FloatingDockContainer.h>
 
+#include <QApplication>
+#include <QBuffer>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
@@ -18,6 +20,7 @@
 #include "app/workstation/document_stack.h"
 #include "app/workstation/keys_everywhere.h"
 #include "app/workstation/shortcut_sheet.h"
+#include "core/base/log_file.h"
 #include "ui/panels/camera_calibration_panel.h"
 #include "ui/panels/chain_calibration_panel.h"
 #include "ui/panels/dock_style.h"
@@ -221,6 +224,12 @@ void MainWindow::AddWindowCommands() {
                 .tip = tr("Calibrate camera, motor, lidar and time from a stand of boards"),
                 .keys = QStringLiteral("Ctrl+Shift+H"),
                 .run = [this] { Open(head_calibration_dock_); }});
+  commands.Add({.id = "help.bundle",
+                .menu = "help",
+                .text = tr("Support bundle"),
+                .tip = tr("Pack the log, the settings, the last scan and an image of each window "
+                          "into one file, for who has to find out what went wrong"),
+                .run = [this] { ChooseBundle(); }});
   commands.Add({.id = "help.shortcuts",
                 .menu = "help",
                 .icon = "help",
@@ -406,6 +415,29 @@ void MainWindow::ChooseFile(bool save, const QString& title, const QString& filt
   dialog->setFileMode(save ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
   dialog->setDefaultSuffix(suffix);
   Show(dialog, chosen);
+}
+
+void MainWindow::ChooseBundle() {
+  SupportBundleSources sources;
+  const QString mission =
+      bench_->ShowsReview() ? bench_->reviewer.Path() : bench_->recording.Path();
+  if (!mission.isEmpty()) sources.mission = mission.toStdString();
+  sources.texts = {LogFileOf("workstation"), QSettings().fileName().toStdString()};
+  sources.versions = {std::string("Qt ") + qVersion(),
+                      "platform " + QGuiApplication::platformName().toStdString()};
+  // Before the dialogue covers them.
+  int number = 0;
+  for (QWidget* window : QApplication::topLevelWidgets()) {
+    if (!window->isVisible()) continue;
+    QByteArray png;
+    QBuffer buffer(&png);
+    window->grab().save(&buffer, "PNG");
+    sources.attachments.emplace_back(fmt::format("windows/window-{}.png", ++number),
+                                     png.toStdString());
+  }
+  Desk* desk = &bench_->Shown();
+  ChooseFile(true, tr("Write the support bundle"), tr("Archives (*.zip)"), QStringLiteral("zip"),
+             [desk, sources](const QString& path) { desk->exporter.WriteBundle(path, sources); });
 }
 
 void MainWindow::ChooseFolder(const QString& title, const std::function<void(QString)>& chosen) {

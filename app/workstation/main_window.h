@@ -69,6 +69,7 @@ class MainWindow : public QMainWindow {
   void BringFloatingDocksBack();
   /// Opens a dialogue that holds nothing up.
   void Show(QFileDialog* dialog, const std::function<void(QString)>& chosen);
+  void ChooseBundle();
   void ChooseFolder(const QString& title, const std::function<void(QString)>& chosen);
   void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
                   const std::function<void(QString)>& chosen);

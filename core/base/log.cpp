@@ -1,10 +1,14 @@
 #include "core/base/log.h"
 
+#include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdlib>
 #include <mutex>
+#include <system_error>
 
+#include "core/base/log_file.h"
 #include "core/base/printable.h"
 
 namespace foresight {
@@ -59,6 +63,33 @@ void SetLogLevel(LogLevel level) {
 void SetLogListener(std::function<void(LogLevel, std::string_view)> listener) {
   const std::lock_guard lock(TheListener().mutex);
   TheListener().function = std::move(listener);
+}
+
+std::filesystem::path LogFileOf(const std::string& program) {
+  const auto folder = []() -> std::filesystem::path {
+    const char* state = std::getenv("XDG_STATE_HOME");
+    if (state != nullptr && *state != '\0') return state;
+    const char* home = std::getenv("HOME");
+    if (home != nullptr && *home != '\0') return std::filesystem::path(home) / ".local" / "state";
+    return {};
+  }();
+  return folder.empty() ? folder : folder / "foresight" / (program + ".log");
+}
+
+Status KeepLogFile(const std::filesystem::path& file) {
+  constexpr std::size_t kBytes = 1 << 20, kOlderFiles = 2;
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  try {
+    const auto sink =
+        std::make_shared<spdlog::sinks::rotating_file_sink_mt>(file.string(), kBytes, kOlderFiles);
+    sink->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v");
+    Logger().sinks().push_back(sink);
+    Logger().flush_on(spdlog::level::info);
+  } catch (const spdlog::spdlog_ex& failure) {
+    return Fail(ErrorCode::kIo, "{}: {}", file.string(), failure.what());
+  }
+  return {};
 }
 
 }  // namespace foresight

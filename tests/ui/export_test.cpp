@@ -70,6 +70,20 @@ TEST_F(ExportTest, WhatCannotBeExportedIsSaid) {
   EXPECT_TRUE(notices[0].what.contains("none.foresight")) << notices[0].what.toStdString();
 }
 
+TEST_F(ExportTest, ASupportBundleIsWrittenWithWhatIsAttached) {
+  const QString zip = folder.filePath("bundle.zip");
+  SupportBundleSources sources;
+  sources.mission = path.toStdString();
+  sources.attachments = {{"windows/window-1.png", "image"}};
+  exporter.WriteBundle(zip, sources);
+  ASSERT_TRUE(Settled());
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(notices[0].level, Notice::Level::kInfo) << notices[0].what.toStdString();
+  const std::string bytes = ReadFile(zip.toStdString()).value();
+  for (const char* name : {"windows/window-1.png", "last_scan.foresight", "contents.txt"})
+    EXPECT_NE(bytes.find(name), std::string::npos) << name;
+}
+
 TEST_F(ExportTest, ACancelledExportLeavesNoBag) {
   exporter.ExportMission(path, folder.path());
   exporter.MissionRunner()->cancel();

@@ -60,4 +60,22 @@ void ExportViewModel::ExportMission(const QString& mission, const QString& folde
       });
 }
 
+void ExportViewModel::WriteBundle(const QString& path, const SupportBundleSources& sources) {
+  const QString doing = tr("Writing the support bundle");
+  const auto work = [path = path.toStdString(), sources](const RunContext& context) {
+    return WriteSupportBundle(path, sources, context);
+  };
+  mission_runner_.Run<SupportBundleReport>(
+      doing, work, [this, doing, path](const Result<SupportBundleReport>& report) {
+        if (!report)
+          session_->Report(NoticeOf(doing, report.error()));
+        else
+          session_->Report({Notice::Level::kInfo,
+                            tr("Wrote %1 files to %2.")
+                                .arg(static_cast<qulonglong>(report->files.size()))
+                                .arg(path),
+                            {}});
+      });
+}
+
 }  // namespace foresight

@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QString>
 
+#include "core/exchange/support_bundle.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
@@ -24,6 +25,8 @@ class ExportViewModel : public QObject {
   /// `NAME-export` in `folder`; also of one that is being recorded. One after the other, each can
   /// be cancelled.
   void ExportMission(const QString& mission, const QString& folder);
+  /// What somebody needs who has to find out what went wrong (core/exchange/support_bundle.h).
+  void WriteBundle(const QString& path, const SupportBundleSources& sources);
   TaskRunner* MissionRunner() { return &mission_runner_; }
 
  private:
