@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "core/base/atomic_file.h"
+#include "core/base/publish_file.h"
 #include "core/calibration/camera_formats.h"
 #include "core/exchange/bag_file.h"
 
@@ -160,13 +161,8 @@ Status RosBagWriter::Add(const BagScan& entry, const RunContext& context) {
 
 Status RosBagWriter::Finish() {
   FORESIGHT_CHECK(impl_->Done(impl_->bag.Close()));
-  FORESIGHT_CHECK(SyncFile(impl_->part));
-  std::error_code error;
-  std::filesystem::rename(impl_->part, impl_->target, error);
-  if (error)
-    return Fail(ErrorCode::kIo, "{}: cannot replace: {}", impl_->target.string(), error.message());
   impl_->finished = true;
-  return SyncFolderOf(impl_->target);
+  return PublishFile(impl_->part, impl_->target);
 }
 
 }  // namespace foresight

@@ -22,6 +22,7 @@
 #include <system_error>
 
 #include "core/base/atomic_file.h"
+#include "core/base/publish_file.h"
 
 namespace foresight {
 namespace {
@@ -38,11 +39,7 @@ Status WriteThroughPart(const std::filesystem::path& path, const Write& write) {
     return Fail(ErrorCode::kIo, "{}: could not be written (is the disk full, is the folder there?)",
                 target.string());
   }
-  FORESIGHT_CHECK(SyncFile(part));
-  std::filesystem::rename(part, target, error);
-  if (error)
-    return Fail(ErrorCode::kIo, "{}: cannot replace: {}", target.string(), error.message());
-  return SyncFolderOf(target);
+  return PublishFile(part, target);
 }
 
 template <class Array, class Value>

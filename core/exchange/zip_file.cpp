@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/base/atomic_file.h"
+#include "core/base/publish_file.h"
 
 namespace foresight {
 namespace {
@@ -72,17 +73,7 @@ Status ZipFile::Finish() {
   FORESIGHT_CHECK(impl_->Done(archive_write_close(impl_->out)));
   archive_write_free(impl_->out);
   impl_->out = nullptr;
-  Status status = SyncFile(impl_->part);
-  std::error_code error;
-  if (status) std::filesystem::rename(impl_->part, impl_->target, error);
-  if (status && error)
-    status =
-        Fail(ErrorCode::kIo, "{}: cannot replace: {}", impl_->target.string(), error.message());
-  if (!status) {
-    std::filesystem::remove(impl_->part, error);
-    return status;
-  }
-  return SyncFolderOf(impl_->target);
+  return PublishFile(impl_->part, impl_->target);
 }
 
 }  // namespace foresight

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
-#include "core/mission/plan_json.h"
 #include "core/mission/scan_rows.h"
 
 namespace foresight {
@@ -13,16 +11,6 @@ namespace {
 
 using Row = std::vector<StoredValue>;
 using Json = nlohmann::ordered_json;
-
-const StoredTable& Named(const std::vector<StoredTable>& tables, std::string_view name) {
-  return *std::find_if(tables.begin(), tables.end(),
-                       [name](const StoredTable& table) { return table.name == name; });
-}
-
-std::int64_t Whole(const StoredTable& table, const Row& row, std::string_view column) {
-  const auto* value = std::get_if<std::int64_t>(&row[table.ColumnOf(column)]);
-  return value != nullptr ? *value : 0;
-}
 
 std::string Text(const StoredTable& table, const Row& row, std::string_view column) {
   const auto* value = std::get_if<std::string>(&row[table.ColumnOf(column)]);
@@ -88,7 +76,7 @@ class Mend {
   }
 
   Status InsertRig(std::int64_t calibration_id) {
-    const StoredTable& table = Named(tables_, "calibration");
+    const StoredTable& table = TableNamed(tables_, "calibration");
     Row row(table.columns.size());
     row[*table.rowid] = calibration_id;
     Set(table, row, "rig_yaml", SensorRigToYaml(*options_.rig));
@@ -102,7 +90,7 @@ class Mend {
     FORESIGHT_TRY(scan.images, MendImages(id));
     FORESIGHT_TRY(const std::int64_t batches, MendMotor(id));
     FORESIGHT_TRY(scan.lines, Count("SELECT count(*) FROM line WHERE scan_id = ?", id));
-    const StoredTable& table = Named(tables_, "scan");
+    const StoredTable& table = TableNamed(tables_, "scan");
     FORESIGHT_TRY(std::vector<Row> rows, ReadStored(database_, table, fmt::format("id = {}", id)));
     const bool own_row = !rows.empty();
     FORESIGHT_TRY(const bool usable, EnsureRow(scan, table, rows));
@@ -123,7 +111,7 @@ class Mend {
         "damaged",
         scan.id, scan.lines, scan.images, rows.empty() ? "own entry" : "rig");
     if (!rows.empty()) {
-      const std::int64_t calibration = Whole(table, rows.front(), "calibration_id");
+      const std::int64_t calibration = WholeOf(table, rows.front(), "calibration_id");
       FORESIGHT_TRY(const bool has_rig, HasRig(calibration));
       if (has_rig) return true;
       if (options_.rig) {
@@ -156,10 +144,10 @@ class Mend {
     scan.uuid = own_row ? Text(table, row, "uuid") : "";
     FORESIGHT_TRY(const ScanState state, ScanStateFromString(Text(table, row, "state")));
     if (own_row) {
-      scan.lines_before = Whole(table, row, "lines");
-      scan.images_before = Whole(table, row, "frames");
+      scan.lines_before = WholeOf(table, row, "lines");
+      scan.images_before = WholeOf(table, row, "frames");
     }
-    const std::int64_t batches_before = Whole(table, row, "motor_batches");
+    const std::int64_t batches_before = WholeOf(table, row, "motor_batches");
     const bool whole = own_row && state != ScanState::kRunning && scan.lines == scan.lines_before &&
                        scan.images == scan.images_before && batches == batches_before;
     scan.state = whole ? state : ScanState::kInterrupted;
@@ -194,12 +182,12 @@ class Mend {
 
   /// Batches count up from 0. A hole in the track stays one: lines inside it get no angle.
   Result<std::int64_t> MendMotor(std::int64_t scan_id) {
-    const StoredTable& table = Named(tables_, "motor");
+    const StoredTable& table = TableNamed(tables_, "motor");
     FORESIGHT_TRY(
         std::vector<Row> rows,
         ReadStored(database_, table, fmt::format("scan_id = {} ORDER BY batch", scan_id)));
     const auto count = static_cast<std::int64_t>(rows.size());
-    if (count == 0 || Whole(table, rows.back(), "batch") == count - 1) return count;
+    if (count == 0 || WholeOf(table, rows.back(), "batch") == count - 1) return count;
     FORESIGHT_CHECK(RunFor("DELETE FROM motor WHERE scan_id = ?", scan_id));
     std::int64_t batch = 0;
     for (Row& row : rows) {
@@ -215,14 +203,14 @@ class Mend {
         RunFor("DELETE FROM image WHERE scan_id = ? AND position NOT IN (SELECT "
                "position FROM image_data d WHERE d.scan_id = image.scan_id)",
                scan_id));
-    const StoredTable& table = Named(tables_, "image");
+    const StoredTable& table = TableNamed(tables_, "image");
     FORESIGHT_TRY(
         std::vector<Row> rows,
         ReadStored(database_, table, fmt::format("scan_id = {} ORDER BY position", scan_id)));
     std::map<std::int64_t, std::int64_t>& moved = moved_[scan_id];
     std::int64_t position = 0;
     for (Row& row : rows) {
-      const std::int64_t before = Whole(table, row, "position");
+      const std::int64_t before = WholeOf(table, row, "position");
       moved[before] = position;
       if (before != position) FORESIGHT_CHECK(MoveImage(scan_id, before, position, table, row));
       ++position;
@@ -258,12 +246,12 @@ class Mend {
 
   /// Detections or depth maps: their scan and their image are where they are now.
   Status MendRecords(const char* name, const char* words, std::int64_t& count) {
-    const StoredTable& table = Named(tables_, name);
+    const StoredTable& table = TableNamed(tables_, name);
     FORESIGHT_TRY(std::vector<Row> rows, ReadStored(database_, table, "true"));
     count = static_cast<std::int64_t>(rows.size());
     std::int64_t without_scan = 0;
     for (Row& row : rows) {
-      const std::int64_t scan_id = Whole(table, row, "scan_id");
+      const std::int64_t scan_id = WholeOf(table, row, "scan_id");
       if (scan_id == 0) continue;  // of a review: its scans are elsewhere
       const Row before = row;
       PointToImage(table, row, scan_id);
@@ -273,7 +261,7 @@ class Mend {
       }
       if (row == before) continue;
       FORESIGHT_CHECK(RunFor(fmt::format("DELETE FROM {} WHERE id = ?", name).c_str(),
-                             Whole(table, row, "id")));
+                             WholeOf(table, row, "id")));
       if (NamesScanByUuid(table)) {
         FORESIGHT_CHECK(InsertStored(database_, table, row));
       } else if (!Saved(scan_id)) {
@@ -300,7 +288,7 @@ class Mend {
   void PointToImage(const StoredTable& table, Row& row, std::int64_t scan_id) const {
     for (const StoredTable::Column& column : table.columns) {
       if (column.name == "image_position") {
-        const std::int64_t before = Whole(table, row, column.name);
+        const std::int64_t before = WholeOf(table, row, column.name);
         Set(table, row, column.name, NewPosition(scan_id, before));
       }
       if (column.name != "provenance_json") continue;

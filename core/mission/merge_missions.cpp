@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/atomic_file.h"
+#include "core/base/publish_file.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/mission_schema.h"
 #include "core/mission/stored_tables.h"
@@ -91,15 +92,7 @@ class Merger {
   const MergeReport& report() const { return report_; }
 
  private:
-  const StoredTable& Named(std::string_view name) const {
-    return *std::find_if(tables_.begin(), tables_.end(),
-                         [name](const StoredTable& table) { return table.name == name; });
-  }
-
-  static std::int64_t Whole(const StoredTable& table, const Row& row, std::string_view column) {
-    const auto* value = std::get_if<std::int64_t>(&row[table.ColumnOf(column)]);
-    return value != nullptr ? *value : 0;
-  }
+  const StoredTable& Named(std::string_view name) const { return TableNamed(tables_, name); }
 
   Status CheckRow(const StoredTable& table, const Row& row) const {
     if (!table.checksum || HasGoodChecksum(table, row)) return {};
@@ -131,7 +124,7 @@ class Merger {
     Row& row = rows.front();
     if (scan_ids_.contains(scan.uuid)) return CheckSame(scan);
     FORESIGHT_TRY(const std::int64_t id, NextId("scan"));
-    FORESIGHT_TRY(const std::int64_t rig, AddRig(from, Whole(table, row, "calibration_id")));
+    FORESIGHT_TRY(const std::int64_t rig, AddRig(from, WholeOf(table, row, "calibration_id")));
     row[*table.rowid] = id;
     row[table.ColumnOf("calibration_id")] = rig;
     for (const char* part : {"line", "motor", "image", "image_data", "thumbnail"})
@@ -215,7 +208,7 @@ class Merger {
     FORESIGHT_TRY(std::vector<Row> rows, ReadStored(from, table, "true ORDER BY id"));
     for (Row& row : rows) {
       FORESIGHT_CHECK(CheckRow(table, row));
-      const std::int64_t old_id = Whole(table, row, "id");
+      const std::int64_t old_id = WholeOf(table, row, "id");
       const std::string scan_uuid = std::get<std::string>(row[table.ColumnOf("scan_uuid")]);
       const auto scan = scan_ids_.find(scan_uuid);
       if (scan == scan_ids_.end() && left_out_.contains(scan_uuid)) continue;
@@ -239,7 +232,7 @@ class Merger {
     FORESIGHT_TRY(std::vector<Row> rows, ReadStored(from, table, "true ORDER BY id"));
     for (Row& row : rows) {
       FORESIGHT_CHECK(CheckRow(table, row));
-      const auto detection = detections_.find(Whole(table, row, "detection_id"));
+      const auto detection = detections_.find(WholeOf(table, row, "detection_id"));
       if (detection == detections_.end()) continue;
       row[table.ColumnOf("detection_id")] = detection->second;
       FORESIGHT_CHECK(PutOnce(table, row));
@@ -324,15 +317,11 @@ Result<MergeReport> MergeMissions(std::span<const std::filesystem::path> sources
   const std::filesystem::path part = resolved.string() + ".part";
   std::filesystem::remove(part, error);
   auto report = MergeInto(part, sources, options, context);
-  Status status = report ? SyncFile(part) : Status(tl::unexpected(report.error()));
-  if (!status) {
+  if (!report) {
     std::filesystem::remove(part, error);
-    return tl::unexpected(status.error());
+    return report;
   }
-  std::filesystem::rename(part, resolved, error);
-  if (error)
-    return Fail(ErrorCode::kIo, "{}: cannot replace: {}", resolved.string(), error.message());
-  FORESIGHT_CHECK(SyncFolderOf(resolved));
+  FORESIGHT_CHECK(PublishFile(part, resolved));
   return report;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/log.h"
+#include "core/base/publish_file.h"
 #include "core/io/png.h"
 #include "core/mission/file_handle.h"
 #include "core/mission/migrations.h"
@@ -740,15 +741,11 @@ Status MissionFile::ExportTo(const std::filesystem::path& path) const {
   std::filesystem::remove(part, error);
   FORESIGHT_TRY(SqliteStatement copy, impl_->database->Prepare("VACUUM INTO ?"));
   Status status = copy.BindText(part.string()).Run();
-  if (status) status = SyncFile(part);
   if (!status) {
     std::filesystem::remove(part, error);
     return Fail(ErrorCode::kIo, "{}: cannot export: {}", target.string(), status.error().message);
   }
-  std::filesystem::rename(part, target, error);
-  if (error)
-    return Fail(ErrorCode::kIo, "{}: cannot replace: {}", target.string(), error.message());
-  return SyncFolderOf(target);
+  return PublishFile(part, target);
 }
 
 Status MissionFile::Close() {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/atomic_file.h"
+#include "core/base/publish_file.h"
 #include "core/mission/mend_salvaged.h"
 #include "core/mission/migrations.h"
 #include "core/mission/mission_file.h"
@@ -38,10 +39,7 @@ class Collector {
   std::int64_t rows() const { return rows_; }
 
  private:
-  const StoredTable& Named(std::string_view name) const {
-    return *std::find_if(tables_.begin(), tables_.end(),
-                         [name](const StoredTable& table) { return table.name == name; });
-  }
+  const StoredTable& Named(std::string_view name) const { return TableNamed(tables_, name); }
 
   Status VisitAll(const RunContext& context, const SqlitePages::Accept& accept) {
     for (std::uint32_t page = 1; page <= pages_.count(); ++page) {
@@ -193,15 +191,11 @@ Result<SalvageReport> SalvageMission(const std::filesystem::path& damaged,
   auto report = SalvageInto(part, pages, damaged, options, context);
   Status status = report ? Status() : Status(tl::unexpected(report.error()));
   if (status) status = VerifySalvaged(part, context.Part(0.9, 1.0));
-  if (status) status = SyncFile(part);
   if (!status) {
     std::filesystem::remove(part, error);
     return tl::unexpected(status.error());
   }
-  std::filesystem::rename(part, resolved, error);
-  if (error)
-    return Fail(ErrorCode::kIo, "{}: cannot replace: {}", resolved.string(), error.message());
-  FORESIGHT_CHECK(SyncFolderOf(resolved));
+  FORESIGHT_CHECK(PublishFile(part, resolved));
   return report;
 }
 

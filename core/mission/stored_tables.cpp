@@ -108,6 +108,19 @@ Result<std::vector<StoredTable>> ReadStoredTables(const SqliteDatabase& database
   }
 }
 
+const StoredTable& TableNamed(const std::vector<StoredTable>& tables, std::string_view name) {
+  const auto found = std::find_if(tables.begin(), tables.end(),
+                                  [name](const StoredTable& table) { return table.name == name; });
+  FORESIGHT_EXPECTS(found != tables.end(), "no such table");
+  return *found;
+}
+
+std::int64_t WholeOf(const StoredTable& table, const std::vector<StoredValue>& values,
+                     std::string_view column) {
+  const auto* value = std::get_if<std::int64_t>(&values[table.ColumnOf(column)]);
+  return value != nullptr ? *value : 0;
+}
+
 std::optional<std::vector<StoredValue>> AsRowOf(const StoredTable& table, const StoredRow& row) {
   if (row.values.size() != table.columns.size()) return std::nullopt;
   std::vector<StoredValue> values = row.values;

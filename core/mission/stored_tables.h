@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/mission/sqlite.h"
@@ -28,6 +29,13 @@ struct StoredTable {
 
 /// All tables of an open mission file.
 Result<std::vector<StoredTable>> ReadStoredTables(const SqliteDatabase& database);
+
+/// @pre one of the tables has the name
+const StoredTable& TableNamed(const std::vector<StoredTable>& tables, std::string_view name);
+
+/// A whole number of a row; 0 where it is NULL or something else.
+std::int64_t WholeOf(const StoredTable& table, const std::vector<StoredValue>& values,
+                     std::string_view column);
 
 /// The row's values as the table has them (its rowid in place, whole numbers of REAL columns as
 /// numbers); nullopt where it cannot be a row of the table: another number or another kind of
