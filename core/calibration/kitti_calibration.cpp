@@ -97,7 +97,7 @@ Result<KittiCamera> KittiCameraFrom(std::string_view text, int number, const std
   found.camera.fy = projection(1, 1);
   found.camera.cx = projection(0, 2);
   found.camera.cy = projection(1, 2);
-  found.camera.lens = FisheyeLens{};
+  found.camera.lens = FisheyeLens{0.0};
   const Eigen::Matrix3d k = projection.leftCols<3>();
   if (!(found.camera.fx > 1.0 && found.camera.fy > 1.0) ||
       !k.isApprox((Eigen::Matrix3d() << found.camera.fx, 0, found.camera.cx, 0, found.camera.fy,
