@@ -79,6 +79,12 @@ std::string FloatRecords(const std::vector<CloudPoint>& points) {
   return bytes;
 }
 
+std::string TextPoints(const std::vector<CloudPoint>& points) {
+  std::string text = "# x y z\n";
+  for (const CloudPoint& p : points) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  return text;
+}
+
 std::string SamplesCsv() {
   std::string csv = "line,beam,u,v,depth_mm\n";
   for (int i = 0; i < 96; ++i)
@@ -277,6 +283,7 @@ class GoodFiles {
     FORESIGHT_CHECK(WritePcd(*this / "cloud.pcd", TablePoints(), CloudFields::kWithImage));
     FORESIGHT_CHECK(text("ascii.ply", AsciiPly(TablePoints())));
     FORESIGHT_CHECK(text("cloud.bin", FloatRecords(TablePoints())));
+    FORESIGHT_CHECK(text("points.xyz", TextPoints(TablePoints())));
     FORESIGHT_CHECK(WriteStereo());
     const ProgramResult scanned = RunProgram(
         ctl, {"scan", "--scene", kResources + "scenes/room.yaml", "--rig", *this / "rig.yaml",
@@ -467,7 +474,7 @@ Result<std::vector<Reader>> AllReaders(const std::string& folder, const std::str
   add("floats to import", "nasty.bin", false, good / "cloud.bin",
       {Repeated(std::string(16, '\0'), 1000)},
       MissionOf({good / "image.png", good / "calib.txt"}));
-  add("text of points to import", "nasty.xyz", true, good / "samples.csv",
+  add("text of points to import", "nasty.xyz", true, good / "points.xyz",
       {"1 2 3\n", "1 2\n", Repeated("1 2 3\n", 100'000), Repeated("9 ", 500'000)}, MissionOf({}));
   add("calibration of KITTI", "nasty.txt", true, good / "calib.txt",
       {"P2: nan\n", "P2:\n", "P2: " + Repeated("1 ", 100'000)},

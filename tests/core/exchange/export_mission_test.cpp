@@ -105,8 +105,8 @@ TEST_F(ExportMissionTest, EveryPartIsThereAndNothingIsLeftOver) {
     if (entry.is_regular_file())
       there.push_back(std::filesystem::relative(entry.path(), *folder_ / "out"));
   EXPECT_THAT(there, testing::UnorderedElementsAreArray(report_.files));
-  EXPECT_EQ(there.size(), 3u + 1u + 1u + 5u + 3u + 3u + 5u)
-      << "tables, bag, image, rig and cameras, clouds, surfaces, depth";
+  EXPECT_EQ(there.size(), 3u + 1u + 1u + 5u + 4u + 3u + 5u)
+      << "tables, bag, image, rig and cameras, clouds with scan.json, surfaces, depth";
 }
 
 TEST_F(ExportMissionTest, ExportingAgainGivesTheSameBytes) {

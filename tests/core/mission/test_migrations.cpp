@@ -127,5 +127,34 @@ TEST_F(Migrations, TheTablesOfAnotherFormatAreNamed) {
               HasSubstr("table 'detection' is not one of mission format 2"));
 }
 
+TEST(MigrationOfFormat2, AWriterAddsATableForImportedCloudsAndLosesNothing) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "old.foresight";
+  std::filesystem::copy_file(
+      std::filesystem::path(FORESIGHT_SOURCE_DIR) / "tests/core/mission/golden/format2.foresight",
+      path);
+  std::filesystem::permissions(path, std::filesystem::perms::owner_write,
+                               std::filesystem::perm_options::add);
+  const auto old = MissionFile::OpenReadOnly(path).value();
+  const Scan scan = old->LoadScan(1).value();
+  const auto depths = old->ListDepths().value();
+  const auto events = old->ListEvents().value();
+  ASSERT_TRUE(old->Close());
+  const auto mission = MissionFile::Open(path).value();
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(1).value(), scan));
+  EXPECT_EQ(mission->ListDepths().value(), depths);
+  EXPECT_EQ(mission->ListEvents().value(), events);
+  EXPECT_TRUE(mission->Verify({}));
+  GivenCloud cloud;
+  cloud.lines = cloud.beams = 1;
+  cloud.points.push_back({1.0f, 2.0f, 3.0f});
+  cloud.origins.push_back(Eigen::Vector3f::Zero());
+  Scan imported = SampleScan(4);
+  const std::int64_t id = mission->BeginScan(imported).value();
+  EXPECT_TRUE(mission->SetGivenCloud(id, cloud));
+  EXPECT_TRUE(mission->EndScan(id, ScanState::kComplete, ""));
+  EXPECT_TRUE(mission->LoadScan(id)->given == cloud);
+}
+
 }  // namespace
 }  // namespace foresight
