@@ -42,15 +42,14 @@ void PrintTable(const std::vector<ScanSummary>& scans) {
       fmt::format("{:>4}  {:<20}  {:>16}  {:>7}  {:>6}  {:>6}  {:>7}  {}", "scan", "time (UTC)",
                   "scope, deg", "deg/s", "lines", "images", "objects", "state");
   for (const ScanSummary& scan : scans)
-    text += fmt::format("\n{:>4}  {:<20}  {:>16}  {:>7.1f}  {:>6}  {:>6}  {:>7}  {}{}{}", scan.id,
-                        UtcText(scan.begin_utc_ns),
-                        scan.imported
-                            ? std::string("imported")
-                            : fmt::format("{:.1f} to {:.1f}", DegreesFromRadians(scan.plan.from_rad),
-                                          DegreesFromRadians(scan.plan.to_rad)),
-                        scan.imported ? 0.0 : DegreesFromRadians(scan.plan.speed_rad_s), scan.lines, scan.images,
-                        scan.objects, ToString(scan.state), scan.reason.empty() ? "" : ": ",
-                        scan.reason);
+    text += fmt::format(
+        "\n{:>4}  {:<20}  {:>16}  {:>7.1f}  {:>6}  {:>6}  {:>7}  {}{}{}", scan.id,
+        UtcText(scan.begin_utc_ns),
+        scan.imported ? std::string("imported")
+                      : fmt::format("{:.1f} to {:.1f}", DegreesFromRadians(scan.plan.from_rad),
+                                    DegreesFromRadians(scan.plan.to_rad)),
+        scan.imported ? 0.0 : DegreesFromRadians(scan.plan.speed_rad_s), scan.lines, scan.images,
+        scan.objects, ToString(scan.state), scan.reason.empty() ? "" : ": ", scan.reason);
   PrintLine(text);
 }
 

@@ -105,8 +105,8 @@ Result<ExitCode> Import(const ImportArguments& arguments, const RunContext& cont
 
 void AddMissionImportCommand(CLI::App& mission, Invocation& invocation) {
   const auto arguments = std::make_shared<ImportArguments>();
-  CLI::App* command = mission.add_subcommand(
-      "import", "Make a mission of other programs' clouds, images and bags");
+  CLI::App* command =
+      mission.add_subcommand("import", "Make a mission of other programs' clouds, images and bags");
   command
       ->add_option("files", arguments->files,
                    "Clouds (.ply, .pcd, KITTI's .bin, .xyz, .txt, .csv, .3d), ROS 1 bags, folders "
@@ -121,7 +121,8 @@ void AddMissionImportCommand(CLI::App& mission, Invocation& invocation) {
                    "x,y,z: where the points were measured from, in their frame, metres")
       ->delimiter(',')
       ->expected(3);
-  AddOption(*command, "--up", arguments->up, "x,y,z: what is up in the points' frame; without a rig")
+  AddOption(*command, "--up", arguments->up,
+            "x,y,z: what is up in the points' frame; without a rig")
       ->delimiter(',')
       ->expected(3);
   AddOption(*command, "--unit", arguments->unit, "Unit of the coordinates: m, cm, mm");

@@ -124,9 +124,8 @@ Status ShowScan(const ShowArguments& arguments, const MissionFile& mission) {
     return {};
   }
   std::string text = fmt::format(
-      "scan {} ({}), {}{}\n{}{}, begun {}\n{}: {} lines\nrig {}",
-      id, summary.uuid, ToString(summary.state),
-      summary.reason.empty() ? "" : ": " + summary.reason, summary.source,
+      "scan {} ({}), {}{}\n{}{}, begun {}\n{}: {} lines\nrig {}", id, summary.uuid,
+      ToString(summary.state), summary.reason.empty() ? "" : ": " + summary.reason, summary.source,
       summary.simulated ? " (simulated)" : "", UtcText(summary.begin_utc_ns),
       summary.imported ? std::string("imported")
                        : fmt::format("{:.1f} to {:.1f} deg at {:.1f} deg/s",

@@ -19,10 +19,9 @@ void ChooseFilesToImport(QWidget* window, Workbench* bench) {
   dialog->setOption(QFileDialog::DontUseNativeDialog);
   const QString folder = QFileInfo(bench->recording.Path()).absolutePath();
   dialog->setDirectory(folder);
-  QObject::connect(dialog, &QFileDialog::filesSelected, bench,
-                   [bench, folder](const QStringList& files) {
-                     bench->importer.Import(files, folder);
-                   });
+  QObject::connect(
+      dialog, &QFileDialog::filesSelected, bench,
+      [bench, folder](const QStringList& files) { bench->importer.Import(files, folder); });
   dialog->setModal(false);  // a scan may be running: the stop button must stay within reach
   dialog->show();
 }

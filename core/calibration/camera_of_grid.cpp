@@ -42,10 +42,9 @@ Eigen::Matrix3d Projection(std::span<const Eigen::Vector3d> points, int width, d
 std::optional<GridCamera> CameraOfGrid(std::span<const Eigen::Vector3d> points, int width) {
   constexpr std::size_t kLeastPoints = 100;
   constexpr double kMostOff_px = 0.7;  ///< rms; a quantised pixel alone is 0.4
-  const auto count = static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const Eigen::Vector3d& point) {
-        return point.allFinite() && !point.isZero();
-      }));
+  const auto count = static_cast<std::size_t>(std::count_if(
+      points.begin(), points.end(),
+      [](const Eigen::Vector3d& point) { return point.allFinite() && !point.isZero(); }));
   if (width < 2 || count < kLeastPoints) return std::nullopt;
   const auto height = static_cast<int>(points.size() / static_cast<std::size_t>(width));
   if (height < 2) return std::nullopt;

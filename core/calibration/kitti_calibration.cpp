@@ -87,8 +87,7 @@ Result<KittiCamera> KittiCameraFrom(std::string_view text, int number, const std
   Eigen::Matrix3d rectified = Eigen::Matrix3d::Identity();
   if (rows.contains("R0_rect") || rows.contains("R_rect")) {
     FORESIGHT_TRY(const std::vector<double> r, Row(rows, {"R0_rect", "R_rect"}, 9, source));
-    FORESIGHT_TRY(rectified,
-                  RotationFrom(Eigen::Map<const Matrix33>(r.data()), "R0_rect", source));
+    FORESIGHT_TRY(rectified, RotationFrom(Eigen::Map<const Matrix33>(r.data()), "R0_rect", source));
   }
   FORESIGHT_TRY(const Eigen::Matrix3d turn,
                 RotationFrom(camera_from_velodyne.leftCols<3>(), "Tr_velo_to_cam", source));

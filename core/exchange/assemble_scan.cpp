@@ -86,14 +86,16 @@ class Assembler {
     } else if (parts_.cloud.viewpoint && !parts_.cloud.viewpoint->isZero()) {
       viewpoint_ = *parts_.cloud.viewpoint;
     } else if (KnownRig() != nullptr) {
-      viewpoint_ = CloudFromBase() * (KnownRig()->BaseFromHead(0.0) *
-                                      KnownRig()->HeadFromLidar().translation());
+      viewpoint_ = CloudFromBase() *
+                   (KnownRig()->BaseFromHead(0.0) * KnownRig()->HeadFromLidar().translation());
       if (!IsOurs())
-        Note("where the points were measured from is not in the file: the rig's lidar at 0 deg is "
-             "taken");
+        Note(
+            "where the points were measured from is not in the file: the rig's lidar at 0 deg is "
+            "taken");
     } else {
-      Note("where the points were measured from is not in the file: the origin of its frame is "
-           "taken (--viewpoint says otherwise)");
+      Note(
+          "where the points were measured from is not in the file: the origin of its frame is "
+          "taken (--viewpoint says otherwise)");
     }
     return {};
   }
@@ -146,21 +148,24 @@ class Assembler {
     switch (places_.kind) {
       case GridPlaces::Kind::kRings:
         out_.grid = "recovered: turns of a spinning lidar";
-        Note("the grid was recovered from the order and the directions of the points: {} turns, "
-             "beams every {:.3f} deg",
-             places_.lines, DegreesFromRadians(places_.step_rad));
+        Note(
+            "the grid was recovered from the order and the directions of the points: {} turns, "
+            "beams every {:.3f} deg",
+            places_.lines, DegreesFromRadians(places_.step_rad));
         break;
       case GridPlaces::Kind::kSweeps:
         out_.grid = "recovered: lines of a scanner";
-        Note("the grid was recovered from the order and the directions of the points: {} lines, "
-             "beams every {:.3f} deg",
-             places_.lines, DegreesFromRadians(places_.step_rad));
+        Note(
+            "the grid was recovered from the order and the directions of the points: {} lines, "
+            "beams every {:.3f} deg",
+            places_.lines, DegreesFromRadians(places_.step_rad));
         break;
       case GridPlaces::Kind::kScattered:
         out_.grid = "none: the points have no order";
-        Note("no order of lines was found in the points: Eq. (7), which compares neighbours on a "
-             "line, and Fig. 4, which compares neighbouring cells, find nothing to compare, and "
-             "there is no surface to export");
+        Note(
+            "no order of lines was found in the points: Eq. (7), which compares neighbours on a "
+            "line, and Fig. 4, which compares neighbouring cells, find nothing to compare, and "
+            "there is no surface to export");
         break;
     }
     return {};
@@ -170,13 +175,13 @@ class Assembler {
   Status FindCamera() {
     if (parts_.camera || KnownRig() != nullptr) return {};
     if (organised_ && parts_.images.empty() && !options_.view) {
-      const auto found =
-          CameraOfGrid(parts_.cloud.points, static_cast<int>(parts_.cloud.width));
+      const auto found = CameraOfGrid(parts_.cloud.points, static_cast<int>(parts_.cloud.width));
       if (found) {
         parts_.camera = CameraOnCloud{found->camera, found->camera_from_cloud};
-        Note("the cloud is an image of a depth camera: its pinhole of {:.0f} x {:.0f} px focal "
-             "length was found from the points' pixels, {:.2f} px rms",
-             found->camera.fx, found->camera.fy, found->rms_px);
+        Note(
+            "the cloud is an image of a depth camera: its pinhole of {:.0f} x {:.0f} px focal "
+            "length was found from the points' pixels, {:.2f} px rms",
+            found->camera.fx, found->camera.fy, found->rms_px);
         TakeOwnColors();
         return {};
       }
@@ -199,8 +204,9 @@ class Assembler {
     frame.image = ColorImage(static_cast<int>(cloud.width), static_cast<int>(cloud.height));
     std::copy(cloud.color.begin(), cloud.color.end(), frame.image.values().begin());
     parts_.images.push_back(std::move(frame));
-    Note("its image is made of the points' own colours; pixels without a point are as the file has "
-         "them");
+    Note(
+        "its image is made of the points' own colours; pixels without a point are as the file has "
+        "them");
   }
 
   Status MakeRig() {
@@ -299,8 +305,7 @@ class Assembler {
     std::span<double> time_s;
     if (cloud.intensity.size() == cloud.points.size())
       intensity = given.intensity.Append(places, 0.0f);
-    if (HasTimes())
-      time_s = given.time_s.Append(places, std::numeric_limits<double>::quiet_NaN());
+    if (HasTimes()) time_s = given.time_s.Append(places, std::numeric_limits<double>::quiet_NaN());
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
       if (places_.line[i] < 0) {
@@ -322,8 +327,7 @@ class Assembler {
 
   void PlaceOrigins(GivenCloud& given) {
     const Eigen::Vector3f viewpoint = (base_from_cloud_ * viewpoint_).cast<float>();
-    const auto origins =
-        given.origins.Append(static_cast<std::size_t>(given.lines), viewpoint);
+    const auto origins = given.origins.Append(static_cast<std::size_t>(given.lines), viewpoint);
     // A rig of one's own may stand elsewhere: the record's origins are in its base.
     if (!parts_.record || options_.rig) return;
     for (std::size_t line = 0; line < std::min(origins.size(), parts_.record->origins.size());
@@ -362,15 +366,16 @@ class Assembler {
         images[i].image = std::move(pixels);
       }
     } else if (KnownRig() != nullptr && !images.empty() && angles.empty()) {
-      Note("the motor's angle of the image is not in the files: 0 deg is taken (--image-deg says "
-           "otherwise)");
+      Note(
+          "the motor's angle of the image is not in the files: 0 deg is taken (--image-deg says "
+          "otherwise)");
     }
     for (std::size_t i = 0; i < images.size(); ++i) {
       if (!angles.empty()) images[i].motor_angle_rad = images[i].target_angle_rad = angles[i];
       if (images[i].image.width() != camera.width || images[i].image.height() != camera.height)
         return Fail(ErrorCode::kInvalidInput, "{}: image {} is {} x {}, but its camera {} x {}",
-                    parts_.name, i, images[i].image.width(), images[i].image.height(),
-                    camera.width, camera.height);
+                    parts_.name, i, images[i].image.width(), images[i].image.height(), camera.width,
+                    camera.height);
       out_.scan.frames.push_back(std::move(images[i]));
     }
     return {};
@@ -421,8 +426,8 @@ Result<CloudFrame> CloudFrameFromText(std::string_view text) {
                                                                  {"camera", CloudFrame::kCamera}};
   for (const auto& [name, frame] : kFrames)
     if (name == text) return frame;
-  return Fail(ErrorCode::kInvalidOptions,
-              "frame '{}' is none of robot, base, lidar and camera", text);
+  return Fail(ErrorCode::kInvalidOptions, "frame '{}' is none of robot, base, lidar and camera",
+              text);
 }
 
 Status BlankView::Check() const {

@@ -17,8 +17,8 @@ Result<CloudFrame> CloudFrameFromText(std::string_view text);
 /// A camera that nothing was taken with, for clouds without an image: its image is grey, so a depth
 /// map is made of the points alone.
 struct BlankView {
-  double azimuth_rad = 0.0;    ///< to the left of ahead
-  double elevation_rad = 0.0;  ///< up
+  double azimuth_rad = 0.0;               ///< to the left of ahead
+  double elevation_rad = 0.0;             ///< up
   double field_rad = 1.5707963267948966;  ///< across the width, below 170 deg
   int width = 640;
   int height = 480;
@@ -30,7 +30,7 @@ struct BlankView {
 struct ImportOptions {
   std::optional<SensorRig> rig;
   std::optional<CloudFrame> frame;
-  std::optional<Eigen::Vector3d> viewpoint;  ///< in the cloud's frame, metres
+  std::optional<Eigen::Vector3d> viewpoint;       ///< in the cloud's frame, metres
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< in the cloud's frame; without a rig
   double unit_m = 1.0;                            ///< of the file's coordinates
   std::vector<double> image_angles_rad;           ///< of the motor, of the images in their order
@@ -45,7 +45,7 @@ struct ImportOptions {
 
 /// A camera whose place in the cloud's frame is known.
 struct CameraOnCloud {
-  CameraModel camera;  ///< width 0: that of the image
+  CameraModel camera;                                    ///< width 0: that of the image
   Rigid<frame::Camera, frame::Robot> camera_from_cloud;  ///< the cloud's frame in place of robot
 };
 
@@ -63,7 +63,7 @@ struct ScanParts {
 };
 
 struct ImportedScan {
-  Scan scan;  ///< with a given cloud, complete
+  Scan scan;                 ///< with a given cloud, complete
   std::string of_scan_uuid;  ///< the exported scan that it is a copy of; empty = not known
   std::size_t points = 0;
   std::string grid;                ///< in words, how its grid was found

@@ -212,7 +212,9 @@ BagPose PoseFrom(const geometry_msgs::TransformStamped& stamped) {
   const auto name = [](const std::string& frame) {
     return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
   };
-  return {name(stamped.header.frame_id), name(stamped.child_frame_id), {t.x, t.y, t.z},
+  return {name(stamped.header.frame_id),
+          name(stamped.child_frame_id),
+          {t.x, t.y, t.z},
           {q.w, q.x, q.y, q.z}};
 }
 
@@ -298,8 +300,15 @@ std::string BagReader::ReadCamera(const std::string& topic, BagTime_ns time, Bag
       if (any && TimeOf(instance.getTime()) > time) break;
       const auto info = Decoded<sensor_msgs::CameraInfo>(instance);
       any = true;
-      *camera = {info->header.frame_id, info->width, info->height, info->distortion_model, info->D,
-                 info->K[0],            info->K[4],  info->K[2],   info->K[5]};
+      *camera = {info->header.frame_id,
+                 info->width,
+                 info->height,
+                 info->distortion_model,
+                 info->D,
+                 info->K[0],
+                 info->K[4],
+                 info->K[2],
+                 info->K[5]};
     }
     if (!any) throw std::runtime_error(topic + " has no message");
   });

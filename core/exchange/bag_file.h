@@ -63,7 +63,7 @@ struct BagPose {
 /// What a bag has under one name.
 struct BagTopic {
   std::string name;
-  std::string type;  ///< "sensor_msgs/PointCloud2"
+  std::string type;               ///< "sensor_msgs/PointCloud2"
   std::vector<BagTime_ns> times;  ///< when its messages were recorded, in order
 };
 

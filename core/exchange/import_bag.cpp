@@ -111,10 +111,8 @@ Result<CloudTable> TableFrom(const BagCloudMessage& message, const std::string& 
     if (field.offset + SizeOf(*type) > message.point_step)
       return Fail(ErrorCode::kBadData, "{}: its field '{}' lies outside of a point", source,
                   Printable(field.name));
-    NamedColumn column{field.name,
-                       *type == CloudScalar::kFloat32 || *type == CloudScalar::kFloat64,
-                       false,
-                       {}};
+    NamedColumn column{
+        field.name, *type == CloudScalar::kFloat32 || *type == CloudScalar::kFloat64, false, {}};
     if (field.name.starts_with("rgb") && SizeOf(*type) == 4) {
       column.has_color_bits = true;
       type = CloudScalar::kUint32;
@@ -162,8 +160,7 @@ Result<ColorImage> PixelsFrom(const BagImageMessage& message, const std::string&
   auto pixel = image.values().begin();
   for (std::size_t y = 0; y < message.height; ++y)
     for (std::size_t x = 0; x < message.width; ++x, ++pixel) {
-      const std::uint8_t* at =
-          message.data.data() + y * message.step + x * encoding->channels;
+      const std::uint8_t* at = message.data.data() + y * message.step + x * encoding->channels;
       *pixel = {at[encoding->rgb[0]], at[encoding->rgb[1]], at[encoding->rgb[2]]};
     }
   return image;
@@ -318,25 +315,34 @@ class BagImport {
     FORESIGHT_TRY(parts.record,
                   ScanRecordFromJson(json, fmt::format("{}: {}", source_, kRecordTopic)));
     if (image_ == nullptr) return {};
+    constexpr BagTime_ns kSame_ns = 1000;
     for (const CameraFrame& expected : parts.record->images) {
-      // Two scans may have images at one time: each record counts its own.
-      const std::size_t next = own_images_++;
-      if (next >= image_->times.size())
-        return Fail(ErrorCode::kBadData, "{}: {} has {} images, fewer than its scans", source_,
-                    image_->name, image_->times.size());
+      const BagTime_ns time =
+          parts.record->start_utc_ns + static_cast<BagTime_ns>(1e9 * expected.time_s);
+      const std::size_t number = NearestImage(time);
+      if (std::abs(image_->times[number] - time) > kSame_ns)
+        return Fail(ErrorCode::kBadData, "{}: {} has no image at {:.6f} s of its scan", source_,
+                    image_->name, expected.time_s);
       CameraFrame frame = expected;
-      FORESIGHT_CHECK(ReadPixels(next, frame));
+      FORESIGHT_CHECK(ReadPixels(number, frame));
       parts.images.push_back(std::move(frame));
     }
     return {};
   }
 
+  /// @pre there is an image
+  std::size_t NearestImage(BagTime_ns time) const {
+    const auto nearest = std::min_element(
+        image_->times.begin(), image_->times.end(),
+        [time](BagTime_ns a, BagTime_ns b) { return std::abs(a - time) < std::abs(b - time); });
+    return static_cast<std::size_t>(nearest - image_->times.begin());
+  }
+
   Result<BagImageMessage> ReadPixels(std::size_t number, CameraFrame& frame) {
     BagImageMessage message;
     FORESIGHT_CHECK(Done(bag_.ReadImage(*image_, number, &message)));
-    FORESIGHT_TRY(frame.image,
-                  PixelsFrom(message, fmt::format("{}: {}, image {}", source_, image_->name,
-                                                  number + 1)));
+    FORESIGHT_TRY(frame.image, PixelsFrom(message, fmt::format("{}: {}, image {}", source_,
+                                                               image_->name, number + 1)));
     return message;
   }
 
@@ -364,8 +370,8 @@ class BagImport {
     }
     for (const char* name : {"lidar", "velodyne", "laser", "os_sensor", "os_lidar", "lidar_link"}) {
       if (parts.viewpoint || name == cloud || cloud != robot) continue;
-      if (const auto found = tree_.Has(name) ? tree_.Find(cloud, name, message.time)
-                                             : std::nullopt) {
+      if (const auto found =
+              tree_.Has(name) ? tree_.Find(cloud, name, message.time) : std::nullopt) {
         parts.viewpoint = found->translation();
         notes_.push_back(fmt::format("its points were measured from where '{}' stood", name));
       }
@@ -374,13 +380,9 @@ class BagImport {
 
   Status TakeImage(const BagCloudMessage& cloud, ScanParts& parts) {
     if (image_ == nullptr) return {};
-    const auto nearest = std::min_element(
-        image_->times.begin(), image_->times.end(), [&](BagTime_ns a, BagTime_ns b) {
-          return std::abs(a - cloud.time) < std::abs(b - cloud.time);
-        });
+    const std::size_t number = NearestImage(cloud.time);
     CameraFrame frame;
-    FORESIGHT_TRY(const BagImageMessage message,
-                  ReadPixels(static_cast<std::size_t>(nearest - image_->times.begin()), frame));
+    FORESIGHT_TRY(const BagImageMessage message, ReadPixels(number, frame));
     frame.time_s = 1e-9 * static_cast<double>(message.time - *parts.start_utc_ns);
     if (options_.rig) {
       parts.images.push_back(std::move(frame));
@@ -395,7 +397,7 @@ class BagImport {
       return {};
     }
     BagCamera camera;
-    FORESIGHT_CHECK(Done(bag_.ReadCamera(info->name, *nearest, &camera)));
+    FORESIGHT_CHECK(Done(bag_.ReadCamera(info->name, image_->times[number], &camera)));
     auto model = CameraFrom(camera, fmt::format("{}: {}", source_, info->name));
     if (!model) {
       leave_out(model.error().message);
@@ -403,8 +405,7 @@ class BagImport {
     }
     const std::string frame_name =
         WithoutSlash(message.frame.empty() ? camera.frame : message.frame);
-    const auto camera_from_cloud =
-        tree_.Find(frame_name, WithoutSlash(cloud.frame), message.time);
+    const auto camera_from_cloud = tree_.Find(frame_name, WithoutSlash(cloud.frame), message.time);
     if (!camera_from_cloud) {
       leave_out(fmt::format("tf does not say how '{}' lies to '{}'", Printable(frame_name),
                             Printable(cloud.frame)));
@@ -413,8 +414,8 @@ class BagImport {
     const double apart_s = 1e-9 * static_cast<double>(std::abs(message.time - cloud.time));
     if (apart_s > 0.05)
       notes_.push_back(fmt::format("its image was taken {:.2f} s from the cloud", apart_s));
-    parts.camera = CameraOnCloud{*model,
-                                 {camera_from_cloud->rotation(), camera_from_cloud->translation()}};
+    parts.camera =
+        CameraOnCloud{*model, {camera_from_cloud->rotation(), camera_from_cloud->translation()}};
     parts.images.push_back(std::move(frame));
     return {};
   }
@@ -444,7 +445,6 @@ class BagImport {
   const BagTopic* image_ = nullptr;
   const BagTopic* record_ = nullptr;
   TransformTree tree_;
-  std::size_t own_images_ = 0;
   std::vector<std::string> notes_;
 };
 

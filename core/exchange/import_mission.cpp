@@ -254,21 +254,18 @@ class Importer {
 
   /// The mission's log says where a scan came from, and what was assumed.
   Status Tell(const ImportReport::Entry& entry, const Path& file) {
-    const nlohmann::ordered_json json = {{"file", file.string()},
-                                         {"scan_uuid", entry.uuid},
-                                         {"of_scan_uuid", entry.of_scan_uuid},
-                                         {"points", entry.points},
-                                         {"lines", entry.lines},
-                                         {"beams", entry.beams},
-                                         {"grid", entry.grid}};
+    const nlohmann::ordered_json json = {
+        {"file", file.string()},  {"scan_uuid", entry.uuid}, {"of_scan_uuid", entry.of_scan_uuid},
+        {"points", entry.points}, {"lines", entry.lines},    {"beams", entry.beams},
+        {"grid", entry.grid}};
     const auto add = [&](const std::string& text, const std::string& more) -> Status {
       FORESIGHT_CHECK(mission_.AddEvent({0, NowUtc_ns(), "import", "info", text, more}));
       return {};
     };
-    FORESIGHT_CHECK(add(fmt::format("scan {}: {}: {} points on a grid of {} lines of {} beams ({})",
-                                    entry.scan_id, entry.source, entry.points, entry.lines,
-                                    entry.beams, entry.grid),
-                        json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+    FORESIGHT_CHECK(add(
+        fmt::format("scan {}: {}: {} points on a grid of {} lines of {} beams ({})", entry.scan_id,
+                    entry.source, entry.points, entry.lines, entry.beams, entry.grid),
+        json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
     for (const std::string& note : entry.notes)
       FORESIGHT_CHECK(add(fmt::format("scan {}: {}", entry.scan_id, note), ""));
     return {};

@@ -44,7 +44,8 @@ std::string ScanRecordToJson(const Scan& scan, const RegisteredScan& cloud) {
                       {"motor_angle_rad", NumberOrNull(frame.motor_angle_rad)},
                       {"target_angle_rad", frame.target_angle_rad}});
   for (const Eigen::Vector3f& origin : cloud.origins)
-    origins.push_back(origin.allFinite() ? Json{origin.x(), origin.y(), origin.z()} : Json(nullptr));
+    origins.push_back(origin.allFinite() ? Json{origin.x(), origin.y(), origin.z()}
+                                         : Json(nullptr));
   return Json{{"foresight_scan", 1},
               {"scan_uuid", scan.uuid},
               {"start_utc_ns", scan.start_utc_ns},
@@ -64,13 +65,14 @@ Result<ScanRecord> ScanRecordFromJson(const std::string& json, const std::string
     const nlohmann::json value = ParseJson(json);
     ScanRecord record;
     if (const int version = value.at("foresight_scan").get<int>(); version != 1)
-      return Fail(ErrorCode::kBadData, "{}: foresight_scan {} is not known, only 1", source, version);
+      return Fail(ErrorCode::kBadData, "{}: foresight_scan {} is not known, only 1", source,
+                  version);
     value.at("scan_uuid").get_to(record.scan_uuid);
     value.at("start_utc_ns").get_to(record.start_utc_ns);
     value.at("source").get_to(record.source);
     value.at("simulated").get_to(record.simulated);
-    FORESIGHT_TRY(record.rig,
-                  SensorRigFromYaml(value.at("rig_yaml").get<std::string>(), source + ", rig_yaml"));
+    FORESIGHT_TRY(record.rig, SensorRigFromYaml(value.at("rig_yaml").get<std::string>(),
+                                                source + ", rig_yaml"));
     record.lines = IntegerIn(value, "lines", 1, GivenCloud::kMostLines);
     record.beams = IntegerIn(value, "beams", 1, GivenCloud::kMostBeams);
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -83,8 +85,8 @@ Result<ScanRecord> ScanRecordFromJson(const std::string& json, const std::string
     for (const auto& image : ListIn(value, "images", kMostImages))
       record.images.push_back(ImageFrom(image));
     if (record.origins.size() != static_cast<std::size_t>(record.lines))
-      return Fail(ErrorCode::kBadData, "{}: {} origins for {} lines", source,
-                  record.origins.size(), record.lines);
+      return Fail(ErrorCode::kBadData, "{}: {} origins for {} lines", source, record.origins.size(),
+                  record.lines);
     return record;
   } catch (const std::bad_alloc&) {
     throw;

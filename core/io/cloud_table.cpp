@@ -137,9 +137,9 @@ void TakeOne(NamedColumn& column, Meaning meaning, CloudTable& table) {
     case Meaning::kPackedColor:
       table.color.resize(column.values.size());
       for (std::size_t i = 0; i < column.values.size(); ++i)
-        table.color[i] = Unpacked(column.has_color_bits
-                                      ? column.values[i]
-                                      : ColorBits(column.values[i], column.is_float));
+        table.color[i] =
+            Unpacked(column.has_color_bits ? column.values[i]
+                                           : ColorBits(column.values[i], column.is_float));
       return;
     case Meaning::kRed:
       return SetChannel(column, &Rgb8::r, table.color);
@@ -200,8 +200,8 @@ Result<CloudTable> DecodeFloatRecordTable(std::string_view bytes, const std::str
   CloudTable table;
   table.width = points.size();
   table.points = std::move(points);
-  const std::vector<double> reflectance = ValuesFromColumn(
-      bytes, {CloudScalar::kFloat32, 12, kRecord}, table.points.size(), false);
+  const std::vector<double> reflectance =
+      ValuesFromColumn(bytes, {CloudScalar::kFloat32, 12, kRecord}, table.points.size(), false);
   table.intensity.assign(reflectance.begin(), reflectance.end());
   return table;
 }

@@ -17,8 +17,8 @@ namespace foresight {
 /// A point cloud file with everything of it that an import can use. Columns have a value for each
 /// point, or none where the file does not know it.
 struct CloudTable {
-  std::size_t width = 0;   ///< points in a row of the file's own grid
-  std::size_t height = 1;  ///< rows; 1 = the file has no grid
+  std::size_t width = 0;                ///< points in a row of the file's own grid
+  std::size_t height = 1;               ///< rows; 1 = the file has no grid
   std::vector<Eigen::Vector3d> points;  ///< in the file's frame and order; NaN = none
   std::vector<float> intensity;         ///< intensity, i, reflectance, reflectivity
   std::vector<std::int32_t> line;       ///< line
@@ -26,15 +26,15 @@ struct CloudTable {
   std::vector<std::int32_t> ring;       ///< ring: the laser of a spinning lidar
   /// time (seconds), t (nanoseconds where they are whole numbers) or timestamp; NaN = not known.
   std::vector<double> time_s;
-  std::vector<Rgb8> color;            ///< PCL's rgb or rgba; red, green, blue; r, g, b
-  std::vector<std::string> comments;  ///< of the header, without their mark
+  std::vector<Rgb8> color;                   ///< PCL's rgb or rgba; red, green, blue; r, g, b
+  std::vector<std::string> comments;         ///< of the header, without their mark
   std::optional<Eigen::Vector3d> viewpoint;  ///< of a PCD file
 };
 
 /// A named column of numbers, as files and messages have them.
 struct NamedColumn {
   std::string name;
-  bool is_float = true;        ///< false: whole numbers
+  bool is_float = true;         ///< false: whole numbers
   bool has_color_bits = false;  ///< the values are the bits of a packed colour
   std::vector<double> values;
 };

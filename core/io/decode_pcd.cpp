@@ -39,7 +39,7 @@ constexpr std::size_t kMostRecordBytes = std::size_t{1} << 20;
 struct Header {
   std::vector<Field> fields;
   std::size_t points = 0;
-  std::size_t width = 0;   ///< 0 = not said
+  std::size_t width = 0;  ///< 0 = not said
   std::size_t height = 0;
   std::vector<std::string> comments;
   std::optional<Eigen::Vector3d> viewpoint;
@@ -208,8 +208,7 @@ std::array<CloudColumn, 3> ColumnsOf(const Header& header, const std::array<std:
                                      bool field_by_field) {
   std::array<CloudColumn, 3> columns;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    columns[axis] =
-        ColumnOf(header, xyz[axis], *header.fields[xyz[axis]].Scalar(), field_by_field);
+    columns[axis] = ColumnOf(header, xyz[axis], *header.fields[xyz[axis]].Scalar(), field_by_field);
   return columns;
 }
 

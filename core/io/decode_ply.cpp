@@ -180,9 +180,8 @@ Result<std::vector<NamedColumn>> KnownColumns(const Element& vertex, Format form
     wanted.push_back(i);
   }
   if (format == Format::kAscii) {
-    FORESIGHT_TRY(
-        std::vector<std::vector<double>> values,
-        ColumnsFromText(rest, wanted, vertex.properties.size(), vertex.count, source));
+    FORESIGHT_TRY(std::vector<std::vector<double>> values,
+                  ColumnsFromText(rest, wanted, vertex.properties.size(), vertex.count, source));
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values = std::move(values[i]);
   } else {
     for (std::size_t i = 0; i < columns.size(); ++i)

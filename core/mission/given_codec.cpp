@@ -32,8 +32,8 @@ T TakeValue(std::string_view& bytes) {
 std::size_t BytesOf(const PackedGivenLine& packed) {
   const std::size_t floats = 3 + ((packed.parts & PackedGivenLine::kHasIntensity) != 0 ? 1 : 0);
   const std::size_t doubles = (packed.parts & PackedGivenLine::kHasTime) != 0 ? 1 : 0;
-  return 3 * sizeof(float) +
-         static_cast<std::size_t>(packed.beams) * (floats * sizeof(float) + doubles * sizeof(double));
+  return 3 * sizeof(float) + static_cast<std::size_t>(packed.beams) *
+                                 (floats * sizeof(float) + doubles * sizeof(double));
 }
 
 }  // namespace
@@ -85,7 +85,8 @@ Status GivenCloudBuilder::CheckShape(std::int64_t line, const PackedGivenLine& p
 }
 
 void GivenCloudBuilder::AppendEmptyLines(int count) {
-  const std::size_t cells = static_cast<std::size_t>(count) * static_cast<std::size_t>(cloud_.beams);
+  const std::size_t cells =
+      static_cast<std::size_t>(count) * static_cast<std::size_t>(cloud_.beams);
   cloud_.lines += count;
   cloud_.points.Append(cells, Eigen::Vector3f::Constant(kNaN));
   if ((parts_ & PackedGivenLine::kHasIntensity) != 0) cloud_.intensity.Append(cells, 0.0f);

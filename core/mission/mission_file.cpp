@@ -264,8 +264,8 @@ struct MissionFile::Impl {
       const std::int64_t begin_utc_ns = row.start_utc_ns + static_cast<std::int64_t>(1e9 * begin_s);
       scans.push_back({row.id, row.uuid, row.start_utc_ns, begin_utc_ns, row.source, row.simulated,
                        row.plan, row.state, row.reason, given.contains(row.id), row.lines,
-                       row.frames,
-                       count == objects.end() ? 0 : count->second, std::move(thumbnails[row.id])});
+                       row.frames, count == objects.end() ? 0 : count->second,
+                       std::move(thumbnails[row.id])});
     }
     return scans;
   }

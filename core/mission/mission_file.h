@@ -93,8 +93,8 @@ class MissionFile {
   Result<std::optional<std::int64_t>> FindDetection(const std::string& uuid) const;
   /// Everything of a scan but its lines, track and frames.
   Result<Scan> LoadHeader(std::int64_t id) const;
-  /// The whole scan: lines, given cloud, track, frames and plan bit for bit, the rig as SensorRigToYaml keeps
-  /// it.
+  /// The whole scan: lines, given cloud, track, frames and plan bit for bit, the rig as
+  /// SensorRigToYaml keeps it.
   Result<Scan> LoadScan(std::int64_t id) const;
   /// At most `at_most` lines, from that with seq `first_seq` or the next one on; none behind the
   /// last.

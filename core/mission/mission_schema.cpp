@@ -100,10 +100,9 @@ constexpr std::array kTables1 = {kMeta,  kCalibration, kScan,       kLine, kMoto
 constexpr std::array kTables2 = {kMeta,           kCalibration, kScan,      kLine,
                                  kMotor,          kImage,       kImageData, kDetection2,
                                  kDetectionEvent, kDepth,       kEvent,     kThumbnail};
-constexpr std::array kTables3 = {kMeta,           kCalibration, kScan,      kLine,
-                                 kMotor,          kImage,       kImageData, kDetection2,
-                                 kDetectionEvent, kDepth,       kEvent,     kThumbnail,
-                                 kGivenLine};
+constexpr std::array kTables3 = {kMeta,  kCalibration, kScan,       kLine,           kMotor,
+                                 kImage, kImageData,   kDetection2, kDetectionEvent, kDepth,
+                                 kEvent, kThumbnail,   kGivenLine};
 
 std::span<const Table> TablesOf(int format) {
   if (format == 1) return kTables1;

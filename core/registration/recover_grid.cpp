@@ -208,7 +208,8 @@ std::vector<std::vector<Sight>> CutWhereItGoesBack(const std::vector<Sight>& sig
   return lines;
 }
 
-/// The plane that a line's directions lie in, turned the way they go; nullopt where they do not say.
+/// The plane that a line's directions lie in, turned the way they go; nullopt where they do not
+/// say.
 std::optional<Eigen::Vector3d> NormalOf(const std::vector<Sight>& line) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 1; i < line.size(); ++i)
@@ -249,8 +250,7 @@ std::optional<std::vector<Line>> SplitSweeps(const std::vector<Sight>& sights) {
     double last = -std::numbers::pi;
     for (const Sight& sight : line.sights) {
       // Continued from the point before, so that a fan may be wider than half a turn.
-      const double angle =
-          std::atan2(sight.direction.dot(across), sight.direction.dot(axis));
+      const double angle = std::atan2(sight.direction.dot(across), sight.direction.dot(axis));
       const double now = line.angle_rad.empty() ? angle : last + Wrapped(angle - last);
       if (now >= last) ++ordered;
       line.angle_rad.push_back(now);
@@ -360,9 +360,9 @@ Result<GridPlaces> GridOfNumbers(std::span<const Eigen::Vector3d> points,
   places.beams = static_cast<int>(beams);
   std::vector<bool> taken(static_cast<std::size_t>(cells), false);
   for (const Sight& sight : sights) {
-    const std::size_t place = static_cast<std::size_t>(line[sight.point]) *
-                                  static_cast<std::size_t>(beams) +
-                              static_cast<std::size_t>(beam[sight.point]);
+    const std::size_t place =
+        static_cast<std::size_t>(line[sight.point]) * static_cast<std::size_t>(beams) +
+        static_cast<std::size_t>(beam[sight.point]);
     if (taken[place])
       return Fail(ErrorCode::kBadData, "point {}: line {}, beam {} is there twice", sight.point,
                   line[sight.point], beam[sight.point]);

@@ -35,9 +35,10 @@ Status GivenCloud::Check() const {
   const auto fits = [cells](std::size_t size) { return size == 0 || size == cells; };
   if (points.size() != cells || !fits(intensity.size()) || !fits(time_s.size()) ||
       origins.size() != static_cast<std::size_t>(lines))
-    return Fail(ErrorCode::kInvalidInput,
-                "cloud: {} points, {} intensities, {} times and {} origins for {} lines of {} beams",
-                points.size(), intensity.size(), time_s.size(), origins.size(), lines, beams);
+    return Fail(
+        ErrorCode::kInvalidInput,
+        "cloud: {} points, {} intensities, {} times and {} origins for {} lines of {} beams",
+        points.size(), intensity.size(), time_s.size(), origins.size(), lines, beams);
   for (int line = 0; line < lines; ++line) {
     const bool has_origin = IsPlace(origins[static_cast<std::size_t>(line)]);
     for (int beam = 0; beam < beams; ++beam) {

@@ -29,9 +29,8 @@ inline void RequireSameTable(const Result<std::vector<Eigen::Vector3d>>& points,
   if (!points) return;
   const auto whole = [&](std::size_t size) { return size == 0 || size == points->size(); };
   Require(table->points.size() == points->size() && whole(table->intensity.size()) &&
-              whole(table->line.size()) && whole(table->beam.size()) &&
-              whole(table->ring.size()) && whole(table->time_s.size()) &&
-              whole(table->color.size()),
+              whole(table->line.size()) && whole(table->beam.size()) && whole(table->ring.size()) &&
+              whole(table->time_s.size()) && whole(table->color.size()),
           "a value for each point");
 }
 

@@ -18,9 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const GivenCloud cloud = builder.Take();
   Require(cloud.lines == line + 1 && cloud.beams == packed.beams, "lines up to this one");
   const std::size_t cells = cloud.Index(cloud.lines, 0);
-  Require(cloud.points.size() == cells &&
-              cloud.origins.size() == static_cast<std::size_t>(cloud.lines),
-          "a point for each beam, an origin for each line");
+  Require(
+      cloud.points.size() == cells && cloud.origins.size() == static_cast<std::size_t>(cloud.lines),
+      "a point for each beam, an origin for each line");
   const auto again = PackGivenLine(cloud, static_cast<int>(line));
   Require(again.has_value(), "what was unpacked can be packed");
   GivenCloudBuilder same;

@@ -291,8 +291,9 @@ class GoodFiles {
     if (scanned.exit_code != 0) return Fail(ErrorCode::kIo, "{}", scanned.errors);
     FORESIGHT_CHECK(Make(ctl, {"mission", "export", *this / "mission.foresight", "-o",
                                *this / "export", "--what", "ply,images,bag"}));
-    FORESIGHT_CHECK(text("calib.txt", "P2: 45 0 47.5 4 0 45 35.5 0 0 0 1 0\n"
-                                      "Tr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\n"));
+    FORESIGHT_CHECK(text("calib.txt",
+                         "P2: 45 0 47.5 4 0 45 35.5 0 0 0 1 0\n"
+                         "Tr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\n"));
     FORESIGHT_CHECK(text("image.pgm", "P5\n96 72\n255\n" + std::string(kWidth * kHeight, 'x')));
     for (const std::string format : {"opencv", "ros", "kalibr", "colmap"})
       FORESIGHT_CHECK(Make(ctl, {"rig", "export", *this / "rig.yaml", "--format", format, "--out",
@@ -389,8 +390,8 @@ Command MissionOfExport(const GoodFiles& good, const std::string& file) {
     std::error_code not_there;  // a path that is nasty itself
     std::filesystem::copy_file(path, copy / file, std::filesystem::copy_options::overwrite_existing,
                                not_there);
-    return std::vector<std::string>{"mission", "import", copy.string(), "--out",
-                                    out + "/o.foresight", "--json"};
+    return std::vector<std::string>{
+        "mission", "import", copy.string(), "--out", out + "/o.foresight", "--json"};
   };
 }
 
@@ -472,8 +473,7 @@ Result<std::vector<Reader>> AllReaders(const std::string& folder, const std::str
   add("PLY to import", "nasty.ply", false, good / "cloud.ply", WrongPly() + clouds, MissionOf({}));
   add("PCD to import", "nasty.pcd", false, good / "cloud.pcd", WrongPcd(), MissionOf({}));
   add("floats to import", "nasty.bin", false, good / "cloud.bin",
-      {Repeated(std::string(16, '\0'), 1000)},
-      MissionOf({good / "image.png", good / "calib.txt"}));
+      {Repeated(std::string(16, '\0'), 1000)}, MissionOf({good / "image.png", good / "calib.txt"}));
   add("text of points to import", "nasty.xyz", true, good / "points.xyz",
       {"1 2 3\n", "1 2\n", Repeated("1 2 3\n", 100'000), Repeated("9 ", 500'000)}, MissionOf({}));
   add("calibration of KITTI", "nasty.txt", true, good / "calib.txt",

@@ -40,8 +40,7 @@ class ImportInTheWindow : public testing::Test {
   }
   void Import(const QStringList& files) {
     importer_.Import(files, QString::fromStdString(folder_.path().string()));
-    ASSERT_TRUE(
-        WaitFor([this] { return !importer_.Runner()->Busy() && !reviewer_.Busy(); }));
+    ASSERT_TRUE(WaitFor([this] { return !importer_.Runner()->Busy() && !reviewer_.Busy(); }));
   }
   QString In(const char* name) const { return QString::fromStdString((folder_ / name).string()); }
 
@@ -75,8 +74,7 @@ TEST_F(ImportInTheWindow, AFileThatIsNoneIsNamed) {
   EXPECT_TRUE(missions_.isEmpty());
   ASSERT_FALSE(said_.empty());
   EXPECT_EQ(said_[0].level, Notice::Level::kError);
-  EXPECT_TRUE((said_[0].what + said_[0].next).contains("bad.ply"))
-      << said_[0].what.toStdString();
+  EXPECT_TRUE((said_[0].what + said_[0].next).contains("bad.ply")) << said_[0].what.toStdString();
 }
 
 }  // namespace

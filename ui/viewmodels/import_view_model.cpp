@@ -31,8 +31,7 @@ void ImportViewModel::Import(const QStringList& files, const QString& folder) {
   if (files.isEmpty()) return;
   std::vector<std::filesystem::path> sources;
   for (const QString& file : files) sources.emplace_back(file.toStdString());
-  const auto work = [sources,
-                     folder = std::filesystem::path(folder.toStdString())](
+  const auto work = [sources, folder = std::filesystem::path(folder.toStdString())](
                         const RunContext& context) -> Result<Imported> {
     Imported imported{FreeName(folder, sources.front()), {}};
     FORESIGHT_TRY(imported.report, ImportMission(sources, imported.mission, {}, context));

@@ -269,6 +269,7 @@ TEST_F(ExportMissionTest, RosReadsTheBag) {
   EXPECT_EQ(messages["/foresight/camera/image"], 1);
   EXPECT_EQ(messages["/foresight/camera/camera_info"], 1);
   EXPECT_EQ(messages["/foresight/objects/valve"], 1);
+  EXPECT_EQ(messages["/foresight/scan"], 1);
   EXPECT_EQ(messages["/tf_static"], 1);
   EXPECT_GT(messages["/tf"], 10);
 }

@@ -128,9 +128,8 @@ TEST_F(ImportOfAnExport, ItsValveIsFoundWhereItWas) {
   ASSERT_TRUE(Import({*folder_ / "ply/scan-0001"}, *folder_ / "valve.foresight"));
   const Scan imported = ScanOf(*folder_ / "valve.foresight");
   const double motor_rad = scan_.frames[0].motor_angle_rad;
-  const auto center =
-      scan_.rig.camera.Project(scan_.rig.CameraFromBase(motor_rad) *
-                               SyntheticValvePose().translation());
+  const auto center = scan_.rig.camera.Project(scan_.rig.CameraFromBase(motor_rad) *
+                                               SyntheticValvePose().translation());
   const Roi roi = ImageRoi::Rectangle(motor_rad, *center - Eigen::Vector2d(50, 50),
                                       *center + Eigen::Vector2d(50, 50));
   const FitOptions options = FitOptionsFor(ObjectKind::kValve, scan_.rig.robot_from_base);
@@ -246,7 +245,8 @@ CloudTable DepthCameraCloud(int width, int height, double focal_px) {
   CloudTable table;
   table.width = static_cast<std::size_t>(width);
   table.height = static_cast<std::size_t>(height);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()));
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()));
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       const Eigen::Vector3d ray((u - 0.52 * width) / focal_px, (v - 0.47 * height) / focal_px, 1.0);
@@ -271,8 +271,8 @@ TEST(CameraOfGrid, ALidarsRowsAreNoCamera) {
   std::vector<Eigen::Vector3d> points;
   for (int ring = 0; ring < 16; ++ring)
     for (int i = 0; i < 360; ++i)
-      points.push_back(5.0 * Eigen::Vector3d(std::cos(i * kDegree), std::sin(i * kDegree),
-                                             0.05 * ring));
+      points.push_back(5.0 *
+                       Eigen::Vector3d(std::cos(i * kDegree), std::sin(i * kDegree), 0.05 * ring));
   EXPECT_FALSE(CameraOfGrid(points, 360));
 }
 
@@ -350,9 +350,9 @@ TEST_F(ImportOfFiles, SeveralCloudsBecomeSeveralScansWithTheirOwnImages) {
   WriteTurns("b.bin");
   Write("calib.txt", kKitti);
   ASSERT_TRUE(WritePng(folder_ / "b_left.png", ColorImage(120, 40, {1, 2, 3})));
-  ASSERT_TRUE(Import({folder_ / "a.bin", folder_ / "b.bin", folder_ / "b_left.png",
-                      folder_ / "calib.txt"},
-                     target_));
+  ASSERT_TRUE(
+      Import({folder_ / "a.bin", folder_ / "b.bin", folder_ / "b_left.png", folder_ / "calib.txt"},
+             target_));
   EXPECT_TRUE(ScanOf(target_, 1).frames.empty());
   EXPECT_EQ(ScanOf(target_, 2).frames.size(), 1u);
 }

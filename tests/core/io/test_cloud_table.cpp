@@ -52,7 +52,8 @@ TEST(CloudTable, WhatWasWrittenIsRead) {
 
 TEST(CloudTable, AnOrganisedPcdKeepsItsRowsAndItsViewpoint) {
   const std::string pcd =
-      "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT "
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH "
+      "3\nHEIGHT "
       "2\nVIEWPOINT 0.5 -1 2 1 0 0 0\nPOINTS 6\nDATA ascii\n"
       "1 0 0\n2 0 0\nnan nan nan\n4 0 0\n5 0 0\n6 0 0\n";
   const CloudTable table = DecodePcdTable(pcd, "c.pcd").value();

@@ -127,8 +127,7 @@ TEST_F(GivenClouds, ALineThatIsLostIsSavedAsAHole) {
     auto database = SqliteDatabase::Open(path_, SqliteDatabase::Mode::kReadWrite).value();
     ASSERT_TRUE(database.Run("UPDATE given_line SET time_s = time_s + 1 WHERE line = 3"));
   }
-  const SalvageReport report =
-      SalvageMission(path_, folder_ / "saved.foresight", {}, {}).value();
+  const SalvageReport report = SalvageMission(path_, folder_ / "saved.foresight", {}, {}).value();
   ASSERT_EQ(report.scans.size(), 1u);
   EXPECT_EQ(report.scans[0].lines, 4);
   EXPECT_EQ(report.scans[0].lines_before, 5);

@@ -105,9 +105,8 @@ TEST(RecoverGrid, ALaserNumberOfEachPointCountsMoreThanTheirOrder) {
   // As a spinning lidar fires: all lasers at one angle, then all at the next one.
   std::vector<std::size_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return truth[a].second < truth[b].second;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return truth[a].second < truth[b].second; });
   Points fired;
   std::vector<std::int32_t> rings;
   for (const std::size_t i : order) {
