@@ -319,12 +319,12 @@ class BagImport {
     for (const CameraFrame& expected : parts.record->images) {
       const BagTime_ns time =
           parts.record->start_utc_ns + static_cast<BagTime_ns>(1e9 * expected.time_s);
-      const std::size_t number = NearestImage(time);
-      if (std::abs(image_->times[number] - time) > kSame_ns)
+      const std::size_t nearest = NearestImage(time);
+      if (std::abs(image_->times[nearest] - time) > kSame_ns)
         return Fail(ErrorCode::kBadData, "{}: {} has no image at {:.6f} s of its scan", source_,
                     image_->name, expected.time_s);
       CameraFrame frame = expected;
-      FORESIGHT_CHECK(ReadPixels(number, frame));
+      FORESIGHT_CHECK(ReadPixels(nearest, frame));
       parts.images.push_back(std::move(frame));
     }
     return {};

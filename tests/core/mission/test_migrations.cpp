@@ -101,13 +101,14 @@ TEST_F(Migrations, AnExportOfAnOldFileIsAnOldFile) {
 }
 
 TEST_F(Migrations, ANewerFormatIsRefusedInWords) {
-  Execute("PRAGMA user_version = 3");
-  const std::string words =
-      "was written by a newer Foresight (mission format 3; this program reads up to 2): update "
-      "this program";
+  Execute("PRAGMA user_version = 99");
+  const std::string words = fmt::format(
+      "was written by a newer Foresight (mission format 99; this program reads up to {}): update "
+      "this program",
+      kMissionFormatVersion);
   EXPECT_THAT(MissionFile::OpenReadOnly(path_).error().message, HasSubstr(words));
   EXPECT_THAT(MissionFile::Open(path_).error().message, HasSubstr(words));
-  EXPECT_EQ(Format(), 3);
+  EXPECT_EQ(Format(), 99);
 }
 
 TEST_F(Migrations, ADamagedRowStopsTheMigrationAndTheFileStaysAsItWas) {
