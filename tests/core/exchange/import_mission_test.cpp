@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/atomic_file.h"
+#include "core/base/random.h"
 #include "core/calibration/camera_of_grid.h"
 #include "core/calibration/kitti_calibration.h"
 #include "core/depth/depth_method.h"
@@ -141,6 +142,34 @@ TEST_F(ImportOfAnExport, ItsValveIsFoundWhereItWas) {
   const auto was = pose_in(scan_), is = pose_in(imported);
   EXPECT_LT((was.translation() - is.translation()).norm(), 1e-4);
   EXPECT_LT(was.rotation().angularDistance(is.rotation()), 1e-3);
+}
+
+TEST_F(ImportOfAnExport, ABagThatIsTornOrHasFlippedBytesIsRefusedOrReadAndNeverCrashes) {
+  const std::string good = ReadFile(*folder_ / "bag/mission.bag").value();
+  Random random(11);
+  int refused = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    std::string bad = good;
+    if (trial % 2 == 0) {
+      bad.resize(static_cast<std::size_t>(random.Uniform() * static_cast<double>(bad.size())));
+    } else {
+      // Mostly where the lengths are: at the beginning and in the index at the end.
+      for (int flip = 0; flip < 3; ++flip) {
+        const std::size_t reach = std::min<std::size_t>(6000, bad.size());
+        const auto from = static_cast<std::size_t>(random.Index(static_cast<int>(reach)));
+        bad[flip % 2 == 0 ? from : bad.size() - 1 - from] ^=
+            static_cast<char>(1 << random.Index(8));
+      }
+    }
+    ASSERT_TRUE(WriteFileAtomically(*folder_ / "bad.bag", bad));
+    fs::remove(*folder_ / "bad.foresight");
+    const auto report = Import({*folder_ / "bad.bag"}, *folder_ / "bad.foresight");
+    if (report) continue;
+    ++refused;
+    EXPECT_THAT(report.error().message, HasSubstr("bad.bag")) << trial;
+    EXPECT_EQ(report.error().message.find('\n'), std::string::npos) << "one line";
+  }
+  EXPECT_GE(refused, 20) << "a torn bag has no index";
 }
 
 TEST_F(ImportOfAnExport, ItsBagWithoutOurRecordIsPlacedByTf) {
