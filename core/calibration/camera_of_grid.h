@@ -13,7 +13,8 @@ namespace foresight {
 struct GridCamera {
   CameraModel camera;                                    ///< a pinhole with a pixel for each point
   Rigid<frame::Camera, frame::Robot> camera_from_cloud;  ///< the cloud's frame in place of robot
-  double rms_px = 0.0;  ///< how far points appear from their own pixel
+  double agreeing_ratio = 0.0;  ///< of the points; the others were left out
+  double rms_px = 0.0;          ///< how far those points appear from their own pixel
 };
 
 /// A depth camera writes a point a pixel, row by row: then the pixels of its points say what camera

@@ -180,8 +180,10 @@ class Assembler {
         parts_.camera = CameraOnCloud{found->camera, found->camera_from_cloud};
         Note(
             "the cloud is an image of a depth camera: its pinhole of {:.0f} x {:.0f} px focal "
-            "length was found from the points' pixels, {:.2f} px rms",
-            found->camera.fx, found->camera.fy, found->rms_px);
+            "length was found from the points' pixels, {:.2f} px rms; {:.1f} % of the points "
+            "appear elsewhere",
+            found->camera.fx, found->camera.fy, found->rms_px,
+            100.0 * (1.0 - found->agreeing_ratio));
         TakeOwnColors();
         return {};
       }
