@@ -10,6 +10,7 @@
 #include "core/mission/merge_missions.h"
 #include "core/mission/pose_message.h"
 #include "core/mission/salvage_mission.h"
+#include "core/mission/sqlite.h"
 #include "core/registration/export_cloud.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/support/temporary_folder.h"
