@@ -214,7 +214,11 @@ Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
 
 Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
                                   const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  FitOptions options = FitOptionsFor(arguments.kind, robot_from_base);
+  // The frame of a cloud without --rig need not have z up.
+  const Eigen::Vector3d up = arguments.cloud_file.empty() || !arguments.rig.empty()
+                                 ? Eigen::Vector3d::UnitZ()
+                                 : Eigen::Vector3d(arguments.up.data()).normalized();
+  FitOptions options = FitOptionsFor(arguments.kind, robot_from_base, up);
   FORESIGHT_CHECK(ApplyFlags(FitOptionTable(arguments.kind), arguments.given,
                              fmt::format("a {}'s fit", ToString(arguments.kind)), options));
   const Status sound = std::visit([](const auto& held) { return held.Check(); }, options);

@@ -199,12 +199,12 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
   if (!options) return {tl::unexpected(options.error()), {}};
   if (!subject.depth_m.empty())
     return {FitInPlainRays(RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad,
-                                          subject.roi, arguments.density),
+                                          subject.roi, arguments.density, BoxRaysFor(*options)),
                            subject, "depth map", *options, context),
             {}};
   if (!subject.scan)
     return {FitInPlainRays(RaysFromCloud(subject.points, subject.viewpoint, &subject.rig,
-                                         subject.roi, kCloudSigma_m),
+                                         subject.roi, kCloudSigma_m, BoxRaysFor(*options)),
                            subject, "cloud", *options, context),
             {}};
   if (source == "raw")

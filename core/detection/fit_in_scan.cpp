@@ -40,8 +40,9 @@ std::string NameOf(const NamedSource& source) {
   return name;
 }
 
-FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  const Eigen::Vector3d up = robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
+FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,
+                         const Eigen::Vector3d& up_in_robot) {
+  const Eigen::Vector3d up = robot_from_base.Inverse().Rotate(up_in_robot);
   switch (kind) {
     case ObjectKind::kValve:
       break;
@@ -57,6 +58,11 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
     }
   }
   return FitValveOptions();
+}
+
+BoxRays BoxRaysFor(const FitOptions& options) {
+  return std::holds_alternative<FitTerrainOptions>(options) ? BoxRays::kEndInside
+                                                            : BoxRays::kPassThrough;
 }
 
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
@@ -96,7 +102,7 @@ Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
 
 Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                             const FitOptions& options, const RunContext& context) {
-  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
+  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi, BoxRaysFor(options)));
   FORESIGHT_TRY(Detection detection, FitInRays(rays, options, context));
   OriginOf(detection).roi = roi;
   OriginOf(detection).source = NameOf(

@@ -40,9 +40,15 @@ struct ProcessedScan {
 /// What to look for, and how; in the order of Detection's alternatives.
 using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOptions>;
 
-/// The defaults for an object seen by a head that is mounted as `robot_from_base` says: up is the
-/// robot's z.
-FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base);
+/// The defaults for an object seen by a head that is mounted as `robot_from_base` says. `up` is
+/// against gravity, in robot, length 1.
+FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,
+                         const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
+
+/// Which rays of a BoxRoi the fit of an object wants. Of a wheel or a drill that the box is drawn
+/// tightly round, the wall behind it tells what stands in front of it; a terrain's box holds its
+/// ground.
+BoxRays BoxRaysFor(const FitOptions& options);
 
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
 /// RaysFromScan and RaysFromDepth do, and with kState for a depth that is not there.
