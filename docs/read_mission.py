@@ -28,3 +28,7 @@ for scan, uuid, state in mission.execute("SELECT id, uuid, state FROM scan ORDER
     for seq, time_s, beams, has_intensity, data in mission.execute(rows, [scan]):
         ranges, intensities = channels(beams, has_intensity, data)
         print("line", seq, time_s, sum(ranges), sum(intensities))
+    if mission.execute("SELECT 1 FROM sqlite_schema WHERE name = 'given_line'").fetchone():  # an imported scan, from format 3 on
+        for line, beams, data in mission.execute("SELECT line, beams, data FROM given_line WHERE scan_id = ? ORDER BY line", [scan]):
+            floats = struct.unpack(f"<{3 + 3 * beams}f", zlib.decompress(data)[:12 + 12 * beams])  # origin, then all x, all y, all z
+            print("given", line, *floats[:3], sum(x == x for x in floats[3:3 + beams]))  # how many returns

@@ -45,6 +45,7 @@ void AddMissionRecoverCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionMergeCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionPruneCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionDiffCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionImportCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionExportCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionRunCommand(CLI::App& mission, Invocation& invocation);
 void AddRigCommand(CLI::App& app, Invocation& invocation);

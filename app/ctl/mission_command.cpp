@@ -25,6 +25,7 @@ nlohmann::ordered_json ToJson(const ScanSummary& scan) {
           {"begin_utc", UtcText(scan.begin_utc_ns)},
           {"source", scan.source},
           {"simulated", scan.simulated},
+          {"imported", scan.imported},
           {"from_deg", DegreesFromRadians(scan.plan.from_rad)},
           {"to_deg", DegreesFromRadians(scan.plan.to_rad)},
           {"speed_deg_s", DegreesFromRadians(scan.plan.speed_rad_s)},
@@ -41,13 +42,14 @@ void PrintTable(const std::vector<ScanSummary>& scans) {
       fmt::format("{:>4}  {:<20}  {:>16}  {:>7}  {:>6}  {:>6}  {:>7}  {}", "scan", "time (UTC)",
                   "scope, deg", "deg/s", "lines", "images", "objects", "state");
   for (const ScanSummary& scan : scans)
-    text += fmt::format("\n{:>4}  {:<20}  {:>16}  {:>7.1f}  {:>6}  {:>6}  {:>7}  {}{}{}", scan.id,
-                        UtcText(scan.begin_utc_ns),
-                        fmt::format("{:.1f} to {:.1f}", DegreesFromRadians(scan.plan.from_rad),
+    text += fmt::format(
+        "\n{:>4}  {:<20}  {:>16}  {:>7.1f}  {:>6}  {:>6}  {:>7}  {}{}{}", scan.id,
+        UtcText(scan.begin_utc_ns),
+        scan.imported ? std::string("imported")
+                      : fmt::format("{:.1f} to {:.1f}", DegreesFromRadians(scan.plan.from_rad),
                                     DegreesFromRadians(scan.plan.to_rad)),
-                        DegreesFromRadians(scan.plan.speed_rad_s), scan.lines, scan.images,
-                        scan.objects, ToString(scan.state), scan.reason.empty() ? "" : ": ",
-                        scan.reason);
+        scan.imported ? 0.0 : DegreesFromRadians(scan.plan.speed_rad_s), scan.lines, scan.images,
+        scan.objects, ToString(scan.state), scan.reason.empty() ? "" : ": ", scan.reason);
   PrintLine(text);
 }
 
@@ -202,6 +204,7 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   AddMissionPruneCommand(*mission, invocation);
   AddMissionDiffCommand(*mission, invocation);
   AddMissionExportCommand(*mission, invocation);
+  AddMissionImportCommand(*mission, invocation);
   AddMissionRunCommand(*mission, invocation);
   AddMissionDigestCommand(*mission, invocation);
   AddMissionPoseCommand(*mission, invocation);

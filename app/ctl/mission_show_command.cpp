@@ -110,6 +110,7 @@ Status ShowScan(const ShowArguments& arguments, const MissionFile& mission) {
                {"begin_utc", UtcText(summary.begin_utc_ns)},
                {"source", summary.source},
                {"simulated", summary.simulated},
+               {"imported", summary.imported},
                {"rig_id", rig},
                {"state", ToString(summary.state)},
                {"reason", summary.reason},
@@ -123,12 +124,15 @@ Status ShowScan(const ShowArguments& arguments, const MissionFile& mission) {
     return {};
   }
   std::string text = fmt::format(
-      "scan {} ({}), {}{}\n{}{}, begun {}\n{:.1f} to {:.1f} deg at {:.1f} deg/s: {} lines\nrig {}",
-      id, summary.uuid, ToString(summary.state),
-      summary.reason.empty() ? "" : ": " + summary.reason, summary.source,
+      "scan {} ({}), {}{}\n{}{}, begun {}\n{}: {} lines\nrig {}", id, summary.uuid,
+      ToString(summary.state), summary.reason.empty() ? "" : ": " + summary.reason, summary.source,
       summary.simulated ? " (simulated)" : "", UtcText(summary.begin_utc_ns),
-      DegreesFromRadians(summary.plan.from_rad), DegreesFromRadians(summary.plan.to_rad),
-      DegreesFromRadians(summary.plan.speed_rad_s), summary.lines, rig);
+      summary.imported ? std::string("imported")
+                       : fmt::format("{:.1f} to {:.1f} deg at {:.1f} deg/s",
+                                     DegreesFromRadians(summary.plan.from_rad),
+                                     DegreesFromRadians(summary.plan.to_rad),
+                                     DegreesFromRadians(summary.plan.speed_rad_s)),
+      summary.lines, rig);
   for (const ImageSummary& image : images)
     text += fmt::format("\nimage {}: {} x {} at {:.2f} deg, exposure {:.2f} ms, gain {:.1f} dB",
                         image.position, image.width, image.height,

@@ -18,6 +18,7 @@
 
 #include "app/workstation/actions.h"
 #include "app/workstation/document_stack.h"
+#include "app/workstation/import_files.h"
 #include "app/workstation/keys_everywhere.h"
 #include "app/workstation/shortcut_sheet.h"
 #include "core/base/log_file.h"
@@ -119,6 +120,13 @@ void MainWindow::AddWindowCommands() {
                   ChooseFile(false, tr("Open a mission for review"), missions, {},
                              [this](const QString& path) { bench_->reviewer.Open(path); });
                 }});
+  commands.Add({.id = "file.import",
+                .menu = "file",
+                .text = tr("Import"),
+                .tip = tr("Make a mission of other programs' clouds, images and ROS bags, and show "
+                          "it for review"),
+                .keys = QStringLiteral("Ctrl+I"),
+                .run = [this] { ChooseFilesToImport(this, bench_); }});
   commands.Add({.id = "file.copy",
                 .menu = "file",
                 .icon = "save",

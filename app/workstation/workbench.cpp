@@ -11,6 +11,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
       review(SessionMode::kReplay, &tasks),
       recording(&live.session),
       reviewer(&review.session),
+      importer(&review.session),
       flow(&head, &live.session),
       live_depth(&head, &live.session),
       camera_calibration(&head, &live.session),
@@ -31,6 +32,8 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
     connect(session, &SessionModel::noticed, &log, &LogModel::add);
   connect(&log, &LogModel::added, &recording, &RecordingViewModel::keepNotice);
   connect(&reviewer, &ReviewViewModel::opened, this, &Workbench::showReview);
+  connect(&importer, &ImportViewModel::imported, this,
+          [this](const QString& mission) { reviewer.Open(mission); });
   connect(&commands, &CommandTable::refused, this, [this](const QString& text, const QString& why) {
     log.add({Notice::Level::kInfo, tr("%1 is not possible now.").arg(text), why});
   });

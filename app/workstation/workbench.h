@@ -8,6 +8,7 @@
 #include "ui/viewmodels/chain_calibration_model.h"
 #include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/head_view_model.h"
+#include "ui/viewmodels/import_view_model.h"
 #include "ui/viewmodels/link_view_model.h"
 #include "ui/viewmodels/live_depth_view_model.h"
 #include "ui/viewmodels/log_model.h"
@@ -37,6 +38,7 @@ class Workbench : public QObject {
   Desk review;
   RecordingViewModel recording;
   ReviewViewModel reviewer;
+  ImportViewModel importer;
   ScanFlow flow;
   LiveDepthViewModel live_depth;
   CameraCalibrationModel camera_calibration;

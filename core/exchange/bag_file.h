@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace foresight {
@@ -59,6 +60,69 @@ struct BagPose {
   std::array<double, 4> rotation_wxyz = {1.0, 0.0, 0.0, 0.0};
 };
 
+/// What a bag has under one name.
+struct BagTopic {
+  std::string name;
+  std::string type;               ///< "sensor_msgs/PointCloud2"
+  std::vector<BagTime_ns> times;  ///< when its messages were recorded, in order
+};
+
+/// sensor_msgs/PointCloud2 as it is read.
+struct BagCloudMessage {
+  struct Field {
+    std::string name;
+    std::uint32_t offset = 0;
+    std::uint8_t type = 0;  ///< sensor_msgs/PointField's number
+    std::uint32_t count = 0;
+  };
+  std::string frame;
+  BagTime_ns time = 0;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t point_step = 0;
+  std::uint32_t row_step = 0;
+  bool big_endian = false;
+  std::vector<Field> fields;
+  std::vector<std::uint8_t> data;
+};
+
+/// sensor_msgs/Image or, with an `encoding` of "jpeg" or "png" and no size, CompressedImage.
+struct BagImageMessage {
+  std::string frame;
+  BagTime_ns time = 0;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t step = 0;
+  std::string encoding;
+  std::vector<std::uint8_t> data;
+};
+
+/// A ROS 1 bag that is read. Every call answers with what failed, empty = nothing. `number` counts
+/// the messages of a topic from 0.
+class BagReader {
+ public:
+  BagReader();
+  BagReader(const BagReader&) = delete;
+  BagReader& operator=(const BagReader&) = delete;
+  ~BagReader();
+
+  std::string Open(const std::string& path);
+  std::string ReadTopics(std::vector<BagTopic>* topics);
+  std::string ReadCloud(const std::string& topic, std::size_t number, BagCloudMessage* message);
+  std::string ReadImage(const BagTopic& topic, std::size_t number, BagImageMessage* message);
+  /// The topic's last one that was recorded no later than `time`, or the first one.
+  std::string ReadCamera(const std::string& topic, BagTime_ns time, BagCamera* camera);
+  /// std_msgs/String.
+  std::string ReadText(const std::string& topic, std::size_t number, std::string* text);
+  /// tf2_msgs/TFMessage and tf/tfMessage: all transforms with their times.
+  std::string ReadTransforms(const std::string& topic,
+                             std::vector<std::pair<BagTime_ns, BagPose>>* poses);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// A ROS 1 bag that is being written. Every call answers with what failed, empty = nothing.
 class BagFile {
  public:
@@ -73,6 +137,8 @@ class BagFile {
   std::string WriteCamera(const std::string& topic, BagTime_ns time, const BagCamera& camera);
   std::string WriteTransforms(const std::string& topic, BagTime_ns time,
                               const std::vector<BagPose>& poses);
+  /// std_msgs/String.
+  std::string WriteText(const std::string& topic, BagTime_ns time, const std::string& text);
   std::string WritePose(const std::string& topic, BagTime_ns time, const BagPose& pose);
   std::string Close();
 

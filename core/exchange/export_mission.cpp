@@ -11,6 +11,7 @@
 #include "core/exchange/mission_tables.h"
 #include "core/exchange/paint_cloud.h"
 #include "core/exchange/ros_bag.h"
+#include "core/exchange/scan_record.h"
 #include "core/exchange/vtk_files.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
@@ -156,7 +157,10 @@ class Exporter {
     FORESIGHT_CHECK(WriteDepths(summary, scan, *cloud, points, sub, context.Part(0.1, 0.8)));
     FORESIGHT_CHECK(WriteClouds(scan, points, sub));
     FORESIGHT_CHECK(WriteSurfaces(summary, *cloud, points, sub));
-    if (bag_) FORESIGHT_CHECK(AddToBag(summary, scan, points, context.Part(0.9, 1.0)));
+    const std::string record = ScanRecordToJson(scan, *cloud);
+    if (WantsAny({ExportPart::kPly, ExportPart::kPcd}))
+      FORESIGHT_CHECK(PutText(sub / "scan.json", record));
+    if (bag_) FORESIGHT_CHECK(AddToBag(summary, scan, points, record, context.Part(0.9, 1.0)));
     return {};
   }
 
@@ -259,7 +263,8 @@ class Exporter {
   }
 
   Status AddToBag(const ScanSummary& summary, const Scan& scan,
-                  const std::vector<CloudPoint>& points, const RunContext& context) {
+                  const std::vector<CloudPoint>& points, const std::string& scan_record,
+                  const RunContext& context) {
     FORESIGHT_TRY(const std::vector<DetectionRecord> records, mission_.ListDetections(summary.id));
     std::vector<BagObject> objects;
     for (const DetectionRecord& record : records) {
@@ -268,7 +273,7 @@ class Exporter {
       objects.push_back(
           {record.kind, record.utc_ns, scan.rig.robot_from_base * CandidatePose(*detection, 0)});
     }
-    return bag_->Add({scan, points, objects}, context);
+    return bag_->Add({scan, points, scan_record, objects}, context);
   }
 
   const MissionFile& mission_;

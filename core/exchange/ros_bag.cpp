@@ -150,6 +150,7 @@ Status RosBagWriter::Add(const BagScan& entry, const RunContext& context) {
   for (std::size_t i = 0; i < samples.size(); i += kEvery)
     FORESIGHT_CHECK(impl_->WriteTurn(scan, samples[i].time_s, samples[i].angle_rad));
   FORESIGHT_CHECK(impl_->WriteImages(scan, context));
+  FORESIGHT_CHECK(impl_->Done(impl_->bag.WriteText("/foresight/scan", begin, entry.record)));
   FORESIGHT_CHECK(
       impl_->Done(impl_->bag.WriteCloud("/foresight/cloud", begin, CloudOf(entry.points))));
   for (const BagObject& object : entry.objects)

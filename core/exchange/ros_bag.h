@@ -24,6 +24,7 @@ struct BagObject {
 struct BagScan {
   const Scan& scan;
   std::span<const CloudPoint> points;  ///< in robot
+  std::string record;                  ///< ScanRecordToJson: what the other messages do not say
   std::span<const BagObject> objects;
 };
 
@@ -31,7 +32,8 @@ struct BagScan {
 /// `robot`, a scan a message: x y z intensity line beam time rgb confidence),
 /// /foresight/camera/image (Image, rgb8, frame `camera`), /foresight/camera/camera_info, /tf (base
 /// to head, with each image and each tenth motor sample), /tf_static (robot to base, head to camera
-/// and lidar), and /foresight/objects/KIND (PoseStamped in `robot`). Times are UTC. A camera model
+/// and lidar), /foresight/scan (std_msgs/String, JSON: the record), and /foresight/objects/KIND
+/// (PoseStamped in `robot`). Times are UTC. A camera model
 /// that ROS has no name for is refitted to equidistant (ExportCamera). The same scans give the same
 /// bytes. Writes the whole file or nothing; fails with kIo, as ExportCamera does, and with
 /// kCancelled.

@@ -74,31 +74,50 @@ std::vector<Eigen::Vector3d> PointsFromColumns(std::string_view block,
   return points;
 }
 
+std::vector<double> ValuesFromColumn(std::string_view block, const CloudColumn& column,
+                                     std::size_t count, bool big_endian) {
+  const bool swap = big_endian != (std::endian::native == std::endian::big);
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i)
+    values[i] = Decoded(block.data() + column.first + i * column.stride, column.type, swap);
+  return values;
+}
+
+Result<std::vector<std::vector<double>>> ColumnsFromText(std::string_view text,
+                                                         std::span<const std::size_t> wanted,
+                                                         std::size_t fields, std::size_t count,
+                                                         const std::string& source) {
+  std::vector<std::vector<double>> columns(wanted.size());
+  for (std::size_t point = 0; point < count;) {
+    const auto line = TakeLine(text);
+    if (!line)
+      return Fail(ErrorCode::kBadData, "{}: ends after {} of {} points", source, point, count);
+    const std::vector<std::string_view> words = Words(*line);
+    if (words.empty()) continue;
+    if (words.size() < fields)
+      return Fail(ErrorCode::kBadData, "{}: point {} has {} of {} values", source, point,
+                  words.size(), fields);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto value = ParseNumber(words[wanted[i]]);
+      if (!value)
+        return Fail(ErrorCode::kBadData, "{}: point {}: '{}' is not a number", source, point,
+                    words[wanted[i]].substr(0, 32));
+      columns[i].push_back(*value);
+    }
+    ++point;
+  }
+  return columns;
+}
+
 Result<std::vector<Eigen::Vector3d>> PointsFromText(std::string_view text,
                                                     const std::array<std::size_t, 3>& xyz,
                                                     std::size_t fields, std::size_t count,
                                                     const std::string& source) {
-  std::vector<Eigen::Vector3d> points;
-  while (points.size() < count) {
-    const auto line = TakeLine(text);
-    if (!line)
-      return Fail(ErrorCode::kBadData, "{}: ends after {} of {} points", source, points.size(),
-                  count);
-    const std::vector<std::string_view> words = Words(*line);
-    if (words.empty()) continue;
-    if (words.size() < fields)
-      return Fail(ErrorCode::kBadData, "{}: point {} has {} of {} values", source, points.size(),
-                  words.size(), fields);
-    Eigen::Vector3d point;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto value = ParseNumber(words[xyz[axis]]);
-      if (!value)
-        return Fail(ErrorCode::kBadData, "{}: point {}: '{}' is not a number", source,
-                    points.size(), words[xyz[axis]].substr(0, 32));
-      point[static_cast<Eigen::Index>(axis)] = *value;
-    }
-    points.push_back(point);
-  }
+  FORESIGHT_TRY(const std::vector<std::vector<double>> columns,
+                ColumnsFromText(text, xyz, fields, count, source));
+  std::vector<Eigen::Vector3d> points(columns[0].size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = {columns[0][i], columns[1][i], columns[2][i]};
   return points;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,16 @@ struct CloudColumn {
 std::vector<Eigen::Vector3d> PointsFromColumns(std::string_view block,
                                                const std::array<CloudColumn, 3>& columns,
                                                std::size_t count, bool big_endian);
+
+/// One number of each point, from such a column.
+std::vector<double> ValuesFromColumn(std::string_view block, const CloudColumn& column,
+                                     std::size_t count, bool big_endian);
+
+/// Numbers written out: `count` rows of `fields` words each; the columns `wanted`, in their order.
+Result<std::vector<std::vector<double>>> ColumnsFromText(std::string_view text,
+                                                         std::span<const std::size_t> wanted,
+                                                         std::size_t fields, std::size_t count,
+                                                         const std::string& source);
 
 /// Points from numbers written out: `count` rows of `fields` words each, of which `xyz` are wanted.
 Result<std::vector<Eigen::Vector3d>> PointsFromText(std::string_view text,

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 
 #include "core/io/cloud_columns.h"
+#include "core/io/cloud_table.h"
 #include "core/io/read_point_cloud.h"
 
 namespace foresight {
@@ -37,6 +39,10 @@ constexpr std::size_t kMostRecordBytes = std::size_t{1} << 20;
 struct Header {
   std::vector<Field> fields;
   std::size_t points = 0;
+  std::size_t width = 0;  ///< 0 = not said
+  std::size_t height = 0;
+  std::vector<std::string> comments;
+  std::optional<Eigen::Vector3d> viewpoint;
   std::string_view data;  ///< ascii, binary, binary_compressed
 
   std::size_t RecordBytes() const {
@@ -68,13 +74,28 @@ Status ReadFieldWords(const std::vector<std::string_view>& words, std::vector<Fi
   return {};
 }
 
+/// Where the points were measured from; nullopt where it cannot be read.
+std::optional<Eigen::Vector3d> ViewpointFrom(const std::vector<std::string_view>& words) {
+  if (words.size() < 4) return std::nullopt;
+  std::string row;
+  for (std::size_t i = 1; i < 4; ++i) row.append(words[i]).push_back(' ');
+  constexpr std::array<std::size_t, 3> kXyz = {0, 1, 2};
+  const auto point = PointsFromText(row, kXyz, 3, 1, "");
+  if (!point || !point->front().allFinite()) return std::nullopt;
+  return point->front();
+}
+
 /// Leaves `rest` at the first byte after the header.
 Result<Header> ReadHeader(std::string_view& rest, const std::string& source) {
   Header header;
   std::optional<std::size_t> width, height, points;
   while (const auto line = TakeLine(rest)) {
     const std::vector<std::string_view> words = Words(*line);
-    if (words.empty() || words[0].starts_with('#')) continue;
+    if (words.empty()) continue;
+    if (words[0].starts_with('#')) {
+      header.comments.emplace_back(line->substr(line->find('#') + 1));
+      continue;
+    }
     const std::string_view second = words.size() > 1 ? words[1] : std::string_view();
     if (words[0] == "FIELDS") {
       for (std::size_t i = 1; i < words.size(); ++i) header.fields.push_back({words[i], 'F', 4, 1});
@@ -89,7 +110,9 @@ Result<Header> ReadHeader(std::string_view& rest, const std::string& source) {
     } else if (words[0] == "DATA") {
       header.data = second;
       break;
-    } else if (words[0] != "VERSION" && words[0] != "VIEWPOINT") {
+    } else if (words[0] == "VIEWPOINT") {
+      header.viewpoint = ViewpointFrom(words);
+    } else if (words[0] != "VERSION") {
       return Fail(ErrorCode::kBadData, "{}: PCD header: '{}' is not known", source,
                   words[0].substr(0, 32));
     }
@@ -99,6 +122,8 @@ Result<Header> ReadHeader(std::string_view& rest, const std::string& source) {
     return Fail(ErrorCode::kBadData, "{}: PCD header without DATA, or without 0 to {} points",
                 source, kMostCloudPoints);
   header.points = *points;
+  header.width = width.value_or(0);
+  header.height = height.value_or(0);
   if (header.fields.size() > kMostFields || header.RecordBytes() > kMostRecordBytes)
     return Fail(ErrorCode::kBadData, "{}: PCD header: {} fields of {} bytes a point are too many",
                 source, header.fields.size(), header.RecordBytes());
@@ -170,15 +195,80 @@ Result<std::string> Decompress(const Header& header, std::string_view rest,
   return std::move(*block);
 }
 
+CloudColumn ColumnOf(const Header& header, std::size_t index, CloudScalar type,
+                     bool field_by_field) {
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < index; ++i) before += header.fields[i].Bytes();
+  const Field& field = header.fields[index];
+  return {type, field_by_field ? before * header.points : before,
+          field_by_field ? field.Bytes() : header.RecordBytes()};
+}
+
 std::array<CloudColumn, 3> ColumnsOf(const Header& header, const std::array<std::size_t, 3>& xyz,
                                      bool field_by_field) {
   std::array<CloudColumn, 3> columns;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::size_t before = 0;
-    for (std::size_t i = 0; i < xyz[axis]; ++i) before += header.fields[i].Bytes();
-    const Field& field = header.fields[xyz[axis]];
-    columns[axis] = {*field.Scalar(), field_by_field ? before * header.points : before,
-                     field_by_field ? field.Bytes() : header.RecordBytes()};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    columns[axis] = ColumnOf(header, xyz[axis], *header.fields[xyz[axis]].Scalar(), field_by_field);
+  return columns;
+}
+
+/// The word of each field in a line of text: a field of several values is several words.
+std::vector<std::size_t> WordsOfFields(const Header& header, std::size_t& all) {
+  std::vector<std::size_t> first;
+  all = 0;
+  for (const Field& field : header.fields) {
+    first.push_back(all);
+    all += field.count;
+  }
+  return first;
+}
+
+/// The block of a binary file; `storage` holds it where it was compressed.
+Result<std::string_view> BinaryBlock(const Header& header, std::string_view bytes,
+                                     std::string& storage, const std::string& source) {
+  if (header.data == "binary") {
+    const std::size_t needed = header.points * header.RecordBytes();
+    if (needed > bytes.size())
+      return Fail(ErrorCode::kBadData, "{}: {} points need {} bytes, the file has {}", source,
+                  header.points, needed, bytes.size());
+    return bytes;
+  }
+  if (header.data != "binary_compressed")
+    return Fail(ErrorCode::kBadData, "{}: PCD data '{}' is not known", source,
+                header.data.substr(0, 32));
+  FORESIGHT_TRY(storage, Decompress(header, bytes, source));
+  return std::string_view(storage);
+}
+
+/// Fields that an import knows, with one value a point.
+Result<std::vector<NamedColumn>> KnownColumns(const Header& header, std::string_view bytes,
+                                              const std::string& source) {
+  std::vector<NamedColumn> columns;
+  std::vector<std::size_t> fields;
+  for (std::size_t i = 0; i < header.fields.size(); ++i) {
+    const Field& field = header.fields[i];
+    if (!IsCloudColumn(field.name) || field.count != 1 || !field.Scalar()) continue;
+    columns.push_back({std::string(field.name), field.type == 'F', false, {}});
+    fields.push_back(i);
+  }
+  if (header.data == "ascii") {
+    std::size_t words = 0;
+    const std::vector<std::size_t> first = WordsOfFields(header, words);
+    std::vector<std::size_t> wanted;
+    for (const std::size_t field : fields) wanted.push_back(first[field]);
+    FORESIGHT_TRY(std::vector<std::vector<double>> values,
+                  ColumnsFromText(bytes, wanted, words, header.points, source));
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values = std::move(values[i]);
+    return columns;
+  }
+  std::string storage;
+  FORESIGHT_TRY(const std::string_view block, BinaryBlock(header, bytes, storage, source));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Field& field = header.fields[fields[i]];
+    columns[i].has_color_bits = field.name.starts_with("rgb") && field.size == 4;
+    const CloudScalar type = columns[i].has_color_bits ? CloudScalar::kUint32 : *field.Scalar();
+    columns[i].values = ValuesFromColumn(
+        block, ColumnOf(header, fields[i], type, header.data != "binary"), header.points, false);
   }
   return columns;
 }
@@ -189,28 +279,28 @@ Result<std::vector<Eigen::Vector3d>> DecodePcd(std::string_view bytes, const std
   FORESIGHT_TRY(const Header header, ReadHeader(bytes, source));
   FORESIGHT_TRY(const auto xyz, FindXyz(header, source));
   if (header.data == "ascii") {
-    // A field of several values is several words.
-    std::array<std::size_t, 3> word{};
     std::size_t words = 0;
-    for (std::size_t i = 0; i < header.fields.size(); ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        if (xyz[axis] == i) word[axis] = words;
-      words += header.fields[i].count;
-    }
-    return PointsFromText(bytes, word, words, header.points, source);
+    const std::vector<std::size_t> first = WordsOfFields(header, words);
+    return PointsFromText(bytes, {first[xyz[0]], first[xyz[1]], first[xyz[2]]}, words,
+                          header.points, source);
   }
-  if (header.data == "binary") {
-    const std::size_t needed = header.points * header.RecordBytes();
-    if (needed > bytes.size())
-      return Fail(ErrorCode::kBadData, "{}: {} points need {} bytes, the file has {}", source,
-                  header.points, needed, bytes.size());
-    return PointsFromColumns(bytes, ColumnsOf(header, xyz, false), header.points, false);
-  }
-  if (header.data != "binary_compressed")
-    return Fail(ErrorCode::kBadData, "{}: PCD data '{}' is not known", source,
-                header.data.substr(0, 32));
-  FORESIGHT_TRY(const std::string block, Decompress(header, bytes, source));
-  return PointsFromColumns(block, ColumnsOf(header, xyz, true), header.points, false);
+  std::string storage;
+  FORESIGHT_TRY(const std::string_view block, BinaryBlock(header, bytes, storage, source));
+  return PointsFromColumns(block, ColumnsOf(header, xyz, header.data != "binary"), header.points,
+                           false);
+}
+
+Result<CloudTable> DecodePcdTable(std::string_view bytes, const std::string& source) {
+  FORESIGHT_TRY(Header header, ReadHeader(bytes, source));
+  FORESIGHT_CHECK(FindXyz(header, source));
+  FORESIGHT_TRY(std::vector<NamedColumn> columns, KnownColumns(header, bytes, source));
+  CloudTable table;
+  table.width = header.width;
+  table.height = header.height;
+  table.comments = std::move(header.comments);
+  table.viewpoint = header.viewpoint;
+  FORESIGHT_CHECK(TakeColumns(std::move(columns), table, source));
+  return table;
 }
 
 }  // namespace foresight

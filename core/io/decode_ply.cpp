@@ -2,6 +2,7 @@
 #include <array>
 
 #include "core/io/cloud_columns.h"
+#include "core/io/cloud_table.h"
 #include "core/io/read_point_cloud.h"
 
 namespace foresight {
@@ -29,6 +30,7 @@ struct Element {
 
 struct Header {
   Format format = Format::kAscii;
+  std::vector<std::string> comments;
   std::vector<Element> elements;
 };
 
@@ -99,6 +101,7 @@ Result<Header> ReadHeader(std::string_view& rest, const std::string& source) {
       return Fail(ErrorCode::kBadData, "{}: PLY header without a format", source);
     }
     has_format = has_format || words[0] == "format";
+    if (words[0] == "comment") header.comments.emplace_back(line->substr(line->find('c') + 7));
     FORESIGHT_CHECK(ReadHeaderLine(words, header, source));
   }
   return Fail(ErrorCode::kBadData, "{}: PLY header without an end", source);
@@ -133,38 +136,99 @@ Status SkipElement(const Element& element, Format format, std::string_view& rest
   return {};
 }
 
+CloudColumn ColumnOf(const Element& vertex, std::size_t index) {
+  CloudColumn column{vertex.properties[index].type, 0, vertex.RecordBytes()};
+  for (std::size_t i = 0; i < index; ++i) column.first += SizeOf(vertex.properties[i].type);
+  return column;
+}
+
+Status CheckVertices(const Element& vertex, Format format, std::string_view rest,
+                     const std::string& source) {
+  if (vertex.has_list)
+    return Fail(ErrorCode::kBadData, "{}: vertices with lists are not read", source);
+  const std::size_t record = vertex.RecordBytes();
+  if (format == Format::kAscii || vertex.count * record <= rest.size()) return {};
+  return Fail(ErrorCode::kBadData, "{}: {} points need {} bytes, the file has {}", source,
+              vertex.count, vertex.count * record, rest.size());
+}
+
 Result<std::vector<Eigen::Vector3d>> ReadVertices(const Element& vertex, Format format,
                                                   std::string_view rest,
                                                   const std::string& source) {
   FORESIGHT_TRY(const auto xyz, FindXyz(vertex, source));
-  if (vertex.has_list)
-    return Fail(ErrorCode::kBadData, "{}: vertices with lists are not read", source);
+  FORESIGHT_CHECK(CheckVertices(vertex, format, rest, source));
   if (format == Format::kAscii)
     return PointsFromText(rest, xyz, vertex.properties.size(), vertex.count, source);
-  const std::size_t record = vertex.RecordBytes();
-  if (vertex.count * record > rest.size())
-    return Fail(ErrorCode::kBadData, "{}: {} points need {} bytes, the file has {}", source,
-                vertex.count, vertex.count * record, rest.size());
-  std::array<CloudColumn, 3> columns;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    columns[axis] = {vertex.properties[xyz[axis]].type, 0, record};
-    for (std::size_t i = 0; i < xyz[axis]; ++i)
-      columns[axis].first += SizeOf(vertex.properties[i].type);
-  }
+  const std::array<CloudColumn, 3> columns = {ColumnOf(vertex, xyz[0]), ColumnOf(vertex, xyz[1]),
+                                              ColumnOf(vertex, xyz[2])};
   return PointsFromColumns(rest, columns, vertex.count, format == Format::kBigEndian);
+}
+
+/// Properties that an import knows.
+Result<std::vector<NamedColumn>> KnownColumns(const Element& vertex, Format format,
+                                              std::string_view rest, const std::string& source) {
+  FORESIGHT_CHECK(FindXyz(vertex, source));
+  FORESIGHT_CHECK(CheckVertices(vertex, format, rest, source));
+  std::vector<NamedColumn> columns;
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
+    const Property& property = vertex.properties[i];
+    if (!IsCloudColumn(property.name)) continue;
+    const bool is_float =
+        property.type == CloudScalar::kFloat32 || property.type == CloudScalar::kFloat64;
+    columns.push_back({std::string(property.name), is_float, false, {}});
+    wanted.push_back(i);
+  }
+  if (format == Format::kAscii) {
+    FORESIGHT_TRY(std::vector<std::vector<double>> values,
+                  ColumnsFromText(rest, wanted, vertex.properties.size(), vertex.count, source));
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values = std::move(values[i]);
+  } else {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].values = ValuesFromColumn(rest, ColumnOf(vertex, wanted[i]), vertex.count,
+                                           format == Format::kBigEndian);
+  }
+  return columns;
+}
+
+/// Calls `read(vertex, format, rest)` with what stands at the vertices.
+template <class Read>
+auto AtVertices(const Header& header, std::string_view bytes, const std::string& source,
+                const Read& read) -> decltype(read(Element(), Format(), bytes)) {
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") return read(element, header.format, bytes);
+    FORESIGHT_CHECK(SkipElement(element, header.format, bytes, source));
+  }
+  return Fail(ErrorCode::kBadData, "{}: PLY without vertices", source);
+}
+
+Result<Header> ReadPlyHeader(std::string_view& bytes, const std::string& source) {
+  if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
+    return Fail(ErrorCode::kBadData, "{}: is not a PLY file: it does not start with 'ply'", source);
+  return ReadHeader(bytes, source);
 }
 
 }  // namespace
 
 Result<std::vector<Eigen::Vector3d>> DecodePly(std::string_view bytes, const std::string& source) {
-  if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
-    return Fail(ErrorCode::kBadData, "{}: is not a PLY file: it does not start with 'ply'", source);
-  FORESIGHT_TRY(const Header header, ReadHeader(bytes, source));
-  for (const Element& element : header.elements) {
-    if (element.name == "vertex") return ReadVertices(element, header.format, bytes, source);
-    FORESIGHT_CHECK(SkipElement(element, header.format, bytes, source));
-  }
-  return Fail(ErrorCode::kBadData, "{}: PLY without vertices", source);
+  FORESIGHT_TRY(const Header header, ReadPlyHeader(bytes, source));
+  return AtVertices(header, bytes, source,
+                    [&](const Element& vertex, Format format, std::string_view rest) {
+                      return ReadVertices(vertex, format, rest, source);
+                    });
+}
+
+Result<CloudTable> DecodePlyTable(std::string_view bytes, const std::string& source) {
+  FORESIGHT_TRY(Header header, ReadPlyHeader(bytes, source));
+  FORESIGHT_TRY(std::vector<NamedColumn> columns,
+                AtVertices(header, bytes, source,
+                           [&](const Element& vertex, Format format, std::string_view rest) {
+                             return KnownColumns(vertex, format, rest, source);
+                           }));
+  CloudTable table;
+  table.comments = std::move(header.comments);
+  FORESIGHT_CHECK(TakeColumns(std::move(columns), table, source));
+  return table;
 }
 
 }  // namespace foresight

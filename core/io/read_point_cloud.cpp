@@ -9,7 +9,20 @@
 namespace foresight {
 namespace {
 
-Status CheckPoints(const std::vector<Eigen::Vector3d>& points, const std::string& source) {
+Result<std::vector<Eigen::Vector3d>> DecodeWithHeader(std::string_view bytes,
+                                                      const std::string& source) {
+  if (bytes.starts_with("ply")) return DecodePly(bytes, source);
+  if (LooksLikePcd(bytes)) return DecodePcd(bytes, source);
+  return Fail(ErrorCode::kBadData, "{}: is neither a PLY nor a PCD file", source);
+}
+
+}  // namespace
+
+bool LooksLikePcd(std::string_view bytes) {
+  return bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || bytes.starts_with("FIELDS");
+}
+
+Status CheckCloudPoints(std::span<const Eigen::Vector3d> points, const std::string& source) {
   constexpr double kFarthest_m = 100'000.0;
   bool any = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -25,19 +38,6 @@ Status CheckPoints(const std::vector<Eigen::Vector3d>& points, const std::string
                 points.size());
   return {};
 }
-
-bool LooksLikePcd(std::string_view bytes) {
-  return bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || bytes.starts_with("FIELDS");
-}
-
-Result<std::vector<Eigen::Vector3d>> DecodeWithHeader(std::string_view bytes,
-                                                      const std::string& source) {
-  if (bytes.starts_with("ply")) return DecodePly(bytes, source);
-  if (LooksLikePcd(bytes)) return DecodePcd(bytes, source);
-  return Fail(ErrorCode::kBadData, "{}: is neither a PLY nor a PCD file", source);
-}
-
-}  // namespace
 
 Result<std::vector<Eigen::Vector3d>> DecodeFloatRecords(std::string_view bytes,
                                                         const std::string& source) {
@@ -61,7 +61,7 @@ Result<std::vector<Eigen::Vector3d>> ReadPointCloud(const std::filesystem::path&
   FORESIGHT_TRY(std::vector<Eigen::Vector3d> points, path.extension() == ".bin"
                                                          ? DecodeFloatRecords(bytes, source)
                                                          : DecodeWithHeader(bytes, source));
-  FORESIGHT_CHECK(CheckPoints(points, source));
+  FORESIGHT_CHECK(CheckCloudPoints(points, source));
   return points;
 }
 

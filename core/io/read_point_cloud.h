@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,5 +26,10 @@ Result<std::vector<Eigen::Vector3d>> DecodePcd(std::string_view bytes, const std
 /// data sets keep their Velodyne sweeps.
 Result<std::vector<Eigen::Vector3d>> DecodeFloatRecords(std::string_view bytes,
                                                         const std::string& source);
+
+/// Whether a file begins as PCD files do.
+bool LooksLikePcd(std::string_view bytes);
+/// Fails with kBadData where a finite coordinate is beyond 100 km, or no point is finite.
+Status CheckCloudPoints(std::span<const Eigen::Vector3d> points, const std::string& source);
 
 }  // namespace foresight

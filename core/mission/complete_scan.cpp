@@ -6,6 +6,8 @@ namespace {
 Status Append(MissionFile& mission, std::int64_t id, const Scan& whole, const Scan& there) {
   for (std::size_t i = there.lines.size(); i < whole.lines.size(); ++i)
     FORESIGHT_CHECK(mission.AppendLine(id, whole.lines[i]));
+  if (there.given.empty() && !whole.given.empty())
+    FORESIGHT_CHECK(mission.SetGivenCloud(id, whole.given));
   const auto samples = whole.track.samples();
   FORESIGHT_CHECK(mission.AppendMotorSamples(id, samples.subspan(there.track.samples().size())));
   for (std::size_t i = there.frames.size(); i < whole.frames.size(); ++i)
@@ -18,6 +20,7 @@ bool IsBeginOf(const Scan& there, const Scan& whole) {
   const auto samples = there.track.samples();
   return there.lines.size() <= whole.lines.size() && there.frames.size() <= whole.frames.size() &&
          samples.size() <= whole.track.samples().size() &&
+         (there.given.empty() || there.given == whole.given) &&
          std::equal(there.lines.begin(), there.lines.end(), whole.lines.begin()) &&
          std::equal(samples.begin(), samples.end(), whole.track.samples().begin()) &&
          std::equal(there.frames.begin(), there.frames.end(), whole.frames.begin());
@@ -25,6 +28,7 @@ bool IsBeginOf(const Scan& there, const Scan& whole) {
 
 bool IsAsWhole(const Scan& there, const Scan& whole) {
   return there.lines.size() == whole.lines.size() && there.frames.size() == whole.frames.size() &&
+         there.given.empty() == whole.given.empty() &&
          there.track.samples().size() == whole.track.samples().size() &&
          there.state == whole.state && there.reason == whole.reason;
 }

@@ -72,6 +72,11 @@ Status CompareScans(const MissionFile& first, const MissionFile& second, const S
   for (const std::string& difference : JsonDifferences(PlanToJson(was.plan), PlanToJson(is.plan)))
     tell("plan: " + difference);
   CompareList(tell, "lines", was.lines, is.lines);
+  if (!(was.given == is.given))
+    tell(fmt::format(
+        "given cloud: was {} lines of {} beams, is {} of {}{}", was.given.lines, was.given.beams,
+        is.given.lines, is.given.beams,
+        was.given.points.size() == is.given.points.size() ? ", with other values" : ""));
   CompareList(tell, "motor samples", was.track.samples(), is.track.samples());
   CompareList(tell, "images", was.frames, is.frames);
   return {};

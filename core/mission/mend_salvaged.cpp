@@ -58,9 +58,11 @@ class Mend {
 
   /// Of every scan of which anything was found.
   Result<std::vector<std::int64_t>> IdsOfScans() {
-    FORESIGHT_TRY(SqliteStatement select,
-                  database_.Prepare("SELECT id FROM scan UNION SELECT scan_id FROM line UNION "
-                                    "SELECT scan_id FROM motor UNION SELECT scan_id FROM image"));
+    std::string all =
+        "SELECT id FROM scan UNION SELECT scan_id FROM line UNION SELECT scan_id FROM motor UNION "
+        "SELECT scan_id FROM image";
+    if (HasTable("given_line")) all += " UNION SELECT scan_id FROM given_line";
+    FORESIGHT_TRY(SqliteStatement select, database_.Prepare(all.c_str()));
     std::vector<std::int64_t> ids;
     for (;;) {
       FORESIGHT_TRY(const bool more, select.Step());
@@ -90,6 +92,9 @@ class Mend {
     FORESIGHT_TRY(scan.images, MendImages(id));
     FORESIGHT_TRY(const std::int64_t batches, MendMotor(id));
     FORESIGHT_TRY(scan.lines, Count("SELECT count(*) FROM line WHERE scan_id = ?", id));
+    if (scan.lines == 0 && HasTable("given_line")) {
+      FORESIGHT_TRY(scan.lines, Count("SELECT count(*) FROM given_line WHERE scan_id = ?", id));
+    }
     const StoredTable& table = TableNamed(tables_, "scan");
     FORESIGHT_TRY(std::vector<Row> rows, ReadStored(database_, table, fmt::format("id = {}", id)));
     const bool own_row = !rows.empty();
@@ -177,6 +182,8 @@ class Mend {
           "DELETE FROM motor WHERE scan_id = ?", "DELETE FROM image_data WHERE scan_id = ?",
           "DELETE FROM image WHERE scan_id = ?"})
       FORESIGHT_CHECK(RunFor(sql, id));
+    if (HasTable("given_line"))
+      FORESIGHT_CHECK(RunFor("DELETE FROM given_line WHERE scan_id = ?", id));
     return {};
   }
 

@@ -127,14 +127,14 @@ class Merger {
     FORESIGHT_TRY(const std::int64_t rig, AddRig(from, WholeOf(table, row, "calibration_id")));
     row[*table.rowid] = id;
     row[table.ColumnOf("calibration_id")] = rig;
-    for (const char* part : {"line", "motor", "image", "image_data", "thumbnail"})
+    for (const char* part : {"line", "given_line", "motor", "image", "image_data", "thumbnail"})
       FORESIGHT_CHECK(CopyPart(from, Named(part), scan.id, id));
     // A scan that is being recorded, or was left so, ends here with what it has.
     if (row[table.ColumnOf("state")] == StoredValue(std::string("running"))) {
       row[table.ColumnOf("state")] = std::string(ToString(ScanState::kInterrupted));
       row[table.ColumnOf("reason")] =
           scan.reason.empty() ? std::string("copied while it was being recorded") : scan.reason;
-      FORESIGHT_TRY(row[table.ColumnOf("lines")], Count("line", id));
+      FORESIGHT_TRY(row[table.ColumnOf("lines")], Count(scan.imported ? "given_line" : "line", id));
       FORESIGHT_TRY(row[table.ColumnOf("motor_batches")], Count("motor", id));
       FORESIGHT_TRY(row[table.ColumnOf("frames")], Count("image", id));
     }

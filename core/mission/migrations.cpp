@@ -20,7 +20,13 @@ Status RecordsGetProvenance(SqliteDatabase& database, const std::string& file) {
   return {};
 }
 
-constexpr std::array<MissionMigration, 1> kMigrations = {{{1, RecordsGetProvenance}}};
+/// A table for the clouds of imported scans, of which there are none yet.
+Status ScansMayBeGiven(SqliteDatabase& database, const std::string& /*file*/) {
+  return CreateMissionTable(database, "given_line");
+}
+
+constexpr std::array<MissionMigration, 2> kMigrations = {
+    {{1, RecordsGetProvenance}, {2, ScansMayBeGiven}}};
 static_assert(kMigrations.back().from + 1 == kMissionFormatVersion);
 
 Status RunAll(SqliteDatabase& database, int from, const std::string& file) {

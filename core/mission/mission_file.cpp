@@ -247,6 +247,7 @@ struct MissionFile::Impl {
       FORESIGHT_TRY(rows, Rows().ReadScanRows());
     }
     FORESIGHT_TRY(const auto objects, CountObjects(*database, format));
+    FORESIGHT_TRY(const auto given, Rows().ScansWithGiven());
     std::map<std::int64_t, std::string> thumbnails;
     if (format > 1) {
       FORESIGHT_TRY(thumbnails, Rows().ReadThumbnails(id, false));
@@ -262,8 +263,9 @@ struct MissionFile::Impl {
       FORESIGHT_TRY(const double begin_s, Rows().FirstLineTime(row.id));
       const std::int64_t begin_utc_ns = row.start_utc_ns + static_cast<std::int64_t>(1e9 * begin_s);
       scans.push_back({row.id, row.uuid, row.start_utc_ns, begin_utc_ns, row.source, row.simulated,
-                       row.plan, row.state, row.reason, row.lines, row.frames,
-                       count == objects.end() ? 0 : count->second, std::move(thumbnails[row.id])});
+                       row.plan, row.state, row.reason, given.contains(row.id), row.lines,
+                       row.frames, count == objects.end() ? 0 : count->second,
+                       std::move(thumbnails[row.id])});
     }
     return scans;
   }
@@ -531,6 +533,16 @@ Status MissionFile::AppendFrame(std::int64_t scan_id, const CameraFrame& frame) 
   });
   if (written && first) impl_->wants_thumbnail = false;
   return written;
+}
+
+Status MissionFile::SetGivenCloud(std::int64_t scan_id, const GivenCloud& cloud) {
+  FORESIGHT_CHECK(cloud.Check());
+  const std::lock_guard lock(impl_->mutex);
+  FORESIGHT_CHECK(impl_->CheckRunning(scan_id));
+  FORESIGHT_TRY(const std::int64_t lines, impl_->Rows().CountLines(scan_id));
+  if (lines > 0)
+    return Fail(ErrorCode::kState, "{}: scan {} has {} lines already", impl_->file, scan_id, lines);
+  return impl_->Write([&] { return impl_->Rows().InsertGiven(scan_id, cloud); });
 }
 
 Status MissionFile::EndScan(std::int64_t scan_id, ScanState state, const std::string& reason) {

@@ -74,6 +74,9 @@ class MissionFile {
   /// Samples that are not later than the last one are dropped, as MotorTrack::Add does.
   Status AppendMotorSamples(std::int64_t scan_id, std::span<const MotorSample> samples);
   Status AppendFrame(std::int64_t scan_id, const CameraFrame& frame);
+  /// In place of lines and motor samples, once. Fails as GivenCloud::Check, and with kState where
+  /// the scan has lines or a cloud already.
+  Status SetGivenCloud(std::int64_t scan_id, const GivenCloud& cloud);
   /// Where the end cannot be written (a full disk) the scan has ended all the same: another can
   /// begin, and this one can be continued.
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
@@ -90,8 +93,8 @@ class MissionFile {
   Result<std::optional<std::int64_t>> FindDetection(const std::string& uuid) const;
   /// Everything of a scan but its lines, track and frames.
   Result<Scan> LoadHeader(std::int64_t id) const;
-  /// The whole scan: lines, track, frames and plan bit for bit, the rig as SensorRigToYaml keeps
-  /// it.
+  /// The whole scan: lines, given cloud, track, frames and plan bit for bit, the rig as
+  /// SensorRigToYaml keeps it.
   Result<Scan> LoadScan(std::int64_t id) const;
   /// At most `at_most` lines, from that with seq `first_seq` or the next one on; none behind the
   /// last.

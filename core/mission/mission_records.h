@@ -20,6 +20,7 @@ struct ScanSummary {
   ScanPlan plan;
   ScanState state = ScanState::kRunning;
   std::string reason;
+  bool imported = false;  ///< its cloud was given, not measured by a head
   std::int64_t lines = 0;
   std::int64_t images = 0;
   std::int64_t objects = 0;  ///< detections that are not deleted

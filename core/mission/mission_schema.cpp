@@ -87,15 +87,27 @@ constexpr Table kDepth = {
     "NOT NULL, author TEXT NOT NULL, provenance_json TEXT NOT NULL, digest TEXT NOT NULL, "
     "statistics_json TEXT NOT NULL, crc32 INTEGER NOT NULL) STRICT"};
 
+// New in format 3: the cloud of an imported scan, which has no rows in line and motor.
+constexpr Table kGivenLine = {
+    "given_line",
+    "CREATE TABLE given_line(scan_id INTEGER NOT NULL REFERENCES scan(id), line INTEGER NOT NULL, "
+    "time_s REAL, beams INTEGER NOT NULL, parts INTEGER NOT NULL, data BLOB NOT NULL, crc32 "
+    "INTEGER NOT NULL, PRIMARY KEY(scan_id, line)) STRICT",
+    false};
+
 constexpr std::array kTables1 = {kMeta,  kCalibration, kScan,       kLine, kMotor,
                                  kImage, kImageData,   kDetection1, kEvent};
 constexpr std::array kTables2 = {kMeta,           kCalibration, kScan,      kLine,
                                  kMotor,          kImage,       kImageData, kDetection2,
                                  kDetectionEvent, kDepth,       kEvent,     kThumbnail};
+constexpr std::array kTables3 = {kMeta,  kCalibration, kScan,       kLine,           kMotor,
+                                 kImage, kImageData,   kDetection2, kDetectionEvent, kDepth,
+                                 kEvent, kThumbnail,   kGivenLine};
 
 std::span<const Table> TablesOf(int format) {
   if (format == 1) return kTables1;
-  return kTables2;
+  if (format == 2) return kTables2;
+  return kTables3;
 }
 
 }  // namespace

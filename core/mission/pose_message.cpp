@@ -117,6 +117,10 @@ Result<PoseMessage> PoseMessageOf(const Detection& detection, int candidate, con
 Result<PoseMessage> PoseMessageOf(const DetectionRecord& record, int candidate,
                                   const SensorRig& rig, const ScanSummary& scan,
                                   std::int64_t now_utc_ns) {
+  if (scan.imported)
+    return Fail(ErrorCode::kInvalidInput,
+                "detection {}: its scan was imported ({}): no robot gets a pose of it", record.id,
+                scan.source);
   FORESIGHT_TRY(const Detection detection, DetectionFromJson(record.json));
   PoseContext context;
   context.detection_uuid = record.uuid;

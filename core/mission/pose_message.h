@@ -85,7 +85,8 @@ Result<PoseMessage> PoseMessageOf(const Detection& detection, int candidate, con
                                   const PoseContext& context);
 
 /// The same of the best answer of a record, or a terrain's `candidate`, as a file keeps it: a
-/// review. The age is that at `now_utc_ns`. Fails also with kBadData.
+/// review. The age is that at `now_utc_ns`. Fails also with kBadData, and with kInvalidInput where
+/// the scan was imported.
 Result<PoseMessage> PoseMessageOf(const DetectionRecord& record, int candidate,
                                   const SensorRig& rig, const ScanSummary& scan,
                                   std::int64_t now_utc_ns);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/io/png.h"
+#include "core/mission/given_codec.h"
 #include "core/mission/line_codec.h"
 #include "core/mission/plan_json.h"
 #include "core/mission/row_checksum.h"
@@ -46,6 +47,27 @@ std::int64_t Checksum(std::int64_t scan_id, const LidarLine& line, const PackedL
       .Add(std::int64_t{packed.has_intensity})
       .Add(packed.bytes)
       .value();
+}
+
+std::int64_t Checksum(std::int64_t scan_id, std::int64_t line, double time_s,
+                      const PackedGivenLine& packed) {
+  return RowChecksum()
+      .Add(scan_id)
+      .Add(line)
+      .Add(time_s)
+      .Add(packed.beams)
+      .Add(packed.parts)
+      .Add(packed.bytes)
+      .value();
+}
+
+/// The first time of a line; NaN where none is known.
+double FirstTimeOf(const GivenCloud& cloud, int line) {
+  if (!cloud.time_s.empty())
+    for (int beam = 0; beam < cloud.beams; ++beam)
+      if (const double time = cloud.time_s[cloud.Index(line, beam)]; std::isfinite(time))
+        return time;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 std::int64_t Checksum(std::int64_t scan_id, std::int64_t position, const CameraFrame& frame,
@@ -187,6 +209,70 @@ Status ScanRows::InsertMotorSamples(std::int64_t scan_id, std::span<const MotorS
       .Run();
 }
 
+Status ScanRows::InsertGiven(std::int64_t scan_id, const GivenCloud& cloud) {
+  for (int line = 0; line < cloud.lines; ++line) {
+    FORESIGHT_TRY(SqliteStatement insert,
+                  database_.Prepare("INSERT INTO given_line(scan_id, line, time_s, beams, parts, "
+                                    "data, crc32) VALUES(?, ?, ?, ?, ?, ?, ?)"));
+    FORESIGHT_TRY(const PackedGivenLine packed, PackGivenLine(cloud, line));
+    const double time_s = FirstTimeOf(cloud, line);
+    FORESIGHT_CHECK(insert.Bind(scan_id)
+                        .Bind(std::int64_t{line})
+                        .Bind(time_s)
+                        .Bind(packed.beams)
+                        .Bind(packed.parts)
+                        .BindBlob(packed.bytes)
+                        .Bind(Checksum(scan_id, line, time_s, packed))
+                        .Run());
+  }
+  return {};
+}
+
+Result<bool> ScanRows::HasGivenTable() const {
+  FORESIGHT_TRY(SqliteStatement select,
+                database_.Prepare("SELECT 1 FROM sqlite_schema WHERE name = 'given_line'"));
+  return select.Step();
+}
+
+Result<std::set<std::int64_t>> ScanRows::ScansWithGiven() const {
+  std::set<std::int64_t> scans;
+  FORESIGHT_TRY(const bool any, HasGivenTable());
+  if (!any) return scans;
+  FORESIGHT_TRY(SqliteStatement select,
+                database_.Prepare("SELECT s.id FROM scan s WHERE EXISTS (SELECT 1 FROM given_line "
+                                  "g WHERE g.scan_id = s.id)"));
+  for (;;) {
+    FORESIGHT_TRY(const bool more, select.Step());
+    if (!more) return scans;
+    scans.insert(select.Integer(0));
+  }
+}
+
+Result<GivenCloud> ScanRows::ReadGiven(std::int64_t scan_id) const {
+  FORESIGHT_TRY(const bool any, HasGivenTable());
+  if (!any) return GivenCloud();
+  FORESIGHT_TRY(SqliteStatement select,
+                database_.Prepare("SELECT line, time_s, beams, parts, data, crc32 FROM given_line "
+                                  "WHERE scan_id = ? ORDER BY line"));
+  select.Bind(scan_id);
+  GivenCloudBuilder builder;
+  for (;;) {
+    FORESIGHT_TRY(const bool more, select.Step());
+    if (!more) return builder.Take();
+    const std::int64_t line = select.Integer(0);
+    PackedGivenLine packed;
+    packed.beams = select.Integer(2);
+    packed.parts = select.Integer(3);
+    packed.bytes = select.Blob(4);
+    const std::string where =
+        fmt::format("{}: scan {}, line {} of its cloud", file_, scan_id, line);
+    if (select.Integer(5) != Checksum(scan_id, line, select.Number(1), packed))
+      return Fail(ErrorCode::kBadData, "{} is damaged (checksum)", where);
+    if (const Status added = builder.Add(line, packed); !added)
+      return Fail(ErrorCode::kBadData, "{}: {}", where, added.error().message);
+  }
+}
+
 Status ScanRows::InsertFrame(std::int64_t scan_id, const CameraFrame& frame,
                              const std::string& png) {
   FORESIGHT_TRY(
@@ -283,7 +369,11 @@ Result<std::map<std::int64_t, std::string>> ScanRows::ReadThumbnails(
 }
 
 Result<std::int64_t> ScanRows::CountLines(std::int64_t scan_id) const {
-  return Query("SELECT count(*) FROM line WHERE scan_id = ?", scan_id);
+  FORESIGHT_TRY(const std::int64_t own,
+                Query("SELECT count(*) FROM line WHERE scan_id = ?", scan_id));
+  FORESIGHT_TRY(const bool given, HasGivenTable());
+  if (own > 0 || !given) return own;
+  return Query("SELECT count(*) FROM given_line WHERE scan_id = ?", scan_id);
 }
 
 Result<std::int64_t> ScanRows::CountFrames(std::int64_t scan_id) const {
@@ -296,7 +386,14 @@ Result<double> ScanRows::FirstLineTime(std::int64_t scan_id) const {
                                   "ORDER BY seq LIMIT 1"));
   first.Bind(scan_id);
   FORESIGHT_TRY(const bool row, first.Step());
-  return row ? first.Number(0) : 0.0;
+  FORESIGHT_TRY(const bool given, HasGivenTable());
+  if (row || !given) return row ? first.Number(0) : 0.0;
+  FORESIGHT_TRY(SqliteStatement timed,
+                database_.Prepare("SELECT time_s FROM given_line WHERE scan_id = ? AND time_s IS "
+                                  "NOT NULL ORDER BY line LIMIT 1"));
+  timed.Bind(scan_id);
+  FORESIGHT_TRY(const bool any, timed.Step());
+  return any ? timed.Number(0) : 0.0;
 }
 
 Result<std::vector<ScanRow>> ScanRows::ReadScanRows() const {
@@ -530,7 +627,13 @@ Result<Scan> ScanRows::ReadScan(const ScanRow& row) const {
   FORESIGHT_TRY(Scan scan, ReadHeader(row));
   FORESIGHT_TRY(scan.lines, ReadLines(row.id, std::numeric_limits<std::int64_t>::min(),
                                       std::numeric_limits<std::size_t>::max()));
-  FORESIGHT_CHECK(CheckCount(row, "lines", scan.lines.size(), row.lines));
+  if (scan.lines.empty()) {
+    FORESIGHT_TRY(scan.given, ReadGiven(row.id));
+    FORESIGHT_TRY(const std::int64_t lines, CountLines(row.id));
+    FORESIGHT_CHECK(CheckCount(row, "lines", static_cast<std::size_t>(lines), row.lines));
+  } else {
+    FORESIGHT_CHECK(CheckCount(row, "lines", scan.lines.size(), row.lines));
+  }
   FORESIGHT_TRY(scan.track, ReadTrack(row));
   FORESIGHT_TRY(scan.frames, ReadFrames(row));
   return scan;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ class ScanRows {
   Result<std::int64_t> InsertScan(const Scan& header);
   Status InsertLine(std::int64_t scan_id, const LidarLine& line);
   Status InsertMotorSamples(std::int64_t scan_id, std::span<const MotorSample> samples);
+  Status InsertGiven(std::int64_t scan_id, const GivenCloud& cloud);
   /// `png` is the frame's image.
   Status InsertFrame(std::int64_t scan_id, const CameraFrame& frame, const std::string& png);
   /// `png` is the scan's first image, small.
@@ -52,9 +54,10 @@ class ScanRows {
   Result<std::vector<ScanRow>> ReadScanRows() const;
   /// Fails with kInvalidInput when there is no such scan.
   Result<ScanRow> ReadScanRow(std::int64_t id) const;
+  /// Those of a given cloud too: a scan has one or the other.
   Result<std::int64_t> CountLines(std::int64_t scan_id) const;
   Result<std::int64_t> CountFrames(std::int64_t scan_id) const;
-  /// On the scan's clock; 0 where it has no line yet.
+  /// On the scan's clock; 0 where it has no line yet, or none with a time.
   Result<double> FirstLineTime(std::int64_t scan_id) const;
   /// Everything but lines, track and frames.
   Result<Scan> ReadHeader(const ScanRow& row) const;
@@ -63,6 +66,10 @@ class ScanRows {
   Result<std::vector<LidarLine>> ReadLines(std::int64_t scan_id, std::int64_t first_seq,
                                            std::size_t at_most) const;
   Result<MotorTrack> ReadTrack(const ScanRow& scan) const;
+  /// Empty where the scan has none, as all of formats 1 and 2.
+  Result<GivenCloud> ReadGiven(std::int64_t scan_id) const;
+  /// Scans that have one.
+  Result<std::set<std::int64_t>> ScansWithGiven() const;
   Result<std::vector<ImageSummary>> ReadImageList(const ScanRow& scan) const;
   /// Fails with kInvalidInput when there is no such image.
   Result<CameraFrame> ReadImage(std::int64_t scan_id, std::int64_t position) const;
@@ -81,6 +88,7 @@ class ScanRows {
   /// The image's own row, without its pixels; position must be the one asked for.
   Result<CameraFrame> ReadFrameRow(const SqliteStatement& row, std::int64_t scan_id,
                                    std::int64_t position, std::int64_t& data_crc) const;
+  Result<bool> HasGivenTable() const;
   Result<std::int64_t> Query(const char* sql, std::int64_t scan_id) const;
   Status CheckCount(const ScanRow& scan, const char* what, std::size_t found,
                     std::int64_t expected) const;

@@ -3,13 +3,17 @@
 #include <limits>
 
 namespace foresight {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
 
 std::vector<CloudPoint> PointsInRobot(const RegisteredScan& cloud, const Scan& scan) {
   std::vector<CloudPoint> points;
   for (int line = 0; line < cloud.lines; ++line) {
     const auto row = static_cast<std::size_t>(line);
-    const double line_s =
-        row < scan.lines.size() ? scan.lines[row].time_s : std::numeric_limits<double>::quiet_NaN();
+    const double line_s = row < scan.lines.size() ? scan.lines[row].time_s : kNaN;
     for (int beam = 0; beam < cloud.beams; ++beam) {
       if (!cloud.Valid(line, beam)) continue;
       const std::size_t index = cloud.Index(line, beam);
@@ -22,7 +26,8 @@ std::vector<CloudPoint> PointsInRobot(const RegisteredScan& cloud, const Scan& s
       point.intensity = cloud.intensity[index];
       point.line = line;
       point.beam = beam;
-      point.time_s = line_s + scan.rig.lidar.BeamTime(beam);
+      point.time_s = scan.given.time_s.empty() ? line_s + scan.rig.lidar.BeamTime(beam)
+                                               : scan.given.time_s[index];
       points.push_back(point);
     }
   }

@@ -28,10 +28,11 @@ struct RegisteredScan {
   bool Valid(int line, int beam) const { return range_m[Index(line, beam)] > 0.0f; }
 };
 
-/// Places every return in base: the motor's angle is interpolated at each beam's own time, so a
-/// line taken while the plate turns is not bent. Returns outside the lidar's range or without a
-/// motor angle become NaN. Fails with kInvalidInput when a line has another number of beams than
-/// the rig's lidar, and with kTooFewPoints when no line has a return. O(points).
+/// Places every return in base (an imported scan's given cloud is there already): the motor's angle
+/// is interpolated at each beam's own time, so a line taken while the plate turns is not bent.
+/// Returns outside the lidar's range or without a motor angle become NaN. Fails with kInvalidInput
+/// when a line has another number of beams than the rig's lidar, and with kTooFewPoints when no
+/// line has a return; as GivenCloud::Check. O(points).
 Result<RegisteredScan> RegisterScan(const Scan& scan, const RunContext& context);
 
 }  // namespace foresight

@@ -203,6 +203,9 @@ RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
 
 Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
                           const RunContext& context) {
+  if (!scan.given.empty())
+    return Fail(ErrorCode::kInvalidInput,
+                "the scan was imported: it has no lidar lines that a rig could be checked with");
   FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(scan, context.Part(0.0, 0.1)));
   const auto plate = CheckPlate(scan, cloud, options.plate);
   const auto camera = CheckCamera(scan, cloud, options.camera, context.Part(0.2, 1.0));

@@ -41,6 +41,8 @@ std::int64_t BeginUtc_ns(const Scan& scan) {
     begin_s = scan.lines.front().time_s;
   else if (!scan.track.samples().empty())
     begin_s = scan.track.samples().front().time_s;
+  else
+    begin_s = scan.given.FirstTime_s();
   return scan.start_utc_ns + static_cast<std::int64_t>(1e9 * begin_s);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/shared_list.h"
 #include "core/sensor/camera_frame.h"
+#include "core/sensor/given_cloud.h"
 #include "core/sensor/lidar_line.h"
 #include "core/sensor/motor_track.h"
 #include "core/sensor/scan_plan.h"
@@ -33,6 +34,8 @@ struct Scan {
   SharedList<LidarLine> lines;
   MotorTrack track;
   SharedList<CameraFrame> frames;
+  /// Of a scan that was imported, which has no lines and no track; else empty.
+  GivenCloud given;
   ScanState state = ScanState::kRunning;
   std::string reason;  ///< why it did not complete
 };

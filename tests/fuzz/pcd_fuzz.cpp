@@ -8,7 +8,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace foresight;
   // LZF expands at most 132 times.
-  RequirePointsOrReason(DecodePcd({reinterpret_cast<const char*>(bytes), size}, "fuzz.pcd"),
-                        132 * size);
+  const std::string_view file(reinterpret_cast<const char*>(bytes), size);
+  const auto points = DecodePcd(file, "fuzz.pcd");
+  RequirePointsOrReason(points, 132 * size);
+  RequireSameTable(points, DecodePcdTable(file, "fuzz.pcd"));
   return 0;
 }

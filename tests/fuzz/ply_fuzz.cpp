@@ -7,6 +7,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace foresight;
-  RequirePointsOrReason(DecodePly({reinterpret_cast<const char*>(bytes), size}, "fuzz.ply"), size);
+  const std::string_view file(reinterpret_cast<const char*>(bytes), size);
+  const auto points = DecodePly(file, "fuzz.ply");
+  RequirePointsOrReason(points, size);
+  RequireSameTable(points, DecodePlyTable(file, "fuzz.ply"));
   return 0;
 }

@@ -79,6 +79,12 @@ std::string FloatRecords(const std::vector<CloudPoint>& points) {
   return bytes;
 }
 
+std::string TextPoints(const std::vector<CloudPoint>& points) {
+  std::string text = "# x y z\n";
+  for (const CloudPoint& p : points) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  return text;
+}
+
 std::string SamplesCsv() {
   std::string csv = "line,beam,u,v,depth_mm\n";
   for (int i = 0; i < 96; ++i)
@@ -277,11 +283,17 @@ class GoodFiles {
     FORESIGHT_CHECK(WritePcd(*this / "cloud.pcd", TablePoints(), CloudFields::kWithImage));
     FORESIGHT_CHECK(text("ascii.ply", AsciiPly(TablePoints())));
     FORESIGHT_CHECK(text("cloud.bin", FloatRecords(TablePoints())));
+    FORESIGHT_CHECK(text("points.xyz", TextPoints(TablePoints())));
     FORESIGHT_CHECK(WriteStereo());
     const ProgramResult scanned = RunProgram(
         ctl, {"scan", "--scene", kResources + "scenes/room.yaml", "--rig", *this / "rig.yaml",
               "--from", "-1", "--to", "1", "--speed", "40", "--out", *this / "mission.foresight"});
     if (scanned.exit_code != 0) return Fail(ErrorCode::kIo, "{}", scanned.errors);
+    FORESIGHT_CHECK(Make(ctl, {"mission", "export", *this / "mission.foresight", "-o",
+                               *this / "export", "--what", "ply,images,bag"}));
+    FORESIGHT_CHECK(text("calib.txt",
+                         "P2: 45 0 47.5 4 0 45 35.5 0 0 0 1 0\n"
+                         "Tr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\n"));
     FORESIGHT_CHECK(text("image.pgm", "P5\n96 72\n255\n" + std::string(kWidth * kHeight, 'x')));
     for (const std::string format : {"opencv", "ros", "kalibr", "colmap"})
       FORESIGHT_CHECK(Make(ctl, {"rig", "export", *this / "rig.yaml", "--format", format, "--out",
@@ -360,6 +372,29 @@ Command CalibrateWith(const GoodFiles& good, const std::string& file, const char
       };
 }
 
+/// `foresightctl mission import` of the file, with good ones beside it.
+Command MissionOf(std::vector<std::string> beside) {
+  return [beside = std::move(beside)](const std::string& path, const std::string& out) {
+    std::vector<std::string> arguments = {"mission", "import", path};
+    arguments.insert(arguments.end(), beside.begin(), beside.end());
+    arguments.insert(arguments.end(), {"--out", out + "/o.foresight", "--json"});
+    return arguments;
+  };
+}
+
+/// The exported scan with one of its files replaced.
+Command MissionOfExport(const GoodFiles& good, const std::string& file) {
+  return [scan = good / "export/scan-0001", file](const std::string& path, const std::string& out) {
+    const std::filesystem::path copy = std::filesystem::path(out) / "scan-0001";
+    std::filesystem::copy(scan, copy, std::filesystem::copy_options::recursive);
+    std::error_code not_there;  // a path that is nasty itself
+    std::filesystem::copy_file(path, copy / file, std::filesystem::copy_options::overwrite_existing,
+                               not_there);
+    return std::vector<std::string>{
+        "mission", "import", copy.string(), "--out", out + "/o.foresight", "--json"};
+  };
+}
+
 Command ImportAs(const char* format) {
   return [format](const std::string& path, const std::string& out) {
     return std::vector<std::string>{"rig",   "import",        path,    "--format", format,
@@ -435,6 +470,23 @@ Result<std::vector<Reader>> AllReaders(const std::string& folder, const std::str
       [](const std::string& path, const std::string& out) {
         return std::vector<std::string>{"cloud", path, "--out", out + "/o.ply", "--json"};
       });
+  add("PLY to import", "nasty.ply", false, good / "cloud.ply", WrongPly() + clouds, MissionOf({}));
+  add("PCD to import", "nasty.pcd", false, good / "cloud.pcd", WrongPcd(), MissionOf({}));
+  add("floats to import", "nasty.bin", false, good / "cloud.bin",
+      {Repeated(std::string(16, '\0'), 1000)}, MissionOf({good / "image.png", good / "calib.txt"}));
+  add("text of points to import", "nasty.xyz", true, good / "points.xyz",
+      {"1 2 3\n", "1 2\n", Repeated("1 2 3\n", 100'000), Repeated("9 ", 500'000)}, MissionOf({}));
+  add("calibration of KITTI", "nasty.txt", true, good / "calib.txt",
+      {"P2: nan\n", "P2:\n", "P2: " + Repeated("1 ", 100'000)},
+      MissionOf({good / "cloud.bin", good / "image.png"}));
+  add("image to import", "nasty.png", false, good / "image.png", WrongPng(),
+      MissionOf({good / "cloud.bin", good / "calib.txt"}));
+  add("bag", "nasty.bag", false, good / "export/mission.bag",
+      {"#ROSBAG V2.0\n", "#ROSBAG V1.2\n", "#ROSBAG V2.0\n" + Repeated("x", 10'000),
+       "#ROSBAG V2.0\n" + Repeated(std::string(4, '\xff'), 10'000)},
+      MissionOf({}));
+  add("record of an exported scan", "scan.json", true, good / "export/scan-0001/scan.json",
+      WrongJson(), MissionOfExport(good, "scan.json"));
   add("calibration of a stereo pair", "nasty.txt", true, good / "stereo/calib.txt", {},
       EvaluateWith(good, "calib.txt"));
   add("image of a stereo pair", "nasty.png", false, good / "stereo/im0.png", WrongPng(),

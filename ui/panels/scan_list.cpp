@@ -16,6 +16,14 @@ namespace {
 
 QString TextFor(const ScanSummary& scan) {
   const QDateTime begin = QDateTime::fromMSecsSinceEpoch(scan.begin_utc_ns / 1'000'000);
+  if (scan.imported) {
+    QString text = ScanList::tr("%1\n%2, %3 lines")
+                       .arg(begin.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")),
+                            QString::fromStdString(scan.source))
+                       .arg(scan.lines);
+    if (scan.objects > 0) text += ScanList::tr(", objects: %1").arg(scan.objects);
+    return text;
+  }
   QString text = ScanList::tr("%1\n%3° to %4°, %5 °/s, %6 lines\n%2")
                      .arg(begin.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")),
                           QString::fromUtf8(ToString(scan.state)))

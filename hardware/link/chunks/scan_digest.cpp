@@ -2,6 +2,8 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "core/base/sha256.h"
 #include "core/mission/plan_json.h"
@@ -57,6 +59,28 @@ void Add(Hasher& hash, const CameraFrame& frame) {
       .Array(frame.image.values());
 }
 
+/// NaN of whatever bits as the same one.
+void AddFloats(Hasher& hash, std::span<const float> values) {
+  std::vector<float> same(values.begin(), values.end());
+  for (float& value : same)
+    value = std::isnan(value) ? std::numeric_limits<float>::quiet_NaN() : value + 0.0f;
+  hash.Array(std::span<const float>(same));
+}
+
+void AddPlaces(Hasher& hash, std::span<const Eigen::Vector3f> places) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "a place is three floats");
+  AddFloats(hash, {reinterpret_cast<const float*>(places.data()), 3 * places.size()});
+}
+
+void Add(Hasher& hash, const GivenCloud& given) {
+  hash.Text("given cloud").Number(std::int64_t{given.lines}).Number(std::int64_t{given.beams});
+  AddPlaces(hash, given.points.span());
+  AddFloats(hash, given.intensity.span());
+  hash.Number(static_cast<std::int64_t>(given.time_s.size()));
+  for (const double time : given.time_s) hash.Number(time);
+  AddPlaces(hash, given.origins.span());
+}
+
 }  // namespace
 
 std::string ScanDigest(const Scan& scan) {
@@ -77,6 +101,7 @@ std::string ScanDigest(const Scan& scan) {
     hash.Number(sample.time_s).Number(sample.angle_rad);
   hash.Number(static_cast<std::int64_t>(scan.frames.size()));
   for (const CameraFrame& frame : scan.frames) Add(hash, frame);
+  if (!scan.given.empty()) Add(hash, scan.given);
   return hash.Hex();
 }
 

@@ -105,8 +105,8 @@ TEST_F(ExportMissionTest, EveryPartIsThereAndNothingIsLeftOver) {
     if (entry.is_regular_file())
       there.push_back(std::filesystem::relative(entry.path(), *folder_ / "out"));
   EXPECT_THAT(there, testing::UnorderedElementsAreArray(report_.files));
-  EXPECT_EQ(there.size(), 3u + 1u + 1u + 5u + 3u + 3u + 5u)
-      << "tables, bag, image, rig and cameras, clouds, surfaces, depth";
+  EXPECT_EQ(there.size(), 3u + 1u + 1u + 5u + 4u + 3u + 5u)
+      << "tables, bag, image, rig and cameras, clouds with scan.json, surfaces, depth";
 }
 
 TEST_F(ExportMissionTest, ExportingAgainGivesTheSameBytes) {
@@ -269,6 +269,7 @@ TEST_F(ExportMissionTest, RosReadsTheBag) {
   EXPECT_EQ(messages["/foresight/camera/image"], 1);
   EXPECT_EQ(messages["/foresight/camera/camera_info"], 1);
   EXPECT_EQ(messages["/foresight/objects/valve"], 1);
+  EXPECT_EQ(messages["/foresight/scan"], 1);
   EXPECT_EQ(messages["/tf_static"], 1);
   EXPECT_GT(messages["/tf"], 10);
 }

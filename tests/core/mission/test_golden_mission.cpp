@@ -113,5 +113,25 @@ TEST(GoldenMissionOfFormat1, EveryByteIsSound) {
   EXPECT_TRUE(Golden("format1.foresight")->Verify({}));
 }
 
+TEST(GoldenMissionOfFormat2, IsReadAsItIs) {
+  const auto mission = Golden("format2.foresight");
+  const std::vector<ScanSummary> scans = mission->ListScans().value();
+  ASSERT_EQ(scans.size(), 1u);
+  EXPECT_EQ(scans[0].uuid, "790897ad-ec7a-4c52-ac61-039855ce098b");
+  EXPECT_EQ(scans[0].begin_utc_ns, 1795559208283236705 + 1'425'000'000);
+  EXPECT_EQ(scans[0].lines, 9);
+  EXPECT_EQ(scans[0].images, 1);
+  EXPECT_FALSE(scans[0].imported);
+  EXPECT_FALSE(scans[0].thumbnail.empty());
+  const Scan scan = mission->LoadScan(1).value();
+  EXPECT_EQ(SumOfRanges(scan), 9932362);
+  EXPECT_TRUE(scan.given.empty());
+  ASSERT_EQ(mission->ListDepths()->size(), 1u);
+  EXPECT_EQ(mission->ListDepths()->at(0).digest,
+            "3e92b08a72dbafc1d8ee2d99caf2cc57c169dd8046f94dc90fd8007b81d0a21d");
+  EXPECT_EQ(mission->ListEvents()->size(), 1u);
+  EXPECT_TRUE(mission->Verify({}));
+}
+
 }  // namespace
 }  // namespace foresight

@@ -101,13 +101,14 @@ TEST_F(Migrations, AnExportOfAnOldFileIsAnOldFile) {
 }
 
 TEST_F(Migrations, ANewerFormatIsRefusedInWords) {
-  Execute("PRAGMA user_version = 3");
-  const std::string words =
-      "was written by a newer Foresight (mission format 3; this program reads up to 2): update "
-      "this program";
+  Execute("PRAGMA user_version = 99");
+  const std::string words = fmt::format(
+      "was written by a newer Foresight (mission format 99; this program reads up to {}): update "
+      "this program",
+      kMissionFormatVersion);
   EXPECT_THAT(MissionFile::OpenReadOnly(path_).error().message, HasSubstr(words));
   EXPECT_THAT(MissionFile::Open(path_).error().message, HasSubstr(words));
-  EXPECT_EQ(Format(), 3);
+  EXPECT_EQ(Format(), 99);
 }
 
 TEST_F(Migrations, ADamagedRowStopsTheMigrationAndTheFileStaysAsItWas) {
@@ -125,6 +126,35 @@ TEST_F(Migrations, TheTablesOfAnotherFormatAreNamed) {
   Execute("PRAGMA user_version = 2");
   EXPECT_THAT(MissionFile::OpenReadOnly(path_).error().message,
               HasSubstr("table 'detection' is not one of mission format 2"));
+}
+
+TEST(MigrationOfFormat2, AWriterAddsATableForImportedCloudsAndLosesNothing) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "old.foresight";
+  std::filesystem::copy_file(
+      std::filesystem::path(FORESIGHT_SOURCE_DIR) / "tests/core/mission/golden/format2.foresight",
+      path);
+  std::filesystem::permissions(path, std::filesystem::perms::owner_write,
+                               std::filesystem::perm_options::add);
+  const auto old = MissionFile::OpenReadOnly(path).value();
+  const Scan scan = old->LoadScan(1).value();
+  const auto depths = old->ListDepths().value();
+  const auto events = old->ListEvents().value();
+  ASSERT_TRUE(old->Close());
+  const auto mission = MissionFile::Open(path).value();
+  EXPECT_TRUE(SameButForTheRig(mission->LoadScan(1).value(), scan));
+  EXPECT_EQ(mission->ListDepths().value(), depths);
+  EXPECT_EQ(mission->ListEvents().value(), events);
+  EXPECT_TRUE(mission->Verify({}));
+  GivenCloud cloud;
+  cloud.lines = cloud.beams = 1;
+  cloud.points.push_back({1.0f, 2.0f, 3.0f});
+  cloud.origins.push_back(Eigen::Vector3f::Zero());
+  Scan imported = SampleScan(4);
+  const std::int64_t id = mission->BeginScan(imported).value();
+  EXPECT_TRUE(mission->SetGivenCloud(id, cloud));
+  EXPECT_TRUE(mission->EndScan(id, ScanState::kComplete, ""));
+  EXPECT_TRUE(mission->LoadScan(id)->given == cloud);
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ TEST_F(MissionDamage, AnotherProgramsDatabaseIsNotAMission) {
 }
 
 TEST_F(MissionDamage, ANewerFormatIsRefusedAndLeftAsItIs) {
-  Execute("PRAGMA user_version = 3");
+  Execute("PRAGMA user_version = 99");
   const std::string before = ReadFile(folder_ / "good.mission").value();
   const auto opened = MissionFile::Open(folder_ / "good.mission");
   ASSERT_FALSE(opened);

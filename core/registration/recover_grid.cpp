@@ -1,0 +1,377 @@
+#include "core/registration/recover_grid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "core/geometry/symmetric_eigen.h"
+#include "core/sensor/given_cloud.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+/// A grid may have so many places a point; one with more was recovered from noise.
+constexpr std::size_t kMostPlacesAPoint = 16;
+constexpr std::size_t kPlacesToSpare = 100'000;
+
+/// A direction that was measured, with the number of its point.
+struct Sight {
+  std::size_t point = 0;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+};
+
+/// Sights of one line, with the angle of each within the line.
+struct Line {
+  std::vector<Sight> sights;
+  std::vector<double> angle_rad;
+};
+
+std::vector<Sight> SightsOf(std::span<const Eigen::Vector3d> points,
+                            const Eigen::Vector3d& viewpoint) {
+  constexpr double kNearest_m = 1e-6;
+  std::vector<Sight> sights;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d ray = points[i] - viewpoint;
+    const double range = ray.norm();
+    if (std::isfinite(range) && range > kNearest_m) sights.push_back({i, ray / range});
+  }
+  return sights;
+}
+
+double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return 2.0 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double Azimuth(const Eigen::Vector3d& direction) {
+  return std::atan2(direction.y(), direction.x());
+}
+
+/// In (-pi, pi].
+double Wrapped(double angle_rad) {
+  return std::remainder(angle_rad, kTurn_rad);
+}
+
+GridPlaces NoPlaces(std::size_t points) {
+  GridPlaces places;
+  places.line.assign(points, -1);
+  places.beam.assign(points, -1);
+  return places;
+}
+
+/// Every second place of every second line: no two points are neighbours.
+GridPlaces Scatter(std::size_t points, const std::vector<Sight>& sights) {
+  GridPlaces places = NoPlaces(points);
+  const auto row = static_cast<std::size_t>(
+      std::clamp(std::ceil(std::sqrt(static_cast<double>(sights.size()))), 1.0, 10'000.0));
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    places.line[sights[i].point] = static_cast<std::int32_t>(2 * (i / row));
+    places.beam[sights[i].point] = static_cast<std::int32_t>(2 * (i % row));
+  }
+  places.beams = static_cast<int>(2 * row);
+  places.lines = static_cast<int>(2 * ((sights.size() + row - 1) / row));
+  return places;
+}
+
+/// The usual angle from a beam to the next one: the mean of the steps that are no gaps.
+double StepOf(const std::vector<Line>& lines) {
+  std::vector<double> steps;
+  for (const Line& line : lines)
+    for (std::size_t i = 1; i < line.angle_rad.size(); ++i)
+      if (const double step = line.angle_rad[i] - line.angle_rad[i - 1]; step > 0.0)
+        steps.push_back(step);
+  const double usual = Median(steps);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const double step : steps) {
+    if (step > 1.5 * usual) continue;
+    sum += step;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+/// Gives each sight of the lines a beam: by its angle, and never two the same.
+std::optional<GridPlaces> PlaceOnBeams(std::vector<Line>& lines, std::size_t points,
+                                       std::size_t sights) {
+  GridPlaces places = NoPlaces(points);
+  double first = std::numeric_limits<double>::infinity();
+  for (Line& line : lines) {
+    std::vector<std::size_t> order(line.sights.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&line](std::size_t a, std::size_t b) {
+      return line.angle_rad[a] < line.angle_rad[b];
+    });
+    Line sorted;
+    for (const std::size_t i : order) {
+      sorted.sights.push_back(line.sights[i]);
+      sorted.angle_rad.push_back(line.angle_rad[i]);
+    }
+    line = std::move(sorted);
+    if (!line.angle_rad.empty()) first = std::min(first, line.angle_rad.front());
+  }
+  places.step_rad = StepOf(lines);
+  if (!(places.step_rad > 1e-6)) return std::nullopt;
+  std::int64_t most = 0;
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    std::int64_t last = -1;
+    for (std::size_t i = 0; i < lines[row].sights.size(); ++i) {
+      const auto at = std::llround((lines[row].angle_rad[i] - first) / places.step_rad);
+      last = std::max<std::int64_t>(at, last + 1);
+      places.line[lines[row].sights[i].point] = static_cast<std::int32_t>(row);
+      places.beam[lines[row].sights[i].point] = static_cast<std::int32_t>(last);
+      if (last >= GivenCloud::kMostBeams) return std::nullopt;
+    }
+    most = std::max(most, last);
+  }
+  places.lines = static_cast<int>(lines.size());
+  places.beams = static_cast<int>(most + 1);
+  const std::size_t cells = lines.size() * static_cast<std::size_t>(places.beams);
+  if (cells > kMostPlacesAPoint * sights + kPlacesToSpare) return std::nullopt;
+  return places;
+}
+
+/// Turns of a spinning lidar whose lasers stand one after the other in the file.
+std::optional<std::vector<Line>> SplitTurns(const std::vector<Sight>& sights) {
+  constexpr double kOneWay = 0.98;  ///< of the steps
+  constexpr double kLeastTurns = 1.5;
+  std::vector<double> azimuth;  // unwrapped
+  std::size_t forward = 0, backward = 0;
+  for (const Sight& sight : sights) {
+    const double now = Azimuth(sight.direction);
+    if (azimuth.empty()) {
+      azimuth.push_back(now);
+      continue;
+    }
+    const double step = Wrapped(now - azimuth.back());
+    if (step > 0.0) ++forward;
+    if (step < 0.0) ++backward;
+    azimuth.push_back(azimuth.back() + step);
+  }
+  const double turns = std::abs(azimuth.back() - azimuth.front()) / kTurn_rad;
+  const auto steps = static_cast<double>(forward + backward);
+  if (turns < kLeastTurns || static_cast<double>(std::max(forward, backward)) < kOneWay * steps)
+    return std::nullopt;
+  if (backward > forward)
+    for (double& angle : azimuth) angle = -angle;
+  // A turn begins where the file goes on to the next laser: there the elevation jumps.
+  const auto jump_of = [&](double begin) {
+    double jump = 0.0;
+    for (std::size_t i = 1; i < sights.size(); ++i)
+      if (std::floor((azimuth[i] - begin) / kTurn_rad) !=
+          std::floor((azimuth[i - 1] - begin) / kTurn_rad))
+        jump += std::abs(sights[i].direction.z() - sights[i - 1].direction.z());
+    return jump;
+  };
+  double begin = azimuth.front() - 1e-9;
+  for (const double other : {0.0, std::numbers::pi})
+    if (jump_of(other) > jump_of(begin)) begin = other;
+  std::vector<Line> lines;
+  double turn = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    const double now = std::floor((azimuth[i] - begin) / kTurn_rad);
+    if (now != turn) lines.emplace_back();
+    turn = now;
+    lines.back().sights.push_back(sights[i]);
+    lines.back().angle_rad.push_back(azimuth[i] - begin - turn * kTurn_rad);
+  }
+  return lines;
+}
+
+/// Lines that each begin where the one before began: cut where the direction goes back.
+std::vector<std::vector<Sight>> CutWhereItGoesBack(const std::vector<Sight>& sights) {
+  constexpr double kLeastReturn_rad = 0.1;
+  constexpr double kReturnPerStep = 8.0;
+  constexpr double kNearBegin = 0.3;  ///< of the way back
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < sights.size(); ++i)
+    steps.push_back(AngleBetween(sights[i - 1].direction, sights[i].direction));
+  const double least = std::max(kLeastReturn_rad, kReturnPerStep * Median(steps));
+  std::vector<std::vector<Sight>> lines(1);
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    if (i > 0 && steps[i - 1] > least &&
+        AngleBetween(sights[i].direction, lines.back().front().direction) <
+            kNearBegin * steps[i - 1])
+      lines.emplace_back();
+    lines.back().push_back(sights[i]);
+  }
+  return lines;
+}
+
+/// The plane that a line's directions lie in, turned the way they go; nullopt where they do not
+/// say.
+std::optional<Eigen::Vector3d> NormalOf(const std::vector<Sight>& line) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i < line.size(); ++i)
+    normal += line[i - 1].direction.cross(line[i].direction);
+  if (!(normal.norm() > 1e-6)) return std::nullopt;
+  return normal.normalized();
+}
+
+/// The axis that a scanner turns its plane about: it lies in all of them.
+Eigen::Vector3d AxisOf(const std::vector<std::optional<Eigen::Vector3d>>& normals,
+                       const Eigen::Vector3d& ahead) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const auto& normal : normals)
+    if (normal) sum += *normal * normal->transpose();
+  const auto eigen = EigenOf(sum);
+  const Eigen::Vector3d axis = eigen.vectors.col(0);
+  constexpr double kSamePlane = 1e-4;
+  // All lines in one plane: any direction in it will do.
+  if (eigen.values[1] < kSamePlane * eigen.values[2]) return ahead;
+  return axis.dot(ahead) < 0.0 ? Eigen::Vector3d(-axis) : axis;
+}
+
+std::optional<std::vector<Line>> SplitSweeps(const std::vector<Sight>& sights) {
+  constexpr std::size_t kLeastLines = 2;
+  constexpr std::size_t kLeastPoints = 4;  ///< of the usual line
+  const std::vector<std::vector<Sight>> cut = CutWhereItGoesBack(sights);
+  if (cut.size() < kLeastLines || sights.size() < kLeastPoints * cut.size()) return std::nullopt;
+  std::vector<std::optional<Eigen::Vector3d>> normals;
+  for (const std::vector<Sight>& line : cut) normals.push_back(NormalOf(line));
+  const Eigen::Vector3d axis = AxisOf(normals, sights.front().direction);
+  std::vector<Line> lines;
+  std::size_t ordered = 0;
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    Line line{cut[i], {}};
+    const Eigen::Vector3d normal =
+        normals[i].value_or(axis.unitOrthogonal());  // of a single point: any plane
+    const Eigen::Vector3d across = normal.cross(axis).normalized();
+    double last = -std::numbers::pi;
+    for (const Sight& sight : line.sights) {
+      // Continued from the point before, so that a fan may be wider than half a turn.
+      const double angle = std::atan2(sight.direction.dot(across), sight.direction.dot(axis));
+      const double now = line.angle_rad.empty() ? angle : last + Wrapped(angle - last);
+      if (now >= last) ++ordered;
+      line.angle_rad.push_back(now);
+      last = now;
+    }
+    lines.push_back(std::move(line));
+  }
+  constexpr double kInOrder = 0.95;
+  if (static_cast<double>(ordered) < kInOrder * static_cast<double>(sights.size()))
+    return std::nullopt;
+  return lines;
+}
+
+std::vector<Line> SplitRings(const std::vector<Sight>& sights,
+                             std::span<const std::int32_t> rings) {
+  std::vector<Line> lines;
+  for (const Sight& sight : sights) {
+    const auto ring = static_cast<std::size_t>(rings[sight.point]);
+    if (ring >= lines.size()) lines.resize(ring + 1);
+    lines[ring].sights.push_back(sight);
+    lines[ring].angle_rad.push_back(Azimuth(sight.direction));
+  }
+  return lines;
+}
+
+bool AreRings(const std::vector<Sight>& sights, std::span<const std::int32_t> rings,
+              std::size_t points) {
+  constexpr std::int32_t kMostRings = 1024;
+  return rings.size() == points && !sights.empty() &&
+         std::all_of(sights.begin(), sights.end(), [&](const Sight& sight) {
+           return rings[sight.point] >= 0 && rings[sight.point] < kMostRings;
+         });
+}
+
+/// How far neighbouring directions of a line are apart, of a grid that the file itself has.
+double StepBetween(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& viewpoint,
+                   const GridPlaces& places) {
+  std::vector<double> steps;
+  constexpr std::size_t kEnough = 100'000;
+  for (std::size_t i = 1; i < points.size() && steps.size() < kEnough; ++i) {
+    if (places.line[i] < 0 || places.line[i] != places.line[i - 1] ||
+        places.beam[i] != places.beam[i - 1] + 1)
+      continue;
+    steps.push_back(AngleBetween((points[i - 1] - viewpoint).normalized(),
+                                 (points[i] - viewpoint).normalized()));
+  }
+  return Median(steps);
+}
+
+}  // namespace
+
+GridPlaces RecoverGrid(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& viewpoint,
+                       std::span<const std::int32_t> rings) {
+  const std::vector<Sight> sights = SightsOf(points, viewpoint);
+  constexpr std::size_t kLeast = 16;
+  if (sights.size() < kLeast) return Scatter(points.size(), sights);
+  const auto with = [&](std::vector<Line> lines, GridPlaces::Kind kind) {
+    auto places = PlaceOnBeams(lines, points.size(), sights.size());
+    if (places) places->kind = kind;
+    return places;
+  };
+  if (AreRings(sights, rings, points.size()))
+    if (auto places = with(SplitRings(sights, rings), GridPlaces::Kind::kRings)) return *places;
+  if (auto turns = SplitTurns(sights))
+    if (auto places = with(std::move(*turns), GridPlaces::Kind::kRings)) return *places;
+  if (auto sweeps = SplitSweeps(sights))
+    if (auto places = with(std::move(*sweeps), GridPlaces::Kind::kSweeps)) return *places;
+  return Scatter(points.size(), sights);
+}
+
+GridPlaces GridOfRows(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& viewpoint,
+                      std::size_t width) {
+  GridPlaces places = NoPlaces(points.size());
+  places.kind = GridPlaces::Kind::kSweeps;
+  places.beams = static_cast<int>(width);
+  places.lines = static_cast<int>(points.size() / width);
+  for (const Sight& sight : SightsOf(points, viewpoint)) {
+    places.line[sight.point] = static_cast<std::int32_t>(sight.point / width);
+    places.beam[sight.point] = static_cast<std::int32_t>(sight.point % width);
+  }
+  places.step_rad = StepBetween(points, viewpoint, places);
+  return places;
+}
+
+Result<GridPlaces> GridOfNumbers(std::span<const Eigen::Vector3d> points,
+                                 const Eigen::Vector3d& viewpoint,
+                                 std::span<const std::int32_t> line,
+                                 std::span<const std::int32_t> beam) {
+  GridPlaces places = NoPlaces(points.size());
+  places.kind = GridPlaces::Kind::kSweeps;
+  const std::vector<Sight> sights = SightsOf(points, viewpoint);
+  std::int64_t lines = 0, beams = 0;
+  for (const Sight& sight : sights) {
+    if (line[sight.point] < 0 || beam[sight.point] < 0)
+      return Fail(ErrorCode::kBadData, "point {}: its line or beam is no number of a grid",
+                  sight.point);
+    lines = std::max<std::int64_t>(lines, line[sight.point] + std::int64_t{1});
+    beams = std::max<std::int64_t>(beams, beam[sight.point] + std::int64_t{1});
+  }
+  const double cells = static_cast<double>(lines) * static_cast<double>(beams);
+  if (lines > GivenCloud::kMostLines || beams > GivenCloud::kMostBeams ||
+      cells > static_cast<double>(GivenCloud::kMostCells) ||
+      cells > 100.0 * static_cast<double>(sights.size()) + 1e7)
+    return Fail(ErrorCode::kBadData, "{} lines of {} beams for {} points", lines, beams,
+                sights.size());
+  places.lines = static_cast<int>(lines);
+  places.beams = static_cast<int>(beams);
+  std::vector<bool> taken(static_cast<std::size_t>(cells), false);
+  for (const Sight& sight : sights) {
+    const std::size_t place =
+        static_cast<std::size_t>(line[sight.point]) * static_cast<std::size_t>(beams) +
+        static_cast<std::size_t>(beam[sight.point]);
+    if (taken[place])
+      return Fail(ErrorCode::kBadData, "point {}: line {}, beam {} is there twice", sight.point,
+                  line[sight.point], beam[sight.point]);
+    taken[place] = true;
+    places.line[sight.point] = line[sight.point];
+    places.beam[sight.point] = beam[sight.point];
+  }
+  places.step_rad = StepBetween(points, viewpoint, places);
+  return places;
+}
+
+}  // namespace foresight
