@@ -66,9 +66,16 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->expected(3)
       ->delimiter(',')
       ->group(kGroup);
-  command.add_option("--up", arguments.up, "With --cloud: which way is up, x,y,z")
+  command
+      .add_option("--up", arguments.up,
+                  "With --cloud: which way is up in its frame, x,y,z; default: z is up")
       ->expected(3)
       ->delimiter(',')
+      ->group(kGroup);
+  command
+      .add_option("--noise-mm", arguments.noise_mm,
+                  "With --cloud: standard deviation of its ranges; default: measured in the region")
+      ->check(CLI::Range(0.1, 200.0))
       ->group(kGroup);
   command
       .add_option("--rig", arguments.rig,
@@ -126,7 +133,8 @@ Status RefuseDepthOptions(const FitArguments& a, const char* why) {
 }
 
 Status CheckForScan(const FitArguments& a) {
-  FORESIGHT_CHECK(RefuseGiven(a, {"--viewpoint", "--up"}, "goes with --cloud, not with a mission"));
+  FORESIGHT_CHECK(RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm"},
+                              "goes with --cloud, not with a mission"));
   FORESIGHT_CHECK(RefuseGiven(a, {"--density"}, "goes with --depth, not with a mission"));
   FORESIGHT_CHECK(
       RefuseGiven(a, {"--rig"}, "is not for a mission: its scans have their own calibration"));
@@ -147,7 +155,8 @@ Status CheckForHead(const FitArguments& a) {
 Status CheckForDepthMap(const FitArguments& a) {
   FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --depth"));
   FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission: the map of --depth is made already"));
-  return RefuseGiven(a, {"--viewpoint", "--up"}, "goes with --cloud, not with --depth");
+  return RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm"},
+                     "goes with --cloud, not with --depth");
 }
 
 Status CheckForCloud(const FitArguments& a) {
@@ -212,13 +221,14 @@ Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
   return roi;
 }
 
+Eigen::Vector3d UpOf(const FitArguments& arguments) {
+  if (arguments.cloud_file.empty() || !arguments.rig.empty()) return Eigen::Vector3d::UnitZ();
+  return Eigen::Vector3d(arguments.up.data()).normalized();
+}
+
 Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
                                   const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  // The frame of a cloud without --rig need not have z up.
-  const Eigen::Vector3d up = arguments.cloud_file.empty() || !arguments.rig.empty()
-                                 ? Eigen::Vector3d::UnitZ()
-                                 : Eigen::Vector3d(arguments.up.data()).normalized();
-  FitOptions options = FitOptionsFor(arguments.kind, robot_from_base, up);
+  FitOptions options = FitOptionsFor(arguments.kind, robot_from_base, UpOf(arguments));
   FORESIGHT_CHECK(ApplyFlags(FitOptionTable(arguments.kind), arguments.given,
                              fmt::format("a {}'s fit", ToString(arguments.kind)), options));
   const Status sound = std::visit([](const auto& held) { return held.Check(); }, options);

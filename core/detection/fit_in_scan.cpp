@@ -91,6 +91,14 @@ Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig&
                        box_rays);
 }
 
+Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPlaces& places,
+                           const Eigen::Vector3d& viewpoint, const SensorRig& rig, const Roi& roi,
+                           std::optional<double> sigma_m, BoxRays box_rays) {
+  auto rays = RaysFromCloud(points, viewpoint, &rig, roi, sigma_m.value_or(kRangeSigma_m), box_rays,
+                            &places);
+  return sigma_m || !rays ? std::move(rays) : std::move(rays).transform(WithOwnSigma);
+}
+
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
                             const RunContext& context) {
   if (const auto* drill = std::get_if<FitDrillOptions>(&options))

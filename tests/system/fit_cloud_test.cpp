@@ -131,5 +131,27 @@ TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
   }
 }
 
+TEST_F(FitOfACloud, HasTheNoiseAndTheVerdictOfItsMission) {
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-15", "--to", "15", "--out",
+                 mission_})
+                .exit_code,
+            0);
+  ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
+  const std::string box = "--box=1.5,0.031,1.380,0.3,0.6,0.6";
+  const auto of = [&](const std::vector<std::string>& subject) {
+    std::vector<std::string> arguments = {"fit", "valve", box, "--json"};
+    arguments.insert(arguments.end(), subject.begin(), subject.end());
+    return nlohmann::json::parse(Ctl(arguments).output);
+  };
+  const auto mission = of({mission_});
+  const auto cloud = of({"--cloud", cloud_, "--viewpoint", Numbers(head_)});
+  ASSERT_TRUE(mission.contains("best") && cloud.contains("best"));
+  EXPECT_EQ(mission["verdict"], "CONFIRMED") << mission["reason"];
+  EXPECT_EQ(cloud["verdict"], mission["verdict"]) << cloud["reason"];
+  // Ten times the noise that the cloud has: who says it is believed.
+  const auto noisy = of({"--cloud", cloud_, "--viewpoint", Numbers(head_), "--noise-mm", "60"});
+  EXPECT_NE(noisy.dump(), cloud.dump());
+}
+
 }  // namespace
 }  // namespace foresight
