@@ -58,7 +58,8 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->group(kGroup);
   command
       .add_option("--cloud", arguments.cloud_file,
-                  "Point cloud, in metres: PLY, PCD, or .bin of four floats a point")
+                  "Point cloud, in metres: PLY, PCD, .bin of four floats a point, or text. Regions and "
+                  "robot_from_object of the answer are in the cloud's own frame")
       ->group(kGroup);
   command
       .add_option("--viewpoint", arguments.viewpoint,
@@ -94,9 +95,9 @@ std::vector<std::string> SourceNames() {
 void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
   arguments.command = &command;
   AddScanArguments(command, arguments.scan, NeedMission::kNo);
-  AddDepthArguments(command, arguments.depth);
   AddRegionArguments(command, arguments.region);
   AddSourceArguments(command, arguments);
+  AddDepthArguments(command, arguments.depth);
   command.add_flag("--json", arguments.json, "Print the answer as JSON");
   command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
 }
