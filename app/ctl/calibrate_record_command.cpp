@@ -161,7 +161,7 @@ Result<SessionFolder> OpenFolder(const RecordArguments& arguments, const Recordi
   return SessionFolder::Create(arguments.folder, setup);
 }
 
-struct Tally {
+struct RecordTally {
   int poses = 0;
   int stops = 0;
   int images = 0;
@@ -172,7 +172,7 @@ struct Tally {
 
 /// Captures what belongs to the boards that stand there.
 Status RecordHere(const PoseRecording& pose, bool view, RecordingBench& bench,
-                  SessionFolder& folder, Tally& tally, const RunContext& context) {
+                  SessionFolder& folder, RecordTally& tally, const RunContext& context) {
   if (view) {
     StopPlan stop = pose.stops;
     stop.angles_rad = {0.0};
@@ -199,7 +199,7 @@ Status RecordHere(const PoseRecording& pose, bool view, RecordingBench& bench,
 
 /// The scene's stand goes to its places by itself; a real one stands where somebody put it.
 Status RecordAll(const RecordArguments& arguments, PoseRecording pose, RecordingBench& bench,
-                 SessionFolder& folder, Tally& tally, const RunContext& context) {
+                 SessionFolder& folder, RecordTally& tally, const RunContext& context) {
   if (!bench.world) {
     pose.name = arguments.place_name;
     return RecordHere(pose, arguments.view, bench, folder, tally, context);
@@ -223,7 +223,7 @@ Status RecordAll(const RecordArguments& arguments, PoseRecording pose, Recording
   return {};
 }
 
-void PrintTally(const RecordArguments& arguments, const Tally& tally) {
+void PrintTally(const RecordArguments& arguments, const RecordTally& tally) {
   if (arguments.json)
     PrintJson({{"session", arguments.folder},
                {"poses", tally.poses},
@@ -245,7 +245,7 @@ Result<ExitCode> Record(const RecordArguments& arguments, const RunContext& cont
   FORESIGHT_TRY(const PoseRecording pose, PoseFrom(arguments, bench));
   FORESIGHT_TRY(SessionFolder folder, OpenFolder(arguments, bench));
   FORESIGHT_CHECK(HomeAndWait(*bench.head, context));
-  Tally tally;
+  RecordTally tally;
   const Status recorded = RecordAll(arguments, pose, bench, folder, tally, context);
   PrintTally(arguments, tally);
   std::error_code not_there_or_not_empty;

@@ -17,13 +17,13 @@ struct EvaluateBoardsArguments {
 };
 
 /// What became of the boards of all images.
-struct Tally {
+struct BoardTally {
   int whole = 0, right = 0, wrong = 0;
   int missed = 0;  ///< whole and not found
 };
 
-Tally TallyOf(const BoardSearchTrial& trial) {
-  Tally tally;
+BoardTally TallyOf(const BoardSearchTrial& trial) {
+  BoardTally tally;
   for (const BoardSearchOutcome& board : trial.boards) {
     tally.whole += board.whole ? 1 : 0;
     tally.right += board.Right() ? 1 : 0;
@@ -38,7 +38,7 @@ void Print(const EvaluateBoardsArguments& arguments, const BoardSearchTrial& tri
     if (board.Wrong())
       PrintLine(fmt::format("{}: board {} is wrong, a corner is {:.1f} px off", board.image,
                             board.board, board.worst_px));
-  const Tally tally = TallyOf(trial);
+  const BoardTally tally = TallyOf(trial);
   PrintLine(fmt::format(
       "{}: {} boards right, {} wrong; {} whole in the image, {} of them not "
       "found; {:.1f} s",
@@ -46,7 +46,7 @@ void Print(const EvaluateBoardsArguments& arguments, const BoardSearchTrial& tri
 }
 
 void PrintAsJson(const BoardSearchTrial& trial) {
-  const Tally tally = TallyOf(trial);
+  const BoardTally tally = TallyOf(trial);
   nlohmann::ordered_json json = {
       {"right", tally.right},      {"wrong", tally.wrong},
       {"whole", tally.whole},      {"missed", tally.missed},

@@ -54,7 +54,7 @@ std::string BestFinding(const std::string& damage) {
 }
 
 /// What became of all checks of one damage.
-struct Tally {
+struct CheckTally {
   int scans = 0;
   int alarms = 0;    ///< anything drifted
   int named = 0;     ///< among it the direction that was damaged
@@ -62,8 +62,8 @@ struct Tally {
   double seconds = 0.0;
 };
 
-Tally TallyOf(const std::vector<CheckOutcome>& outcomes, const std::string& damage) {
-  Tally tally;
+CheckTally TallyOf(const std::vector<CheckOutcome>& outcomes, const std::string& damage) {
+  CheckTally tally;
   for (const CheckOutcome& outcome : outcomes) {
     if (outcome.damage != damage) continue;
     ++tally.scans;
@@ -82,7 +82,7 @@ void Print(const std::vector<CheckOutcome>& outcomes, const std::vector<RigDamag
   PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>8}{:>10}{:>8}", "damage", "scans", "alarms", "named",
                         "not seen", "s each"));
   for (const RigDamage& damage : damages) {
-    const Tally t = TallyOf(outcomes, damage.name);
+    const CheckTally t = TallyOf(outcomes, damage.name);
     PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>8}{:>10}{:>8.1f}", damage.name, t.scans, t.alarms,
                           t.named, t.not_seen, t.seconds / std::max(1, t.scans)));
   }

@@ -25,6 +25,8 @@ std::string FileName(std::string name) {
   return name;
 }
 
+}  // namespace
+
 /// Whole factors that bring an image to a size that is good to look at: wide enough for a legend,
 /// small enough for a page with many.
 struct PictureScale {
@@ -44,6 +46,8 @@ struct PictureScale {
   double SourcePlace(double place) const { return (place + 0.5) / grow * shrink - 0.5; }
   double Place(double source) const { return (source + 0.5) / shrink * grow - 0.5; }
 };
+
+namespace {
 
 template <class T>
 Image<T> Resampled(const Image<T>& image, const PictureScale& scale) {
@@ -92,7 +96,7 @@ PictureLegend SamplesLegend(const MethodScore& score, const AlignedSamples& samp
   return legend;
 }
 
-std::vector<std::string> TableRow(const MethodScore& s) {
+std::vector<std::string> ReportRow(const MethodScore& s) {
   const auto number = [](double value, int decimals) {
     return std::isnan(value) ? std::string("-") : fmt::format("{:.{}f}", value, decimals);
   };
@@ -188,7 +192,7 @@ Status EvaluationPictures::AddMethod(const EvaluatedDepth& evaluated, const Scen
                 Write(sparse, name + "-samples",
                       fmt::format("{} samples, {} rejected", score.samples, score.rejected)));
   page_.sections.back().columns.push_back(column);
-  page_.rows.push_back(TableRow(score));
+  page_.rows.push_back(ReportRow(score));
   return {};
 }
 

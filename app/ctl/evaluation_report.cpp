@@ -32,7 +32,7 @@ nlohmann::ordered_json ToJson(const EvaluationRow& row) {
   return json;
 }
 
-std::string TableRow(const MethodScore& s) {
+std::string PrintedRow(const MethodScore& s) {
   return fmt::format(
       "{:<16} {:<10} {:>8.1f} {:>8.1f} {:>6.3f} {:>6.3f}   {:>8.1f} {:>8.1f} {:>6.3f}   {:>7.2f}",
       s.scene, s.method, s.with_mask.a80_mm, s.with_mask.a95_mm, s.with_mask.coverage,
@@ -53,7 +53,7 @@ void PrintEvaluation(const std::vector<EvaluationRow>& rows, bool as_json) {
   PrintLine(fmt::format("{:<16} {:<10} {:>8} {:>8} {:>6} {:>6}   {:>8} {:>8} {:>6}   {:>7}",
                         "scene", "method", "A80 mm", "A95 mm", "cover", "holes", "A80 mm", "A95 mm",
                         "cover", "seconds"));
-  for (const EvaluationRow& row : rows) PrintLine(TableRow(row.score));
+  for (const EvaluationRow& row : rows) PrintLine(PrintedRow(row.score));
   const auto simulated = std::find_if(rows.begin(), rows.end(), [](const EvaluationRow& row) {
     return row.calibration_error.has_value();
   });

@@ -58,7 +58,8 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->group(kGroup);
   command
       .add_option("--cloud", arguments.cloud_file,
-                  "Point cloud, in metres: PLY, PCD, or .bin of four floats a point")
+                  "Point cloud, in metres: PLY, PCD, .bin of four floats a point, or text. Regions and "
+                  "robot_from_object of the answer are in the cloud's own frame")
       ->group(kGroup);
   command
       .add_option("--viewpoint", arguments.viewpoint,
@@ -66,9 +67,16 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->expected(3)
       ->delimiter(',')
       ->group(kGroup);
-  command.add_option("--up", arguments.up, "With --cloud: which way is up, x,y,z")
+  command
+      .add_option("--up", arguments.up,
+                  "With --cloud: which way is up in its frame, x,y,z; default: z is up")
       ->expected(3)
       ->delimiter(',')
+      ->group(kGroup);
+  command
+      .add_option("--noise-mm", arguments.noise_mm,
+                  "With --cloud: standard deviation of its ranges; default: measured in the region")
+      ->check(CLI::Range(0.1, 200.0))
       ->group(kGroup);
   command
       .add_option("--rig", arguments.rig,
@@ -87,9 +95,9 @@ std::vector<std::string> SourceNames() {
 void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
   arguments.command = &command;
   AddScanArguments(command, arguments.scan, NeedMission::kNo);
-  AddDepthArguments(command, arguments.depth);
   AddRegionArguments(command, arguments.region);
   AddSourceArguments(command, arguments);
+  AddDepthArguments(command, arguments.depth);
   command.add_flag("--json", arguments.json, "Print the answer as JSON");
   command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
 }
@@ -126,7 +134,8 @@ Status RefuseDepthOptions(const FitArguments& a, const char* why) {
 }
 
 Status CheckForScan(const FitArguments& a) {
-  FORESIGHT_CHECK(RefuseGiven(a, {"--viewpoint", "--up"}, "goes with --cloud, not with a mission"));
+  FORESIGHT_CHECK(RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm"},
+                              "goes with --cloud, not with a mission"));
   FORESIGHT_CHECK(RefuseGiven(a, {"--density"}, "goes with --depth, not with a mission"));
   FORESIGHT_CHECK(
       RefuseGiven(a, {"--rig"}, "is not for a mission: its scans have their own calibration"));
@@ -147,7 +156,8 @@ Status CheckForHead(const FitArguments& a) {
 Status CheckForDepthMap(const FitArguments& a) {
   FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --depth"));
   FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission: the map of --depth is made already"));
-  return RefuseGiven(a, {"--viewpoint", "--up"}, "goes with --cloud, not with --depth");
+  return RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm"},
+                     "goes with --cloud, not with --depth");
 }
 
 Status CheckForCloud(const FitArguments& a) {
@@ -212,9 +222,14 @@ Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
   return roi;
 }
 
+Eigen::Vector3d UpOf(const FitArguments& arguments) {
+  if (arguments.cloud_file.empty() || !arguments.rig.empty()) return Eigen::Vector3d::UnitZ();
+  return Eigen::Vector3d(arguments.up.data()).normalized();
+}
+
 Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,
                                   const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  FitOptions options = FitOptionsFor(arguments.kind, robot_from_base);
+  FitOptions options = FitOptionsFor(arguments.kind, robot_from_base, UpOf(arguments));
   FORESIGHT_CHECK(ApplyFlags(FitOptionTable(arguments.kind), arguments.given,
                              fmt::format("a {}'s fit", ToString(arguments.kind)), options));
   const Status sound = std::visit([](const auto& held) { return held.Check(); }, options);

@@ -33,6 +33,7 @@ struct FitArguments {
   std::string cloud_file;  ///< instead of a mission, with `viewpoint`
   std::vector<double> viewpoint;
   std::vector<double> up = {0.0, 0.0, 1.0};
+  double noise_mm = 0.0;  ///< deviation of a cloud's ranges; 0 = measured in the region
   std::string rig;
 
   LinkArguments link;     ///< the head makes the fit, in a scan that it has
@@ -54,6 +55,10 @@ void AddFitArguments(CLI::App& command, FitArguments& arguments);
 
 /// Options that contradict each other or lack one another. Fails with kInvalidOptions.
 Status CheckFitArguments(const FitArguments& arguments);
+
+/// Against gravity in the frame that regions and answers are in, length 1: z, or what --up says of a
+/// cloud's frame.
+Eigen::Vector3d UpOf(const FitArguments& arguments);
 
 /// The region on the picture at `motor_rad`. Fails with kInvalidOptions: none, or no region.
 Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,

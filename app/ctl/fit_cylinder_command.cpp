@@ -47,7 +47,7 @@ void PrintSummary(const CylinderDetection& found, const SensorRig& rig) {
 Result<CylinderDetection> FitIn(const FitSubject& subject, const FitCylinderArguments& arguments,
                                 const RunContext& context) {
   FitCylinderOptions options;
-  options.up = subject.rig.robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
+  options.up = subject.rig.robot_from_base.Inverse().Rotate(UpOf(arguments.fit));
   options.seed = arguments.seed;
   options.min_radius_m = 1e-3 * arguments.radius_mm[0];
   options.max_radius_m = 1e-3 * arguments.radius_mm[1];

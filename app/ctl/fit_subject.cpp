@@ -6,7 +6,7 @@
 #include "core/geometry/angles.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
-#include "core/io/read_point_cloud.h"
+#include "core/io/cloud_table.h"
 #include "core/pictures/cloud_picture.h"
 #include "core/pictures/depth_picture.h"
 #include "core/pictures/detection_picture.h"
@@ -16,8 +16,6 @@ namespace foresight {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-/// A cloud's own deviation is not known.
-constexpr double kCloudSigma_m = 0.010;
 
 /// Metres, NaN = none.
 Result<DepthImage> ReadDepth(const std::string& path) {
@@ -53,20 +51,24 @@ Result<Rigid<frame::Robot, frame::Base>> CloudFromBase(const std::vector<double>
 BoxRoi BoxAround(const std::vector<Eigen::Vector3d>& points) {
   constexpr double kMargin_m = 0.01;
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : points) box.extend(point);
+  for (const Eigen::Vector3d& point : points)
+    if (point.allFinite()) box.extend(point);
   return {{Eigen::Quaterniond::Identity(), box.center()},
           box.sizes() + Eigen::Vector3d::Constant(2.0 * kMargin_m)};
 }
 
 Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
-  FORESIGHT_TRY(const std::vector<Eigen::Vector3d> points, ReadPointCloud(arguments.cloud_file));
+  FORESIGHT_TRY(const CloudTable cloud, ReadCloudTable(arguments.cloud_file));
   if (arguments.rig.empty()) {
     FORESIGHT_TRY(subject.rig.robot_from_base, CloudFromBase(arguments.up));
   }
   const auto base_from_robot = subject.rig.robot_from_base.Inverse();
-  for (const Eigen::Vector3d& point : points)
-    if (point.allFinite()) subject.points.push_back(base_from_robot * point);
+  for (const Eigen::Vector3d& point : cloud.points) subject.points.push_back(base_from_robot * point);
   subject.viewpoint = base_from_robot * Eigen::Vector3d(arguments.viewpoint.data());
+  // Where points of several scans were put together, their numbers are no grid.
+  auto places = GridOfTable(cloud, subject.points, subject.viewpoint);
+  subject.places =
+      places ? std::move(*places) : RecoverGrid(subject.points, subject.viewpoint, cloud.ring);
   return {};
 }
 
@@ -102,6 +104,14 @@ Result<Detection> FitInPlainRays(const Result<RaySet>& rays, const FitSubject& s
   return detection;
 }
 
+Result<RaySet> RaysInCloudOf(const FitSubject& subject, const FitArguments& arguments,
+                             BoxRays box_rays) {
+  std::optional<double> sigma_m;
+  if (arguments.noise_mm > 0.0) sigma_m = 1e-3 * arguments.noise_mm;
+  return RaysInCloud(subject.points, subject.places, subject.viewpoint, subject.rig, subject.roi,
+                     sigma_m, box_rays);
+}
+
 /// A scan's depth map by the method that a source names.
 Result<DepthResult> DepthFor(const FitSubject& subject, const FitArguments& arguments,
                              const std::string& source, const RunContext& context) {
@@ -112,7 +122,7 @@ Result<DepthResult> DepthFor(const FitSubject& subject, const FitArguments& argu
 ColorImage PictureOfCloud(const FitSubject& subject, const std::vector<Outline>& outlines) {
   std::vector<ColoredPoint> points;
   for (const Eigen::Vector3d& point : subject.points)
-    points.push_back({point.cast<float>(), {120, 140, 165}});
+    if (point.allFinite()) points.push_back({point.cast<float>(), {120, 140, 165}});
   CloudView view;
   view.eye = subject.viewpoint;
   const auto* box = std::get_if<BoxRoi>(&subject.roi);
@@ -184,8 +194,7 @@ Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, 
     return RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad, subject.roi,
                           arguments.density, box_rays);
   if (!subject.scan)
-    return RaysFromCloud(subject.points, subject.viewpoint, &subject.rig, subject.roi,
-                         kCloudSigma_m, box_rays);
+    return RaysInCloudOf(subject, arguments, box_rays);
   if (arguments.source == "raw")
     return RaysInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi, box_rays);
   FORESIGHT_TRY(const DepthResult depth, DepthFor(subject, arguments, arguments.source, context));
@@ -199,13 +208,12 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
   if (!options) return {tl::unexpected(options.error()), {}};
   if (!subject.depth_m.empty())
     return {FitInPlainRays(RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad,
-                                          subject.roi, arguments.density),
+                                          subject.roi, arguments.density, BoxRaysFor(*options)),
                            subject, "depth map", *options, context),
             {}};
   if (!subject.scan)
-    return {FitInPlainRays(RaysFromCloud(subject.points, subject.viewpoint, &subject.rig,
-                                         subject.roi, kCloudSigma_m),
-                           subject, "cloud", *options, context),
+    return {FitInPlainRays(RaysInCloudOf(subject, arguments, BoxRaysFor(*options)), subject,
+                           "cloud", *options, context),
             {}};
   if (source == "raw")
     return {

@@ -19,7 +19,8 @@ struct FitSubject {
   std::optional<OpenedScan> scan;
   RegisteredScan cloud;                 ///< of the scan
   DepthImage depth_m;                   ///< of a depth map
-  std::vector<Eigen::Vector3d> points;  ///< of a point cloud, in base; only finite ones
+  std::vector<Eigen::Vector3d> points;  ///< of a point cloud, in base
+  GridPlaces places;                    ///< of its points, on the grid they were measured on
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
 };
 
@@ -39,7 +40,7 @@ FitSource FitSourceOf(const std::string& source);
 Result<DepthOptions> DepthOptionsFor(const FitArguments& arguments, const std::string& source);
 
 /// The rays of the region as a fit of its own wants them, from the source that the arguments name.
-/// Fails as RaysInScan, RaysInDepthMap, RaysFromCloud and ComputeDepthInFrame do.
+/// Fails as RaysInScan, RaysInDepthMap, RaysInCloud and ComputeDepthInFrame do.
 Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, BoxRays box_rays,
                       const RunContext& context);
 

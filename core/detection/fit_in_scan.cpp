@@ -40,8 +40,9 @@ std::string NameOf(const NamedSource& source) {
   return name;
 }
 
-FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base) {
-  const Eigen::Vector3d up = robot_from_base.Inverse().Rotate(Eigen::Vector3d::UnitZ());
+FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,
+                         const Eigen::Vector3d& up_in_robot) {
+  const Eigen::Vector3d up = robot_from_base.Inverse().Rotate(up_in_robot);
   switch (kind) {
     case ObjectKind::kValve:
       break;
@@ -57,6 +58,11 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
     }
   }
   return FitValveOptions();
+}
+
+BoxRays BoxRaysFor(const FitOptions& options) {
+  return std::holds_alternative<FitTerrainOptions>(options) ? BoxRays::kEndInside
+                                                            : BoxRays::kPassThrough;
 }
 
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
@@ -85,6 +91,14 @@ Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig&
                        box_rays);
 }
 
+Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPlaces& places,
+                           const Eigen::Vector3d& viewpoint, const SensorRig& rig, const Roi& roi,
+                           std::optional<double> sigma_m, BoxRays box_rays) {
+  auto rays = RaysFromCloud(points, viewpoint, &rig, roi, sigma_m.value_or(kRangeSigma_m), box_rays,
+                            &places);
+  return sigma_m || !rays ? std::move(rays) : std::move(rays).transform(WithOwnSigma);
+}
+
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
                             const RunContext& context) {
   if (const auto* drill = std::get_if<FitDrillOptions>(&options))
@@ -96,7 +110,7 @@ Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
 
 Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                             const FitOptions& options, const RunContext& context) {
-  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi));
+  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi, BoxRaysFor(options)));
   FORESIGHT_TRY(Detection detection, FitInRays(rays, options, context));
   OriginOf(detection).roi = roi;
   OriginOf(detection).source = NameOf(

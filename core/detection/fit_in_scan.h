@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -40,9 +43,15 @@ struct ProcessedScan {
 /// What to look for, and how; in the order of Detection's alternatives.
 using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOptions>;
 
-/// The defaults for an object seen by a head that is mounted as `robot_from_base` says: up is the
-/// robot's z.
-FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base);
+/// The defaults for an object seen by a head that is mounted as `robot_from_base` says. `up` is
+/// against gravity, in robot, length 1.
+FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,
+                         const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
+
+/// Which rays of a BoxRoi the fit of an object wants. Of a wheel or a drill that the box is drawn
+/// tightly round, the wall behind it tells what stands in front of it; a terrain's box holds its
+/// ground.
+BoxRays BoxRaysFor(const FitOptions& options);
 
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
 /// RaysFromScan and RaysFromDepth do, and with kState for a depth that is not there.
@@ -54,6 +63,13 @@ Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi
 Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig& rig,
                               double motor_rad, const Roi& roi, double density,
                               BoxRays box_rays = BoxRays::kEndInside);
+
+/// The rays of a cloud that comes without a scan, with the noise as it is measured in the region; 10
+/// mm where it cannot be told. `sigma_m` says it instead. Fails as RaysFromCloud does.
+Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPlaces& places,
+                           const Eigen::Vector3d& viewpoint, const SensorRig& rig, const Roi& roi,
+                           std::optional<double> sigma_m,
+                           BoxRays box_rays = BoxRays::kEndInside);
 
 /// The fit that belongs to the options. Fails as FitValve, FitDrill and FitTerrain do.
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,

@@ -121,31 +121,26 @@ class Assembler {
 
   Status FindGrid() {
     const CloudTable& cloud = parts_.cloud;
-    const std::size_t count = cloud.points.size();
-    if (cloud.line.size() == count && cloud.beam.size() == count && count > 0) {
-      FORESIGHT_TRY(places_, GridOfNumbers(cloud.points, viewpoint_, cloud.line, cloud.beam)
-                                 .map_error([this](Error error) {
-                                   error.message = parts_.name + ": " + error.message;
-                                   return error;
-                                 }));
-      if (parts_.record) {
-        places_.lines = std::max(places_.lines, parts_.record->lines);
-        places_.beams = std::max(places_.beams, parts_.record->beams);
-      }
-      out_.grid = "by the line and beam of each point";
-      return {};
-    }
-    if (cloud.height > 1 && cloud.width <= GivenCloud::kMostBeams) {
-      places_ = GridOfRows(cloud.points, viewpoint_, cloud.width);
-      organised_ = true;
-      out_.grid = fmt::format("the file's own, {} rows of {}", cloud.height, cloud.width);
-      return {};
-    }
-    places_ = RecoverGrid(cloud.points, viewpoint_, cloud.ring);
+    FORESIGHT_TRY(places_,
+                  GridOfTable(cloud, cloud.points, viewpoint_).map_error([this](Error error) {
+                    error.message = parts_.name + ": " + error.message;
+                    return error;
+                  }));
     if (places_.lines == 0)
       return Fail(ErrorCode::kBadData, "{}: no point has a direction from the viewpoint",
                   parts_.name);
     switch (places_.kind) {
+      case GridPlaces::Kind::kNumbers:
+        if (parts_.record) {
+          places_.lines = std::max(places_.lines, parts_.record->lines);
+          places_.beams = std::max(places_.beams, parts_.record->beams);
+        }
+        out_.grid = "by the line and beam of each point";
+        break;
+      case GridPlaces::Kind::kRows:
+        organised_ = true;
+        out_.grid = fmt::format("the file's own, {} rows of {}", cloud.height, cloud.width);
+        break;
       case GridPlaces::Kind::kRings:
         out_.grid = "recovered: turns of a spinning lidar";
         Note(

@@ -183,7 +183,7 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
 
 Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
                              const Eigen::Vector3d& viewpoint, const SensorRig* rig, const Roi& roi,
-                             double sigma_m, BoxRays box_rays) {
+                             double sigma_m, BoxRays box_rays, const GridPlaces* places) {
   FORESIGHT_CHECK(CheckRoi(roi));
   FORESIGHT_CHECK(CheckSigma(sigma_m));
   if (!viewpoint.allFinite())
@@ -196,12 +196,16 @@ Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
   set.sigma_m = sigma_m;
   set.viewpoint = viewpoint;
   const RegionTest region(rig, roi, box_rays);
-  for (const Eigen::Vector3d& point : points) {
+  const bool on_grid = places != nullptr && places->kind != GridPlaces::Kind::kScattered;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d& point = points[i];
     if (!point.allFinite()) continue;
     const Eigen::Vector3d sight = point - viewpoint;
     const double range = sight.norm();
-    if (range > 0.0 && region.Holds(viewpoint, point))
-      set.rays.push_back({viewpoint, sight / range, range, Eigen::Vector2i::Constant(-1)});
+    if (!(range > 0.0) || !region.Holds(viewpoint, point)) continue;
+    const Eigen::Vector2i cell = on_grid ? Eigen::Vector2i(places->beam[i], places->line[i])
+                                         : Eigen::Vector2i::Constant(-1);
+    set.rays.push_back({viewpoint, sight / range, range, cell});
   }
   if (set.rays.empty())
     return Fail(ErrorCode::kTooFewPoints, "no point of the cloud lies inside the region");

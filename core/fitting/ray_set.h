@@ -7,6 +7,7 @@
 
 #include "core/depth/upsample.h"
 #include "core/fitting/roi.h"
+#include "core/registration/recover_grid.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/sensor_rig.h"
 
@@ -64,11 +65,15 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
                              double density, BoxRays box_rays = BoxRays::kEndInside);
 
 /// Points of a cloud in base inside the region, seen from one viewpoint: ranges of a scanner, or a
-/// cloud from elsewhere. Points that are not finite are left out. `footprint_rad` is set to the
-/// median angle from a point to its nearest neighbour. Fails with kInvalidInput (the region, an
-/// ImageRoi without `rig`; a viewpoint that is not finite) and kTooFewPoints. O(points).
+/// cloud from elsewhere. Points that are not finite are left out. `places`, where the points were
+/// measured on a grid, has an entry for each point; null or kScattered = they have no grid.
+/// `footprint_rad` is set to the median angle from a point to its nearest neighbour. Fails with
+/// kInvalidInput (the region, an ImageRoi without `rig`; a viewpoint that is not finite) and
+/// kTooFewPoints. O(points).
+/// @pre places == nullptr or places->line.size() == points.size()
 Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
                              const Eigen::Vector3d& viewpoint, const SensorRig* rig, const Roi& roi,
-                             double sigma_m, BoxRays box_rays = BoxRays::kEndInside);
+                             double sigma_m, BoxRays box_rays = BoxRays::kEndInside,
+                             const GridPlaces* places = nullptr);
 
 }  // namespace foresight

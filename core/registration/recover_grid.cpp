@@ -324,7 +324,7 @@ GridPlaces RecoverGrid(std::span<const Eigen::Vector3d> points, const Eigen::Vec
 GridPlaces GridOfRows(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& viewpoint,
                       std::size_t width) {
   GridPlaces places = NoPlaces(points.size());
-  places.kind = GridPlaces::Kind::kSweeps;
+  places.kind = GridPlaces::Kind::kRows;
   places.beams = static_cast<int>(width);
   places.lines = static_cast<int>(points.size() / width);
   for (const Sight& sight : SightsOf(points, viewpoint)) {
@@ -340,7 +340,7 @@ Result<GridPlaces> GridOfNumbers(std::span<const Eigen::Vector3d> points,
                                  std::span<const std::int32_t> line,
                                  std::span<const std::int32_t> beam) {
   GridPlaces places = NoPlaces(points.size());
-  places.kind = GridPlaces::Kind::kSweeps;
+  places.kind = GridPlaces::Kind::kNumbers;
   const std::vector<Sight> sights = SightsOf(points, viewpoint);
   std::int64_t lines = 0, beams = 0;
   for (const Sight& sight : sights) {
@@ -372,6 +372,16 @@ Result<GridPlaces> GridOfNumbers(std::span<const Eigen::Vector3d> points,
   }
   places.step_rad = StepBetween(points, viewpoint, places);
   return places;
+}
+
+Result<GridPlaces> GridOfTable(const CloudTable& cloud, std::span<const Eigen::Vector3d> points,
+                               const Eigen::Vector3d& viewpoint) {
+  const std::size_t count = points.size();
+  if (count > 0 && cloud.line.size() == count && cloud.beam.size() == count)
+    return GridOfNumbers(points, viewpoint, cloud.line, cloud.beam);
+  if (cloud.height > 1 && cloud.width <= GivenCloud::kMostBeams)
+    return GridOfRows(points, viewpoint, cloud.width);
+  return RecoverGrid(points, viewpoint, cloud.ring);
 }
 
 }  // namespace foresight

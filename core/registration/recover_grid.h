@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/io/cloud_table.h"
 
 namespace foresight {
 
@@ -14,6 +15,8 @@ namespace foresight {
 struct GridPlaces {
   /// How the grid was found.
   enum class Kind {
+    kNumbers,    ///< by the line and beam that the file says of each point
+    kRows,       ///< the file's own rows
     kRings,      ///< turns of a spinning lidar, one laser after the other
     kSweeps,     ///< lines of a scanner that begins each line where it began the one before
     kScattered,  ///< none was found: no two points are neighbours
@@ -45,5 +48,10 @@ Result<GridPlaces> GridOfNumbers(std::span<const Eigen::Vector3d> points,
                                  const Eigen::Vector3d& viewpoint,
                                  std::span<const std::int32_t> line,
                                  std::span<const std::int32_t> beam);
+
+/// The best of these that a file's columns allow; `points` are the file's, in any frame. Fails as
+/// GridOfNumbers does.
+Result<GridPlaces> GridOfTable(const CloudTable& cloud, std::span<const Eigen::Vector3d> points,
+                               const Eigen::Vector3d& viewpoint);
 
 }  // namespace foresight

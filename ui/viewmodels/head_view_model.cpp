@@ -12,7 +12,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kPollInterval_ms = 100;
+constexpr int kHeadPollInterval_ms = 100;
 constexpr int kDetailsPeriod_ms = 1000;
 constexpr int kPollsPerLook = 3;  ///< a running scan is looked at about three times a second
 /// A head that neither sweeps nor has begun the scan after so many polls has lost it.
@@ -128,7 +128,7 @@ HeadViewModel::HeadViewModel(std::shared_ptr<SensorHead> head, QObject* parent)
   PollHealth();
   ShowDevices();
   connect(&timer_, &QTimer::timeout, this, &HeadViewModel::Poll);
-  timer_.start(kPollInterval_ms);
+  timer_.start(kHeadPollInterval_ms);
 }
 
 HeadViewModel::~HeadViewModel() {

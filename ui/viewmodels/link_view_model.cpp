@@ -10,7 +10,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kPollInterval_ms = 500;
+constexpr int kLinkPollInterval_ms = 500;
 
 QString ControlText(const LinkHealth& link, bool may_operate) {
   if (link.has_control) return LinkViewModel::tr("You have control.");
@@ -115,7 +115,7 @@ LinkViewModel::LinkViewModel(std::shared_ptr<SensorHead> head, TaskQueue* tasks,
     : QObject(parent), head_(std::move(head)), link_(head_->Link()), runner_(tasks) {
   Poll();
   connect(&timer_, &QTimer::timeout, this, &LinkViewModel::Poll);
-  timer_.start(kPollInterval_ms);
+  timer_.start(kLinkPollInterval_ms);
 }
 
 void LinkViewModel::Poll() {

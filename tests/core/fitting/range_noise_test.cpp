@@ -44,11 +44,26 @@ TEST(RangeNoise, OfAnExactDeviceIsTheLeastThereIs) {
   EXPECT_EQ(EstimateRangeSigma(MakeValveScene(view).rays), kLeastRangeSigma_m);
 }
 
+TEST_P(RangeNoise, IsReadOffAWheelWithoutAGridToo) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    ValveView view = testing::RandomValveView(seed);
+    view.sigma_m = GetParam();
+    RaySet cloud = MakeValveScene(view).rays;
+    for (RangeRay& ray : cloud.rays) ray.cell.setConstant(-1);
+    // Neighbours reach further than on a grid, so edges add more.
+    const double ratio = EstimateRangeSigma(cloud) / view.sigma_m;
+    EXPECT_GT(ratio, 0.75) << seed;
+    EXPECT_LT(ratio, 1.5) << seed;
+  }
+}
+
 TEST(RangeNoise, IsUnknownWithoutNeighbours) {
-  RaySet cloud = MakeValveScene(ValveView()).rays;
   EXPECT_TRUE(std::isnan(EstimateRangeSigma(RaySet())));
-  for (RangeRay& ray : cloud.rays) ray.cell.setConstant(-1);
-  EXPECT_TRUE(std::isnan(EstimateRangeSigma(cloud)));
+  RaySet few = MakeValveScene(ValveView()).rays;
+  few.rays.resize(20);
+  EXPECT_TRUE(std::isnan(EstimateRangeSigma(few)));
+  for (RangeRay& ray : few.rays) ray.cell.setConstant(-1);
+  EXPECT_TRUE(std::isnan(EstimateRangeSigma(few)));
 }
 
 }  // namespace

@@ -1,0 +1,157 @@
+// `foresightctl fit --cloud` on clouds of scans that were made here: what a cloud says equals what its mission says.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/atomic_file.h"
+#include "core/io/read_point_cloud.h"
+#include "tests/support/run_program.h"
+
+namespace foresight {
+namespace {
+
+const std::string kScenes = FORESIGHT_SOURCE_DIR "/resources/scenes/";
+
+ProgramResult Ctl(const std::vector<std::string>& arguments) {
+  return RunProgram(FORESIGHTCTL, arguments);
+}
+
+/// How a cloud's frame lies: the camera's usual one, x right, y down, z ahead.
+Eigen::Matrix3d CameraLikeFromRobot() {
+  Eigen::Matrix3d turn;
+  turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return turn;
+}
+
+std::string Numbers(const Eigen::Vector3d& v) {
+  return fmt::format("{},{},{}", v.x(), v.y(), v.z());
+}
+
+/// A box in the cloud's frame; sides are along its axes.
+std::string Box(const Eigen::Vector3d& center, const Eigen::Vector3d& size) {
+  return fmt::format("--box={},{}", Numbers(center), Numbers(size));
+}
+
+Eigen::Vector3d PositionIn(const nlohmann::json& frame) {
+  const auto& p = frame["position_m"];
+  return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
+}
+
+/// A scan of a scene, and its cloud, turned to a frame with y down.
+class FitOfACloud : public testing::Test {
+ protected:
+  void Scan(const std::string& scene) {
+    ASSERT_EQ(
+        Ctl({"scan", "--scene", kScenes + scene, "--from", "-45", "--to", "15", "--out", mission_})
+            .exit_code,
+        0);
+    ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
+    const auto points = ReadPointCloud(cloud_);
+    ASSERT_TRUE(points) << points.error().message;
+    std::string ply = fmt::format(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n",
+        points->size());
+    for (const Eigen::Vector3d& point : *points) {
+      const Eigen::Vector3d turned = CameraLikeFromRobot() * point;
+      ply += fmt::format("{:.5f} {:.5f} {:.5f}\n", turned.x(), turned.y(), turned.z());
+    }
+    ASSERT_TRUE(WriteFileAtomically(turned_, ply));
+  }
+
+  TemporaryFolder folder_;
+  const std::string mission_ = folder_ / "scan.foresight";
+  const std::string cloud_ = folder_ / "cloud.ply";
+  const std::string turned_ = folder_ / "turned.ply";
+  const Eigen::Vector3d head_{0.1, 0.0, 1.4};  // of the built-in rig, in robot
+};
+
+TEST_F(FitOfACloud, ADrillIsFoundWhereTheCloudsUpIsWhatUpSays) {
+  Scan("drill.yaml");
+  const Eigen::Vector3d center(1.3, 0.1, 1.1), size(0.4, 0.4, 0.4);
+  const auto here = nlohmann::json::parse(
+      Ctl({"fit", "drill", mission_, Box(center, size), "--json"}).output);
+  ASSERT_TRUE(here.contains("best")) << here.dump();
+  const ProgramResult result =
+      Ctl({"fit", "drill", "--cloud", turned_, "--up", "0,-1,0", "--viewpoint",
+           Numbers(CameraLikeFromRobot() * head_), Box(CameraLikeFromRobot() * center, size),
+           "--json"});
+  const auto there = nlohmann::json::parse(result.output);
+  ASSERT_TRUE(there.contains("best")) << result.output;
+  EXPECT_NE(there["verdict"], "UNSURE") << there["reason"];
+  const Eigen::Vector3d place = PositionIn(here["best"]["robot_from_object"]);
+  EXPECT_LT((PositionIn(there["best"]["robot_from_object"]) - CameraLikeFromRobot() * place).norm(),
+            0.010);
+  EXPECT_LT(there["best"]["robot_from_object"]["z_axis"][1].get<double>(), -0.99);
+}
+
+TEST_F(FitOfACloud, BlocksAreFoundWhereTheCloudsUpIsWhatUpSays) {
+  Scan("terrain.yaml");
+  const auto blocks = [](const nlohmann::json& answer) {
+    int count = 0;
+    for (const auto& surface : answer["surfaces"]) count += surface["kind"] == "block" ? 1 : 0;
+    return count;
+  };
+  const Eigen::Vector3d center(1.5, 0.0, 0.2), size(1.6, 2.0, 0.8);
+  const auto here = nlohmann::json::parse(
+      Ctl({"fit", "terrain", mission_, Box(center, size), "--json"}).output);
+  ASSERT_GE(blocks(here), 2) << here.dump();
+  const ProgramResult result = Ctl(
+      {"fit", "terrain", "--cloud", turned_, "--up", "0,-1,0", "--viewpoint",
+       Numbers(CameraLikeFromRobot() * head_),
+       Box(CameraLikeFromRobot() * center, Eigen::Vector3d(size.y(), size.z(), size.x())),
+       "--json"});
+  EXPECT_GE(blocks(nlohmann::json::parse(result.output)), 2) << result.output;
+}
+
+TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-15", "--to", "15", "--out",
+                 mission_})
+                .exit_code,
+            0);
+  ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
+  // The wheel of 3 spokes stands 60 mm before the wall; nothing of the wall lies in the box.
+  const std::string box = "--box=1.463,0.031,1.380,0.06,0.46,0.46";
+  for (const std::vector<std::string>& subject :
+       {std::vector<std::string>{mission_},
+        {"--cloud", cloud_, "--viewpoint", Numbers(head_)}}) {
+    std::vector<std::string> arguments = {"fit", "valve", box, "--json"};
+    arguments.insert(arguments.end(), subject.begin(), subject.end());
+    const ProgramResult result = Ctl(arguments);
+    const auto answer = nlohmann::json::parse(result.output);
+    ASSERT_TRUE(answer.contains("best")) << result.output;
+    EXPECT_EQ(answer["best"]["model"]["spokes"], 3) << subject.front();
+    EXPECT_LT((PositionIn(answer["best"]["robot_from_object"]) -
+               Eigen::Vector3d(1.463, 0.031, 1.380))
+                  .norm(),
+              0.010)
+        << subject.front();
+    EXPECT_NE(answer["verdict"], "UNSURE") << subject.front() << " " << answer["reason"];
+  }
+}
+
+TEST_F(FitOfACloud, HasTheNoiseAndTheVerdictOfItsMission) {
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-15", "--to", "15", "--out",
+                 mission_})
+                .exit_code,
+            0);
+  ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
+  const std::string box = "--box=1.5,0.031,1.380,0.3,0.6,0.6";
+  const auto of = [&](const std::vector<std::string>& subject) {
+    std::vector<std::string> arguments = {"fit", "valve", box, "--json"};
+    arguments.insert(arguments.end(), subject.begin(), subject.end());
+    return nlohmann::json::parse(Ctl(arguments).output);
+  };
+  const auto mission = of({mission_});
+  const auto cloud = of({"--cloud", cloud_, "--viewpoint", Numbers(head_)});
+  ASSERT_TRUE(mission.contains("best") && cloud.contains("best"));
+  EXPECT_EQ(mission["verdict"], "CONFIRMED") << mission["reason"];
+  EXPECT_EQ(cloud["verdict"], mission["verdict"]) << cloud["reason"];
+  // Ten times the noise that the cloud has: who says it is believed.
+  const auto noisy = of({"--cloud", cloud_, "--viewpoint", Numbers(head_), "--noise-mm", "60"});
+  EXPECT_NE(noisy.dump(), cloud.dump());
+}
+
+}  // namespace
+}  // namespace foresight
