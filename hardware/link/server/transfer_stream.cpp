@@ -3,12 +3,12 @@
 #include <thread>
 
 #include "core/base/log.h"
+#include "hardware/link/protocol/chunk_messages.h"
 
 namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
-constexpr int kMostImagesFirst = 1000;
 
 grpc::Status Refusal(const Error& error) {
   return {grpc::StatusCode::FAILED_PRECONDITION, error.message};
@@ -18,19 +18,6 @@ grpc::Status Refusal(const Error& error) {
 std::int64_t Cost(const Chunk& chunk) {
   constexpr std::int64_t kAround = 40;
   return static_cast<std::int64_t>(chunk.bytes.size()) + kAround;
-}
-
-link::Chunk ToMessage(Chunk chunk) {
-  link::Chunk message;
-  link::ChunkId& id = *message.mutable_id();
-  id.set_kind(static_cast<int>(chunk.id.kind));
-  id.set_item(chunk.id.item);
-  id.set_part(chunk.id.part);
-  message.set_parts(chunk.parts);
-  message.set_item_crc(chunk.item_crc);
-  message.set_crc(chunk.crc);
-  message.set_bytes(std::move(chunk.bytes));
-  return message;
 }
 
 }  // namespace
@@ -102,14 +89,7 @@ void TransferStream::Read() {
 }
 
 void TransferStream::TakePreferences(const link::TransferPreferences& preferences) {
-  TransferPreferences taken;
-  taken.bytes_per_s = static_cast<double>(std::max<std::int64_t>(0, preferences.bytes_per_s()));
-  if (preferences.has_lines_first() &&
-      preferences.lines_first().first() <= preferences.lines_first().last())
-    taken.lines_first =
-        NumberSet::Interval{preferences.lines_first().first(), preferences.lines_first().last()};
-  if (preferences.images_first_size() <= kMostImagesFirst)
-    taken.images_first.assign(preferences.images_first().begin(), preferences.images_first().end());
+  TransferPreferences taken = FromMessage(preferences);
   paused_ = preferences.pause();
   if (burst_) burst_->SetPreferences(taken, paused_);
   preferences_ = std::move(taken);

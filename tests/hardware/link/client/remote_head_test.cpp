@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <future>
+
 #include "core/sensor/rig_id.h"
 #include "hardware/head/scan_assembler.h"
 #include "hardware/link/chunks/scan_digest.h"
@@ -35,6 +37,28 @@ class Collector final : public ScanSink {
 
  private:
   ScanAssembler assembler_;
+};
+
+/// A mission file on a disk that takes its time, or nothing.
+class SlowSink final : public ScanSink {
+ public:
+  void OnScanStarted(const Scan& /*header*/) override {}
+  void OnLine(const LidarLine& /*line*/) override {}
+  void OnMotorSamples(std::span<const MotorSample> /*samples*/) override {}
+  void OnFrame(const CameraFrame& /*frame*/) override {}
+  void OnScanEnded(ScanState /*state*/, const std::string& /*reason*/) override { ++ends; }
+  Status WaitUntilKept() override {
+    asked = true;
+    return outcome_.get();
+  }
+  void Kept(const Status& kept) { kept_.set_value(kept); }
+
+  std::atomic<bool> asked{false};
+  std::atomic<int> ends{0};
+
+ private:
+  std::promise<Status> kept_;
+  const std::shared_future<Status> outcome_ = kept_.get_future().share();
 };
 
 class Archive final : public ScanArchive {
@@ -119,6 +143,39 @@ TEST_F(RemoteHeadTest, AScanArrivesAsTheHeadHasIt) {
   EXPECT_TRUE(Confirmed());
   EXPECT_TRUE(std::filesystem::is_empty(bench.folder / "spool"));
   EXPECT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
+}
+
+TEST_F(RemoteHeadTest, TheSpoolStaysUntilTheSinkHasKeptTheScan) {
+  const auto remote = Ready();
+  const auto sink = std::make_shared<SlowSink>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(Eventually([&] { return head->Sink() != nullptr; }));
+  head->Play(SampleScan(6));
+  const bool asked = Eventually([&] { return sink->asked.load(); });
+  EXPECT_TRUE(asked);
+  EXPECT_FALSE(std::filesystem::is_empty(bench.folder / "spool"));
+  EXPECT_FALSE(bench.shelf().List().back().confirmed) << "the head might delete its scan";
+  sink->Kept({});
+  EXPECT_TRUE(Confirmed());
+  EXPECT_TRUE(std::filesystem::is_empty(bench.folder / "spool"));
+}
+
+TEST_F(RemoteHeadTest, AScanThatTheSinkCouldNotKeepStaysInTheSpoolAndAtTheHead) {
+  auto remote = Ready();
+  const auto sink = std::make_shared<SlowSink>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(Eventually([&] { return head->Sink() != nullptr; }));
+  head->Play(SampleScan(6));
+  ASSERT_TRUE(Eventually([&] { return sink->asked.load(); }));
+  sink->Kept(Fail(ErrorCode::kIo, "m.foresight: the disk is full"));
+  EXPECT_TRUE(Eventually([&] {
+    const auto scans = remote->Scans();
+    return scans.size() == 1 && scans[0].trouble == "m.foresight: the disk is full";
+  }));
+  remote.reset();
+  EXPECT_EQ(sink->ends, 1);
+  EXPECT_FALSE(std::filesystem::is_empty(bench.folder / "spool"));
+  EXPECT_FALSE(bench.shelf().List().back().confirmed);
 }
 
 TEST_F(RemoteHeadTest, LinesComeWhileTheScanRuns) {
