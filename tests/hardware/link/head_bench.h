@@ -36,7 +36,9 @@ class HeadBench {
 
   void StartHead() {
     shelf_ = ScanShelf::Open({folder / "head", 0.9}).value();
-    desk_ = std::make_unique<HeadDesk>(sensor_head_, *shelf_, HeadDesk::Options{2.0, true});
+    desk_ = std::make_unique<HeadDesk>(
+        sensor_head_, *shelf_,
+        HeadDesk::Options{2.0, true, nullptr, BurstDesk::kUsualBytesPerS, stand});
     const std::string address = "127.0.0.1:" + std::to_string(port_);
     server_ = HeadServer::Start(
                   *desk_, address, grpc::InsecureServerCredentials(),
@@ -74,6 +76,7 @@ class HeadBench {
 
   const TemporaryFolder folder;
   HeadDesk::Peer peer{"anna", true};
+  MovingStand* stand = nullptr;  ///< of the head that is started next
 
  private:
   const std::shared_ptr<SensorHead> sensor_head_;

@@ -7,6 +7,7 @@
 #include "core/sensor/rig_id.h"
 #include "hardware/head/scan_assembler.h"
 #include "hardware/link/chunks/scan_digest.h"
+#include "tests/hardware/link/fake_stand.h"
 #include "tests/hardware/link/head_bench.h"
 
 namespace foresight {
@@ -448,6 +449,30 @@ TEST_F(RemoteHeadTest, CapturesAtStopsArriveExactly) {
   EXPECT_EQ(stops->captures[0].position, capture.position);
   EXPECT_EQ(*stops->captures[0].image, SampleScan(6).frames.front());
   EXPECT_FALSE(stops->captures[1].image);
+}
+
+TEST_F(RemoteHeadTest, TheStandOfASimulatedHeadIsMovedFromHere) {
+  FakeStand stand;
+  bench.StopHead();
+  bench.stand = &stand;
+  bench.StartHead();
+  const auto remote = Ready();
+  const std::shared_ptr<MovingStand> here = remote->Stand();
+  ASSERT_NE(here, nullptr);
+  EXPECT_EQ(here->Places(), stand.Places());
+  EXPECT_EQ(here->Mount(), stand.Mount());
+  here->MoveTo(2);
+  ASSERT_TRUE(Eventually([&] { return !here->Moving(); }));
+  EXPECT_EQ(here->Trouble(), "");
+  EXPECT_EQ(here->At(), 2);
+  EXPECT_EQ(stand.at, 2);
+  stand.at = 1;
+  EXPECT_TRUE(Eventually([&] { return here->At() == 1; })) << "another operator moved it";
+  bench.StopHead();
+}
+
+TEST_F(RemoteHeadTest, WhereTheStandIsCarriedThereIsNone) {
+  EXPECT_EQ(bench.Connect().value()->Stand(), nullptr);
 }
 
 TEST_F(RemoteHeadTest, NobodyThereIsAnErrorThatSaysWhatToDo) {
