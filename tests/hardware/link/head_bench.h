@@ -16,9 +16,9 @@
 
 namespace foresight {
 
-/// Asks again and again until it is so, for ten seconds at most.
-inline bool Eventually(const std::function<bool()>& so) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+/// Asks again and again until it is so, for so long at most.
+inline bool Eventually(const std::function<bool()>& so, double longest_s = 10.0) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(longest_s);
   while (!so()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
