@@ -61,6 +61,16 @@ class Watcher(threading.Thread):
         names = [(task / "comm").read_text().strip() for task in pathlib.Path(f"/proc/{self.pid}/task").iterdir()]
         return {name: names.count(name) for name in sorted(set(names))}
 
+    def files_by_kind(self):
+        """Sockets, event counters of libraries, files by their names: what grows is to have a name."""
+        kinds = []
+        for descriptor in pathlib.Path(f"/proc/{self.pid}/fd").iterdir():
+            try:
+                kinds.append(os.readlink(descriptor).split(":[")[0])
+            except OSError:
+                pass  # closed meanwhile
+        return {kind: kinds.count(kind) for kind in sorted(set(kinds))}
+
     def at_rest(self, longest_s=90.0, unchanged_s=10.0):
         """When nothing has changed for a while."""
         end = time.time() + longest_s
@@ -69,7 +79,8 @@ class Watcher(threading.Thread):
             last = [s[2:] for s in self.samples if s[0] > time.time() - unchanged_s]
             if len(set(last)) == 1 and len(last) > unchanged_s:
                 break
-        return {"threads": self.threads_by_name(), "open_files": self.samples[-1][2]}
+        return {"threads": self.threads_by_name(), "open_files": self.samples[-1][2],
+                "files": self.files_by_kind()}
 
 
 class Blackouts(threading.Thread):
