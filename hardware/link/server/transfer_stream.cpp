@@ -9,6 +9,8 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
+/// Credit that a station gives on a wide path alone.
+constexpr std::int64_t kWideCredit = std::int64_t{1} << 20;
 
 grpc::Status Refusal(const Error& error) {
   return {grpc::StatusCode::FAILED_PRECONDITION, error.message};
@@ -127,7 +129,34 @@ bool TransferStream::MaySend() {
   const auto may = [this] {
     return gone_ || confirmed_ || (!paused_ && (in_flight_ == 0 || in_flight_ < credit_));
   };
+  if (!may()) {
+    lock.unlock();
+    Flush();
+    lock.lock();
+  }
   return wake_.wait_for(lock, kTick, may);
+}
+
+/// On a wide path gRPC may gather what follows at once: to wait until each chunk is on the wire
+/// costs two changes of threads, which others of this computer make long. False where the stream
+/// broke.
+bool TransferStream::Write(link::Chunk message) {
+  bool wide = false;
+  {
+    const std::lock_guard lock(mutex_);
+    wide = credit_ >= kWideCredit;
+  }
+  if (!wide) return Flush() && stream_.Write(message);
+  const bool good = !held_ || stream_.Write(*held_, grpc::WriteOptions().set_buffer_hint());
+  held_ = std::move(message);
+  return good;
+}
+
+/// Sends the last chunk, and with it whatever was gathered.
+bool TransferStream::Flush() {
+  const bool good = !held_ || stream_.Write(*held_);
+  held_.reset();
+  return good;
 }
 
 grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
@@ -151,6 +180,7 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
       continue;
     }
     if (!*chunk) {
+      if (!Flush()) return grpc::Status::OK;
       shelf_.WaitForNews(news_, std::chrono::milliseconds(20));
       continue;
     }
@@ -161,7 +191,7 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
     }
     link::Chunk message = ToMessage(std::move(**chunk));
     message.set_left_bytes(source_->LeftBytes());
-    if (!stream_.Write(message)) return grpc::Status::OK;
+    if (!Write(std::move(message))) return grpc::Status::OK;
   }
   return grpc::Status::OK;
 }
