@@ -13,6 +13,7 @@ namespace {
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::milliseconds kNoWait{0};
 constexpr std::chrono::milliseconds kPause{20};
+constexpr std::chrono::milliseconds kWatch{5};  ///< how late a fresh connection is seen
 constexpr double kPause_s = 0.020;
 /// What came and was not decoded yet: two windows of a second at 300 Mbit/s.
 constexpr std::int64_t kMostWaiting = std::int64_t{80} << 20;
@@ -422,26 +423,29 @@ std::chrono::milliseconds ScanFetcher::WaitBeforeTakingIn(const ScanTransfer& tr
 
 Status ScanFetcher::Receive(Fetched& scan, const Stub& stub, Stream& stream, Inbox& inbox) {
   std::int64_t preferences_sent = 0;
+  bool doubted = false;  // then a fresh connection is looked for, and nothing else is begun
   double came_s = LinkSession::Now();
   silence_.Begin(came_s);
   while (!inbox.Closed() && !Superseded(scan)) {
     again_ = session_.LeftBehind(stub);
     if (again_) break;
-    std::vector<Chunk> chunks =
-        inbox.TakeAll(WaitBeforeTakingIn(*scan.transfer, LinkSession::Now() - came_s));
+    std::vector<Chunk> chunks = inbox.TakeAll(
+        doubted ? kWatch : WaitBeforeTakingIn(*scan.transfer, LinkSession::Now() - came_s));
     if (Superseded(scan)) break;  // what is not taken in comes again
     const bool came = !chunks.empty();
     if (came) came_s = LinkSession::Now();
     if (came || inbox.LeftBytes() == 0) {
       if (silence_.Heard(LinkSession::Now())) session_.Trust();
+      doubted = false;
     } else if (!thin_ && silence_.Doubts(LinkSession::Now(), RoundTrip())) {
       session_.Doubt();
+      doubted = true;
     }
     FORESIGHT_CHECK(Acknowledge(scan, stream, std::move(chunks), inbox.LeftBytes()));
     FORESIGHT_TRY(const bool came_by_burst, KeepBurst(scan, stream));
     // The link goes first: what came is decoded when nothing more comes for a moment.
     const std::int64_t most =
-        came || came_by_burst ? kMostWaiting : scan.transfer->WaitingBytes() - 1;
+        came || came_by_burst || doubted ? kMostWaiting : scan.transfer->WaitingBytes() - 1;
     FORESIGHT_CHECK(TakeIn(scan, most, inbox.LeftBytes()));
     if (scan.done || !scan.transfer || scan.transfer->MistakenRig()) return {};
     link::TransferRequest request;
