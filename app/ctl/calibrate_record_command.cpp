@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "app/common/connect_head.h"
 #include "app/common/emulation.h"
@@ -43,7 +44,8 @@ struct RecordingBench {
   std::shared_ptr<const World> world;  ///< nullptr: a real head
   std::unique_ptr<EmulatedDevices> emulated;
   CameraSettings exposure;
-  std::shared_ptr<SensorHead> head;  ///< last: goes first
+  std::shared_ptr<SensorHead> head;    ///< goes before what is above
+  std::shared_ptr<MovingStand> stand;  ///< of a simulated head elsewhere; nullptr: it is carried
 };
 
 /// For a sweep over a link, until it is whole.
@@ -58,8 +60,10 @@ Result<RecordingBench> SetUp(const RecordArguments& arguments) {
     bench.exposure = config.exposure;
     bench.head = MakeRealHead(config);
   } else if (!arguments.link.head.empty()) {
-    FORESIGHT_TRY(bench.head, ConnectHead(arguments.link, HeadUse::kOperate, nullptr,
-                                          SpoolBeside(arguments.folder)));
+    FORESIGHT_TRY(const auto remote, ConnectHead(arguments.link, HeadUse::kOperate, nullptr,
+                                                 SpoolBeside(arguments.folder)));
+    bench.head = remote;
+    bench.stand = remote->Stand();
   } else if (arguments.emulate) {
     FORESIGHT_TRY(bench.emulated, StartEmulation(arguments.emulation));
     bench.world = bench.emulated->world();
@@ -133,6 +137,7 @@ const BoardStand* StandOf(const RecordingBench& bench, bool two_boards) {
 Result<BoardMount> MountFrom(const RecordArguments& arguments, const RecordingBench& bench) {
   if (arguments.mount.empty()) {
     if (const BoardStand* stand = StandOf(bench, true)) return stand->Mount();
+    if (bench.stand) return bench.stand->Mount();
     return UsualBoardMount();
   }
   const std::size_t comma = arguments.mount.find(',');
@@ -151,6 +156,7 @@ Result<SessionFolder> OpenFolder(const RecordArguments& arguments, const Recordi
   FORESIGHT_TRY(setup.mount, MountFrom(arguments, bench));
   setup.intrinsic_board = setup.mount.a;
   if (const BoardStand* stand = StandOf(bench, false)) setup.intrinsic_board = stand->a.board;
+  if (bench.stand && arguments.mount.empty()) setup.intrinsic_board = bench.stand->SingleBoard();
   if (!arguments.board.empty()) {
     FORESIGHT_TRY(setup.intrinsic_board, CalibrationBoardFromText(arguments.board));
   }
@@ -197,9 +203,44 @@ Status RecordHere(const PoseRecording& pose, bool view, RecordingBench& bench,
   return {};
 }
 
+Status MoveAndWait(MovingStand& stand, int place, const RunContext& context) {
+  stand.MoveTo(place);
+  while (stand.Moving() && !context.Cancelled())
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  if (stand.Trouble().empty()) return {};
+  return Fail(ErrorCode::kDevice, "the stand did not go to place {}: {}", place + 1,
+              stand.Trouble());
+}
+
+/// The stand of a simulated head elsewhere goes to its places by itself.
+Status RecordWithStand(const RecordArguments& arguments, PoseRecording pose, RecordingBench& bench,
+                       SessionFolder& folder, RecordTally& tally, const RunContext& context) {
+  const std::vector<MovingStand::Place>& there = bench.stand->Places();
+  std::vector<int> places = arguments.places;
+  if (places.empty())
+    for (int place = 1; place <= static_cast<int>(there.size()); ++place) places.push_back(place);
+  for (const int place : places) {
+    if (context.Cancelled()) return {};
+    if (place < 1 || place > static_cast<int>(there.size()))
+      return Fail(ErrorCode::kInvalidOptions, "--places {}: the head's stand has places 1 to {}",
+                  place, there.size());
+    FORESIGHT_CHECK(MoveAndWait(*bench.stand, place - 1, context));
+    const MovingStand::Place& here = there[static_cast<std::size_t>(place - 1)];
+    pose.name = here.name;
+    FORESIGHT_CHECK(RecordHere(pose, !here.mount, bench, folder, tally, context));
+  }
+  return {};
+}
+
 /// The scene's stand goes to its places by itself; a real one stands where somebody put it.
 Status RecordAll(const RecordArguments& arguments, PoseRecording pose, RecordingBench& bench,
                  SessionFolder& folder, RecordTally& tally, const RunContext& context) {
+  const bool here = !arguments.place_name.empty() || arguments.view;
+  if (bench.stand && !here) return RecordWithStand(arguments, pose, bench, folder, tally, context);
+  if (!bench.world && !arguments.places.empty())
+    return Fail(ErrorCode::kInvalidOptions,
+                "--places: the stand of this head is carried: put it there, and name the place "
+                "(--place-name)");
   if (!bench.world) {
     pose.name = arguments.place_name;
     return RecordHere(pose, arguments.view, bench, folder, tally, context);
@@ -274,18 +315,24 @@ void AddCalibrateRecordCommand(CLI::App& calibrate, Invocation& invocation) {
       ->add_flag("--emulate", arguments->emulate,
                  "Emulate the scene's devices on real sockets, in real time")
       ->needs(scene);
-  command->add_option("--places", arguments->places, "Places of the scene's stand; default: all")
-      ->delimiter(',')
-      ->needs(scene);
+  CLI::Option* places = command
+                            ->add_option("--places", arguments->places,
+                                         "Places of the stand of a simulated head; default: all")
+                            ->delimiter(',');
   command
       ->add_option("--head-config", arguments->head_config,
                    "A real head and its devices (YAML), in place of a scene")
-      ->excludes(scene);
+      ->excludes(scene)
+      ->excludes(places);
   AddLinkOptions(*command, arguments->link)->excludes(scene)->excludes("--head-config");
-  command->add_option("--place-name", arguments->place_name,
-                      "What the stand's place is called, of a real head");
-  command->add_flag("--view", arguments->view,
-                    "Take one image of the board for the camera alone, of a real head");
+  command
+      ->add_option("--place-name", arguments->place_name,
+                   "What the place is called where the stand is, of a real head")
+      ->excludes(places);
+  command
+      ->add_flag("--view", arguments->view,
+                 "Take one image of the board for the camera alone, of a real head")
+      ->excludes(places);
   const auto option = [&](const char* name, auto& value, const char* help) {
     return command->add_option(name, value, help);
   };

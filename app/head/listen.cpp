@@ -78,7 +78,7 @@ class Announcement {
 
 }  // namespace
 
-Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
+Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated, MovingStand* stand,
                         const ListenArguments& arguments, const RunContext& context) {
   SendGrpcLogToOurs();
   FORESIGHT_TRY(const Door door, MakeDoor(arguments));
@@ -95,9 +95,9 @@ Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
                  [&robot](const PoseMessage& message) { return robot->Send(message); });
     PrintNote("poses go to whoever connects to {}", robot->path().string());
   }
-  HeadDesk desk(
-      head, *shelf,
-      {arguments.lease_s, simulated, gate ? &*gate : nullptr, arguments.burst_mbit_s * 1e6 / 8.0});
+  HeadDesk desk(head, *shelf,
+                {arguments.lease_s, simulated, gate ? &*gate : nullptr,
+                 arguments.burst_mbit_s * 1e6 / 8.0, stand});
   FORESIGHT_TRY(const auto server,
                 HeadServer::Start(desk, arguments.address, door.credentials, door.peer));
   const std::string host = arguments.address.substr(0, arguments.address.rfind(':'));

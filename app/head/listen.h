@@ -5,6 +5,7 @@
 
 #include "app/common/exit_code.h"
 #include "core/base/run_context.h"
+#include "hardware/api/moving_stand.h"
 #include "hardware/api/sensor_head.h"
 
 namespace foresight {
@@ -23,8 +24,9 @@ struct ListenArguments {
   bool json = false;
 };
 
-/// Serves `head` until the context is cancelled.
-Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated,
+/// Serves `head` until the context is cancelled; `stand` is the one of its simulated world, or
+/// null.
+Result<ExitCode> Listen(std::shared_ptr<SensorHead> head, bool simulated, MovingStand* stand,
                         const ListenArguments& arguments, const RunContext& context);
 
 }  // namespace foresight

@@ -9,6 +9,7 @@
 #include "app/common/output.h"
 #include "app/common/record_scan.h"
 #include "app/common/run_program.h"
+#include "app/common/simulated_stand.h"
 #include "app/head/listen.h"
 #include "core/base/atomic_file.h"
 #include "core/base/memory.h"
@@ -110,7 +111,8 @@ Result<ExitCode> Run(const Arguments& arguments, const RunContext& context) {
     FORESIGHT_TRY(const SensorRig rig, LoadSensorRig(arguments.calibration));
     FORESIGHT_CHECK(bench.head->SetRig(rig));
   }
-  if (!plan) return Listen(bench.head, bench.simulated, arguments.listen, context);
+  const auto stand = bench.emulated ? StandIn(bench.emulated->world()) : nullptr;
+  if (!plan) return Listen(bench.head, bench.simulated, stand.get(), arguments.listen, context);
   return RecordScan(*bench.head, *plan, arguments.out, arguments.json, context);
 }
 

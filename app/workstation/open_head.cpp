@@ -5,7 +5,7 @@
 #include <QFile>
 
 #include "app/common/connect_head.h"
-#include "app/workstation/simulated_stand.h"
+#include "app/common/simulated_stand.h"
 #include "hardware/assembly/real_head.h"
 #include "hardware/link/client/remote_head.h"
 #include "hardware/simulated/simulated_head.h"
@@ -62,6 +62,7 @@ Result<OpenedHead> OpenRemoteHead(const LinkArguments& link) {
   OpenedHead head;
   head.archive = std::make_shared<MissionArchive>();
   FORESIGHT_TRY(const auto remote, ConnectHead(link, HeadUse::kOperate, head.archive));
+  head.stand = remote->Stand();
   head.mode = remote->Simulated() ? SessionMode::kSimulation : SessionMode::kLive;
   head.head = remote;
   return head;

@@ -5,9 +5,9 @@
 
 #include "app/common/emulation.h"
 #include "app/common/link_arguments.h"
+#include "hardware/api/moving_stand.h"
 #include "hardware/api/sensor_head.h"
 #include "hardware/link/client/mission_archive.h"
-#include "ui/viewmodels/moving_stand.h"
 #include "ui/viewmodels/session_model.h"
 
 namespace foresight {

@@ -14,6 +14,7 @@
 
 namespace foresight {
 
+class MovingStand;
 struct RegisteredScan;
 
 /// A scan of the head at the far end of a link, and how much of it is on this computer.
@@ -74,6 +75,8 @@ class HeadLink {
 
   /// Whether our certificate may operate the head at all.
   virtual bool MayOperate() const = 0;
+  /// That of a simulated head; nullptr where the stand is carried.
+  virtual std::shared_ptr<MovingStand> Stand() const { return nullptr; }
   /// Fails with kDevice where the head does not answer, kState where somebody else has control.
   virtual Status TakeControl() = 0;
   /// Lets `successor` alone have control next; empty = whoever takes it.

@@ -50,6 +50,10 @@ class ScanSink {
   /// Once, before the end: how the devices did when the scan started and when it ended.
   virtual void OnDeviceHealth(const HeadHealth& /*at_start*/, const HeadHealth& /*at_end*/) {}
   virtual void OnScanEnded(ScanState state, const std::string& reason) = 0;
+  /// Waits until everything that was heard is where it is to stay, e.g. on the disk; fails where it
+  /// cannot be kept. A link holds its own copy of a scan, and lets the head delete the scan, only
+  /// after that.
+  virtual foresight::Status WaitUntilKept() { return {}; }
 };
 
 /// A head as the operator's side sees it: in this process, or at the far end of a link. All calls

@@ -38,4 +38,13 @@ void ScanFanout::OnScanEnded(ScanState state, const std::string& reason) {
   for (const auto& sink : sinks_) sink->OnScanEnded(state, reason);
 }
 
+Status ScanFanout::WaitUntilKept() {
+  Status kept;
+  for (const auto& sink : sinks_) {
+    const Status here = sink->WaitUntilKept();
+    if (kept && !here) kept = here;
+  }
+  return kept;
+}
+
 }  // namespace foresight

@@ -20,6 +20,8 @@ class ScanFanout final : public ScanSink {
   std::optional<std::string> Failure() const override;
   void OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) override;
   void OnScanEnded(ScanState state, const std::string& reason) override;
+  /// All of them; the first error of those that cannot.
+  Status WaitUntilKept() override;
 
  private:
   std::vector<std::shared_ptr<ScanSink>> sinks_;

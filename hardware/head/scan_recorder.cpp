@@ -102,6 +102,11 @@ Result<std::int64_t> ScanRecorder::WaitUntilWritten() {
   return outcome_;
 }
 
+Status ScanRecorder::WaitUntilKept() {
+  FORESIGHT_CHECK(WaitUntilWritten());
+  return {};
+}
+
 void ScanRecorder::Work(const std::stop_token& stop) {
   for (;;) {
     std::deque<Piece> pieces;

@@ -38,6 +38,7 @@ class ScanRecorder final : public ScanSink {
   /// Becomes an event of the mission, a warning where a device had trouble.
   void OnDeviceHealth(const HeadHealth& at_start, const HeadHealth& at_end) override;
   void OnScanEnded(ScanState state, const std::string& reason) override;
+  Status WaitUntilKept() override;
 
   /// Waits until everything handed over so far is on the disk. Returns the id of the newest scan,
   /// or why it could not be written.

@@ -206,7 +206,7 @@ TEST(IncludeRules, DeviceInterfacesKnowOnlyValuesOfTheSensors) {
   ExpectNoBreach([](const Include& include) -> Opinion {
     if (!StartsWith(include.file, "hardware/api/") || !IsOurs(include.target)) return std::nullopt;
     return BreachIf(!StartsWithAny(include.target, {"hardware/api/", "core/base/", "core/geometry/",
-                                                    "core/sensor/"}),
+                                                    "core/objects/", "core/sensor/"}),
                     "too much for an interface");
   });
 }

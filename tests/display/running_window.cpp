@@ -4,7 +4,7 @@
 
 #include <QPushButton>
 
-#include "app/workstation/simulated_stand.h"
+#include "app/common/simulated_stand.h"
 #include "tests/display/mouse.h"
 #include "tests/ui/wait_for.h"
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hardware/head/scan_assembler.h"
+#include "hardware/head/scan_fanout.h"
 #include "hardware/head/scan_recorder.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/hardware/tiny_head.h"
@@ -97,6 +98,30 @@ TEST(ScanRecorder, WritesOneScanAfterTheOther) {
   const std::int64_t id = recorder.WaitUntilWritten().value();
   ASSERT_EQ(mission->ListScans().value().size(), 2u);
   EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), SampleScan(2)));
+}
+
+/// A link deletes its own copy of a scan after that.
+TEST(ScanRecorder, WhatItSaysToBeKeptIsInTheFile) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  const auto recorder = std::make_shared<ScanRecorder>(mission);
+  ScanFanout all({std::make_shared<ScanAssembler>(), recorder});
+  Send(all, SampleScan(1));
+  ASSERT_TRUE(all.WaitUntilKept());
+  const auto scans = MissionFile::OpenReadOnly(folder / "m.mission").value()->ListScans().value();
+  ASSERT_EQ(scans.size(), 1u);
+  EXPECT_EQ(scans[0].lines, static_cast<std::int64_t>(SampleScan(1).lines.size()));
+  EXPECT_EQ(scans[0].state, SampleScan(1).state);
+}
+
+TEST(ScanRecorder, AScanThatCouldNotBeWrittenIsNotKept) {
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  const auto recorder = std::make_shared<ScanRecorder>(mission);
+  ScanFanout all({recorder, std::make_shared<ScanAssembler>()});
+  ASSERT_TRUE(mission->Close());
+  Send(all, SampleScan(1));
+  EXPECT_THAT(all.WaitUntilKept().error().message, HasSubstr("is closed"));
 }
 
 TEST(ScanRecorder, BeforeTheFirstScanThereIsNothingWritten) {

@@ -5,7 +5,8 @@ for a second at a time. Needs root, iproute2 and openssl; addresses are those of
     tests/link/blackout_trial.py --bin build/release/bin --scene resources/scenes/room.yaml --runs 20 --seed 1
 
 For each run: whether the station's scan has the head's digest, how much of each open window was used, and when the
-scan was whole. A window's use is the bytes that the station's interface received in it, over those that a plain sender
+scan was whole, and how long head and station computed and waited for a core (where they wait long, the machine is
+what limits them). A window's use is the bytes that the station's interface received in it, over those that a plain sender
 without a connection (UDP) brought through a window of the same length in the same run. Windows that began when
 less was left to come than they let through had not enough to send and are left out. Exit 0 when every scan arrived whole and every window was used to 90 %.
 """
@@ -109,6 +110,32 @@ class Sampler(threading.Thread):
         return count, first and round(first, 3)
 
 
+class CoreWatch(threading.Thread):
+    """How long a program's threads computed, and how long they were ready and got no core: the kernel's own count."""
+
+    def __init__(self, pid):
+        super().__init__(daemon=True)
+        self.tasks, self.times, self.ended = pathlib.Path(f"/proc/{pid}/task"), {}, False
+        self.start()
+
+    def run(self):
+        while not self.ended:
+            try:
+                for task in self.tasks.iterdir():
+                    ran, waited, _ = (task / "schedstat").read_text().split()
+                    self.times[task.name] = (int(ran) * 1e-9, int(waited) * 1e-9)
+            except OSError:
+                pass  # a thread that ended meanwhile
+            time.sleep(0.25)
+
+    def seconds(self):
+        """Of all threads together, and of the one that waited longest."""
+        self.ended = True
+        ran, waited = (sum(column) for column in zip(*self.times.values()))
+        return {"cpu_s": round(ran, 1), "waited_s": round(waited, 1),
+                "longest_wait_of_a_thread_s": round(max(wait for _, wait in self.times.values()), 1)}
+
+
 SENDER = """
 import socket, sys, time
 sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -170,6 +197,7 @@ def one_run(arguments, seed, folder):
              "--json"],
             stdout=open(folder / "station.json", "w"), stderr=open(folder / "station.log", "w"), env=environment)
         processes.append(station)
+        watches = {"head": CoreWatch(head.pid), "station": CoreWatch(station.pid)}
         # The first window lasts until the sweep has begun; then the blackouts.
         time.sleep(arguments.first_s)
         windows = []
@@ -204,7 +232,8 @@ def one_run(arguments, seed, folder):
             digests += [scan["digest"] for scan in json.loads(shown.stdout or "{}").get("scans", [])]
         return {"seed": seed, "exit": code, "seconds": round(seconds, 1), "windows": len(windows), "used": used, "resumed_s": resumed,
                 "control_mbyte_per_s": round(through / 1e6, 2),
-                "identical": len(digests) == 2 and digests[0] == digests[1]}
+                "identical": len(digests) == 2 and digests[0] == digests[1],
+                "cores": {name: watch.seconds() for name, watch in watches.items()}}
     finally:
         for process in processes:
             if process.poll() is None:

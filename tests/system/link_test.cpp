@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/calibration/session_folder.h"
 #include "tests/support/running_program.h"
 
 namespace foresight {
@@ -236,10 +237,15 @@ TEST_F(LinkedPrograms, HealthAndACalibrationSessionComeOverTheLink) {
     arguments.insert(arguments.end(), link.begin(), link.end());
     return RunProgram(FORESIGHTCTL, arguments);
   };
-  const ProgramResult recorded = run(
-      {"calibrate", "record", folder / "session", "--stops", "0:10:10", "--lines", "2", "--json"});
+  // The stand of the head's world goes there by itself.
+  const ProgramResult recorded = run({"calibrate", "record", folder / "session", "--stops",
+                                      "0:10:10", "--lines", "2", "--places", "21", "--json"});
   ASSERT_EQ(recorded.exit_code, 0) << recorded.errors;
   const auto tally = nlohmann::json::parse(recorded.output);
+  const auto session = SessionFolder::Open(folder / "session");
+  ASSERT_TRUE(session);
+  ASSERT_EQ(session->Index().poses.size(), 1u);
+  EXPECT_EQ(session->Index().poses[0].name, "pose 1");
   EXPECT_EQ(tally.at("stops"), 2);
   EXPECT_EQ(tally.at("images"), 2);
   EXPECT_EQ(tally.at("sweeps"), 1);

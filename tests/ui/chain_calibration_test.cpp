@@ -373,9 +373,22 @@ class FakeStand : public MovingStand {
   const CalibrationBoard& SingleBoard() const override { return mount_.a; }
   const std::vector<Place>& Places() const override { return places_; }
   int At() const override { return at; }
-  void MoveTo(int place) override { at = place; }
+  void MoveTo(int place) override {
+    asked = place;
+    if (!takes_time) Arrive();
+  }
+  bool Moving() const override { return asked.has_value(); }
+  std::string Trouble() const override { return trouble; }
+  void Arrive() { at = *std::exchange(asked, std::nullopt); }
+  void Refuse(const std::string& why) {
+    asked.reset();
+    trouble = why;
+  }
 
   int at = 0;
+  bool takes_time = false;  ///< as at the far end of a link
+  std::optional<int> asked;
+  std::string trouble;
 
  private:
   BoardMount mount_;
@@ -417,6 +430,57 @@ struct MovingStandCalibration : ChainCalibration {
     });
   }
 };
+
+TEST_F(MovingStandCalibration, NothingIsCapturedWhileTheStandIsOnItsWay) {
+  stand->takes_time = true;
+  recorder->MoveStand(1);
+  EXPECT_TRUE(recorder->WhyNotCapture().contains("on its way"));
+  EXPECT_TRUE(recorder->WhyNotBoardImage().contains("on its way"));
+  EXPECT_TRUE(recorder->WhyNotMoveStand().contains("on its way"));
+  bool changed = false;
+  QObject::connect(recorder, &CalibrationRecorder::changed, recorder, [&] { changed = true; });
+  stand->Arrive();
+  EXPECT_TRUE(WaitFor([&] { return changed; })) << "the window looks again";
+  EXPECT_TRUE(recorder->WhyNotMoveStand().isEmpty());
+  EXPECT_FALSE(recorder->WhyNotCapture().contains("on its way"));
+}
+
+TEST_F(MovingStandCalibration, ATourWaitsForAStandThatTakesItsTime) {
+  stand->takes_time = true;
+  moving.Tour()->start();
+  const bool ended = WaitFor([&] {
+    if (stand->asked) stand->Arrive();
+    if (head->WaitsForStops()) head->DeliverStops(DarkCapture, ScanState::kComplete, "");
+    if (head->WaitsForScan()) DeliverSweep();
+    head_model.Poll();
+    return !moving.Tour()->Running();
+  });
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(stand->at, 2);
+  ASSERT_EQ(recorder->Index().poses.size(), 2u);
+  EXPECT_EQ(recorder->Index().poses[0].name, "upright");
+  EXPECT_EQ(recorder->Index().poses[1].name, "level");
+}
+
+TEST_F(MovingStandCalibration, ATourEndsWhereTheStandDoesNotGo) {
+  stand->takes_time = true;
+  stand->at = 1;
+  QString told;
+  QObject::connect(&session, &SessionModel::noticed, &session,
+                   [&](const Notice& notice) { told = notice.what + notice.next; });
+  moving.Tour()->start();
+  const bool ended = WaitFor([&] {
+    if (stand->asked) stand->Refuse("the head does not answer");
+    if (head->WaitsForStops()) head->DeliverStops(DarkCapture, ScanState::kComplete, "");
+    if (head->WaitsForScan()) DeliverSweep();
+    head_model.Poll();
+    return !moving.Tour()->Running();
+  });
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(stand->at, 1);
+  for (const auto& pose : recorder->Index().poses) EXPECT_NE(pose.name, "level");
+  EXPECT_TRUE(told.contains("The head does not answer")) << told.toStdString();
+}
 
 TEST_F(MovingStandCalibration, ATourCapturesAllPlacesAndNamesThem) {
   EXPECT_EQ(recorder->Mount(), UsualBoardMount()) << "the stand's";

@@ -3,6 +3,7 @@
 #include <QDateTime>
 #include <QDir>
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/calibration/mount_detector.h"
@@ -12,6 +13,8 @@
 
 namespace foresight {
 namespace {
+
+constexpr std::chrono::milliseconds kStandLook{50};
 
 /// A folder of `root` that is not there yet.
 QString NewFolder(const QString& root) {
@@ -51,6 +54,8 @@ CalibrationRecorder::CalibrationRecorder(HeadViewModel* head, SessionModel* docu
   connect(&captures_, &HeadCaptures::captured, this, &CalibrationRecorder::TakeCapture);
   connect(&captures_, &HeadCaptures::stopsEnded, this, &CalibrationRecorder::TakeStopsEnd);
   connect(&captures_, &HeadCaptures::sweepEnded, this, &CalibrationRecorder::TakeSweep);
+  stand_look_.setInterval(kStandLook);
+  connect(&stand_look_, &QTimer::timeout, this, &CalibrationRecorder::LookAtStand);
 }
 
 void CalibrationRecorder::Forget() {
@@ -163,6 +168,7 @@ void CalibrationRecorder::SetPlan(const StandPlan& plan) {
 
 QString CalibrationRecorder::WhyNotMoveStand() const {
   if (!stand_) return tr("The stand is moved by hand.");
+  if (stand_->Moving()) return tr("The stand is on its way.");
   if (captures_.Running()) return tr("The head is capturing.");
   // Captures that are on their way belong to where the stand was.
   return writer_.Busy() ? tr("A capture is being kept.") : QString();
@@ -177,10 +183,27 @@ void CalibrationRecorder::MoveStand(int place) {
   stand_->MoveTo(place);
   present_place_ = -1;
   begun_place_.reset();
+  if (stand_->Moving())
+    stand_look_.start();
+  else
+    return LookAtStand();
+  Q_EMIT changed();
+}
+
+/// A stand at the far end of a link takes its time, and may not go at all.
+void CalibrationRecorder::LookAtStand() {
+  if (stand_->Moving()) return;
+  stand_look_.stop();
+  if (const std::string trouble = stand_->Trouble(); !trouble.empty()) {
+    present_place_ = PlaceOfStand();
+    documents_->Report(
+        {Notice::Level::kWarning, tr("The stand was not moved."), Sentence(trouble)});
+  }
   Q_EMIT changed();
 }
 
 QString CalibrationRecorder::WhyNotBoardImage() const {
+  if (StandMoves()) return tr("The stand is on its way.");
   if (const QString why = captures_.WhyNot(); !why.isEmpty()) return why;
   const Status told = CheckInImages(mount_);
   return told ? QString() : Sentence(told.error().message);

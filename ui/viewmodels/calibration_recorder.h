@@ -2,14 +2,15 @@
 
 #include <QObject>
 #include <QString>
+#include <QTimer>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/calibration/session_folder.h"
+#include "hardware/api/moving_stand.h"
 #include "ui/viewmodels/head_captures.h"
-#include "ui/viewmodels/moving_stand.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
@@ -55,6 +56,7 @@ class CalibrationRecorder : public QObject {
 
   /// nullptr where the stand is carried.
   const MovingStand* Stand() const { return stand_.get(); }
+  bool StandMoves() const { return stand_ && stand_->Moving(); }
   QString WhyNotMoveStand() const;
   /// To one of its places, -1 = away; the next capture begins a place of the session.
   void MoveStand(int place);
@@ -123,6 +125,7 @@ class CalibrationRecorder : public QObject {
   /// Writes something into the session's folder.
   void Write(const QString& title, Change change, std::function<void(SessionCapture)> done = {},
              std::function<void()> failed = {});
+  void LookAtStand();
   void BeginPlace();
   /// Of the place that the stand is known to be at; empty = not known.
   std::string NameOfStandsPlace() const;
@@ -152,6 +155,8 @@ class CalibrationRecorder : public QObject {
   std::shared_ptr<std::optional<int>> begun_place_;
   bool capturing_board_image_ = false;
   int version_ = 0;  ///< of the session: answers that are on their way may be of another one
+
+  QTimer stand_look_;  ///< while it moves
 
   HeadCaptures captures_;
   TaskRunner writer_{documents_->Tasks(), TaskPolicy::kNeverCancel};

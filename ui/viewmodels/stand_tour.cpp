@@ -34,6 +34,7 @@ void StandTour::start() {
       steps_.push_back({i, Task::kImage});
     }
   running_ = true;
+  asked_.reset();
   Advance();
   Q_EMIT changed();
 }
@@ -49,19 +50,30 @@ void StandTour::end() {
 /// Goes on when the last capture is on the disk and the head stands.
 void StandTour::Advance() {
   if (!running_ || taking_ || recorder_->Capturing() || recorder_->Writing()) return;
+  if (recorder_->StandMoves()) return;
   if (recorder_->Captures()->HeadMoves()) return;
   taking_ = true;
   bool took = false;
   while (!steps_.empty() && !took) {
     const Step step = steps_.front();
+    if (step.place != recorder_->Stand()->At()) {
+      if (asked_ == step.place) {
+        steps_.clear();  // it did not go, and why was told
+        break;
+      }
+      asked_ = step.place;
+      recorder_->MoveStand(step.place);
+      if (recorder_->StandMoves()) break;
+      if (step.place != recorder_->Stand()->At()) continue;  // it did not go
+    }
+    asked_.reset();
     steps_.pop_front();
-    if (step.place != recorder_->Stand()->At()) recorder_->MoveStand(step.place);
     if (IsDone(step)) continue;
     took = Take(step);
     if (!took) steps_.clear();  // why was told
   }
   taking_ = false;
-  if (took) return;
+  if (took || recorder_->StandMoves()) return;
   running_ = false;
   Q_EMIT changed();
 }

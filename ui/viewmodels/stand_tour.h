@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <deque>
+#include <optional>
 
 #include "ui/viewmodels/calibration_recorder.h"
 
@@ -43,7 +44,8 @@ class StandTour : public QObject {
 
   CalibrationRecorder* recorder_;
   bool running_ = false;
-  bool taking_ = false;  ///< what it does announces changes, which it hears itself
+  std::optional<int> asked_;  ///< place that the stand was told to go to for the next step
+  bool taking_ = false;       ///< what it does announces changes, which it hears itself
   std::deque<Step> steps_;
 };
 

@@ -55,6 +55,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::vector<ChannelMaker
   fetching.round_trip = [raw] { return raw->watch_ ? raw->watch_->RoundTrip() : 0.0; };
   head->stopper_ = std::make_unique<StopSender>(head->session_);
   head->commands_ = std::make_unique<CommandSender>(head->session_, options.command_good_s);
+  FORESIGHT_CHECK(head->FetchStand());
   WatchClient::Hooks hooks;
   hooks.on_begin = [raw] { raw->OnBegin(); };
   hooks.on_event = [raw](const link::Event& event) { raw->OnEvent(event); };
@@ -73,6 +74,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::vector<ChannelMaker
 /// In the opposite order of their making: the watch uses all others.
 RemoteHead::~RemoteHead() {
   watch_.reset();
+  if (stand_) stand_->Leave();
   commands_.reset();
   stopper_.reset();
   look_.reset();
@@ -94,12 +96,30 @@ Status RemoteHead::FetchRig() {
   return {};
 }
 
+/// Of a real head nobody believes that its stand moves by itself.
+Status RemoteHead::FetchStand() {
+  const link::IdentifyReply identity = session_.HeadIdentity();
+  if (!identity.simulated() || !identity.has_stand()) return {};
+  link::StandReply reply;
+  const auto context = LinkSession::Context(kRigTimeout);
+  const grpc::Status called =
+      session_.stub(*context)->GetStand(context.get(), link::StandRequest(), &reply);
+  if (!called.ok()) return tl::unexpected(session_.ToError(called, "its stand"));
+  FORESIGHT_TRY(StandDescription stand, FromMessage(reply));
+  stand_ = std::make_shared<RemoteStand>(std::move(stand),
+                                         [this](link::Command command, CommandSender::Done done) {
+                                           commands_->Send(std::move(command), std::move(done));
+                                         });
+  return {};
+}
+
 /// The link is there, perhaps after a long time: what changed meanwhile is asked for.
 void RemoteHead::OnBegin() {
   const std::string boot_id = session_.HeadIdentity().boot_id();
   {
     const std::lock_guard lock(mutex_);
     if (boot_id != boot_id_) mirror_.Forget();
+    if (stand_ && boot_id != boot_id_) stand_->Forget();
     boot_id_ = boot_id;
   }
   link::ListScansReply scans;
@@ -112,6 +132,7 @@ void RemoteHead::OnBegin() {
 void RemoteHead::OnEvent(const link::Event& event) {
   if (const foresight::Status taken = mirror_.Take(event.status(), event.desk_time_s()); !taken)
     LogError("{}: {}", options_.address, taken.error().message);
+  if (stand_) stand_->Heard(event.status().stand_at(), event.desk_time_s());
   if (event.scans_size() > 0) fetcher_->Heard({event.scans().begin(), event.scans().end()}, false);
   std::string known;
   {

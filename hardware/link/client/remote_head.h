@@ -13,6 +13,7 @@
 #include "hardware/link/client/command_sender.h"
 #include "hardware/link/client/head_mirror.h"
 #include "hardware/link/client/look_client.h"
+#include "hardware/link/client/remote_stand.h"
 #include "hardware/link/client/scan_fetcher.h"
 #include "hardware/link/client/stop_sender.h"
 #include "hardware/link/client/stops_client.h"
@@ -65,6 +66,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
   void Fetch(const std::string& scan_id) override { fetcher_->Fetch(scan_id); }
   void FetchFirst(const std::string& scan_id) override { fetcher_->FetchFirst(scan_id); }
   void Pause(const std::string& scan_id) override { fetcher_->Pause(scan_id); }
+  std::shared_ptr<MovingStand> Stand() const override { return stand_; }
   bool MayOperate() const override { return session_.HeadIdentity().may_operate(); }
   foresight::Status TakeControl() override;
   foresight::Status GiveControl(const std::string& successor) override;
@@ -77,6 +79,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
  private:
   RemoteHead(std::vector<ChannelMaker> channels, const Options& options);
   foresight::Status FetchRig();
+  foresight::Status FetchStand();
   foresight::Status MayAct(const char* what) const;
   void OnBegin();
   void OnEvent(const link::Event& event);
@@ -97,6 +100,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
   std::unique_ptr<ScanFetcher> fetcher_;
   std::unique_ptr<StopSender> stopper_;
   std::unique_ptr<CommandSender> commands_;
+  std::shared_ptr<RemoteStand> stand_;  ///< as it was when the link began; null = it is carried
   std::unique_ptr<WatchClient> watch_;
 };
 

@@ -5,12 +5,16 @@
 #include "core/base/log.h"
 #include "hardware/link/chunks/chunk_order.h"
 #include "hardware/link/client/early_scan.h"
+#include "hardware/link/protocol/chunk_messages.h"
 
 namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::milliseconds kNoWait{0};
+constexpr std::chrono::milliseconds kPause{20};
+constexpr std::chrono::milliseconds kWatch{5};  ///< how late a fresh connection is seen
+constexpr double kPause_s = 0.020;
 /// What came and was not decoded yet: two windows of a second at 300 Mbit/s.
 constexpr std::int64_t kMostWaiting = std::int64_t{80} << 20;
 constexpr double kRetry_s = 0.25;     ///< after the link broke
@@ -20,18 +24,6 @@ constexpr double kConfirm_s = 5.0;  ///< for the head's answer that it heard of 
 /// A sign of life and its answer, 300 bytes with all that is around them, take 0.25 s at 9600
 /// bit/s.
 constexpr double kWideRoundTrip_s = 0.12;
-
-Chunk FromMessage(link::Chunk& message) {
-  Chunk chunk;
-  chunk.id.kind = static_cast<ChunkKind>(message.id().kind());
-  chunk.id.item = message.id().item();
-  chunk.id.part = message.id().part();
-  chunk.parts = message.parts();
-  chunk.item_crc = message.item_crc();
-  chunk.crc = message.crc();
-  chunk.bytes = std::move(*message.mutable_bytes());
-  return chunk;
-}
 
 }  // namespace
 
@@ -44,7 +36,7 @@ class ScanFetcher::Inbox {
   void Push(link::Chunk message) {
     const std::lock_guard lock(mutex_);
     left_bytes_ = message.left_bytes();
-    if (IsChunkKind(message.id().kind())) chunks_.push_back(FromMessage(message));
+    if (auto chunk = FromMessage(std::move(message))) chunks_.push_back(*std::move(chunk));
     wake_.notify_all();
   }
   void Close() {
@@ -302,7 +294,7 @@ void ScanFetcher::Work(const std::stop_token& stop) {
     const Status fetched = Bring(*scan, stop);
     SetComing("");
     if (fetched && scan->transfer && scan->transfer->TakeMistakenRig()) continue;
-    if (fetched && std::exchange(left_behind_, false)) continue;
+    if (fetched && std::exchange(again_, false)) continue;
     // A link that broke is tried again soon; a disk or a mission that takes nothing is not.
     const bool disk = !fetched && fetched.error().code != ErrorCode::kDevice;
     if (disk) LogError("{}", fetched.error().message);
@@ -331,17 +323,17 @@ void ScanFetcher::EndSinksOfOthers(const Fetched& newest) {
 
 void ScanFetcher::EndSink(Fetched& scan, ScanState state, const std::string& reason) {
   if (!scan.sink) return;
-  const bool heard_start = scan.transfer && scan.transfer->builder().delivered().started;
-  if (!heard_start) scan.sink->OnScanStarted(scan.header);
-  scan.sink->OnScanEnded(state, reason);
+  const Delivered heard = scan.transfer ? scan.transfer->builder().delivered() : Delivered();
+  if (!heard.started) scan.sink->OnScanStarted(scan.header);
+  if (!heard.ended) scan.sink->OnScanEnded(state, reason);
   const std::lock_guard lock(mutex_);
   scan.sink.reset();
 }
 
-link::TransferStart ScanFetcher::StartOf(const Fetched& scan) {
+link::TransferStart ScanFetcher::StartOf(const Fetched& scan, const std::string& have) {
   link::TransferStart start;
   start.set_scan_id(scan.header.uuid);
-  if (scan.transfer) start.set_have(scan.transfer->Have().Encode());
+  start.set_have(have);
   thin_ = options_.thin;
   {
     const std::lock_guard lock(mutex_);
@@ -349,7 +341,8 @@ link::TransferStart ScanFetcher::StartOf(const Fetched& scan) {
     start.set_credit_bytes(rate_.credit());
   }
   *start.mutable_preferences() = Preferences();
-  if (scan.done) start.mutable_preferences()->set_pause(true);
+  // Of a scan that is here, the head is to hear only that.
+  if (have.empty()) start.mutable_preferences()->set_pause(true);
   return start;
 }
 
@@ -366,17 +359,24 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
   }
   const auto context = LinkSession::Context(std::chrono::milliseconds(0));
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
-  while (scan.transfer && scan.transfer->Waiting() && !session_.Connected() &&
-         !stop.stop_requested())
-    FORESIGHT_CHECK(TakeIn(scan, scan.transfer->WaitingBytes() - 1, scan.shown.left_bytes));
+  const std::string have = scan.transfer ? scan.transfer->Have().Encode() : "";
+  // A window that opens does not wait until the item that is being read is whole: meanwhile the
+  // stream begins. What this thread changes is not looked at before it has ended.
+  const std::int64_t left_bytes = scan.shown.left_bytes;
+  Status taken_in;
+  std::jthread taker([&](const std::stop_token& connected) {
+    while (taken_in && scan.transfer && scan.transfer->Waiting() && !connected.stop_requested() &&
+           !session_.Connected())
+      taken_in = TakeIn(scan, scan.transfer->WaitingBytes() - 1, left_bytes);
+  });
   const auto stub = session_.WaitForStub(stop);
   if (stub == nullptr) return {};
   const auto stream = stub->Transfer(context.get());
   link::TransferRequest request;
-  *request.mutable_start() = StartOf(scan);
+  *request.mutable_start() = StartOf(scan, have);
   request.mutable_start()->set_burst_key_id(burst_key);
   if (!stream->Write(request)) return tl::unexpected(session_.ToError(stream->Finish(), "a scan"));
-  Inbox inbox(scan.shown.left_bytes);
+  Inbox inbox(left_bytes);
   Status received;
   {
     const std::jthread reader([&] {
@@ -384,7 +384,11 @@ Status ScanFetcher::Bring(Fetched& scan, const std::stop_token& stop) {
       while (stream->Read(&message)) inbox.Push(std::move(message));
       inbox.Close();
     });
-    if (!scan.done) received = Receive(scan, stub, *stream, inbox);
+    taker = {};
+    received = taken_in;
+    // What could not be read has to come again, and the head does not know that.
+    again_ = received && scan.transfer && scan.transfer->Have().Encode() != have;
+    if (received && !scan.done && !again_) received = Receive(scan, stub, *stream, inbox);
     if (received && scan.done) SayThatAllIsHere(*stream, inbox);
     if (!inbox.Closed()) context->TryCancel();
   }
@@ -409,25 +413,39 @@ void ScanFetcher::SayThatAllIsHere(Stream& stream, Inbox& inbox) {
   while (!inbox.Closed() && LinkSession::Now() < end_s) inbox.TakeAll(kTick);
 }
 
+/// How long to look for chunks before what came is taken in. An image takes longer to read than its
+/// parts take to come through a wide path, so it waits for a pause.
+std::chrono::milliseconds ScanFetcher::WaitBeforeTakingIn(const ScanTransfer& transfer,
+                                                          double silent_s) {
+  if (!transfer.Waiting()) return kTick;
+  return transfer.NextKind() == ChunkKind::kImage && silent_s < kPause_s ? kPause : kNoWait;
+}
+
 Status ScanFetcher::Receive(Fetched& scan, const Stub& stub, Stream& stream, Inbox& inbox) {
   std::int64_t preferences_sent = 0;
-  silence_.Begin(LinkSession::Now());
+  bool doubted = false;  // then a fresh connection is looked for, and nothing else is begun
+  double came_s = LinkSession::Now();
+  silence_.Begin(came_s);
   while (!inbox.Closed() && !Superseded(scan)) {
-    left_behind_ = session_.LeftBehind(stub);
-    if (left_behind_) break;
-    std::vector<Chunk> chunks = inbox.TakeAll(scan.transfer->Waiting() ? kNoWait : kTick);
+    again_ = session_.LeftBehind(stub);
+    if (again_) break;
+    std::vector<Chunk> chunks = inbox.TakeAll(
+        doubted ? kWatch : WaitBeforeTakingIn(*scan.transfer, LinkSession::Now() - came_s));
     if (Superseded(scan)) break;  // what is not taken in comes again
     const bool came = !chunks.empty();
+    if (came) came_s = LinkSession::Now();
     if (came || inbox.LeftBytes() == 0) {
       if (silence_.Heard(LinkSession::Now())) session_.Trust();
+      doubted = false;
     } else if (!thin_ && silence_.Doubts(LinkSession::Now(), RoundTrip())) {
       session_.Doubt();
+      doubted = true;
     }
     FORESIGHT_CHECK(Acknowledge(scan, stream, std::move(chunks), inbox.LeftBytes()));
     FORESIGHT_TRY(const bool came_by_burst, KeepBurst(scan, stream));
     // The link goes first: what came is decoded when nothing more comes for a moment.
     const std::int64_t most =
-        came || came_by_burst ? kMostWaiting : scan.transfer->WaitingBytes() - 1;
+        came || came_by_burst || doubted ? kMostWaiting : scan.transfer->WaitingBytes() - 1;
     FORESIGHT_CHECK(TakeIn(scan, most, inbox.LeftBytes()));
     if (scan.done || !scan.transfer || scan.transfer->MistakenRig()) return {};
     link::TransferRequest request;
@@ -513,7 +531,10 @@ Status ScanFetcher::Finish(Fetched& scan) {
     return tl::unexpected(whole.error());
   }
   if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
-  if (options_.archive) FORESIGHT_CHECK(options_.archive->Keep(*whole));
+  if (options_.archive)
+    FORESIGHT_CHECK(options_.archive->Keep(*whole));
+  else if (scan.sink)
+    FORESIGHT_CHECK(scan.sink->WaitUntilKept());
   FORESIGHT_CHECK(scan.transfer->Remove());
   const std::lock_guard lock(mutex_);
   scan.transfer.reset();

@@ -99,7 +99,9 @@ class ScanFetcher {
   void EndSink(Fetched& scan, ScanState state, const std::string& reason);
   Status Bring(Fetched& scan, const std::stop_token& stop);
   Fetched& Queued(const std::string& scan_id);
-  link::TransferStart StartOf(const Fetched& scan);
+  link::TransferStart StartOf(const Fetched& scan, const std::string& have);
+  static std::chrono::milliseconds WaitBeforeTakingIn(const ScanTransfer& transfer,
+                                                      double silent_s);
   Status Receive(Fetched& scan, const Stub& stub, Stream& stream, Inbox& inbox);
   Status Acknowledge(Fetched& scan, Stream& stream, std::vector<Chunk> chunks,
                      std::int64_t left_bytes);
@@ -128,9 +130,9 @@ class ScanFetcher {
   TransferRate rate_;
   double early_s_ = 0.0;  ///< of the thread alone, as what follows
   SilenceWatch silence_;
-  bool left_behind_ = false;  ///< the stream's connection was, for a fresh one
-  bool thin_ = false;         ///< the path is known to be thin: only what is small may travel
-  std::jthread thread_;       ///< last: starts when everything else is there
+  bool again_ = false;  ///< a stream is to begin at once: on a fresh connection, or with less here
+  std::atomic<bool> thin_{false};  ///< the path is known to be thin: only what is small may travel
+  std::jthread thread_;            ///< last: starts when everything else is there
 };
 
 }  // namespace foresight

@@ -28,6 +28,8 @@ class ScanTransfer {
   /// Bytes of the chunks that were kept and are not part of the scan yet.
   std::int64_t WaitingBytes() const { return waiting_bytes_; }
   bool Waiting() const { return !waiting_.empty(); }
+  /// Of what is taken in next. @pre Waiting()
+  ChunkKind NextKind() const { return waiting_.front().id.kind; }
   /// Makes the chunk that has waited longest part of the scan; false where it could not be read,
   /// and has to come again. @pre Waiting()
   bool TakeInNext();

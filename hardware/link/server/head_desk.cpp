@@ -28,6 +28,8 @@ HeadDesk::HeadDesk(std::shared_ptr<SensorHead> head, ScanShelf& shelf, const Opt
       lease_(options.lease_s),
       bursts_(shelf, options.burst_bytes_per_s) {
   FORESIGHT_EXPECTS(head_ != nullptr, "a desk has a head");
+  FORESIGHT_EXPECTS(options_.stand == nullptr || options_.simulated,
+                    "only a simulated world moves its stand");
   rig_id_ = RigId(head_->Rig());
 }
 
@@ -46,6 +48,7 @@ link::IdentifyReply HeadDesk::Identify(const Peer& peer) const {
   reply.set_boot_id(boot_id_);
   reply.set_simulated(options_.simulated);
   reply.set_desk_time_s(Time());
+  reply.set_has_stand(options_.stand != nullptr);
   const std::lock_guard lock(names_);
   reply.set_rig_id(rig_id_);
   return reply;
@@ -141,6 +144,8 @@ Status HeadDesk::Carry(const link::Command& command) {
       return SetRig(command.set_rig());
     case link::Command::kStartStops:
       return StartStops(command.start_stops());
+    case link::Command::kMoveStand:
+      return MoveStand(command.move_stand());
     default:
       return Fail(ErrorCode::kInvalidInput, "the head does not know this command");
   }
@@ -188,6 +193,22 @@ Status HeadDesk::StartStops(const link::StartStops& start) {
   FORESIGHT_CHECK(head_->StartStops(plan, stops));
   const std::lock_guard lock(names_);
   stops_ = std::move(stops);
+  return {};
+}
+
+/// Captures that run belong to where the stand is.
+Status HeadDesk::MoveStand(const link::MoveStand& move) {
+  if (options_.stand == nullptr)
+    return Fail(ErrorCode::kState, "the stand of this head is carried, it does not move by itself");
+  const HeadState state = head_->Status().state;
+  if (state == HeadState::kSweeping || state == HeadState::kStopping)
+    return Fail(ErrorCode::kState, "the stand cannot be moved while the head is {}",
+                ToString(state));
+  const auto places = static_cast<int>(options_.stand->Places().size());
+  if (move.place() < 0 || move.place() > places)
+    return Fail(ErrorCode::kInvalidInput, "the stand has {} places, and none {}", places,
+                move.place());
+  options_.stand->MoveTo(move.place() - 1);
   return {};
 }
 
@@ -282,6 +303,7 @@ link::PoseReply HeadDesk::PublishPose(const link::PoseRequest& request, const Pe
 link::Status HeadDesk::Now(bool with_health) const {
   link::Status status = ToMessage(head_->Status(), with_health);
   status.set_free_bytes(shelf_.FreeBytes());
+  if (options_.stand != nullptr) status.set_stand_at(options_.stand->At() + 1);
   const std::lock_guard lock(names_);
   status.set_scan_id(scan_id_);
   status.set_rig_id(rig_id_);

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include "hardware/api/moving_stand.h"
 #include "hardware/api/sensor_head.h"
 #include "hardware/link/robot/pose_gate.h"
 #include "hardware/link/server/burst_desk.h"
@@ -26,6 +27,8 @@ class HeadDesk {
     bool simulated = false;
     PoseGate* gate = nullptr;  ///< to the robot; null = there is none. Outlives the desk.
     double burst_bytes_per_s = BurstDesk::kUsualBytesPerS;  ///< 0 = no bursts
+    /// Of a simulated world; null = it is carried, as every real one is. Outlives the desk.
+    MovingStand* stand = nullptr;
   };
 
   /// `shelf` outlives the desk.
@@ -62,6 +65,8 @@ class HeadDesk {
   bool HasControl(const std::string& token) const { return lease_.Holds(token, Time()); }
   /// The rig in force; fails with kInvalidInput where `rig_id` is another one's and not empty.
   Result<std::string> RigYaml(const std::string& rig_id) const;
+  /// nullptr where it is carried.
+  const MovingStand* Stand() const { return options_.stand; }
   /// Seconds since the desk was made.
   double Time() const;
 
@@ -77,6 +82,7 @@ class HeadDesk {
   HeadFacts Facts() const;
   Status SetRig(const link::SetRig& set);
   Status StartStops(const link::StartStops& start);
+  Status MoveStand(const link::MoveStand& move);
 
   const std::shared_ptr<SensorHead> head_;
   ScanShelf& shelf_;

@@ -3,6 +3,7 @@
 #include "core/base/contract.h"
 #include "core/base/log.h"
 #include "hardware/link/protocol/messages.h"
+#include "hardware/link/protocol/stand_messages.h"
 #include "hardware/link/protocol/stop_messages.h"
 #include "hardware/link/server/image_desk.h"
 #include "hardware/link/server/look_stream.h"
@@ -144,6 +145,17 @@ grpc::Status HeadService::GetRig(grpc::ServerContext* context, const link::RigRe
   const auto yaml = desk_.RigYaml(request->rig_id());
   if (!yaml) return ToGrpc(yaml.error());
   reply->set_yaml(*yaml);
+  return grpc::Status::OK;
+}
+
+grpc::Status HeadService::GetStand(grpc::ServerContext* context,
+                                   const link::StandRequest* /*request*/, link::StandReply* reply) {
+  grpc::Status refusal;
+  if (!Admit(*context, &refusal)) return refusal;
+  if (desk_.Stand() == nullptr)
+    return {grpc::StatusCode::FAILED_PRECONDITION,
+            "the stand of this head is carried, it does not move by itself"};
+  *reply = ToMessage(*desk_.Stand());
   return grpc::Status::OK;
 }
 

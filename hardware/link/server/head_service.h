@@ -42,6 +42,8 @@ class HeadService final : public link::SensorHead::Service {
                        link::Outcome* outcome) override;
   grpc::Status Stop(grpc::ServerContext* context, const link::StopRequest* request,
                     link::Outcome* outcome) override;
+  grpc::Status GetStand(grpc::ServerContext* context, const link::StandRequest* request,
+                        link::StandReply* reply) override;
   grpc::Status GetRig(grpc::ServerContext* context, const link::RigRequest* request,
                       link::RigReply* reply) override;
   grpc::Status Transfer(

@@ -1,5 +1,7 @@
 #include "hardware/link/server/item_cache.h"
 
+#include <algorithm>
+
 #include "core/base/thread_priority.h"
 
 namespace foresight {
@@ -7,12 +9,25 @@ namespace {
 
 /// How soon a scan that grows is looked at again.
 constexpr std::chrono::milliseconds kTick{100};
+/// An item takes some 55 ms to make where the maker has a core.
+constexpr std::chrono::milliseconds kPatience{60};
+/// After this time without a word of the station there is a blackout.
+constexpr std::chrono::milliseconds kQuiet{100};
+/// A quarter of a second at 300 Mbit/s: who sends will soon have to wait.
+constexpr std::int64_t kFewBytes = std::int64_t{9} << 20;
+
+bool IsRecording(const ScanShelf& shelf) {
+  const std::vector<ShelvedScan> scans = shelf.List();
+  return std::any_of(scans.begin(), scans.end(),
+                     [](const ShelvedScan& scan) { return scan.state == ScanState::kRunning; });
+}
 
 }  // namespace
 
-ItemCache::ItemCache(ScanShelf& shelf, std::int64_t most_bytes)
-    : shelf_(shelf), most_bytes_(most_bytes) {
-  thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+ItemCache::ItemCache(ScanShelf& shelf, std::int64_t most_bytes, ChunkSource::PartsOf encode)
+    : shelf_(shelf), most_bytes_(most_bytes), encode_(std::move(encode)) {
+  maker_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+  helper_ = std::jthread([this](const std::stop_token& stop) { Help(stop); });
 }
 
 ItemCache::~ItemCache() = default;
@@ -62,9 +77,10 @@ Result<SharedParts> ItemCache::Get(const ScanToSend& source, const ItemId& id) {
   std::unique_lock lock(mutex_);
   if (scan_id_ != source.scan.uuid) {
     lock.unlock();
-    return EncodeParts(source, id);
+    return encode_(source, id);
   }
-  changed_.wait(lock, [&] { return making_.count(id) == 0; });
+  // The maker may not get a core for a long time, where this computer does other work too.
+  changed_.wait_for(lock, kPatience, [&] { return making_.count(id) == 0; });
   const auto found = items_.find(id);
   return found != items_.end() ? found->second.parts : Make(source, id, lock);
 }
@@ -74,11 +90,12 @@ Result<SharedParts> ItemCache::Make(const ScanToSend& source, const ItemId& id,
                                     std::unique_lock<std::mutex>& lock) {
   making_.insert(id);
   lock.unlock();
-  Result<SharedParts> made = EncodeParts(source, id);
+  Result<SharedParts> made = encode_(source, id);
   lock.lock();
   making_.erase(id);
   changed_.notify_all();
-  if (scan_id_ != source.scan.uuid) return made;
+  // Somebody else was faster, and the station may have the item already.
+  if (scan_id_ != source.scan.uuid || done_.Has(id)) return made;
   done_.Add(id);
   if (!made) return made;
   Item item;
@@ -91,6 +108,7 @@ Result<SharedParts> ItemCache::Make(const ScanToSend& source, const ItemId& id,
 void ItemCache::Acknowledged(const std::string& scan_id, const ChunkId& id) {
   const std::lock_guard lock(mutex_);
   if (scan_id_ != scan_id) return;
+  acknowledged_ = std::chrono::steady_clock::now();
   const auto found = items_.find(id.Item());
   if (found == items_.end()) return;
   Item& item = found->second;
@@ -132,19 +150,45 @@ std::optional<ItemId> ItemCache::NextToMake() const {
   return NextItem(*source_, ItemsOf(*source_), done, preferences_);
 }
 
+/// Whether there was something to make.
+bool ItemCache::MakeNext() {
+  std::unique_lock lock(mutex_);
+  const auto next = NextToMake();
+  if (!next) return false;
+  const ScanToSend source = *source_;
+  // The stream that asks for an item that cannot be made says why.
+  static_cast<void>(Make(source, *next, lock));
+  return true;
+}
+
 void ItemCache::Work(const std::stop_token& stop) {
   LetOthersGoFirst();  // the sweep, and the stream that sends
   while (!stop.stop_requested()) {
     Refresh();
+    if (MakeNext()) continue;
     std::unique_lock lock(mutex_);
-    const auto next = NextToMake();
-    if (!next) {
-      changed_.wait_for(lock, stop, kTick, [] { return false; });
-      continue;
+    changed_.wait_for(lock, stop, kTick, [] { return false; });
+  }
+}
+
+/// With the mutex held. In a window the stream has the cores, unless it is about to run dry.
+bool ItemCache::MayHelp() const {
+  return source_ &&
+         (bytes_ < kFewBytes || std::chrono::steady_clock::now() - acknowledged_ > kQuiet);
+}
+
+/// Where others of this computer have more to do than it has cores, the maker alone would bring
+/// next to nothing between two windows. A sweep is not disturbed.
+void ItemCache::Help(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    bool may = false;
+    {
+      std::unique_lock lock(mutex_);
+      may = MayHelp();
     }
-    const ScanToSend source = *source_;
-    // The stream that asks for an item that cannot be made says why.
-    static_cast<void>(Make(source, *next, lock));
+    if (may && !IsRecording(shelf_) && MakeNext()) continue;
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, stop, kTick, [] { return false; });
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
@@ -24,8 +25,9 @@ class ItemCache {
   /// Two windows of a second at 300 Mbit/s.
   static constexpr std::int64_t kUsualBytes = std::int64_t{80} << 20;
 
-  /// `most_bytes` of items are kept; the shelf outlives this.
-  explicit ItemCache(ScanShelf& shelf, std::int64_t most_bytes = kUsualBytes);
+  /// `most_bytes` of items are kept; the shelf outlives this. `encode` is for tests.
+  explicit ItemCache(ScanShelf& shelf, std::int64_t most_bytes = kUsualBytes,
+                     ChunkSource::PartsOf encode = EncodeParts);
   ~ItemCache();
   ItemCache(const ItemCache&) = delete;
   ItemCache& operator=(const ItemCache&) = delete;
@@ -35,8 +37,8 @@ class ItemCache {
                const TransferPreferences& preferences);
   /// The station wants something else of it.
   void SetPreferences(const std::string& scan_id, const TransferPreferences& preferences);
-  /// The item's parts: those that are here, or made now; where they are being made, this waits for
-  /// them. Fails as EncodeParts does.
+  /// The item's parts: those that are here, or made now; where they are being made, this waits a
+  /// little for them. Fails as EncodeParts does.
   Result<SharedParts> Get(const ScanToSend& source, const ItemId& id);
   /// The station has this part.
   void Acknowledged(const std::string& scan_id, const ChunkId& id);
@@ -55,6 +57,9 @@ class ItemCache {
   };
 
   void Work(const std::stop_token& stop);
+  void Help(const std::stop_token& stop);
+  bool MayHelp() const;
+  bool MakeNext();
   void Refresh();
   std::optional<ItemId> NextToMake() const;
   Result<SharedParts> Make(const ScanToSend& source, const ItemId& id,
@@ -63,6 +68,7 @@ class ItemCache {
 
   ScanShelf& shelf_;
   const std::int64_t most_bytes_;
+  const ChunkSource::PartsOf encode_;
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable_any changed_;
@@ -73,9 +79,12 @@ class ItemCache {
   TransferPreferences preferences_;
   std::map<ItemId, Item> items_;
   std::int64_t bytes_ = 0;
-  std::set<ItemId> making_;  ///< by the worker and by streams
+  std::set<ItemId> making_;                             ///< by the makers and by streams
+  std::chrono::steady_clock::time_point acknowledged_;  ///< the last part that was
 
-  std::jthread thread_;  ///< last: it uses the others
+  // Last: they use the others.
+  std::jthread maker_;   ///< others of this computer go first
+  std::jthread helper_;  ///< as urgent as others, while nothing urgent is done here
 };
 
 }  // namespace foresight

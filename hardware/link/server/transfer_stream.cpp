@@ -3,12 +3,14 @@
 #include <thread>
 
 #include "core/base/log.h"
+#include "hardware/link/protocol/chunk_messages.h"
 
 namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
-constexpr int kMostImagesFirst = 1000;
+/// Credit that a station gives on a wide path alone.
+constexpr std::int64_t kWideCredit = std::int64_t{1} << 20;
 
 grpc::Status Refusal(const Error& error) {
   return {grpc::StatusCode::FAILED_PRECONDITION, error.message};
@@ -18,19 +20,6 @@ grpc::Status Refusal(const Error& error) {
 std::int64_t Cost(const Chunk& chunk) {
   constexpr std::int64_t kAround = 40;
   return static_cast<std::int64_t>(chunk.bytes.size()) + kAround;
-}
-
-link::Chunk ToMessage(Chunk chunk) {
-  link::Chunk message;
-  link::ChunkId& id = *message.mutable_id();
-  id.set_kind(static_cast<int>(chunk.id.kind));
-  id.set_item(chunk.id.item);
-  id.set_part(chunk.id.part);
-  message.set_parts(chunk.parts);
-  message.set_item_crc(chunk.item_crc);
-  message.set_crc(chunk.crc);
-  message.set_bytes(std::move(chunk.bytes));
-  return message;
 }
 
 }  // namespace
@@ -102,14 +91,7 @@ void TransferStream::Read() {
 }
 
 void TransferStream::TakePreferences(const link::TransferPreferences& preferences) {
-  TransferPreferences taken;
-  taken.bytes_per_s = static_cast<double>(std::max<std::int64_t>(0, preferences.bytes_per_s()));
-  if (preferences.has_lines_first() &&
-      preferences.lines_first().first() <= preferences.lines_first().last())
-    taken.lines_first =
-        NumberSet::Interval{preferences.lines_first().first(), preferences.lines_first().last()};
-  if (preferences.images_first_size() <= kMostImagesFirst)
-    taken.images_first.assign(preferences.images_first().begin(), preferences.images_first().end());
+  TransferPreferences taken = FromMessage(preferences);
   paused_ = preferences.pause();
   if (burst_) burst_->SetPreferences(taken, paused_);
   preferences_ = std::move(taken);
@@ -147,7 +129,34 @@ bool TransferStream::MaySend() {
   const auto may = [this] {
     return gone_ || confirmed_ || (!paused_ && (in_flight_ == 0 || in_flight_ < credit_));
   };
+  if (!may()) {
+    lock.unlock();
+    Flush();
+    lock.lock();
+  }
   return wake_.wait_for(lock, kTick, may);
+}
+
+/// On a wide path gRPC may gather what follows at once: to wait until each chunk is on the wire
+/// costs two changes of threads, which others of this computer make long. False where the stream
+/// broke.
+bool TransferStream::Write(link::Chunk message) {
+  bool wide = false;
+  {
+    const std::lock_guard lock(mutex_);
+    wide = credit_ >= kWideCredit;
+  }
+  if (!wide) return Flush() && stream_.Write(message);
+  const bool good = !held_ || stream_.Write(*held_, grpc::WriteOptions().set_buffer_hint());
+  held_ = std::move(message);
+  return good;
+}
+
+/// Sends the last chunk, and with it whatever was gathered.
+bool TransferStream::Flush() {
+  const bool good = !held_ || stream_.Write(*held_);
+  held_.reset();
+  return good;
 }
 
 grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
@@ -171,6 +180,7 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
       continue;
     }
     if (!*chunk) {
+      if (!Flush()) return grpc::Status::OK;
       shelf_.WaitForNews(news_, std::chrono::milliseconds(20));
       continue;
     }
@@ -181,7 +191,7 @@ grpc::Status TransferStream::Send(const std::atomic<bool>& closing) {
     }
     link::Chunk message = ToMessage(std::move(**chunk));
     message.set_left_bytes(source_->LeftBytes());
-    if (!stream_.Write(message)) return grpc::Status::OK;
+    if (!Write(std::move(message))) return grpc::Status::OK;
   }
   return grpc::Status::OK;
 }

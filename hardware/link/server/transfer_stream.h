@@ -44,6 +44,8 @@ class TransferStream {
   grpc::Status Send(const std::atomic<bool>& closing);
   Status Refresh();
   bool MaySend();
+  bool Write(link::Chunk message);
+  bool Flush();
   grpc::Status Confirm();
 
   ScanShelf& shelf_;
@@ -54,8 +56,9 @@ class TransferStream {
   Stream& stream_;
   const std::function<bool()> still_good_;  ///< asked at each message of the station
   std::string scan_id_;
-  std::optional<ChunkSource> source_;    ///< of the sending thread alone
-  std::int64_t news_ = -1;               ///< of the shelf, that source_ has
+  std::optional<ChunkSource> source_;  ///< of the sending thread alone
+  std::int64_t news_ = -1;             ///< of the shelf, that source_ has
+  std::optional<link::Chunk> held_;    ///< until the next one is there, of the sending thread alone
   std::shared_ptr<BurstSession> burst_;  ///< carries the scan too; null = none
 
   std::mutex mutex_;  ///< guards what follows

@@ -60,6 +60,7 @@ void SetStationArguments(grpc::ChannelArguments& arguments, LinkPath path, int a
 void SetHeadArguments(grpc::ServerBuilder& builder) {
   constexpr int kKeepaliveMs = 10'000;
   constexpr int kHandshakeMs = 20'000;
+  constexpr int kGatheredBytes = 256 << 10;  // of chunks that follow at once, on a wide path
   const auto set = [&](const char* name, int value) { builder.AddChannelArgument(name, value); };
   // A server that allows less answers pings of 1 s with GOAWAY, and the station
   // then doubles its interval without a word (hardware.md, section 4).
@@ -70,6 +71,7 @@ void SetHeadArguments(grpc::ServerBuilder& builder) {
   set(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   set(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
   set(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  set(GRPC_ARG_HTTP2_WRITE_BUFFER_SIZE, kGatheredBytes);
   SetWindow(set, kLittleAhead);
   builder.SetMaxReceiveMessageSize(kLargestMessageBytes);
 }

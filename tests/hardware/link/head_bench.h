@@ -16,9 +16,9 @@
 
 namespace foresight {
 
-/// Asks again and again until it is so, for ten seconds at most.
-inline bool Eventually(const std::function<bool()>& so) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+/// Asks again and again until it is so, for so long at most.
+inline bool Eventually(const std::function<bool()>& so, double longest_s = 10.0) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(longest_s);
   while (!so()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -36,7 +36,9 @@ class HeadBench {
 
   void StartHead() {
     shelf_ = ScanShelf::Open({folder / "head", 0.9}).value();
-    desk_ = std::make_unique<HeadDesk>(sensor_head_, *shelf_, HeadDesk::Options{2.0, true});
+    desk_ = std::make_unique<HeadDesk>(
+        sensor_head_, *shelf_,
+        HeadDesk::Options{2.0, true, nullptr, BurstDesk::kUsualBytesPerS, stand});
     const std::string address = "127.0.0.1:" + std::to_string(port_);
     server_ = HeadServer::Start(
                   *desk_, address, grpc::InsecureServerCredentials(),
@@ -74,6 +76,7 @@ class HeadBench {
 
   const TemporaryFolder folder;
   HeadDesk::Peer peer{"anna", true};
+  MovingStand* stand = nullptr;  ///< of the head that is started next
 
  private:
   const std::shared_ptr<SensorHead> sensor_head_;

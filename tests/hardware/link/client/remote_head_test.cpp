@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <future>
+
 #include "core/sensor/rig_id.h"
 #include "hardware/head/scan_assembler.h"
 #include "hardware/link/chunks/scan_digest.h"
+#include "tests/hardware/link/fake_stand.h"
 #include "tests/hardware/link/head_bench.h"
 
 namespace foresight {
@@ -35,6 +38,28 @@ class Collector final : public ScanSink {
 
  private:
   ScanAssembler assembler_;
+};
+
+/// A mission file on a disk that takes its time, or nothing.
+class SlowSink final : public ScanSink {
+ public:
+  void OnScanStarted(const Scan& /*header*/) override {}
+  void OnLine(const LidarLine& /*line*/) override {}
+  void OnMotorSamples(std::span<const MotorSample> /*samples*/) override {}
+  void OnFrame(const CameraFrame& /*frame*/) override {}
+  void OnScanEnded(ScanState /*state*/, const std::string& /*reason*/) override { ++ends; }
+  Status WaitUntilKept() override {
+    asked = true;
+    return outcome_.get();
+  }
+  void Kept(const Status& kept) { kept_.set_value(kept); }
+
+  std::atomic<bool> asked{false};
+  std::atomic<int> ends{0};
+
+ private:
+  std::promise<Status> kept_;
+  const std::shared_future<Status> outcome_ = kept_.get_future().share();
 };
 
 class Archive final : public ScanArchive {
@@ -119,6 +144,39 @@ TEST_F(RemoteHeadTest, AScanArrivesAsTheHeadHasIt) {
   EXPECT_TRUE(Confirmed());
   EXPECT_TRUE(std::filesystem::is_empty(bench.folder / "spool"));
   EXPECT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
+}
+
+TEST_F(RemoteHeadTest, TheSpoolStaysUntilTheSinkHasKeptTheScan) {
+  const auto remote = Ready();
+  const auto sink = std::make_shared<SlowSink>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(Eventually([&] { return head->Sink() != nullptr; }));
+  head->Play(SampleScan(6));
+  const bool asked = Eventually([&] { return sink->asked.load(); });
+  EXPECT_TRUE(asked);
+  EXPECT_FALSE(std::filesystem::is_empty(bench.folder / "spool"));
+  EXPECT_FALSE(bench.shelf().List().back().confirmed) << "the head might delete its scan";
+  sink->Kept({});
+  EXPECT_TRUE(Confirmed());
+  EXPECT_TRUE(std::filesystem::is_empty(bench.folder / "spool"));
+}
+
+TEST_F(RemoteHeadTest, AScanThatTheSinkCouldNotKeepStaysInTheSpoolAndAtTheHead) {
+  auto remote = Ready();
+  const auto sink = std::make_shared<SlowSink>();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
+  ASSERT_TRUE(Eventually([&] { return head->Sink() != nullptr; }));
+  head->Play(SampleScan(6));
+  ASSERT_TRUE(Eventually([&] { return sink->asked.load(); }));
+  sink->Kept(Fail(ErrorCode::kIo, "m.foresight: the disk is full"));
+  EXPECT_TRUE(Eventually([&] {
+    const auto scans = remote->Scans();
+    return scans.size() == 1 && scans[0].trouble == "m.foresight: the disk is full";
+  }));
+  remote.reset();
+  EXPECT_EQ(sink->ends, 1);
+  EXPECT_FALSE(std::filesystem::is_empty(bench.folder / "spool"));
+  EXPECT_FALSE(bench.shelf().List().back().confirmed);
 }
 
 TEST_F(RemoteHeadTest, LinesComeWhileTheScanRuns) {
@@ -391,6 +449,30 @@ TEST_F(RemoteHeadTest, CapturesAtStopsArriveExactly) {
   EXPECT_EQ(stops->captures[0].position, capture.position);
   EXPECT_EQ(*stops->captures[0].image, SampleScan(6).frames.front());
   EXPECT_FALSE(stops->captures[1].image);
+}
+
+TEST_F(RemoteHeadTest, TheStandOfASimulatedHeadIsMovedFromHere) {
+  FakeStand stand;
+  bench.StopHead();
+  bench.stand = &stand;
+  bench.StartHead();
+  const auto remote = Ready();
+  const std::shared_ptr<MovingStand> here = remote->Stand();
+  ASSERT_NE(here, nullptr);
+  EXPECT_EQ(here->Places(), stand.Places());
+  EXPECT_EQ(here->Mount(), stand.Mount());
+  here->MoveTo(2);
+  ASSERT_TRUE(Eventually([&] { return !here->Moving(); }));
+  EXPECT_EQ(here->Trouble(), "");
+  EXPECT_EQ(here->At(), 2);
+  EXPECT_EQ(stand.at, 2);
+  stand.at = 1;
+  EXPECT_TRUE(Eventually([&] { return here->At() == 1; })) << "another operator moved it";
+  bench.StopHead();
+}
+
+TEST_F(RemoteHeadTest, WhereTheStandIsCarriedThereIsNone) {
+  EXPECT_EQ(bench.Connect().value()->Stand(), nullptr);
 }
 
 TEST_F(RemoteHeadTest, NobodyThereIsAnErrorThatSaysWhatToDo) {

@@ -6,6 +6,7 @@
 #include "core/sensor/rig_id.h"
 #include "hardware/link/protocol/messages.h"
 #include "tests/hardware/link/fake_head.h"
+#include "tests/hardware/link/fake_stand.h"
 #include "tests/support/pose_messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -50,6 +51,57 @@ class HeadDeskTest : public testing::Test {
   HeadDesk desk;
   std::string token;
 };
+
+struct StandDeskTest : HeadDeskTest {
+  StandDeskTest() { token = with_stand.TakeControl({}, anna).token(); }
+  link::Command Move(const std::string& id, int place) const {
+    link::Command command = Command(id);
+    command.set_boot_id(with_stand.boot_id());
+    command.mutable_move_stand()->set_place(place);
+    return command;
+  }
+
+  FakeStand stand;
+  HeadDesk with_stand{head, *shelf, {60.0, true, nullptr, 0.0, &stand}};
+};
+
+TEST_F(StandDeskTest, ASimulatedHeadTellsOfItsStandAndMovesIt) {
+  EXPECT_TRUE(with_stand.Identify(eve).has_stand());
+  EXPECT_EQ(with_stand.Now(false).stand_at(), 1);
+  EXPECT_EQ(with_stand.Execute(Move("1", 3), anna).error(), link::NONE);
+  EXPECT_EQ(stand.at, 2);
+  EXPECT_EQ(with_stand.Now(false).stand_at(), 3);
+  with_stand.Execute(Move("1", 3), anna);
+  EXPECT_EQ(stand.moves, 1) << "a repeat is not carried out";
+}
+
+TEST_F(StandDeskTest, AnObserverAndAPlaceThatIsNotThereMoveNothing) {
+  EXPECT_EQ(with_stand.Execute(Move("1", 2), eve).error(), link::WRONG_STATE);
+  EXPECT_EQ(with_stand.Execute(Move("2", 4), anna).error(), link::INVALID_INPUT);
+  EXPECT_EQ(with_stand.Execute(Move("3", -1), anna).error(), link::INVALID_INPUT);
+  EXPECT_EQ(stand.moves, 0);
+}
+
+TEST_F(StandDeskTest, WhileTheHeadCapturesTheStandStays) {
+  head->SetState(HeadState::kSweeping);
+  EXPECT_EQ(with_stand.Execute(Move("1", 2), anna).error(), link::WRONG_STATE);
+  EXPECT_EQ(stand.moves, 0);
+  head->SetState(HeadState::kReady);
+  EXPECT_EQ(with_stand.Execute(Move("2", 2), anna).error(), link::NONE);
+}
+
+TEST_F(HeadDeskTest, AHeadWhoseStandIsCarriedSaysSo) {
+  EXPECT_FALSE(desk.Identify(anna).has_stand());
+  EXPECT_EQ(desk.Now(false).stand_at(), 0);
+  link::Command command = Command("1");
+  command.mutable_move_stand()->set_place(1);
+  EXPECT_THAT(desk.Execute(command, anna).message(), HasSubstr("is carried"));
+}
+
+TEST_F(HeadDeskTest, NoRealHeadHasAStandThatMovesByItself) {
+  FakeStand stand;
+  EXPECT_ANY_THROW(HeadDesk(head, *shelf, {60.0, false, nullptr, 0.0, &stand}));
+}
 
 TEST_F(HeadDeskTest, ACommandThatComesTwiceIsCarriedOutOnce) {
   EXPECT_EQ(desk.Execute(Home("1"), anna).error(), link::NONE);

@@ -119,6 +119,68 @@ TEST_F(ItemCacheTest, AnItemThatCannotBeMadeSaysWhy) {
   EXPECT_FALSE(cache.Get(Source(), {ChunkKind::kImage, 1000}));
 }
 
+/// An encoder that somebody holds up, as another program does that takes all cores.
+struct HeldEncoder {
+  ChunkSource::PartsOf Encode() {
+    return [this](const ScanToSend& source, const ItemId& id) {
+      const int call = ++calls;
+      while (call <= held && !released) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      return EncodeParts(source, id);
+    };
+  }
+
+  int held = 1;  ///< of the first calls
+  std::atomic<int> calls{0};
+  std::atomic<bool> released{false};
+};
+
+TEST_F(ItemCacheTest, AStreamDoesNotWaitForAMakerThatGetsNoCore) {
+  HeldEncoder encoder;
+  encoder.held = 2;  // both makers
+  ItemCache cache(*shelf, ItemCache::kUsualBytes, encoder.Encode());
+  cache.Prepare(kScan, {}, {});
+  ASSERT_TRUE(Eventually([&] { return encoder.calls == 2; }));
+  const ScanToSend source = Source();
+  const auto first = NextItem(source, ItemsOf(source), {}, {});
+  const auto parts = cache.Get(source, *first);
+  EXPECT_TRUE(parts);
+  EXPECT_EQ(encoder.calls, 3);
+  const std::int64_t one_item = cache.Bytes();
+  for (const Chunk& chunk : **parts) cache.Acknowledged(kScan, chunk.id);
+  EXPECT_LT(cache.Bytes(), one_item);
+  cache.Prepare(kScan, {}, {});
+  encoder.released = true;
+  EXPECT_TRUE(Settled(cache, AllBytes())) << "the makers go on";
+}
+
+TEST_F(ItemCacheTest, WhatTwoMakeIsKeptOnce) {
+  HeldEncoder encoder;
+  encoder.held = 2;
+  ItemCache cache(*shelf, ItemCache::kUsualBytes, encoder.Encode());
+  cache.Prepare(kScan, {}, {});
+  ASSERT_TRUE(Eventually([&] { return encoder.calls == 2; }));
+  const ScanToSend source = Source();
+  ChunkSource chunks(source, {},
+                     [&](const ScanToSend& now, const ItemId& id) { return cache.Get(now, id); });
+  while (const auto chunk = chunks.Next().value()) cache.Acknowledged(kScan, chunk->id);
+  encoder.released = true;
+  EXPECT_FALSE(Eventually([&] { return cache.Bytes() > 0; }, 0.3)) << "nobody would ask for it";
+}
+
+TEST_F(ItemCacheTest, WhileAScanIsRecordedOneMakerWaitsForTheSweep) {
+  FakeHead head;
+  ASSERT_TRUE(head.Home());
+  ASSERT_TRUE(head.StartScan(ScanPlan(), shelf->Begin("another", {}).value()));
+  HeldEncoder encoder;
+  ItemCache cache(*shelf, ItemCache::kUsualBytes, encoder.Encode());
+  cache.Prepare(kScan, {}, {});
+  ASSERT_TRUE(Eventually([&] { return encoder.calls == 1; }));
+  EXPECT_FALSE(Eventually([&] { return encoder.calls == 2; }, 0.3));
+  shelf->Withdraw("another");
+  EXPECT_TRUE(Eventually([&] { return encoder.calls > 1; })) << "the sweep is over";
+  encoder.released = true;
+}
+
 TEST_F(ItemCacheTest, AForgottenScanLeavesNothing) {
   ItemCache cache(*shelf);
   cache.Prepare(kScan, {}, {});

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/simulation/world.h"
-#include "ui/viewmodels/moving_stand.h"
+#include "hardware/api/moving_stand.h"
 
 namespace foresight {
 

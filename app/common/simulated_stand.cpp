@@ -1,4 +1,4 @@
-#include "app/workstation/simulated_stand.h"
+#include "app/common/simulated_stand.h"
 
 #include <algorithm>
 
