@@ -20,7 +20,17 @@ Status RecordsGetProvenance(SqliteDatabase& database, const std::string& file) {
   return {};
 }
 
-constexpr std::array<MissionMigration, 1> kMigrations = {{{1, RecordsGetProvenance}}};
+/// No table changes.
+Status ScansFromElsewhere(SqliteDatabase&, const std::string&) {
+  return {};
+}
+
+Status NotesAreKept(SqliteDatabase& database, const std::string&) {
+  return CreateMissionTable(database, "note");
+}
+
+constexpr std::array<MissionMigration, 3> kMigrations = {
+    {{1, RecordsGetProvenance}, {2, ScansFromElsewhere}, {3, NotesAreKept}}};
 static_assert(kMigrations.back().from + 1 == kMissionFormatVersion);
 
 Status RunAll(SqliteDatabase& database, int from, const std::string& file) {

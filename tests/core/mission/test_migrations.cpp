@@ -101,13 +101,13 @@ TEST_F(Migrations, AnExportOfAnOldFileIsAnOldFile) {
 }
 
 TEST_F(Migrations, ANewerFormatIsRefusedInWords) {
-  Execute("PRAGMA user_version = 3");
+  Execute("PRAGMA user_version = 5");
   const std::string words =
-      "was written by a newer Foresight (mission format 3; this program reads up to 2): update "
+      "was written by a newer Foresight (mission format 5; this program reads up to 4): update "
       "this program";
   EXPECT_THAT(MissionFile::OpenReadOnly(path_).error().message, HasSubstr(words));
   EXPECT_THAT(MissionFile::Open(path_).error().message, HasSubstr(words));
-  EXPECT_EQ(Format(), 3);
+  EXPECT_EQ(Format(), 5);
 }
 
 TEST_F(Migrations, ADamagedRowStopsTheMigrationAndTheFileStaysAsItWas) {
