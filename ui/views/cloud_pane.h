@@ -66,7 +66,7 @@ class CloudPane : public Pane {
   QComboBox* color_;
   QToolButton* residuals_;
   bool home_wanted_ = false;  ///< the view of a map begins anew
-  bool outdated_ = false;  ///< newer data came while the last were being prepared
+  bool outdated_ = false;     ///< newer data came while the last were being prepared
   std::size_t point_count_ = 0;
 };
 
