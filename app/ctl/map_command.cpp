@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -7,9 +6,7 @@
 #include "core/calibration/number_table.h"
 #include "core/geometry/angles.h"
 #include "core/io/point_cloud_file.h"
-#include "core/mapping/scan_changes.h"
-#include "core/mapping/scan_map.h"
-#include "core/mission/mission_file.h"
+#include "core/mapping/mission_map.h"
 #include "core/registration/export_cloud.h"
 
 namespace foresight {
@@ -26,16 +23,8 @@ struct MapArguments {
   bool json = false;
 };
 
-/// A scan of the mission with its place.
-struct MappedScan {
-  std::int64_t id = 0;
-  Scan scan;
-  RegisteredScan cloud;
-  MapPlace place;
-};
-
-Result<std::map<std::int64_t, Pose>> ReadOdometry(const std::string& file) {
-  std::map<std::int64_t, Pose> poses;
+Result<MapOdometry> ReadOdometry(const std::string& file) {
+  MapOdometry poses;
   if (file.empty()) return poses;
   const NumberTable table{{"scan", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}, false, ""};
   const auto add = [&](int line, std::span<const double> row) -> Status {
@@ -53,50 +42,13 @@ Result<std::map<std::int64_t, Pose>> ReadOdometry(const std::string& file) {
   return poses;
 }
 
-Result<std::vector<MappedScan>> LoadScans(const MapArguments& arguments) {
-  FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(arguments.mission));
-  FORESIGHT_TRY(const std::vector<ScanSummary> list, mission->ListScans());
-  std::vector<std::int64_t> ids = arguments.scans;
-  if (ids.empty())
-    for (const ScanSummary& scan : list) ids.push_back(scan.id);
-  std::vector<MappedScan> scans;
-  for (const std::int64_t id : ids) {
-    MappedScan entry;
-    entry.id = id;
-    FORESIGHT_TRY(entry.scan, mission->LoadScan(id));
-    const auto cloud = RegisterScan(entry.scan, {});
-    if (!cloud) {
-      PrintNote("scan {} is left out: {}", id, cloud.error().message);
-      continue;
-    }
-    entry.cloud = *cloud;
-    scans.push_back(std::move(entry));
-  }
-  if (scans.empty())
-    return Fail(ErrorCode::kInvalidInput, "{}: holds no scan with a return", arguments.mission);
-  return scans;
-}
-
-Status PlaceAll(const MapArguments& arguments, std::vector<MappedScan>& scans,
-                const RunContext& context) {
-  FORESIGHT_TRY(const auto odometry, ReadOdometry(arguments.odometry));
-  std::vector<ScanForMap> inputs;
-  for (const MappedScan& entry : scans) {
-    const auto pose = odometry.find(entry.id);
-    inputs.push_back({entry.cloud, entry.scan.rig,
-                      pose == odometry.end() ? std::nullopt : std::optional(pose->second)});
-  }
-  FORESIGHT_TRY(const std::vector<MapPlace> places, PlaceScans(inputs, {}, context));
-  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].place = places[i];
-  return {};
-}
-
-Status WriteMap(const MapArguments& arguments, const std::vector<MappedScan>& scans,
+Status WriteMap(const MapArguments& arguments, const MissionFile& mission, const MissionMap& map,
                 std::size_t& count) {
   std::vector<CloudPoint> points;
-  for (const MappedScan& entry : scans) {
+  for (const MappedScan& entry : map.scans) {
     if (!entry.place.InMap()) continue;
-    for (CloudPoint point : PointsInRobot(entry.cloud, entry.scan)) {
+    FORESIGHT_TRY(const Scan scan, mission.LoadScan(entry.id));
+    for (CloudPoint point : PointsInRobot(entry.cloud, scan)) {
       const Eigen::Vector3d place =
           entry.place.map_from_robot * Eigen::Vector3d(point.x, point.y, point.z);
       point.x = static_cast<float>(place.x());
@@ -109,17 +61,6 @@ Status WriteMap(const MapArguments& arguments, const std::vector<MappedScan>& sc
   const std::filesystem::path path = arguments.out;
   const auto write = path.extension() == ".pcd" ? WritePcd : WritePly;
   return write(path, points, CloudFields::kMeasured, {frame::Map::kName, "", 0});
-}
-
-Result<PlacedScan> Placed(const std::vector<MappedScan>& scans, std::int64_t id) {
-  for (const MappedScan& entry : scans) {
-    if (entry.id != id) continue;
-    if (!entry.place.InMap())
-      return Fail(ErrorCode::kInvalidInput, "scan {} is not in the map: {}", id,
-                  entry.place.failure);
-    return PlacedScan{entry.cloud, entry.place.map_from_robot * entry.scan.rig.robot_from_base};
-  }
-  return Fail(ErrorCode::kInvalidInput, "scan {} is not among those of the map", id);
 }
 
 nlohmann::ordered_json Vector(const Eigen::Vector3d& v) {
@@ -143,30 +84,19 @@ nlohmann::ordered_json ToJson(const MappedScan& entry) {
   return json;
 }
 
-std::string Line(const MappedScan& entry) {
-  if (!entry.place.InMap())
-    return fmt::format("scan {}: not in the map: {}", entry.id, entry.place.failure);
-  const Eigen::Vector3d& t = entry.place.map_from_robot.translation();
-  std::string text =
-      fmt::format("scan {}: robot at ({:.3f}, {:.3f}, {:.3f}) m", entry.id, t.x(), t.y(), t.z());
-  if (!entry.place.alignment) return text + ", the map's frame";
-  const CloudAlignment& a = *entry.place.alignment;
-  text += fmt::format(", {:.1f} mm rms over {:.0f} % of its points", 1e3 * a.rms_m,
-                      100.0 * a.overlap_ratio);
-  for (const std::string& sentence : a.undetermined) text += "; " + sentence;
-  return text;
-}
-
 Result<ExitCode> Map(const MapArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(std::vector<MappedScan> scans, LoadScans(arguments));
-  FORESIGHT_CHECK(PlaceAll(arguments, scans, context.Part(0.1, 0.8)));
+  FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(arguments.mission));
+  FORESIGHT_TRY(const MapOdometry odometry, ReadOdometry(arguments.odometry));
+  FORESIGHT_TRY(const MissionMap map,
+                MapMission(*mission, arguments.scans, odometry, context.Part(0.0, 0.8)));
+  for (const std::string& sentence : map.left_out) PrintNote("{}", sentence);
+  const std::vector<MappedScan>& scans = map.scans;
   std::size_t points = 0;
-  if (!arguments.out.empty()) FORESIGHT_CHECK(WriteMap(arguments, scans, points));
+  if (!arguments.out.empty()) FORESIGHT_CHECK(WriteMap(arguments, *mission, map, points));
   std::optional<ScanChanges> changes;
   if (arguments.changes.size() == 2) {
-    FORESIGHT_TRY(const PlacedScan before, Placed(scans, arguments.changes[0]));
-    FORESIGHT_TRY(const PlacedScan after, Placed(scans, arguments.changes[1]));
-    FORESIGHT_TRY(changes, FindChanges(before, after, {}, context.Part(0.8, 1.0)));
+    FORESIGHT_TRY(changes, FindChangesInMap(map, arguments.changes[0], arguments.changes[1], {},
+                                            context.Part(0.8, 1.0)));
   }
   const bool all = std::all_of(scans.begin(), scans.end(),
                                [](const MappedScan& entry) { return entry.place.InMap(); });
@@ -176,7 +106,7 @@ Result<ExitCode> Map(const MapArguments& arguments, const RunContext& context) {
   json["scans"] = nlohmann::ordered_json::array();
   for (const MappedScan& entry : scans) {
     json["scans"].push_back(ToJson(entry));
-    text += Line(entry) + "\n";
+    text += PlaceText(entry) + "\n";
   }
   if (!arguments.out.empty()) {
     json["out"] = arguments.out;
@@ -190,10 +120,7 @@ Result<ExitCode> Map(const MapArguments& arguments, const RunContext& context) {
                                  {"points", change.points.size()},
                                  {"centre_m", Vector(change.centre)},
                                  {"size_m", Vector(change.size_m)}});
-      text += fmt::format(
-          "{}: {} points round ({:.2f}, {:.2f}, {:.2f}) m, {:.2f} x {:.2f} x {:.2f} m\n",
-          ToString(change.kind), change.points.size(), change.centre.x(), change.centre.y(),
-          change.centre.z(), change.size_m.x(), change.size_m.y(), change.size_m.z());
+      text += ChangeText(change) + "\n";
     }
     json["not_seen_before"] = changes->not_seen_before;
     if (changes->changes.empty()) text += "nothing has changed\n";

@@ -32,12 +32,13 @@ void Print(const std::string& out, const MergeReport& report, bool json) {
                {"left_out", report.left_out},
                {"detections", report.detections},
                {"depth_maps", report.depth_maps},
+               {"notes", report.notes},
                {"events", report.events}});
     return;
   }
   std::string text =
-      fmt::format("{}: {} scans, {} detections, {} depth maps, {} lines of the log", out,
-                  report.scans, report.detections, report.depth_maps, report.events);
+      fmt::format("{}: {} scans, {} detections, {} depth maps, {} notes, {} lines of the log", out,
+                  report.scans, report.detections, report.depth_maps, report.notes, report.events);
   if (report.already_there > 0)
     text += fmt::format("; {} scans were in more than one file", report.already_there);
   if (report.left_out > 0) text += fmt::format("; {} scans were left out", report.left_out);

@@ -41,13 +41,14 @@ void Print(const RecoverArguments& arguments, const SalvageReport& report) {
                {"scans", scans},
                {"detections", report.detections},
                {"depth_maps", report.depth_maps},
+               {"notes", report.notes},
                {"events", report.events},
                {"losses", report.losses}});
     return;
   }
-  std::string text =
-      fmt::format("{}: {} scans, {} detections, {} depth maps, {} lines of the log", arguments.out,
-                  report.scans.size(), report.detections, report.depth_maps, report.events);
+  std::string text = fmt::format(
+      "{}: {} scans, {} detections, {} depth maps, {} notes, {} lines of the log", arguments.out,
+      report.scans.size(), report.detections, report.depth_maps, report.notes, report.events);
   for (const SalvagedScan& scan : report.scans)
     text += fmt::format(
         "\nscan {}: {} lines, {} images, {}", scan.id, OutOf(scan.lines, scan.lines_before),

@@ -78,14 +78,15 @@ void AddMissionSearchCommand(CLI::App& mission, Invocation& invocation) {
   const auto arguments = std::make_shared<SearchArguments>();
   MissionQuery& query = arguments->query;
   CLI::App* command = mission.add_subcommand(
-      "search", "Find scans, objects and lines of the log in all missions of a folder");
+      "search", "Find scans, objects, notes and lines of the log in all missions of a folder");
   command->add_option("folder", arguments->folder, "Folder; missions below it count too")
       ->required();
   command->add_option("words", query.words,
                       "Words that all must be there: drill, interrupted, ...");
   command->add_option("--what", query.what, "Only one sort of entry")
-      ->check(CLI::IsMember({"scan", "object", "log"}));
-  command->add_option("--kind", query.kind, "Only objects of this kind: valve, drill, terrain");
+      ->check(CLI::IsMember({"scan", "object", "note", "log"}));
+  command->add_option("--kind", query.kind,
+                      "Only this kind: valve, drill, terrain, note, measurement");
   command->add_option("--decision", query.decision, "Only objects with this decision")
       ->check(CLI::IsMember({"open", "accepted", "rejected"}));
   command->add_option("--since", arguments->since, "Not before this time, UTC");

@@ -4,6 +4,7 @@
 #include "app/ctl/command.h"
 #include "core/base/utc_text.h"
 #include "core/geometry/angles.h"
+#include "core/measure/measurement_json.h"
 #include "core/mission/mission_file.h"
 #include "core/sensor/rig_id.h"
 
@@ -60,6 +61,36 @@ Json ToJson(const ImageSummary& image) {
           {"height", image.height}};
 }
 
+Json ToJson(const NoteRecord& note) {
+  const auto measurement = Json::parse(note.json, nullptr, false);
+  return {{"uuid", note.uuid},
+          {"kind", note.kind},
+          {"scan", note.scan_id},
+          {"scan_uuid", note.scan_uuid},
+          {"object_uuid", note.object_uuid},
+          {"text", note.text},
+          {"tags", note.tags},
+          {"made_utc", UtcText(note.made_utc_ns)},
+          {"made_by", note.made_by},
+          {"changed_utc", UtcText(note.utc_ns)},
+          {"changed_by", note.author},
+          {"measurement", measurement.is_object() ? measurement : Json(nullptr)}};
+}
+
+std::string Line(const NoteRecord& note) {
+  std::string about = note.scan_id != 0        ? fmt::format(" of scan {}", note.scan_id)
+                      : note.scan_uuid.empty() ? " of the mission"
+                                               : " of scan " + note.scan_uuid;
+  if (!note.object_uuid.empty()) about += ", object " + note.object_uuid;
+  std::string text = note.text;
+  if (const auto measured = MeasurementFromJson(note.json); measured)
+    text = fmt::format("{}{}{} {}", text, text.empty() ? "" : ": ", ToString(measured->kind),
+                       ValueText(*measured));
+  if (!note.tags.empty()) text += " [" + note.tags + "]";
+  return fmt::format("{}{}, {}, {}: {}", note.kind, about, UtcText(note.made_utc_ns), note.made_by,
+                     text);
+}
+
 std::string Line(const DetectionRecord& record) {
   return fmt::format("{:>5}  {:<8}  {:<10}  {:<9}  {:<20}  {}{}", record.id, record.kind,
                      VerdictWord(record), ToString(record.decision), UtcText(record.utc_ns),
@@ -71,14 +102,21 @@ std::string Line(const DetectionRecord& record) {
 struct Contents {
   std::vector<DetectionRecord> detections;
   std::vector<DepthRecord> depths;
+  std::vector<NoteRecord> notes;  ///< without the deleted ones
   Json detections_json = Json::array();
   Json depths_json = Json::array();
+  Json notes_json = Json::array();
 };
 
 Result<Contents> ReadContents(const MissionFile& mission, std::optional<std::int64_t> scan) {
   Contents contents;
   FORESIGHT_TRY(contents.detections, mission.ListDetections(scan));
   FORESIGHT_TRY(contents.depths, mission.ListDepths(scan));
+  FORESIGHT_TRY(contents.notes, mission.ListNotes());
+  std::erase_if(contents.notes, [&](const NoteRecord& note) {
+    return note.deleted || (scan && note.scan_id != *scan);
+  });
+  for (const NoteRecord& note : contents.notes) contents.notes_json.push_back(ToJson(note));
   for (const DetectionRecord& record : contents.detections)
     contents.detections_json.push_back(ToJson(record));
   for (const DepthRecord& record : contents.depths) contents.depths_json.push_back(ToJson(record));
@@ -91,6 +129,7 @@ void PrintContents(const Contents& contents, std::string text) {
     text += fmt::format("\ndepth map of image {}: {} pixels, {} masked, {}", record.image_position,
                         record.statistics.valid_pixels, record.statistics.masked_pixels,
                         UtcText(record.utc_ns));
+  for (const NoteRecord& note : contents.notes) text += "\n" + Line(note);
   PrintLine(text);
 }
 
@@ -120,7 +159,8 @@ Status ShowScan(const ShowArguments& arguments, const MissionFile& mission) {
                {"lines", summary.lines},
                {"images", list},
                {"detections", contents.detections_json},
-               {"depth_maps", contents.depths_json}});
+               {"depth_maps", contents.depths_json},
+               {"notes", contents.notes_json}});
     return {};
   }
   std::string text = fmt::format(
@@ -167,6 +207,7 @@ Status ShowMission(const ShowArguments& arguments, const MissionFile& mission) {
                {"images", images},
                {"detections", contents.detections_json},
                {"depth_maps", contents.depths_json},
+               {"notes", contents.notes_json},
                {"log", log}});
     return {};
   }

@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 
+#include "app/workstation/measure_commands.h"
 #include "app/workstation/workbench.h"
 
 namespace foresight {
@@ -124,7 +125,10 @@ void AddToolCommands(Workbench* bench) {
                        .text = Commands::tr("Leave tool"),
                        .tip = Commands::tr("Back to moving the view"),
                        .keys = QStringLiteral("Esc"),
-                       .run = [fit] { fit().leaveTools(); }});
+                       .run = [bench] {
+                         bench->Shown().fit.leaveTools();
+                         bench->Shown().measure.leave();
+                       }});
 }
 
 void AddFitCommands(Workbench* bench) {
@@ -296,6 +300,7 @@ void AddCommands(Workbench* bench) {
   AddFitCommands(bench);
   AddEditCommands(bench);
   AddViewCommands(bench);
+  AddMeasureCommands(bench);
   bench->commands.Add(
       {.id = "recording.continue",
        .menu = "file",

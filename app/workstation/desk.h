@@ -1,10 +1,13 @@
 #pragma once
 
+#include "ui/viewmodels/clip_box_model.h"
 #include "ui/viewmodels/compare_view_model.h"
 #include "ui/viewmodels/depth_view_model.h"
 #include "ui/viewmodels/export_view_model.h"
 #include "ui/viewmodels/fit_view_model.h"
 #include "ui/viewmodels/layers_view_model.h"
+#include "ui/viewmodels/map_view_model.h"
+#include "ui/viewmodels/measure_view_model.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/source_gallery_model.h"
 
@@ -18,6 +21,8 @@ struct Desk {
         depth(&session),
         compare(&session, &depth),
         fit(&session),
+        measure(&session),
+        map(&session),
         gallery(&session, &fit),
         exporter(&session) {}
 
@@ -26,6 +31,9 @@ struct Desk {
   LayersViewModel layers;
   CompareViewModel compare;
   FitViewModel fit;
+  MeasureViewModel measure;
+  MapViewModel map;
+  ClipBoxModel clip;
   SourceGalleryModel gallery;
   ExportViewModel exporter;
 };

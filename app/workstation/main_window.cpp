@@ -30,7 +30,9 @@
 #include "ui/panels/link_panel.h"
 #include "ui/panels/log_panel.h"
 #include "ui/panels/log_strip.h"
+#include "ui/panels/map_panel.h"
 #include "ui/panels/mission_panel.h"
+#include "ui/panels/notes_panel.h"
 #include "ui/panels/objects_panel.h"
 #include "ui/panels/options_panel.h"
 #include "ui/panels/source_gallery.h"
@@ -38,13 +40,14 @@
 #include "ui/views/cloud_pane.h"
 #include "ui/views/depth_pane.h"
 #include "ui/views/image_pane.h"
+#include "ui/views/measure_overlay.h"
 #include "ui/widgets/wheel_guard.h"
 
 namespace foresight {
 namespace {
 
 /// Counts up when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 6;
+constexpr int kLayoutVersion = 7;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
 constexpr QSize kUsualSize(1600, 1000);
@@ -52,16 +55,22 @@ constexpr QSize kUsualSize(1600, 1000);
 constexpr int kLowHeight = 800;
 
 CloudPane* MakeCloudPane(Desk* desk) {
-  return new CloudPane(&desk->session, &desk->fit);
+  auto* pane = new CloudPane({&desk->session, &desk->fit, &desk->map, &desk->clip});
+  BindMeasurements(pane->Canvas(), &desk->session, &desk->measure);
+  return pane;
 }
 
 ImagePane* MakeImagePane(Desk* desk) {
-  return new ImagePane(&desk->session, &desk->fit, &desk->layers);
+  auto* pane = new ImagePane(&desk->session, &desk->fit, &desk->layers);
+  BindMeasurements(pane->Canvas(), &desk->session, &desk->measure);
+  return pane;
 }
 
 DepthPane* MakeDepthPane(Desk* desk, LiveDepthViewModel* live) {
-  return new DepthPane(
+  auto* pane = new DepthPane(
       {&desk->session, &desk->depth, &desk->fit, &desk->layers, &desk->compare, live});
+  BindMeasurements(pane->Canvas(), &desk->session, &desk->measure);
+  return pane;
 }
 
 }  // namespace
@@ -219,6 +228,18 @@ void MainWindow::AddWindowCommands() {
                 .tip = tr("All options of the depth map and of the fit"),
                 .keys = QStringLiteral("O"),
                 .run = [this] { Open(options_dock_); }});
+  commands.Add({.id = "view.notes",
+                .menu = "view",
+                .text = tr("Notes"),
+                .tip = tr("Measurements and notes of the mission"),
+                .keys = QStringLiteral("Shift+L"),
+                .run = [this] { Open(notes_dock_); }});
+  commands.Add({.id = "view.map",
+                .menu = "view",
+                .text = tr("Map"),
+                .tip = tr("Several scans in one map, what changed between two, and the clip box"),
+                .keys = QStringLiteral("Ctrl+M"),
+                .run = [this] { Open(map_dock_); }});
   commands.Add({.id = "view.calibrate_camera",
                 .menu = "view",
                 .text = tr("Calibrate camera"),
@@ -259,6 +280,7 @@ void MainWindow::BuildMenus() {
   menu("edit", tr("&Edit"));
   menu("head", tr("&Head"));
   menu("object", tr("&Object"));
+  menu("measure", tr("&Measure"));
   view_menu_ = menu("view", tr("&View"));
   view_menu_->addSeparator();
   menu("help", tr("H&elp"));
@@ -325,6 +347,16 @@ void MainWindow::BuildDocks() {
                             Dock("objects", tr("Objects"), Stack(objects(&bench_->live), objects)));
   options_dock_ = Dock("options", tr("Options"), Stack(options(&bench_->live), options));
   docks_->addDockWidgetTabToArea(options_dock_, right);
+  const auto notes = [commands](Desk* desk) {
+    return new NotesPanel(&desk->session, &desk->measure, commands);
+  };
+  notes_dock_ = Dock("notes", tr("Notes"), Stack(notes(&bench_->live), notes));
+  docks_->addDockWidgetTabToArea(notes_dock_, right);
+  const auto map = [commands](Desk* desk) {
+    return new MapPanel(&desk->map, &desk->clip, commands);
+  };
+  map_dock_ = Dock("map", tr("Map"), Stack(map(&bench_->live), map));
+  docks_->addDockWidgetTabToArea(map_dock_, right);
   calibration_ = new CameraCalibrationPanel(&bench_->camera_calibration, &bench_->tasks);
   calibration_dock_ = Dock("calibrate_camera", tr("Calibrate camera"), calibration_);
   docks_->addDockWidgetTabToArea(calibration_dock_, right);

@@ -89,6 +89,8 @@ class MainWindow : public QMainWindow {
   ads::CDockManager* docks_ = nullptr;
   ads::CDockWidget* gallery_dock_ = nullptr;
   ads::CDockWidget* options_dock_ = nullptr;
+  ads::CDockWidget* notes_dock_ = nullptr;
+  ads::CDockWidget* map_dock_ = nullptr;
   ads::CDockWidget* calibration_dock_ = nullptr;
   ads::CDockWidget* head_calibration_dock_ = nullptr;
   QMenu* view_menu_ = nullptr;

@@ -34,6 +34,9 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
   connect(&reviewer, &ReviewViewModel::opened, this, &Workbench::showReview);
   connect(&importer, &ImportViewModel::imported, this,
           [this](const QString& mission) { reviewer.Open(mission); });
+  connect(&reviewer, &ReviewViewModel::opened, this, [this] {
+    if (review.map.Mission() != reviewer.Path()) review.map.clear();  // it is of another mission
+  });
   connect(&commands, &CommandTable::refused, this, [this](const QString& text, const QString& why) {
     log.add({Notice::Level::kInfo, tr("%1 is not possible now.").arg(text), why});
   });
@@ -65,6 +68,17 @@ void Workbench::KeepCommandsCurrent() {
   for (Desk* desk : {&live, &review}) {
     connect(&desk->fit, &FitViewModel::changed, &commands, refresh);
     connect(&desk->session, &SessionModel::objectsChanged, &commands, refresh);
+    connect(&desk->measure, &MeasureViewModel::changed, &commands, refresh);
+    connect(&desk->map, &MapViewModel::changed, &commands, refresh);
+    connect(&desk->clip, &ClipBoxModel::changed, &commands, refresh);
+    connect(desk->session.Notes(), &NotesModel::changed, &commands, refresh);
+    // A click means one thing at a time.
+    connect(&desk->measure, &MeasureViewModel::changed, &desk->fit, [desk] {
+      if (desk->measure.On() && (desk->fit.Drawing())) desk->fit.leaveTools();
+    });
+    connect(&desk->fit, &FitViewModel::changed, &desk->measure, [desk] {
+      if (desk->fit.Drawing()) desk->measure.leave();
+    });
     connect(desk->session.Undo(), &UndoStack::changed, &commands, refresh);
   }
 }

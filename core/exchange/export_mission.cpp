@@ -122,9 +122,11 @@ class Exporter {
   Status WriteTables() {
     FORESIGHT_TRY(const std::string scans, ScansCsv(mission_));
     FORESIGHT_TRY(const std::string detections, DetectionsCsv(mission_));
+    FORESIGHT_TRY(const std::string notes, NotesCsv(mission_));
     FORESIGHT_TRY(const std::string events, EventsCsv(mission_));
     FORESIGHT_CHECK(PutText("scans.csv", scans));
     FORESIGHT_CHECK(PutText("detections.csv", detections));
+    FORESIGHT_CHECK(PutText("notes.csv", notes));
     return PutText("events.csv", events);
   }
 

@@ -1,11 +1,13 @@
 #include "core/exchange/mission_tables.h"
 
+#include <cmath>
 #include <map>
 
 #include "core/base/utc_text.h"
 #include "core/detection/candidates.h"
 #include "core/detection/detection_json.h"
 #include "core/geometry/angles.h"
+#include "core/measure/measurement_json.h"
 #include "core/mission/provenance.h"
 #include "core/sensor/rig_id.h"
 
@@ -95,6 +97,34 @@ Result<std::string> DetectionsCsv(const MissionFile& mission) {
         provenance ? Cell(provenance->source) : "",
         provenance && provenance->image_position >= 0 ? Cell(provenance->image_position) : "",
         provenance ? Cell(provenance->program_version) : "", pose);
+  }
+  return csv;
+}
+
+Result<std::string> NotesCsv(const MissionFile& mission) {
+  FORESIGHT_TRY(const std::vector<NoteRecord> notes, mission.ListNotes());
+  std::string csv =
+      "uuid,scan,scan_uuid,object_uuid,kind,made_utc,made_by,changed_utc,changed_by,text,tags,"
+      "deleted,measurement,value,sigma,unit,points_m,plane_from\r\n";
+  for (const NoteRecord& note : notes) {
+    std::string kind, value, sigma, unit, points, plane;
+    if (const auto measured = MeasurementFromJson(note.json); !note.json.empty() && measured) {
+      const bool angle = measured->kind == MeasureKind::kAngle;
+      const auto number = [angle](double x) {
+        return std::isfinite(x) ? fmt::format("{}", angle ? DegreesFromRadians(x) : x) : "";
+      };
+      kind = ToString(measured->kind);
+      value = number(measured->value);
+      sigma = number(measured->sigma);
+      unit = angle ? "deg" : "m";
+      for (const MeasuredPoint& point : measured->points)
+        points += fmt::format("{}{} {} {}", points.empty() ? "" : "; ", point.position_m.x(),
+                              point.position_m.y(), point.position_m.z());
+      if (measured->plane) plane = measured->plane->made_from;
+    }
+    AddRow(csv, note.uuid, note.scan_id, note.scan_uuid, note.object_uuid, note.kind,
+           UtcText(note.made_utc_ns), note.made_by, UtcText(note.utc_ns), note.author, note.text,
+           note.tags, note.deleted, kind, value, sigma, unit, points, plane);
   }
   return csv;
 }

@@ -14,6 +14,9 @@ Result<std::string> ScansCsv(const MissionFile& mission);
 /// One row a detection, also deleted ones: what it is, what was decided, and the best answer's pose
 /// in robot. The pose is empty where it has none (a terrain without a surface) or cannot be read.
 Result<std::string> DetectionsCsv(const MissionFile& mission);
+/// One row a note or measurement, also deleted ones, in its present state: a measurement with its
+/// value in metres or degrees and its points in robot.
+Result<std::string> NotesCsv(const MissionFile& mission);
 /// One row a line of the log.
 Result<std::string> EventsCsv(const MissionFile& mission);
 

@@ -103,9 +103,11 @@ class Bundle {
     FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(path));
     FORESIGHT_TRY(const std::string scans_csv, ScansCsv(*mission));
     FORESIGHT_TRY(const std::string detections, DetectionsCsv(*mission));
+    FORESIGHT_TRY(const std::string notes, NotesCsv(*mission));
     FORESIGHT_TRY(const std::string events, EventsCsv(*mission));
     FORESIGHT_CHECK(Add("scans.csv", scans_csv));
     FORESIGHT_CHECK(Add("detections.csv", detections));
+    FORESIGHT_CHECK(Add("notes.csv", notes));
     FORESIGHT_CHECK(Add("events.csv", events));
     FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
     if (scans.empty()) {

@@ -108,6 +108,18 @@ Status CompareDepths(const DepthRecord& was, const DepthRecord& is, const Tell& 
   return {};
 }
 
+template <class Tell>
+Status CompareNotes(const NoteRecord& was, const NoteRecord& is, const Tell& tell) {
+  CompareValue(tell, "scan", was.scan_uuid, is.scan_uuid);
+  CompareValue(tell, "object", was.object_uuid, is.object_uuid);
+  CompareValue(tell, "text", was.text, is.text);
+  CompareValue(tell, "tags", was.tags, is.tags);
+  CompareValue(tell, "made by", was.made_by, is.made_by);
+  CompareValue(tell, "deleted", was.deleted, is.deleted);
+  for (const std::string& difference : JsonDifferences(was.json, is.json)) tell(difference);
+  return {};
+}
+
 Status CompareLogs(const MissionFile& first, const MissionFile& second, Differences& differences) {
   using Key = std::tuple<std::int64_t, std::string, std::string, std::string, std::string>;
   const auto keys = [](const std::vector<EventRecord>& events) {
@@ -167,6 +179,12 @@ Result<Differences> DiffMissions(const MissionFile& first, const MissionFile& se
   FORESIGHT_CHECK(Match("depth map", depths, other_depths, differences,
                         [](const auto& a, const auto& b, const auto& tell) -> Status {
                           return CompareDepths(a, b, tell);
+                        }));
+  FORESIGHT_TRY(const std::vector<NoteRecord> notes, first.ListNotes());
+  FORESIGHT_TRY(const std::vector<NoteRecord> other_notes, second.ListNotes());
+  FORESIGHT_CHECK(Match("note", notes, other_notes, differences,
+                        [](const auto& a, const auto& b, const auto& tell) -> Status {
+                          return CompareNotes(a, b, tell);
                         }));
   FORESIGHT_CHECK(CompareLogs(first, second, differences));
   return differences;

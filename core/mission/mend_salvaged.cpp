@@ -34,6 +34,7 @@ class Mend {
     if (HasTable("thumbnail")) FORESIGHT_CHECK(DropThumbnailsWithoutScan());
     FORESIGHT_CHECK(MendRecords("detection", "detections", report_.detections));
     if (HasTable("depth")) FORESIGHT_CHECK(MendRecords("depth", "depth maps", report_.depth_maps));
+    if (HasTable("note")) FORESIGHT_CHECK(MendRecords("note", "notes", report_.notes));
     if (HasTable("detection_event")) FORESIGHT_CHECK(DropEventsWithoutDetection());
     FORESIGHT_TRY(report_.events, database_.Integer("SELECT count(*) FROM event"));
     return {};

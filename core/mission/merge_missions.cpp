@@ -86,6 +86,7 @@ class Merger {
     FORESIGHT_CHECK(AddRecords(source.database(), "detection", report_.detections));
     FORESIGHT_CHECK(AddRecords(source.database(), "depth", report_.depth_maps));
     FORESIGHT_CHECK(AddDetectionEvents(source.database()));
+    FORESIGHT_CHECK(AddNotes(source.database()));
     return AddEvents(source.database());
   }
 
@@ -237,6 +238,23 @@ class Merger {
       row[table.ColumnOf("detection_id")] = detection->second;
       FORESIGHT_CHECK(PutOnce(table, row));
     }
+    return {};
+  }
+
+  /// Every state of every note, but for those of scans that are left out.
+  Status AddNotes(const SqliteDatabase& from) {
+    const StoredTable& table = Named("note");
+    FORESIGHT_TRY(std::vector<Row> rows, ReadStored(from, table, "true ORDER BY id"));
+    for (Row& row : rows) {
+      FORESIGHT_CHECK(CheckRow(table, row));
+      const std::string scan_uuid = std::get<std::string>(row[table.ColumnOf("scan_uuid")]);
+      const auto scan = scan_ids_.find(scan_uuid);
+      if (scan == scan_ids_.end() && left_out_.contains(scan_uuid)) continue;
+      row[table.ColumnOf("scan_id")] =
+          scan == scan_ids_.end() ? StoredValue() : StoredValue(scan->second);
+      FORESIGHT_CHECK(PutOnce(table, row));
+    }
+    FORESIGHT_TRY(report_.notes, target_.Integer("SELECT count(DISTINCT uuid) FROM note"));
     return {};
   }
 

@@ -22,6 +22,7 @@ struct MergeReport {
   std::int64_t left_out = 0;       ///< by `keep`
   std::int64_t detections = 0;
   std::int64_t depth_maps = 0;
+  std::int64_t notes = 0;  ///< and measurements
   std::int64_t events = 0;
 };
 

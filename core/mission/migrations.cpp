@@ -25,8 +25,13 @@ Status ScansMayBeGiven(SqliteDatabase& database, const std::string& /*file*/) {
   return CreateMissionTable(database, "given_line");
 }
 
-constexpr std::array<MissionMigration, 2> kMigrations = {
-    {{1, RecordsGetProvenance}, {2, ScansMayBeGiven}}};
+/// A table for notes and measurements, of which there are none yet.
+Status NotesAreKept(SqliteDatabase& database, const std::string& /*file*/) {
+  return CreateMissionTable(database, "note");
+}
+
+constexpr std::array<MissionMigration, 3> kMigrations = {
+    {{1, RecordsGetProvenance}, {2, ScansMayBeGiven}, {3, NotesAreKept}}};
 static_assert(kMigrations.back().from + 1 == kMissionFormatVersion);
 
 Status RunAll(SqliteDatabase& database, int from, const std::string& file) {

@@ -708,6 +708,26 @@ Result<std::vector<DepthRecord>> MissionFile::ListDepths(
   });
 }
 
+Result<std::int64_t> MissionFile::AddNote(const NoteRecord& note) {
+  const std::lock_guard lock(impl_->mutex);
+  FORESIGHT_CHECK(impl_->CheckWritable());
+  NoteRecord record = note;
+  if (record.kind != kNoteKind && record.kind != kMeasurementKind)
+    return Fail(ErrorCode::kInvalidInput, "{}: '{}' is no kind of note", impl_->file, record.kind);
+  if (record.uuid.empty()) record.uuid = NewUuid();
+  FORESIGHT_TRY(record.tags, TagsFrom(record.tags));
+  if (record.scan_id != 0 || !record.scan_uuid.empty())
+    FORESIGHT_CHECK(impl_->FindScan(record, "note"));
+  return InsertNote(*impl_->database, record);
+}
+
+Result<std::vector<NoteRecord>> MissionFile::ListNotes() const {
+  return impl_->Read([&](int format) -> Result<std::vector<NoteRecord>> {
+    if (format < 4) return std::vector<NoteRecord>();
+    return ReadNotes(*impl_->database, impl_->file);
+  });
+}
+
 Result<std::int64_t> MissionFile::AddEvent(const EventRecord& event) {
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckWritable());
@@ -734,6 +754,7 @@ Status MissionFile::Verify(const RunContext& context) const {
   }
   FORESIGHT_CHECK(ListDetections());
   FORESIGHT_CHECK(ListDepths());
+  FORESIGHT_CHECK(ListNotes());
   FORESIGHT_CHECK(ListEvents());
   return {};
 }

@@ -121,6 +121,13 @@ class MissionFile {
   Result<std::vector<DepthRecord>> ListDepths(
       std::optional<std::int64_t> scan_id = std::nullopt) const;
 
+  /// Adds a state of a note, which counts from now on; where the file has none of its uuid it is a
+  /// new note. Its scan must be in the file, but for a review; without one it is about the mission.
+  /// Returns the row's id. Fails with kInvalidInput for a kind that is not known, too.
+  Result<std::int64_t> AddNote(const NoteRecord& note);
+  /// In their present state, in the order in which they were made; deleted ones too.
+  Result<std::vector<NoteRecord>> ListNotes() const;
+
   Result<std::int64_t> AddEvent(const EventRecord& event);
   Result<std::vector<EventRecord>> ListEvents() const;
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kIndexVersion = 1;
+constexpr int kIndexVersion = 2;
 constexpr const char* kTables[] = {
     "CREATE TABLE mission(path TEXT PRIMARY KEY, stamp TEXT NOT NULL, problem TEXT NOT NULL) "
     "STRICT",
@@ -65,6 +65,18 @@ std::string VerdictOf(const std::string& json) {
   if (verdict == parsed.end() || !verdict->is_object()) return {};
   const auto level = verdict->find("level");
   return level != verdict->end() && level->is_string() ? level->get<std::string>() : std::string();
+}
+
+/// "note: the rim is cracked, #crack #valve, by ada".
+std::string SearchText(const NoteRecord& note) {
+  std::string text = fmt::format("{}: {}", note.kind, note.text);
+  const auto json = nlohmann::json::parse(note.json, nullptr, false);
+  if (json.is_object() && json.contains("label") && json.at("label").is_string())
+    text += (note.text.empty() ? "" : ", ") + json.at("label").get<std::string>();
+  std::string tags;
+  for (const char c : note.tags) tags += c == ' ' ? std::string(" #") : std::string(1, c);
+  if (!tags.empty()) text += ", #" + tags;
+  return text + ", by " + note.made_by;
 }
 
 /// The index file of one folder.
@@ -190,6 +202,7 @@ class Index {
     FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(path));
     FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
     FORESIGHT_TRY(const std::vector<DetectionRecord> objects, mission->ListDetections());
+    FORESIGHT_TRY(const std::vector<NoteRecord> notes, mission->ListNotes());
     FORESIGHT_TRY(const std::vector<EventRecord> events, mission->ListEvents());
     for (const ScanSummary& scan : scans)
       FORESIGHT_CHECK(
@@ -204,6 +217,10 @@ class Index {
                 ToString(object.decision),
                 fmt::format("{} {}, {}, {}, by {}", object.kind, object.name,
                             VerdictOf(object.json), ToString(object.decision), object.author)));
+    for (const NoteRecord& note : notes)
+      if (!note.deleted)
+        FORESIGHT_CHECK(Add(path, "note", note.scan_uuid, note.scan_id, note.utc_ns, note.kind, "",
+                            SearchText(note)));
     for (const EventRecord& event : events)
       FORESIGHT_CHECK(Add(path, "log", "", 0, event.utc_ns, "", "",
                           fmt::format("{} {}: {}", event.source, event.severity, event.text)));

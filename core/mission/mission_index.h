@@ -15,18 +15,18 @@ namespace foresight {
 struct MissionQuery {
   /// All of them must stand in the entry's text, in any case of ASCII letters.
   std::vector<std::string> words = {};
-  std::optional<std::string> what = {};      ///< "scan", "object", "log"
-  std::optional<std::string> kind = {};      ///< of an object: "valve", ...
+  std::optional<std::string> what = {};      ///< "scan", "object", "note", "log"
+  std::optional<std::string> kind = {};      ///< "valve", ...; "note", "measurement"
   std::optional<std::string> decision = {};  ///< of an object: "accepted", "rejected", "open"
   std::optional<std::int64_t> since_utc_ns = {};
   std::optional<std::int64_t> until_utc_ns = {};
   std::size_t at_most = 1000;
 };
 
-/// A scan, an object or a line of the log that was found.
+/// A scan, an object, a note or a line of the log that was found.
 struct MissionHit {
   std::filesystem::path mission;
-  std::string what;       ///< "scan", "object", "log"
+  std::string what;       ///< "scan", "object", "note", "log"
   std::string scan_uuid;  ///< empty for the log
   std::int64_t scan = 0;  ///< its number in the mission; 0 = none, or in another file (a review)
   std::int64_t utc_ns = 0;
@@ -42,11 +42,11 @@ struct MissionHits {
   std::vector<std::string> unreadable;  ///< one line a file that is damaged or of a newer format
 };
 
-/// Finds scans, objects and lines of the log in all missions (`*.foresight`) of a folder and below
-/// it. What stands in them is kept in an index, `.foresight-index` in the folder, or in
-/// `index_folder` where the folder cannot be written; missions that are new or changed are read
-/// first, and an index that is lost, damaged or of another version is made again. Fails with kIo
-/// where the folder cannot be read, and with kCancelled.
+/// Finds scans, objects, notes, measurements and lines of the log in all missions (`*.foresight`)
+/// of a folder and below it. What stands in them is kept in an index, `.foresight-index` in the
+/// folder, or in `index_folder` where the folder cannot be written; missions that are new or
+/// changed are read first, and an index that is lost, damaged or of another version is made again.
+/// Fails with kIo where the folder cannot be read, and with kCancelled.
 Result<MissionHits> SearchMissions(const std::filesystem::path& folder, const MissionQuery& query,
                                    const std::filesystem::path& index_folder,
                                    const RunContext& context);

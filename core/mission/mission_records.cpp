@@ -1,6 +1,10 @@
 #include "core/mission/mission_records.h"
 
+#include <algorithm>
+#include <cctype>
+#include <map>
 #include <utility>
+#include <vector>
 
 namespace foresight {
 namespace {
@@ -29,6 +33,56 @@ const char* ToString(Action action) {
   for (const auto& [known, name] : kActions)
     if (known == action) return name;
   return "unknown";
+}
+
+std::vector<NoteRecord> CurrentNotes(const std::vector<NoteRecord>& states) {
+  std::vector<NoteRecord> notes;
+  std::map<std::string, std::size_t> places;
+  for (const NoteRecord& state : states) {
+    const auto [place, is_new] = places.try_emplace(state.uuid, notes.size());
+    const bool has_maker = !state.made_by.empty() || state.made_utc_ns != 0;
+    NoteRecord current = state;
+    if (is_new) {
+      if (!has_maker) {
+        current.made_utc_ns = state.utc_ns;
+        current.made_by = state.author;
+      }
+      notes.push_back(std::move(current));
+      continue;
+    }
+    NoteRecord& note = notes[place->second];
+    current.made_utc_ns = note.made_utc_ns;
+    current.made_by = note.made_by;
+    note = std::move(current);
+  }
+  return notes;
+}
+
+Result<std::string> TagsFrom(const std::string& text) {
+  constexpr std::size_t kLongestTag = 40;
+  std::vector<std::string> tags;
+  std::string word;
+  const auto end_word = [&]() -> Status {
+    if (word.size() > kLongestTag)
+      return Fail(ErrorCode::kInvalidInput, "tag '{}...' is longer than {} characters",
+                  word.substr(0, 12), kLongestTag);
+    if (!word.empty() && std::find(tags.begin(), tags.end(), word) == tags.end())
+      tags.push_back(word);
+    word.clear();
+    return {};
+  };
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool parts = byte <= ' ' || byte == 127 || c == ',' || c == ';';
+    if (parts)
+      FORESIGHT_CHECK(end_word());
+    else if (c != '#' || !word.empty())
+      word += static_cast<char>(byte < 128 ? std::tolower(byte) : byte);
+  }
+  FORESIGHT_CHECK(end_word());
+  std::string joined;
+  for (const std::string& tag : tags) joined += (joined.empty() ? "" : " ") + tag;
+  return joined;
 }
 
 Result<Action> DetectionActionFromString(const std::string& text) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/sensor/scan.h"
@@ -113,6 +114,37 @@ struct DepthRecord {
 
   bool operator==(const DepthRecord&) const = default;
 };
+
+/// What somebody wrote or measured, about a scan, an object or the whole mission.
+struct NoteRecord {
+  std::int64_t id = 0;       ///< given by the file; of the state that counts
+  std::string uuid;          ///< of the note; empty = the file gives one
+  std::int64_t scan_id = 0;  ///< in this file; 0 = none, or in another one (a review)
+  std::string scan_uuid;     ///< empty = it is about the mission
+  std::string object_uuid;   ///< of the detection it is about; empty = none
+  std::string kind;          ///< "note", "measurement"
+  std::int64_t utc_ns = 0;   ///< when it got this state
+  std::string author;        ///< of this state
+  std::string text;          ///< of a measurement its name
+  std::string tags;          ///< TagsFrom's words
+  std::string json;          ///< MeasurementToJson of a measurement, else empty
+  bool deleted = false;
+
+  // From its first state. Not written by AddNote.
+  std::int64_t made_utc_ns = 0;
+  std::string made_by;
+
+  bool operator==(const NoteRecord&) const = default;
+};
+/// Of several states of each note the last one, in the order of the first ones, with who made it
+/// and when.
+std::vector<NoteRecord> CurrentNotes(const std::vector<NoteRecord>& states);
+inline constexpr const char* kNoteKind = "note";
+inline constexpr const char* kMeasurementKind = "measurement";
+
+/// Short words out of "#crack, left wheel": "crack left wheel", each once, as they came, ASCII
+/// letters in lower case. Fails with kInvalidInput where a word is longer than 40 bytes.
+Result<std::string> TagsFrom(const std::string& text);
 
 /// Something that happened, for the mission's log.
 struct EventRecord {

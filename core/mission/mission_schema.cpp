@@ -95,6 +95,15 @@ constexpr Table kGivenLine = {
     "INTEGER NOT NULL, PRIMARY KEY(scan_id, line)) STRICT",
     false};
 
+// New in format 4. Every row is a whole state of a note or a measurement, rows are only ever added,
+// and the last one of a uuid counts. scan_uuid is empty where it is about the mission.
+constexpr Table kNote = {
+    "note",
+    "CREATE TABLE note(id INTEGER PRIMARY KEY, uuid TEXT NOT NULL, scan_id INTEGER REFERENCES "
+    "scan(id), scan_uuid TEXT NOT NULL, object_uuid TEXT NOT NULL, kind TEXT NOT NULL, utc_ns "
+    "INTEGER NOT NULL, author TEXT NOT NULL, text TEXT NOT NULL, tags TEXT NOT NULL, json TEXT NOT "
+    "NULL, deleted INTEGER NOT NULL, crc32 INTEGER NOT NULL) STRICT"};
+
 constexpr std::array kTables1 = {kMeta,  kCalibration, kScan,       kLine, kMotor,
                                  kImage, kImageData,   kDetection1, kEvent};
 constexpr std::array kTables2 = {kMeta,           kCalibration, kScan,      kLine,
@@ -103,11 +112,15 @@ constexpr std::array kTables2 = {kMeta,           kCalibration, kScan,      kLin
 constexpr std::array kTables3 = {kMeta,  kCalibration, kScan,       kLine,           kMotor,
                                  kImage, kImageData,   kDetection2, kDetectionEvent, kDepth,
                                  kEvent, kThumbnail,   kGivenLine};
+constexpr std::array kTables4 = {kMeta,  kCalibration, kScan,       kLine,           kMotor,
+                                 kImage, kImageData,   kDetection2, kDetectionEvent, kDepth,
+                                 kEvent, kThumbnail,   kGivenLine,  kNote};
 
 std::span<const Table> TablesOf(int format) {
   if (format == 1) return kTables1;
   if (format == 2) return kTables2;
-  return kTables3;
+  if (format == 3) return kTables3;
+  return kTables4;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace foresight {
 
 inline constexpr int kMissionApplicationId = 0x48434431;  ///< "HCD1", in the file's header
-inline constexpr int kMissionFormatVersion = 3;           ///< user_version of what is written now
+inline constexpr int kMissionFormatVersion = 4;           ///< user_version of what is written now
 
 /// Makes the tables of a format in an empty database, in one transaction.
 Status CreateMissionSchema(SqliteDatabase& database, int format = kMissionFormatVersion);

@@ -55,6 +55,23 @@ std::int64_t Checksum(const DepthRecord& d, std::string_view statistics_json) {
       .value();
 }
 
+std::int64_t Checksum(const NoteRecord& n) {
+  return RowChecksum()
+      .Add(n.id)
+      .Add(n.uuid)
+      .Add(n.scan_id)
+      .Add(n.scan_uuid)
+      .Add(n.object_uuid)
+      .Add(n.kind)
+      .Add(n.utc_ns)
+      .Add(n.author)
+      .Add(n.text)
+      .Add(n.tags)
+      .Add(n.json)
+      .Add(std::int64_t{n.deleted ? 1 : 0})
+      .value();
+}
+
 std::int64_t Checksum(const EventRecord& e) {
   return RowChecksum()
       .Add(e.id)
@@ -336,6 +353,54 @@ Result<std::vector<DepthRecord>> ReadDepths(const SqliteDatabase& database,
     FORESIGHT_TRY(depth.statistics, StatisticsFromJson(statistics, where));
     return depth;
   });
+}
+
+Result<std::int64_t> InsertNote(SqliteDatabase& database, NoteRecord note) {
+  FORESIGHT_TRY(note.id, NextId(database, "note"));
+  FORESIGHT_TRY(SqliteStatement insert,
+                database.Prepare("INSERT INTO note(id, uuid, scan_id, scan_uuid, object_uuid, "
+                                 "kind, utc_ns, author, text, tags, json, deleted, crc32) "
+                                 "VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
+  insert.Bind(note.id).BindText(note.uuid);
+  BindScan(insert, note.scan_id);
+  FORESIGHT_CHECK(insert.BindText(note.scan_uuid)
+                      .BindText(note.object_uuid)
+                      .BindText(note.kind)
+                      .Bind(note.utc_ns)
+                      .BindText(note.author)
+                      .BindText(note.text)
+                      .BindText(note.tags)
+                      .BindText(note.json)
+                      .Bind(std::int64_t{note.deleted ? 1 : 0})
+                      .Bind(Checksum(note))
+                      .Run());
+  return note.id;
+}
+
+Result<std::vector<NoteRecord>> ReadNotes(const SqliteDatabase& database, const std::string& file) {
+  FORESIGHT_TRY(SqliteStatement select,
+                database.Prepare("SELECT id, uuid, scan_id, scan_uuid, object_uuid, kind, utc_ns, "
+                                 "author, text, tags, json, deleted, crc32 FROM note ORDER BY id"));
+  FORESIGHT_TRY(const std::vector<NoteRecord> states, ReadRows(select, [&]() -> Result<NoteRecord> {
+                  NoteRecord note;
+                  note.id = select.Integer(0);
+                  note.uuid = select.Text(1);
+                  note.scan_id = select.Integer(2);
+                  note.scan_uuid = select.Text(3);
+                  note.object_uuid = select.Text(4);
+                  note.kind = select.Text(5);
+                  note.utc_ns = select.Integer(6);
+                  note.author = select.Text(7);
+                  note.text = select.Text(8);
+                  note.tags = select.Text(9);
+                  note.json = select.Text(10);
+                  note.deleted = select.Integer(11) != 0;
+                  if (select.Integer(12) != Checksum(note))
+                    return Fail(ErrorCode::kBadData, "{}: note {} is damaged (checksum)", file,
+                                note.id);
+                  return note;
+                }));
+  return CurrentNotes(states);
 }
 
 Result<std::int64_t> InsertEvent(SqliteDatabase& database, EventRecord event) {

@@ -9,8 +9,8 @@
 
 namespace foresight {
 
-// Detections, depth maps and events: rows <-> values, each with its checksum. `file` names the file
-// in errors, `format` is the file's (the writers write the present one).
+// Detections, depth maps, notes and events: rows <-> values, each with its checksum. `file` names
+// the file in errors, `format` is the file's (the writers write the present one).
 
 /// Writes the record as it is; an id of 0 is replaced by a new one. Returns the id.
 Result<std::int64_t> InsertDetection(SqliteDatabase& database, DetectionRecord detection);
@@ -32,6 +32,10 @@ Result<std::int64_t> InsertDepth(SqliteDatabase& database, DepthRecord depth);
 Result<std::vector<DepthRecord>> ReadDepths(const SqliteDatabase& database,
                                             std::optional<std::int64_t> scan_id,
                                             const std::string& file);
+
+Result<std::int64_t> InsertNote(SqliteDatabase& database, NoteRecord note);
+/// The state that counts of every note, in the order in which they were made.
+Result<std::vector<NoteRecord>> ReadNotes(const SqliteDatabase& database, const std::string& file);
 
 Result<std::int64_t> InsertEvent(SqliteDatabase& database, EventRecord event);
 Result<std::vector<EventRecord>> ReadEvents(const SqliteDatabase& database,

@@ -30,6 +30,7 @@ struct SalvageReport {
   std::vector<SalvagedScan> scans;
   std::int64_t detections = 0;
   std::int64_t depth_maps = 0;
+  std::int64_t notes = 0;  ///< states of notes and measurements
   std::int64_t events = 0;
   /// What is missing, one sentence each. Empty: the file was whole.
   std::vector<std::string> losses;

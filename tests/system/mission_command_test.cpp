@@ -190,13 +190,49 @@ TEST_F(MissionCommand, MapBringsScansTogetherAndFindsNoChangeWhereThereIsNone) {
   EXPECT_THAT(bad.errors, HasSubstr("bad.csv:2: the quaternion"));
 }
 
+TEST_F(MissionCommand, ANoteIsKeptShownFoundChangedAndDeleted) {
+  const std::string file = In("noted/noted.foresight");
+  fs::create_directories(In("noted"));
+  fs::copy_file(second_, file);
+  const ProgramResult kept =
+      Mission({"note", file, "the rim is bent", "--scan", "1", "--tags", "#Crack, rim", "--json"});
+  ASSERT_EQ(kept.exit_code, 0) << kept.errors;
+  EXPECT_EQ(Json(kept)["tags"], "crack rim");
+  const std::string uuid = Json(kept)["uuid"];
+  ASSERT_EQ(Mission({"note", file, "windy today"}).exit_code, 0);
+
+  const auto show = [&] { return Json(Mission({"show", file, "--json"}))["notes"]; };
+  ASSERT_EQ(show().size(), 2u);
+  EXPECT_EQ(show()[0]["text"], "the rim is bent");
+  EXPECT_EQ(show()[0]["scan"], 1);
+  EXPECT_NE(show()[0]["made_by"], "");
+  EXPECT_EQ(Json(Mission({"show", file, "--scan", "1", "--json"}))["notes"].size(), 1u);
+  EXPECT_THAT(Mission({"show", file}).output, HasSubstr("note of the mission, "));
+
+  const auto found = [&] { return Mission({"search", In("noted"), "#crack", "--what", "note"}); };
+  EXPECT_EQ(found().exit_code, 0);
+  ASSERT_EQ(Mission({"note", file, "it is only paint", "--change", uuid}).exit_code, 0);
+  EXPECT_EQ(show()[0]["text"], "it is only paint");
+  EXPECT_EQ(show()[0]["tags"], "crack rim") << "tags that were not given stay";
+  EXPECT_THAT(found().output, HasSubstr("it is only paint"));
+  ASSERT_EQ(Mission({"note", file, "--delete", uuid}).exit_code, 0);
+  EXPECT_EQ(show().size(), 1u);
+  EXPECT_EQ(found().exit_code, 1);
+
+  EXPECT_EQ(Mission({"note", file}).exit_code, 2);
+  const ProgramResult lost = Mission({"note", file, "where?", "--scan", "9"});
+  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_THAT(lost.errors, HasSubstr("there is no scan 9 for a note"));
+  EXPECT_EQ(Mission({"note", file, "what?", "--object", "77"}).exit_code, 3);
+}
+
 TEST_F(MissionCommand, ExportWritesWhatIsAskedFor) {
   const ProgramResult exported =
       Mission({"export", first_, "-o", In("export"), "--what", "pcd,tables,bag", "--json"});
   ASSERT_EQ(exported.exit_code, 0) << exported.errors;
   EXPECT_THAT(Json(exported)["files"],
-              testing::UnorderedElementsAre("scans.csv", "detections.csv", "events.csv",
-                                            "scan-0001/cloud.pcd", "mission.bag"));
+              testing::UnorderedElementsAre("scans.csv", "detections.csv", "notes.csv",
+                                            "events.csv", "scan-0001/cloud.pcd", "mission.bag"));
   const ProgramResult unknown = Mission({"export", first_, "-o", In("export"), "--what", "dxf"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.errors, HasSubstr("surface-gltf"));

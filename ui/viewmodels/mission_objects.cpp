@@ -64,6 +64,12 @@ Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::s
   return file->AddDetectionEvent(*id, EventOf(event, author));
 }
 
+Status KeepNote(MissionFile* file, NoteRecord note) {
+  note.scan_id = 0;  // that of another file, perhaps
+  FORESIGHT_CHECK(file->AddNote(note));
+  return {};
+}
+
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth) {
   FORESIGHT_TRY(DepthRecord record, NewDepthRecord(scan, depth, depth.mask, depth.options.mask));
   FORESIGHT_TRY(const auto scan_id, file->FindScan(scan.uuid));

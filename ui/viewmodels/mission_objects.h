@@ -21,6 +21,9 @@ Result<FoundObject> ObjectOf(const DetectionRecord& record, const SensorRig& rig
 Status KeepObject(MissionFile* file, const FoundObject& object, const std::string& author);
 Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::string& author);
 
+/// Adds the state of a note or a measurement. Its scan is found by its uuid.
+Status KeepNote(MissionFile* file, NoteRecord note);
+
 /// Notes how a depth map of the scan is made again, with its checksum.
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth);
 

@@ -40,7 +40,8 @@ bool WasLeftBehind(const QString& path) {
 bool IsEmpty(const MissionFile& file) {
   const auto scans = file.ListScans();
   const auto objects = file.ListDetections();
-  return scans && scans->empty() && objects && objects->empty();
+  const auto notes = file.ListNotes();
+  return scans && scans->empty() && objects && objects->empty() && notes && notes->empty();
 }
 
 /// Writes into the newest file that knows the scan or the object; kInvalidInput = none does.
@@ -72,6 +73,7 @@ RecordingViewModel::RecordingViewModel(SessionModel* live, QObject* parent)
     : QObject(parent), session_(live), author_(OperatorName()) {
   connect(session_, &SessionModel::objectAdded, this, &RecordingViewModel::keepObject);
   connect(session_, &SessionModel::objectTouched, this, &RecordingViewModel::keepObjectEvent);
+  connect(session_->Notes(), &NotesModel::touched, this, &RecordingViewModel::keepNote);
   for (TaskRunner* runner : {&writer_, &reader_, &copier_})
     connect(runner, &TaskRunner::changed, this, &RecordingViewModel::changed);
 }
@@ -282,6 +284,10 @@ void RecordingViewModel::keepDepth() {
     Keep(MadeDepth{session_->CurrentScan(), session_->Depth()});
 }
 
+void RecordingViewModel::keepNote(const NoteRecord& note) {
+  Keep(note);
+}
+
 void RecordingViewModel::keepNotice(const Notice& notice) {
   if (notice.topic == kRecordingTopic) return;  // it could not be written
   Keep(EventRecord{0,
@@ -324,6 +330,11 @@ void RecordingViewModel::WriteNext() {
     } else if (const auto* made = std::get_if<MadeDepth>(&change)) {
       FORESIGHT_CHECK(InTheFileThatKnowsIt(
           files, [&](MissionFile* one) { return KeepDepth(one, *made->scan, *made->depth); }));
+    } else if (const auto* note = std::get_if<NoteRecord>(&change)) {
+      // Its scan may still be coming: it is in the file when its first lines are.
+      if (!note->scan_uuid.empty()) (void)recorder->WaitUntilWritten();
+      FORESIGHT_CHECK(
+          InTheFileThatKnowsIt(files, [&](MissionFile* one) { return KeepNote(one, *note); }));
     } else {
       FORESIGHT_CHECK(file->AddEvent(std::get<EventRecord>(change)));
     }

@@ -76,6 +76,7 @@ class RecordingViewModel : public QObject {
   void keepObjectEvent(const foresight::ObjectEvent& event);
   /// Notes how the session's depth map is made again.
   void keepDepth();
+  void keepNote(const foresight::NoteRecord& note);
   /// For the mission's log.
   void keepNotice(const foresight::Notice& notice);
   void keepCommand(const QString& id);
@@ -91,8 +92,8 @@ class RecordingViewModel : public QObject {
     std::shared_ptr<const Scan> scan;
     std::shared_ptr<const DepthResult> depth;
   };
-  using Change =
-      std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, MadeDepth, EventRecord>;
+  using Change = std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, MadeDepth,
+                              NoteRecord, EventRecord>;
 
   void Keep(Change change);
   void WriteNext();

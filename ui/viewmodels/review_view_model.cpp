@@ -43,6 +43,19 @@ Result<std::vector<FoundObject>> ObjectsOf(const MissionFile& mission,
   return objects;
 }
 
+/// Of the mission and of its review, which counts more.
+Result<std::vector<NoteRecord>> NotesOf(const MissionFile& mission,
+                                        const std::filesystem::path& folder) {
+  FORESIGHT_TRY(std::vector<NoteRecord> notes, mission.ListNotes());
+  const auto path = MissionFile::ReviewPathOf(mission.path(), folder);
+  std::error_code error;
+  if (!path || !std::filesystem::exists(*path, error)) return notes;  // no review yet
+  FORESIGHT_TRY(const auto review, MissionFile::OpenReadOnly(*path));
+  FORESIGHT_TRY(const std::vector<NoteRecord> later, review->ListNotes());
+  notes.insert(notes.end(), later.begin(), later.end());
+  return CurrentNotes(notes);
+}
+
 /// Where notes go that cannot lie beside their mission.
 std::filesystem::path NotesFolder() {
   return RecordingViewModel::DefaultFolder().toStdString();
@@ -56,6 +69,7 @@ struct ReviewViewModel::Opened {
   int index = -1;
   std::shared_ptr<const Scan> scan;
   std::vector<FoundObject> objects;
+  std::vector<NoteRecord> notes;
 };
 
 ReviewViewModel::ReviewViewModel(SessionModel* review, QObject* parent)
@@ -66,6 +80,10 @@ ReviewViewModel::ReviewViewModel(SessionModel* review, QObject* parent)
     Write([object](MissionFile* notes) { return KeepObject(notes, object, OperatorName()); },
           object.uuid);
   });
+  connect(session_->Notes(), &NotesModel::touched, this, [this](const NoteRecord& note) {
+    Write([note](MissionFile* notes) { return KeepNote(notes, note); }, {});
+  });
+  connect(session_->Notes(), &NotesModel::scanWanted, this, &ReviewViewModel::showScanWith);
   connect(session_, &SessionModel::objectTouched, this, [this](const ObjectEvent& event) {
     const auto object = known_.find(event.uuid);
     if (object == known_.end()) return;
@@ -77,6 +95,12 @@ ReviewViewModel::ReviewViewModel(SessionModel* review, QObject* parent)
         },
         {});
   });
+}
+
+void ReviewViewModel::showScanWith(const QString& uuid) {
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (scans_[i].uuid == uuid.toStdString() && static_cast<int>(i) != scan_index_)
+      showScan(static_cast<int>(i));
 }
 
 QString ReviewViewModel::Path() const {
@@ -112,6 +136,7 @@ void ReviewViewModel::Load(const QString& title, std::shared_ptr<MissionFile> fi
     const ScanSummary& summary = opened.scans[static_cast<std::size_t>(opened.index)];
     FORESIGHT_TRY(Scan scan, opened.file->LoadScan(summary.id));
     FORESIGHT_TRY(opened.objects, ObjectsOf(*opened.file, folder, summary, scan));
+    FORESIGHT_TRY(opened.notes, NotesOf(*opened.file, folder));
     opened.scan = std::make_shared<const Scan>(std::move(scan));
     return opened;
   };
@@ -132,6 +157,7 @@ void ReviewViewModel::Show(Opened loaded) {
   known_.clear();
   for (const FoundObject& object : loaded.objects) known_[object.uuid] = object;
   session_->ShowObjects(std::move(loaded.objects));
+  session_->Notes()->Show(loaded.notes);
   Q_EMIT opened();
   Q_EMIT changed();
 }
@@ -142,6 +168,7 @@ void ReviewViewModel::close() {
   scans_.clear();
   scan_index_ = -1;
   session_->ShowObjects({});
+  session_->Notes()->Show({});
   session_->SetScan(nullptr);
   Q_EMIT changed();
 }

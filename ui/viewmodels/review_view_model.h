@@ -33,6 +33,8 @@ class ReviewViewModel : public QObject {
 
  public Q_SLOTS:
   void showScan(int index);
+  /// Shows the scan with this uuid, if it is not shown already.
+  void showScanWith(const QString& uuid);
   void close();
 
  Q_SIGNALS:

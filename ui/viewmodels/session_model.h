@@ -16,6 +16,7 @@
 #include "core/mission/scan_part.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/scan.h"
+#include "ui/viewmodels/notes_model.h"
 #include "ui/viewmodels/notice.h"
 #include "ui/viewmodels/task_queue.h"
 #include "ui/viewmodels/undo_stack.h"
@@ -75,6 +76,9 @@ class SessionModel : public QObject {
   /// Where the work of all that belongs to this document is done.
   TaskQueue* Tasks() const { return tasks_; }
   UndoStack* Undo() { return &undo_; }
+  /// What was written down and measured.
+  NotesModel* Notes() { return &notes_; }
+  const NotesModel* Notes() const { return &notes_; }
 
   /// A new scan: drops the points and depth of the one before and, unless it is the one that was on
   /// its way, the region; found objects stay listed.
@@ -180,6 +184,7 @@ class SessionModel : public QObject {
   SessionMode mode_;
   TaskQueue* tasks_;
   UndoStack undo_;
+  NotesModel notes_{&undo_};
   std::shared_ptr<const Scan> scan_;
   bool expects_scan_ = false;
   std::shared_ptr<const Scan> arriving_;

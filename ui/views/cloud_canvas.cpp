@@ -86,6 +86,9 @@ CloudCanvas::CloudCanvas(QWidget* parent)
       residuals_(MakeActor(VtkPointsOf(OnePoint(), 1))),
       outlines_(overlay_, 0.0),
       region_(overlay_, 0.0),
+      measurements_(overlay_, 0.0),
+      labels_(overlay_),
+      clip_(overlay_, {points_, sample_, residuals_}),
       compass_(vtkSmartPointer<vtkOrientationMarkerWidget>::New()),
       rectangle_(new QRubberBand(QRubberBand::Rectangle, this)) {
   renderWindow()->AddRenderer(renderer_);
@@ -110,16 +113,18 @@ CloudCanvas::CloudCanvas(QWidget* parent)
   compass_->SetViewport(0.0, 0.0, 0.16, 0.32);
   compass_->EnabledOn();
   compass_->InteractiveOff();
+  rest_.setSingleShot(true);
+  rest_.setInterval(150);
+  connect(&rest_, &QTimer::timeout, this, &CloudCanvas::viewRested);
   setMinimumSize(120, 70);
   setFocusPolicy(Qt::ClickFocus);
   setAccessibleName(tr("3D cloud"));
 }
 
 void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const ValueRange& range) {
+  PutPoints(set);
   const auto table = VtkTableOf(map, range);
-  for (const auto& [actor, limit] :
-       {std::pair(points_, set.points.size()), std::pair(sample_, kSamplePoints)}) {
-    MapperOf(actor)->SetInputData(VtkPointsOf(set, limit));
+  for (vtkActor* actor : {points_.Get(), sample_.Get()}) {
     MapperOf(actor)->SetLookupTable(table);
     MapperOf(actor)->SetScalarRange(range.low, range.high);
   }
@@ -127,7 +132,17 @@ void CloudCanvas::SetPoints(const PointSet& set, ColorMap map, const ValueRange&
   home_.distance_m = std::max(0.5, 2.1 * (home_.focal - set.viewpoint.cast<double>()).norm());
   home_.azimuth_rad = -0.25;
   home_.elevation_rad = 0.45;
-  if (!moved_) ResetView();
+  if (!moved_) GoHome();
+  Redraw();
+}
+
+void CloudCanvas::PutPoints(const PointSet& set) {
+  MapperOf(points_)->SetInputData(VtkPointsOf(set, set.points.size()));
+  MapperOf(sample_)->SetInputData(VtkPointsOf(set, kSamplePoints));
+}
+
+void CloudCanvas::ReplacePoints(const PointSet& set) {
+  PutPoints(set);
   Redraw();
 }
 
@@ -149,16 +164,63 @@ void CloudCanvas::SetDrawing(bool drawing) {
   setCursor(drawing ? Qt::CrossCursor : Qt::ArrowCursor);
 }
 
+void CloudCanvas::SetMeasuring(bool measuring, bool wants_plane) {
+  measuring_ = measuring;
+  wants_plane_ = wants_plane;
+  setCursor(measuring || drawing_ ? Qt::CrossCursor : Qt::ArrowCursor);
+}
+
+void CloudCanvas::SetMeasurements(const std::vector<RobotMeasurement>& measurements) {
+  shown_measurements_ = measurements;
+  DrawMeasurements();
+}
+
+void CloudCanvas::SetShowsScan(bool shows) {
+  if (shows == shows_scan_) return;
+  shows_scan_ = shows;
+  DrawMeasurements();
+}
+
+void CloudCanvas::DrawMeasurements() {
+  measurements_.Clear();
+  labels_.Clear();
+  for (const RobotMeasurement& one : shown_measurements_) {
+    if (!shows_scan_) break;
+    measurements_.Add(one.lines, one.style);
+    measurements_.Add(one.points, one.style);
+    if (!one.label.empty()) labels_.Add(one.label_at, one.label, one.style.color);
+  }
+  Redraw();
+}
+
+void CloudCanvas::LookAt(const Eigen::Vector3d& place) {
+  camera_.focal = place;
+  moved_ = true;
+  rest_.start();
+  PlaceCamera();
+  Redraw();
+}
+
 void CloudCanvas::SetResiduals(const PointSet& set) {
   residuals_->SetVisibility(set.points.empty() ? 0 : 1);
   if (!set.points.empty()) MapperOf(residuals_)->SetInputData(VtkPointsOf(set, set.points.size()));
   Redraw();
 }
 
-void CloudCanvas::ResetView() {
+void CloudCanvas::GoHome() {
   camera_ = home_;
   moved_ = false;
   PlaceCamera();
+  Redraw();
+}
+
+void CloudCanvas::ResetView() {
+  GoHome();
+  rest_.start();
+}
+
+void CloudCanvas::SetClipBox(const std::optional<Eigen::AlignedBox3d>& box) {
+  clip_.Set(box);
   Redraw();
 }
 
@@ -174,11 +236,14 @@ bool CloudCanvas::event(QEvent* event) {
       OnRelease(*static_cast<QMouseEvent*>(event));
       return true;
     case QEvent::MouseButtonDblClick:
+      pressed_at_ = {-1000, -1000};  // of two quick clicks only the first is one
+      if (measuring_) return true;
       LookAtPointUnder(static_cast<QMouseEvent*>(event)->localPos());
       return true;
     case QEvent::Wheel:
       camera_.Zoom(std::pow(0.9985, static_cast<QWheelEvent*>(event)->angleDelta().y()));
       moved_ = true;
+      rest_.start();
       PlaceCamera();
       Redraw();
       return true;
@@ -192,7 +257,16 @@ bool CloudCanvas::event(QEvent* event) {
 void CloudCanvas::OnPress(const QMouseEvent& event) {
   setFocus();
   last_position_ = event.localPos();
-  if (drawing_ && event.button() == Qt::LeftButton) {
+  pressed_at_ = event.pos();
+  const bool grabs = event.button() == Qt::LeftButton &&
+                     clip_.Grab(event.localPos(), [this](const Eigen::Vector3d& point) {
+                       return WidgetPointFromRobot(point);
+                     });
+  if (grabs) return;
+  const bool draws_plane = measuring_ && wants_plane_ && event.modifiers() & Qt::ShiftModifier;
+  if ((drawing_ || draws_plane) && event.button() == Qt::LeftButton && !shows_scan_) {
+    Q_EMIT refused();
+  } else if ((drawing_ || draws_plane) && event.button() == Qt::LeftButton) {
     rectangle_begin_ = event.pos();
     rectangle_->setGeometry(QRect(rectangle_begin_, QSize()));
     rectangle_->show();
@@ -204,6 +278,13 @@ void CloudCanvas::OnPress(const QMouseEvent& event) {
 void CloudCanvas::OnMove(const QMouseEvent& event) {
   if (rectangle_->isVisible()) {
     rectangle_->setGeometry(QRect(rectangle_begin_, event.pos()).normalized());
+    return;
+  }
+  if (clip_.Grabbed()) {
+    const Eigen::AlignedBox3d box =
+        clip_.Drag(event.localPos(),
+                   [this](const Eigen::Vector3d& point) { return WidgetPointFromRobot(point); });
+    Q_EMIT clipBoxDragged(box);
     return;
   }
   const QPointF way = event.localPos() - last_position_;
@@ -226,8 +307,21 @@ void CloudCanvas::OnMove(const QMouseEvent& event) {
 }
 
 void CloudCanvas::OnRelease(const QMouseEvent& event) {
+  if (clip_.Grabbed()) {
+    clip_.Release();
+    Q_EMIT viewRested();
+    return;
+  }
   if (!rectangle_->isVisible() || event.button() != Qt::LeftButton) {
     ShowSample(false);
+    rest_.start();
+    const bool clicked = (event.pos() - pressed_at_).manhattanLength() <= kClickSlack_px;
+    if (measuring_ && clicked && event.button() == Qt::LeftButton) {
+      if (shows_scan_)
+        Q_EMIT pointClicked(ClickAt(event.pos()));
+      else
+        Q_EMIT refused();
+    }
     return;
   }
   rectangle_->hide();
@@ -236,7 +330,10 @@ void CloudCanvas::OnRelease(const QMouseEvent& event) {
   CloudRectangle rectangle;
   rectangle.clip_from_robot = ClipFromRobot();
   rectangle.corners = {ClipFrom(drawn.bottomLeft()), ClipFrom(drawn.topRight())};
-  Q_EMIT rectangleDrawn(rectangle, event.modifiers() & Qt::ShiftModifier);
+  if (measuring_)
+    Q_EMIT planeDrawn(rectangle);
+  else
+    Q_EMIT rectangleDrawn(rectangle, event.modifiers() & Qt::ShiftModifier);
 }
 
 bool CloudCanvas::OnKey(const QKeyEvent& event) {
@@ -258,11 +355,26 @@ Eigen::Vector2d CloudCanvas::ClipFrom(const QPoint& position) const {
           1.0 - 2.0 * position.y() / std::max(1, height())};
 }
 
-QPoint CloudCanvas::WidgetFromRobot(const Eigen::Vector3d& point) const {
+CloudClick CloudCanvas::ClickAt(const QPoint& position) const {
+  constexpr double kReach_px = 10.0;
+  CloudClick click;
+  click.clip_from_robot = ClipFromRobot();
+  click.at = ClipFrom(position);
+  click.reach = {2.0 * kReach_px / std::max(1, width()), 2.0 * kReach_px / std::max(1, height())};
+  if (const auto box = clip_.Box())
+    click.shown = [box](const Eigen::Vector3d& point) { return box->contains(point); };
+  return click;
+}
+
+QPointF CloudCanvas::WidgetPointFromRobot(const Eigen::Vector3d& point) const {
   const Eigen::Vector4d clip = ClipFromRobot() * point.homogeneous();
   const Eigen::Vector2d at = clip.head<2>() / clip.w();
-  return {static_cast<int>(std::lround(0.5 * (at.x() + 1.0) * width())),
-          static_cast<int>(std::lround(0.5 * (1.0 - at.y()) * height()))};
+  return {0.5 * (at.x() + 1.0) * width(), 0.5 * (1.0 - at.y()) * height()};
+}
+
+QPoint CloudCanvas::WidgetFromRobot(const Eigen::Vector3d& point) const {
+  const QPointF at = WidgetPointFromRobot(point);
+  return {static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y()))};
 }
 
 void CloudCanvas::LookAtPointUnder(const QPointF& position) {
@@ -275,10 +387,7 @@ void CloudCanvas::LookAtPointUnder(const QPointF& position) {
     return;
   double picked[3];
   picker->GetPickPosition(picked);
-  camera_.focal = {picked[0], picked[1], picked[2]};
-  moved_ = true;
-  PlaceCamera();
-  Redraw();
+  LookAt({picked[0], picked[1], picked[2]});
 }
 
 void CloudCanvas::ShowSample(bool sample) {

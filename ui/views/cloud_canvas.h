@@ -5,9 +5,14 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
+#include <QTimer>
+
 #include "core/pictures/color_map.h"
 #include "ui/render/point_set.h"
 #include "ui/viewmodels/box_region.h"
+#include "ui/views/clip_handles.h"
+#include "ui/views/label_actors.h"
+#include "ui/views/measurement_lines.h"
 #include "ui/views/orbit_camera.h"
 #include "ui/views/outline_actors.h"
 #include "ui/views/vtk_canvas.h"
@@ -25,15 +30,36 @@ class CloudCanvas : public VtkCanvas {
  public:
   explicit CloudCanvas(QWidget* parent = nullptr);
 
+  /// Looks at their middle until the operator moves the camera.
   void SetPoints(const PointSet& set, ColorMap map, const ValueRange& range);
+  /// Other points of what is shown already: the camera stays.
+  void ReplacePoints(const PointSet& set);
   void SetOutlines(const std::vector<RobotOutline>& outlines);
   /// In robot.
   void SetRegion(const Wireframe& lines);
   void SetDrawing(bool drawing);
   /// Larger points over the others, with colours of their own; none = an empty set.
   void SetResiduals(const PointSet& set);
+  /// A click is told, and while a plane is wanted left with Shift draws a rectangle over it;
+  /// dragging orbits as ever.
+  void SetMeasuring(bool measuring, bool wants_plane);
+  /// False: the points are not in the frame of a scan (a map). Then nothing is drawn into a scan or
+  /// measured in it.
+  void SetShowsScan(bool shows);
+  bool ShowsScan() const { return shows_scan_; }
+  void SetMeasurements(const std::vector<RobotMeasurement>& measurements);
+  /// Only what is inside is drawn and picked; the sides are dragged by their handles.
+  void SetClipBox(const std::optional<Eigen::AlignedBox3d>& box);
+  const ClipHandles& Clip() const { return clip_; }
+  /// How the scene is looked at now.
+  Eigen::Matrix4d ClipFromRobot() const;
+  /// Turns about this place from now on.
+  void LookAt(const Eigen::Vector3d& place);
+  const Eigen::Vector3d& LooksAt() const { return camera_.focal; }
   /// Looks at the middle of what lies ahead of the robot.
   void ResetView();
+  /// The same without telling that the view rests there.
+  void GoHome();
   /// Whether the operator has moved the camera since the last reset.
   bool Moved() const { return moved_; }
   /// Where a point of robot is on this widget.
@@ -41,6 +67,13 @@ class CloudCanvas : public VtkCanvas {
 
  Q_SIGNALS:
   void rectangleDrawn(const foresight::CloudRectangle& rectangle, bool cut);
+  void pointClicked(const foresight::CloudClick& click);
+  /// A click or a rectangle where the points are not those of a scan.
+  void refused();
+  void planeDrawn(const foresight::CloudRectangle& rectangle);
+  void clipBoxDragged(const Eigen::AlignedBox3d& box);
+  /// The operator has looked elsewhere and rests there.
+  void viewRested();
 
  protected:
   bool event(QEvent* event) override;
@@ -51,9 +84,12 @@ class CloudCanvas : public VtkCanvas {
   void OnMove(const QMouseEvent& event);
   void OnRelease(const QMouseEvent& event);
   bool OnKey(const QKeyEvent& event);
-  Eigen::Matrix4d ClipFromRobot() const;
   Eigen::Vector2d ClipFrom(const QPoint& position) const;
+  CloudClick ClickAt(const QPoint& position) const;
   void LookAtPointUnder(const QPointF& position);
+  QPointF WidgetPointFromRobot(const Eigen::Vector3d& point) const;
+  void DrawMeasurements();
+  void PutPoints(const PointSet& set);
   void ShowSample(bool sample);
   void PlaceCamera();
 
@@ -67,12 +103,21 @@ class CloudCanvas : public VtkCanvas {
   vtkSmartPointer<vtkActor> residuals_;
   OutlineActors outlines_;
   OutlineActors region_;
+  OutlineActors measurements_;
+  LabelActors labels_;
+  ClipHandles clip_;
+  QTimer rest_;
   vtkSmartPointer<vtkOrientationMarkerWidget> compass_;
   OrbitCamera camera_;
   OrbitCamera home_;
   QPointF last_position_;
   QRubberBand* rectangle_;  ///< shown while one is drawn
   QPoint rectangle_begin_;
+  QPoint pressed_at_;
+  std::vector<RobotMeasurement> shown_measurements_;
+  bool shows_scan_ = true;
+  bool measuring_ = false;
+  bool wants_plane_ = false;
   bool drawing_ = false;
   bool moved_ = false;
 };

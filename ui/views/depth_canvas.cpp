@@ -46,6 +46,8 @@ DepthCanvas::DepthCanvas(QWidget* parent)
       marks_(renderer_),
       second_marks_(renderer_),
       outlines_(renderer_, 0.9),
+      measurements_(renderer_, 0.94),
+      labels_(renderer_),
       region_(LineActor(kRoiColor, 2.0f)),
       gesture_actor_(LineActor(kRoiColor, 2.0f)) {
   renderWindow()->AddRenderer(renderer_);
@@ -134,6 +136,31 @@ void DepthCanvas::SetDrawing(bool drawing, RegionShape shape) {
   DrawGesture();
 }
 
+void DepthCanvas::SetPicking(bool picking) {
+  picking_ = picking;
+  setCursor(drawing_ || picking_ ? Qt::CrossCursor : Qt::OpenHandCursor);
+}
+
+void DepthCanvas::SetMeasurements(const std::vector<PixelMeasurement>& measurements) {
+  measurements_.Clear();
+  labels_.Clear();
+  for (const PixelMeasurement& one : measurements) {
+    measurements_.Add(InWorld(one.lines), one.style);
+    measurements_.Add(InWorld(one.points), one.style);
+    if (!one.label.empty() && one.label_at)
+      labels_.Add({one.label_at->x(), image_height_ - 1 - one.label_at->y(), 1.1}, one.label,
+                  one.style.color);
+  }
+  Redraw();
+}
+
+void DepthCanvas::CentreOn(const Eigen::Vector2d& pixel) {
+  if (shows_all_) return;  // it is seen already
+  center_ = {pixel.x(), image_height_ - 1 - pixel.y()};
+  PlaceCamera();
+  Redraw();
+}
+
 void DepthCanvas::ShowAll() {
   shows_all_ = true;
   const double scale = std::max(static_cast<double>(image_width_) / std::max(1, width()),
@@ -219,13 +246,14 @@ void DepthCanvas::WipeTo(const QPointF& position) {
 
 void DepthCanvas::ShowCursor(const QPointF& position) {
   const Qt::CursorShape shape = wiping_ || OnWipeLine(position) ? Qt::SplitHCursor
-                                : drawing_                      ? Qt::CrossCursor
+                                : drawing_ || picking_          ? Qt::CrossCursor
                                                                 : Qt::OpenHandCursor;
   if (cursor().shape() != shape) setCursor(shape);
 }
 
 bool DepthCanvas::OnPress(const QMouseEvent& event) {
   setFocus();
+  pressed_at_ = event.localPos();
   if (event.button() == Qt::LeftButton && OnWipeLine(event.localPos())) {
     wiping_ = true;
   } else if (drawing_ && event.button() == Qt::LeftButton) {
@@ -257,7 +285,13 @@ bool DepthCanvas::OnMove(const QMouseEvent& event) {
 }
 
 bool DepthCanvas::OnRelease(const QMouseEvent& event) {
+  const bool clicked =
+      panning_ && (event.localPos() - pressed_at_).manhattanLength() <= kClickSlack_px;
   panning_ = wiping_ = false;
+  if (picking_ && clicked && event.button() == Qt::LeftButton) {
+    const Eigen::Vector2d pixel = PixelAt(event.localPos());
+    Q_EMIT pixelClicked(pixel, wipe_.Shown() && pixel.x() > wipe_.Column());
+  }
   if (event.button() == Qt::LeftButton) Finish(gesture_.Release(PixelAt(event.localPos())));
   return true;
 }

@@ -9,7 +9,9 @@
 #include "core/fitting/roi.h"
 #include "ui/render/vtk_data.h"
 #include "ui/viewmodels/region_gesture.h"
+#include "ui/views/label_actors.h"
 #include "ui/views/mark_actors.h"
+#include "ui/views/measurement_lines.h"
 #include "ui/views/outline_actors.h"
 #include "ui/views/vtk_canvas.h"
 #include "ui/views/wipe_actors.h"
@@ -35,12 +37,18 @@ class DepthCanvas : public VtkCanvas {
   void SetRegion(const PixelLines& lines);
   void SetOutlines(const std::vector<PixelOutline>& outlines);
   void SetDrawing(bool drawing, RegionShape shape);
+  /// A click on a pixel is told; dragging pans as ever.
+  void SetPicking(bool picking);
+  void SetMeasurements(const std::vector<PixelMeasurement>& measurements);
+  void CentreOn(const Eigen::Vector2d& pixel);
   void ShowAll();
   /// Where a pixel of the image is on this widget.
   QPoint WidgetFromPixel(const Eigen::Vector2d& pixel) const;
 
  Q_SIGNALS:
   void regionDrawn(const std::vector<Eigen::Vector2d>& points);
+  /// `in_second` = right of the line, on the second image.
+  void pixelClicked(const Eigen::Vector2d& pixel, bool in_second);
   void pixelPointedAt(const Eigen::Vector2d& pixel);
   /// The operator moves the line there.
   void wiped(double fraction);
@@ -75,10 +83,14 @@ class DepthCanvas : public VtkCanvas {
   MarkActors second_marks_;
   bool second_has_marks_ = false;
   OutlineActors outlines_;
+  OutlineActors measurements_;
+  LabelActors labels_;
   vtkSmartPointer<vtkActor> region_;
   vtkSmartPointer<vtkActor> gesture_actor_;
   RegionGesture gesture_;
   QPointF pan_from_;
+  QPointF pressed_at_;
+  bool picking_ = false;
   bool panning_ = false;
   bool wiping_ = false;
   bool drawing_ = false;

@@ -2,6 +2,7 @@
 
 #include <QGraphicsPathItem>
 #include <QGraphicsPixmapItem>
+#include <QGraphicsTextItem>
 #include <QMouseEvent>
 #include <QPainterPath>
 #include <cmath>
@@ -104,8 +105,46 @@ void ImageCanvas::SetDrawing(bool drawing, RegionShape shape) {
   drawing_ = drawing;
   gesture_.SetShape(shape);
   setDragMode(drawing ? NoDrag : ScrollHandDrag);
-  viewport()->setCursor(drawing ? Qt::CrossCursor : Qt::OpenHandCursor);
+  ShowCursor();
   DrawGesture();
+}
+
+void ImageCanvas::SetPicking(bool picking) {
+  picking_ = picking;
+  ShowCursor();
+}
+
+void ImageCanvas::ShowCursor() {
+  viewport()->setCursor(drawing_ || picking_ ? Qt::CrossCursor : Qt::OpenHandCursor);
+}
+
+void ImageCanvas::SetMeasurements(const std::vector<PixelMeasurement>& measurements) {
+  for (QGraphicsItem* item : measurements_) delete item;
+  measurements_.clear();
+  for (const PixelMeasurement& one : measurements) {
+    QPainterPath path;
+    for (const PixelLines* lines : {&one.lines, &one.points})
+      for (const auto& line : *lines) path.addPath(PathThrough(line, false));
+    const double width = one.style.width_px;
+    const QColor color = ColorFrom(one.style.color);
+    measurements_.push_back(scene()->addPath(path, CosmeticPen(QColor(12, 14, 18), width + 2.0)));
+    measurements_.push_back(scene()->addPath(path, CosmeticPen(color, width)));
+    if (one.label.empty() || !one.label_at) continue;
+    auto* label = new QGraphicsTextItem;
+    label->setHtml(
+        QStringLiteral("<div style='background:rgba(12,14,18,190);'>&nbsp;%1&nbsp;</div>")
+            .arg(QString::fromStdString(one.label).toHtmlEscaped()));
+    label->setDefaultTextColor(color);
+    label->setFlag(QGraphicsItem::ItemIgnoresTransformations);
+    label->setPos(one.label_at->x(), one.label_at->y());
+    scene()->addItem(label);
+    measurements_.push_back(label);
+  }
+}
+
+void ImageCanvas::CentreOn(const Eigen::Vector2d& pixel) {
+  if (shows_all_) return;  // it is seen already
+  centerOn(QPointF(pixel.x(), pixel.y()));
 }
 
 void ImageCanvas::ShowAll() {
@@ -123,6 +162,7 @@ Eigen::Vector2d ImageCanvas::PixelAt(const QPoint& position) const {
 }
 
 void ImageCanvas::mousePressEvent(QMouseEvent* event) {
+  pressed_at_ = event->pos();
   if (!drawing_ || event->button() != Qt::LeftButton) {
     QGraphicsView::mousePressEvent(event);
     return;
@@ -145,9 +185,14 @@ void ImageCanvas::mouseReleaseEvent(QMouseEvent* event) {
     Finish(gesture_.Release(PixelAt(event->pos())));
   else
     QGraphicsView::mouseReleaseEvent(event);
+  const bool moved = (event->pos() - pressed_at_).manhattanLength() > kClickSlack_px;
+  if (picking_ && !drawing_ && !moved && event->button() == Qt::LeftButton)
+    Q_EMIT pixelClicked(PixelAt(event->pos()));
+  if (picking_) ShowCursor();
 }
 
 void ImageCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
+  pressed_at_ = {-1000, -1000};  // of two quick clicks only the first is one
   if (drawing_)
     Finish(gesture_.Close());
   else

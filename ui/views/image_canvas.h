@@ -5,8 +5,10 @@
 #include "core/base/image.h"
 #include "core/pictures/sample_marks.h"
 #include "ui/viewmodels/region_gesture.h"
+#include "ui/views/measurement_lines.h"
 #include "ui/views/outlines.h"
 
+class QGraphicsItem;
 class QGraphicsPathItem;
 class QGraphicsPixmapItem;
 
@@ -25,12 +27,17 @@ class ImageCanvas : public QGraphicsView {
   void SetOutlines(const std::vector<PixelOutline>& outlines);
   void SetMarks(std::vector<SampleMark> marks);
   void SetDrawing(bool drawing, RegionShape shape);
+  /// A click on a pixel is told; dragging pans as ever.
+  void SetPicking(bool picking);
+  void SetMeasurements(const std::vector<PixelMeasurement>& measurements);
+  void CentreOn(const Eigen::Vector2d& pixel);
   void ShowAll();
   /// Where a pixel of the image is on this widget.
   QPoint WidgetFromPixel(const Eigen::Vector2d& pixel) const;
 
  Q_SIGNALS:
   void regionDrawn(const std::vector<Eigen::Vector2d>& points);
+  void pixelClicked(const Eigen::Vector2d& pixel);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -47,6 +54,7 @@ class ImageCanvas : public QGraphicsView {
   Eigen::Vector2d PixelAt(const QPoint& position) const;
   void Finish(const std::optional<RegionGesture::Points>& points);
   void DrawGesture();
+  void ShowCursor();
 
   QGraphicsPixmapItem* image_;
   std::vector<SampleMark> marks_;
@@ -54,6 +62,9 @@ class ImageCanvas : public QGraphicsView {
   QGraphicsPathItem* region_;
   QGraphicsPathItem* gesture_item_;
   RegionGesture gesture_;
+  std::vector<QGraphicsItem*> measurements_;
+  QPoint pressed_at_;
+  bool picking_ = false;
   bool drawing_ = false;
   bool shows_all_ = true;
 };

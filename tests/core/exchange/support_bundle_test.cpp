@@ -54,8 +54,8 @@ TEST_F(SupportBundle, HoldsTheLastScanAsAMissionThatOpens) {
   const SupportBundleReport report = WriteSupportBundle(zip_, sources, {}).value();
   EXPECT_THAT(report.left_out, testing::IsEmpty());
   const nlohmann::json files = Read();
-  for (const char* name : {"versions.txt", "scans.csv", "detections.csv", "events.csv", "rig.yaml",
-                           "last_scan.foresight", "contents.txt"})
+  for (const char* name : {"versions.txt", "scans.csv", "detections.csv", "notes.csv", "events.csv",
+                           "rig.yaml", "last_scan.foresight", "contents.txt"})
     EXPECT_TRUE(files.contains(name)) << name;
   EXPECT_THAT(files["versions.txt"].get<std::string>(), HasSubstr("Foresight "));
   EXPECT_THAT(files["contents.txt"].get<std::string>(), HasSubstr("last_scan.foresight"));

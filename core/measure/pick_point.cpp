@@ -1,0 +1,105 @@
+#include "core/measure/pick_point.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/detection/fit_in_scan.h"
+#include "core/fitting/range_noise.h"
+
+namespace foresight {
+namespace {
+
+/// A point that lies this much further than the nearest one within reach is hidden by it.
+constexpr double kHiddenBehind = 0.03;
+constexpr double kHiddenBehind_m = 0.10;
+/// The noise is told from the returns in a box of this size.
+constexpr double kNoiseBox_m = 0.3;
+
+struct Candidate {
+  std::size_t index = 0;
+  double distance_m = 0.0;  ///< along the line of sight
+  double beside = 0.0;      ///< squared, in units of the reach
+};
+
+double SigmaAround(const RegisteredScan& cloud, const SensorRig& rig,
+                   const Eigen::Vector3d& in_base) {
+  BoxRoi box;
+  box.base_from_box = Rigid<frame::Base, frame::Object>(Eigen::Quaterniond::Identity(), in_base);
+  box.size_m = Eigen::Vector3d::Constant(kNoiseBox_m);
+  const auto rays = RaysInScan({rig, cloud}, FitSource::kRaw, box);
+  return rays ? EstimateRangeSigma(*rays) : std::nan("");
+}
+
+}  // namespace
+
+std::optional<MeasuredPoint> PickReturn(const RegisteredScan& cloud, const SensorRig& rig,
+                                        const std::string& scan_uuid, const CloudClick& click) {
+  const Eigen::Matrix4d clip_from_base = click.clip_from_robot * rig.robot_from_base.Matrix();
+  std::vector<Candidate> candidates;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (!cloud.points[i].allFinite()) continue;
+    const Eigen::Vector3d point = cloud.points[i].cast<double>();
+    const Eigen::Vector4d clip = clip_from_base * point.homogeneous();
+    if (!(clip.w() > 0.0)) continue;
+    const Eigen::Vector2d off = (clip.head<2>() / clip.w() - click.at).cwiseQuotient(click.reach);
+    if (off.squaredNorm() > 1.0) continue;
+    if (click.shown && !click.shown(rig.robot_from_base * point)) continue;
+    candidates.push_back({i, clip.w(), off.squaredNorm()});
+    nearest_m = std::min(nearest_m, clip.w());
+  }
+  const double farthest_m = nearest_m * (1.0 + kHiddenBehind) + kHiddenBehind_m;
+  const Candidate* best = nullptr;
+  for (const Candidate& candidate : candidates)
+    if (candidate.distance_m <= farthest_m && (best == nullptr || candidate.beside < best->beside))
+      best = &candidate;
+  if (best == nullptr) return std::nullopt;
+  MeasuredPoint picked;
+  picked.scan_uuid = scan_uuid;
+  picked.line = static_cast<int>(best->index / static_cast<std::size_t>(cloud.beams));
+  picked.beam = static_cast<int>(best->index % static_cast<std::size_t>(cloud.beams));
+  const Eigen::Vector3d in_base = cloud.points[best->index].cast<double>();
+  picked.position_m = rig.robot_from_base * in_base;
+  picked.range_m = static_cast<double>(cloud.range_m[best->index]);
+  const Eigen::Vector3d origin =
+      cloud.origins.empty() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                            : cloud.origins[static_cast<std::size_t>(picked.line)].cast<double>();
+  picked.ray = rig.robot_from_base.Rotate((in_base - origin).normalized());
+  picked.sigma_m = SigmaAround(cloud, rig, in_base);
+  return picked;
+}
+
+std::optional<MeasuredPoint> PickDepth(const DepthImage& depth_m, const MaskImage* mask,
+                                       const CameraFrame& frame, const SensorRig& rig,
+                                       const std::string& scan_uuid, int image, int u, int v) {
+  if (u < 0 || v < 0 || u >= depth_m.width() || v >= depth_m.height()) return std::nullopt;
+  const double depth = static_cast<double>(depth_m(u, v));
+  if (!std::isfinite(depth) || (mask != nullptr && (*mask)(u, v) == 0)) return std::nullopt;
+  const auto slope = rig.camera.UnprojectToPlane({u, v});
+  if (!slope) return std::nullopt;
+  const auto robot_from_camera =
+      rig.robot_from_base * rig.CameraFromBase(frame.motor_angle_rad).Inverse();
+  const Eigen::Vector3d in_camera(slope->x() * depth, slope->y() * depth, depth);
+  MeasuredPoint picked;
+  picked.source = MeasuredPoint::Source::kDepth;
+  picked.scan_uuid = scan_uuid;
+  picked.image = image;
+  picked.pixel = {u, v};
+  picked.position_m = robot_from_camera * in_camera;
+  picked.range_m = in_camera.norm();
+  picked.ray = robot_from_camera.Rotate(in_camera.normalized());
+  return picked;
+}
+
+std::vector<Eigen::Vector3d> ReturnsWithin(const RegisteredScan& cloud, const SensorRig& rig,
+                                           const Eigen::Vector3d& centre, double radius_m) {
+  const Eigen::Vector3f in_base = (rig.robot_from_base.Inverse() * centre).cast<float>();
+  const auto limit = static_cast<float>(radius_m * radius_m);
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& point : cloud.points.span())
+    if ((point - in_base).squaredNorm() <= limit)  // false for NaN
+      points.push_back(rig.robot_from_base * point.cast<double>());
+  return points;
+}
+
+}  // namespace foresight

@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QTemporaryDir>
+
+#include "tests/ui/synthetic_scan.h"
+#include "tests/ui/wait_for.h"
+#include "ui/viewmodels/clip_box_model.h"
+#include "ui/viewmodels/map_view_model.h"
+#include "ui/viewmodels/mission_objects.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+/// A mission with the same place scanned twice.
+struct MapTest : testing::Test {
+  QTemporaryDir folder;
+  QString path = folder.filePath("m.foresight");
+  TaskQueue tasks;
+  SessionModel session{SessionMode::kReplay, &tasks};
+  MapViewModel map{&session};
+  std::vector<Notice> notices;
+
+  MapTest() {
+    QObject::connect(&session, &SessionModel::noticed,
+                     [this](const Notice& notice) { notices.push_back(notice); });
+    const auto file = MissionFile::Create(path.toStdString()).value();
+    for (int i = 0; i < 2; ++i) {
+      Scan scan = WallAndValveScan({.from_rad = -0.3, .to_rad = 0.3, .speed_rad_s = 0.4});
+      scan.uuid = NewUuid();
+      EXPECT_TRUE(AppendScan(file.get(), scan, {}));
+    }
+  }
+  bool Settled() {
+    return WaitFor([&] { return !map.Busy(); });
+  }
+};
+
+TEST_F(MapTest, TheScansOfAMissionComeTogetherInTheBackground) {
+  int made = 0;
+  QObject::connect(&map, &MapViewModel::made, [&] { ++made; });
+  map.Make(path);
+  EXPECT_TRUE(map.Busy());
+  EXPECT_NE(map.WhyNoMap(), "");
+  ASSERT_TRUE(Settled());
+  ASSERT_NE(map.Map(), nullptr) << (notices.empty() ? "" : notices[0].next.toStdString());
+  EXPECT_EQ(made, 1);
+  const auto texts = map.PlaceTexts();
+  ASSERT_EQ(texts.size(), 2u);
+  EXPECT_THAT(texts[0].toStdString(), HasSubstr("the map's frame"));
+  EXPECT_THAT(texts[1].toStdString(), HasSubstr("mm rms over"));
+  std::size_t returns = 0;
+  for (const MappedScan& scan : map.Map()->map.scans)
+    returns += ReturnsInRobot(scan.cloud, scan.rig).size();
+  EXPECT_EQ(map.Map()->pyramid.size(), returns);
+}
+
+TEST_F(MapTest, NothingHasChangedBetweenTwoScansOfTheSame) {
+  map.Make(path);
+  ASSERT_TRUE(Settled());
+  map.FindChanges(0, 1);
+  ASSERT_TRUE(Settled());
+  EXPECT_TRUE(map.Changes().empty());
+  EXPECT_THAT(map.ChangesText().toStdString(), HasSubstr("Nothing has changed."));
+}
+
+TEST_F(MapTest, ACancelledMapLeavesTheOneBefore) {
+  map.Make(path);
+  ASSERT_TRUE(Settled());
+  const auto before = map.Map();
+  map.Make(path);
+  map.cancel();
+  ASSERT_TRUE(Settled());
+  EXPECT_TRUE(map.Map() == before || map.Map()->pyramid.size() == before->pyramid.size());
+  EXPECT_TRUE(notices.empty()) << "who cancels knows it";
+}
+
+TEST_F(MapTest, AMissionThatIsNotThereIsToldInWords) {
+  map.Make(folder.filePath("none.foresight"));
+  ASSERT_TRUE(Settled());
+  EXPECT_EQ(map.Map(), nullptr);
+  ASSERT_EQ(notices.size(), 1u);
+}
+
+TEST(ClipBoxTest, BeginsAsTheMiddleHalfAndIsRememberedWhileItIsOff) {
+  ClipBoxModel clip;
+  EXPECT_FALSE(clip.Box());
+  clip.SetBounds({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4, 8, 2)});
+  clip.toggle();
+  ASSERT_TRUE(clip.Box());
+  EXPECT_EQ(clip.Box()->min(), Eigen::Vector3d(1, 2, 0.5));
+  EXPECT_EQ(clip.Box()->max(), Eigen::Vector3d(3, 6, 1.5));
+  clip.SetBox({Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(0, 3, 1)});
+  EXPECT_EQ(clip.Box()->min(), Eigen::Vector3d(0, 1, 1)) << "sides the wrong way round";
+  EXPECT_NEAR(clip.Box()->sizes().z(), ClipBoxModel::kShortest_m, 1e-12);
+  clip.toggle();
+  EXPECT_FALSE(clip.Box());
+  clip.toggle();
+  EXPECT_EQ(clip.Box()->min(), Eigen::Vector3d(0, 1, 1));
+  clip.SetBox({Eigen::Vector3d(std::nan(""), 1, 1), Eigen::Vector3d(0, 3, 1)});
+  EXPECT_EQ(clip.Box()->min(), Eigen::Vector3d(0, 1, 1)) << "no number, no side";
+}
+
+}  // namespace
+}  // namespace foresight
