@@ -369,7 +369,8 @@ void MainWindow::BuildDocks() {
     left->setCurrentIndex(0);
   }
   search_dock_ = Dock("search", tr("Search missions"), search_);
-  docks_->addDockWidgetTabToArea(search_dock_, mission->dockAreaWidget());
+  docks_->addDockWidgetTabToArea(search_dock_, right);  // beside the mission it would be too high
+  right->setCurrentIndex(0);
   timeline_dock_ =
       Dock("timeline", tr("Timeline"),
            new TimelinePanel(&bench_->timeline, &bench_->replay, &bench_->reviewer, commands));
