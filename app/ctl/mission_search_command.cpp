@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <ctime>
 #include <memory>
 #include <optional>
@@ -34,20 +33,11 @@ Result<std::optional<std::int64_t>> TimeFrom(const char* flag, const std::string
   return std::int64_t{1'000'000'000} * ::timegm(&time);
 }
 
-/// Where an index lies whose folder cannot be written.
-std::filesystem::path CacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
-    return std::filesystem::path(cache) / "foresight";
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-    return std::filesystem::path(home) / ".cache" / "foresight";
-  return {};
-}
-
 Result<ExitCode> Search(SearchArguments arguments, const RunContext& context) {
   FORESIGHT_TRY(arguments.query.since_utc_ns, TimeFrom("--since", arguments.since));
   FORESIGHT_TRY(arguments.query.until_utc_ns, TimeFrom("--until", arguments.until));
   FORESIGHT_TRY(const MissionHits found,
-                SearchMissions(arguments.folder, arguments.query, CacheFolder(), context));
+                SearchMissions(arguments.folder, arguments.query, IndexCacheFolder(), context));
   for (const std::string& line : found.unreadable) PrintNote("not searched: {}", line);
   auto list = nlohmann::ordered_json::array();
   std::string text;

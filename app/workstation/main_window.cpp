@@ -8,6 +8,7 @@
 #include <QBuffer>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QScreen>
 #include <QSettings>
@@ -33,10 +34,12 @@
 #include "ui/panels/map_panel.h"
 #include "ui/panels/mission_panel.h"
 #include "ui/panels/notes_panel.h"
+#include "ui/panels/mission_search_panel.h"
 #include "ui/panels/objects_panel.h"
 #include "ui/panels/options_panel.h"
 #include "ui/panels/source_gallery.h"
 #include "ui/panels/task_strip.h"
+#include "ui/panels/timeline_panel.h"
 #include "ui/views/cloud_pane.h"
 #include "ui/views/depth_pane.h"
 #include "ui/views/image_pane.h"
@@ -51,7 +54,7 @@ constexpr int kLayoutVersion = 7;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
 constexpr QSize kUsualSize(1600, 1000);
-/// On a lower screen the mission shares a place with the head.
+/// On a lower screen the mission shares a place with the head, the timeline with the cloud.
 constexpr int kLowHeight = 800;
 
 CloudPane* MakeCloudPane(Desk* desk) {
@@ -96,6 +99,7 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
     });
   connect(bench_, &Workbench::shownChanged, this, &MainWindow::ShowDocument);
   connect(&bench_->reviewer, &ReviewViewModel::changed, this, &MainWindow::ShowDocument);
+  connect(&bench_->replay, &ReplayModel::changed, this, &MainWindow::ShowDocument);
   ShowDocument();
   const QRect room = screen()->availableGeometry();
   resize(kUsualSize.boundedTo(room.size()));
@@ -122,12 +126,12 @@ void MainWindow::AddWindowCommands() {
                 .menu = "file",
                 .icon = "open",
                 .text = tr("Open for review"),
-                .tip = tr("Look at a saved mission; recording goes on"),
+                .tip = tr("Look at saved missions; recording goes on"),
                 .keys = QStringLiteral("Ctrl+O"),
                 .in_tool_bar = true,
                 .run = [this, missions] {
-                  ChooseFile(false, tr("Open a mission for review"), missions, {},
-                             [this](const QString& path) { bench_->reviewer.Open(path); });
+                  ChooseFiles(tr("Open missions for review"), missions,
+                              [this](const auto& paths) { bench_->reviewer.OpenAll(paths); });
                 }});
   commands.Add({.id = "file.import",
                 .menu = "file",
@@ -253,6 +257,21 @@ void MainWindow::AddWindowCommands() {
                 .tip = tr("Calibrate camera, motor, lidar and time from a stand of boards"),
                 .keys = QStringLiteral("Ctrl+Shift+H"),
                 .run = [this] { Open(head_calibration_dock_); }});
+  commands.Add({.id = "view.timeline",
+                .menu = "view",
+                .text = tr("Timeline"),
+                .tip = tr("What happened in the mission under review, in time, and its replay"),
+                .keys = QStringLiteral("Ctrl+T"),
+                .run = [this] { Open(timeline_dock_); }});
+  commands.Add({.id = "view.search",
+                .menu = "view",
+                .text = tr("Search missions"),
+                .tip = tr("Find scans, objects and messages in all missions of a folder"),
+                .keys = QStringLiteral("Ctrl+Shift+F"),
+                .run = [this] {
+                  Open(search_dock_);
+                  search_->Words()->setFocus();
+                }});
   commands.Add({.id = "help.bundle",
                 .menu = "help",
                 .text = tr("Support bundle"),
@@ -281,6 +300,7 @@ void MainWindow::BuildMenus() {
   menu("head", tr("&Head"));
   menu("object", tr("&Object"));
   menu("measure", tr("&Measure"));
+  menu("review", tr("&Review"));
   view_menu_ = menu("view", tr("&View"));
   view_menu_->addSeparator();
   menu("help", tr("H&elp"));
@@ -337,9 +357,14 @@ void MainWindow::BuildDocks() {
   const auto options = [](Desk* desk) { return new OptionsPanel(&desk->depth, &desk->fit); };
   mission_ = new MissionPanel(&bench_->recording, &bench_->reviewer, commands);
   gallery_ = new SourceGallery;
+  search_ = new MissionSearchPanel(&bench_->search);
+  connect(search_, &MissionSearchPanel::folderWanted, this, [this] {
+    ChooseFolder(tr("Search the missions of a folder"),
+                 [this](const QString& folder) { bench_->search.SetFolder(folder); });
+  });
 
-  auto* centre = docks_->addDockWidget(ads::CenterDockWidgetArea,
-                                       Dock("cloud", tr("3D cloud"), Stack(cloud_, MakeCloudPane)));
+  cloud_dock_ = Dock("cloud", tr("3D cloud"), Stack(cloud_, MakeCloudPane));
+  auto* centre = docks_->addDockWidget(ads::CenterDockWidgetArea, cloud_dock_);
   auto* left = docks_->addDockWidget(
       ads::LeftDockWidgetArea, Dock("head", tr("Head"), new HeadPanel(&bench_->head, commands)));
   auto* right =
@@ -371,23 +396,36 @@ void MainWindow::BuildDocks() {
       ads::TopDockWidgetArea, Dock("picture", tr("Image"), Stack(image_, MakeImagePane)), centre);
   docks_->addDockWidget(
       ads::RightDockWidgetArea,
-      Dock("depth", tr("Depth"),
-           Stack(depth_, [](Desk* desk) { return MakeDepthPane(desk, nullptr); })),
+      Dock(
+          "depth", tr("Depth"),
+          Stack(depth_, [this](Desk* desk) { return MakeDepthPane(desk, &bench_->replay_depth); })),
       top);
   auto* mission = Dock("mission", tr("Mission"), mission_);
-  if (screen()->availableGeometry().height() >= kLowHeight) {
+  if (!OnLowScreen()) {
     docks_->addDockWidget(ads::BottomDockWidgetArea, mission, left);
     docks_->setSplitterSizes(left, {620, 240});
   } else {
     docks_->addDockWidgetTabToArea(mission, left);
     left->setCurrentIndex(0);
   }
+  search_dock_ = Dock("search", tr("Search missions"), search_);
+  docks_->addDockWidgetTabToArea(search_dock_, right);  // beside the mission it would be too high
+  right->setCurrentIndex(0);
+  timeline_dock_ =
+      Dock("timeline", tr("Timeline"),
+           new TimelinePanel(&bench_->timeline, &bench_->replay, &bench_->reviewer, commands));
+  if (OnLowScreen())
+    docks_->addDockWidgetTabToArea(timeline_dock_, centre);
+  else
+    docks_->addDockWidget(ads::BottomDockWidgetArea, timeline_dock_);
   gallery_dock_ = Dock("sources", tr("Sources"), gallery_);
   auto* log = Dock("log", tr("Messages"), new LogPanel(&bench_->log));
   auto* bottom = docks_->addDockWidget(ads::BottomDockWidgetArea, log, centre);
   docks_->addDockWidgetTabToArea(gallery_dock_, bottom);
   log->toggleView(false);
   gallery_dock_->toggleView(false);
+  search_dock_->toggleView(false);
+  timeline_dock_->toggleView(false);
   calibration_dock_->toggleView(false);
   head_calibration_dock_->toggleView(false);
   docks_->setSplitterSizes(top, {500, 500});
@@ -403,14 +441,38 @@ void MainWindow::Open(ads::CDockWidget* dock) {
 
 void MainWindow::ShowDocument() {
   const bool review = bench_->ShowsReview();
+  ShowTimeline(review);
   for (DocumentStack* stack : stacks_) stack->ShowDocument(review);
   mission_->ShowDocument(review);
   const ReviewViewModel& reviewer = bench_->reviewer;
   const QString file = QFileInfo(reviewer.Path()).fileName();
   strip_->ShowDocument(
       bench_->Shown().session.Mode(),
-      tr("%1, scan %2 of %3").arg(file).arg(reviewer.ScanIndex() + 1).arg(reviewer.Scans().size()));
+      tr("%1, scan %2 of %3").arg(file).arg(reviewer.ScanIndex() + 1).arg(reviewer.Scans().size()),
+      bench_->replay.Active());
   setWindowTitle(review ? tr("Foresight, review of %1").arg(file) : tr("Foresight"));
+}
+
+/// It comes and goes with the review, unless the operator closed it there.
+void MainWindow::ShowTimeline(bool review) {
+  if (review == timeline_follows_) return;
+  timeline_follows_ = review;
+  if (!review) timeline_wanted_ = !timeline_dock_->isClosed();
+  PlaceTimeline();
+}
+
+bool MainWindow::OnLowScreen() const {
+  return screen()->availableGeometry().height() < kLowHeight;
+}
+
+void MainWindow::PlaceTimeline() {
+  const bool wanted = timeline_follows_ && timeline_wanted_;
+  if (timeline_dock_->isClosed() == wanted) timeline_dock_->toggleView(wanted);
+  if (!wanted) return;
+  if (OnLowScreen())
+    cloud_dock_->setAsCurrentTab();
+  else
+    docks_->setSplitterSizes(timeline_dock_->dockAreaWidget(), {730, 245});
 }
 
 void MainWindow::SaveLayout(QSettings* settings) const {
@@ -423,6 +485,7 @@ void MainWindow::RestoreLayout(const QSettings& settings) {
   restoreGeometry(settings.value(kGeometryKey).toByteArray());
   const QByteArray layout = settings.value(kLayoutKey).toByteArray();
   if (!layout.isEmpty()) docks_->restoreState(layout, kLayoutVersion);
+  PlaceTimeline();
   BringFloatingDocksBack();
 }
 
@@ -446,6 +509,8 @@ void MainWindow::BringFloatingDocksBack() {
 
 void MainWindow::ResetLayout() {
   docks_->restoreState(first_layout_, kLayoutVersion);
+  timeline_wanted_ = true;
+  PlaceTimeline();
 }
 
 void MainWindow::ChooseFile(bool save, const QString& title, const QString& filter,
@@ -455,6 +520,14 @@ void MainWindow::ChooseFile(bool save, const QString& title, const QString& filt
   dialog->setFileMode(save ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
   dialog->setDefaultSuffix(suffix);
   Show(dialog, chosen);
+}
+
+void MainWindow::ChooseFiles(const QString& title, const QString& filter,
+                             const std::function<void(QStringList)>& chosen) {
+  auto* dialog = new QFileDialog(this, title, {}, filter);
+  dialog->setFileMode(QFileDialog::ExistingFiles);
+  connect(dialog, &QFileDialog::filesSelected, this, chosen);
+  Show(dialog, {});
 }
 
 void MainWindow::ChooseBundle() {
@@ -493,7 +566,7 @@ void MainWindow::Show(QFileDialog* dialog, const std::function<void(QString)>& c
   // A dialogue of the desktop's would keep the keys to itself, F12 among them.
   dialog->setOption(QFileDialog::DontUseNativeDialog);
   dialog->setDirectory(QFileInfo(bench_->recording.Path()).path());
-  connect(dialog, &QFileDialog::fileSelected, this, chosen);
+  if (chosen) connect(dialog, &QFileDialog::fileSelected, this, chosen);
   dialog->setModal(false);  // a scan may be running: the stop button must stay within reach
   dialog->show();
 }

@@ -26,6 +26,7 @@ class HeadStrip;
 class ImagePane;
 class LogStrip;
 class MissionPanel;
+class MissionSearchPanel;
 class SourceGallery;
 
 /// Places docks, menus and keys; everything else lives in the view-models, views and panels. Shows
@@ -41,6 +42,7 @@ class MainWindow : public QMainWindow {
   DepthPane* Depth() { return depth_; }
   CloudPane* Cloud() { return cloud_; }
   MissionPanel* Mission() { return mission_; }
+  MissionSearchPanel* Search() { return search_; }
   LogStrip* Log() { return log_; }
   SourceGallery* Gallery() { return gallery_; }
   CameraCalibrationPanel* Calibration() { return calibration_; }
@@ -66,11 +68,16 @@ class MainWindow : public QMainWindow {
   DocumentStack* Stack(QWidget* live, std::function<QWidget*(Desk*)> make);
   static void Open(ads::CDockWidget* dock);
   void ShowDocument();
+  void ShowTimeline(bool review);
+  void PlaceTimeline();
+  bool OnLowScreen() const;
   void BringFloatingDocksBack();
   /// Opens a dialogue that holds nothing up.
   void Show(QFileDialog* dialog, const std::function<void(QString)>& chosen);
   void ChooseBundle();
   void ChooseFolder(const QString& title, const std::function<void(QString)>& chosen);
+  void ChooseFiles(const QString& title, const QString& filter,
+                   const std::function<void(QStringList)>& chosen);
   void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
                   const std::function<void(QString)>& chosen);
 
@@ -82,17 +89,23 @@ class MainWindow : public QMainWindow {
   HeadStrip* strip_ = nullptr;
   LogStrip* log_ = nullptr;
   MissionPanel* mission_ = nullptr;
+  MissionSearchPanel* search_ = nullptr;
   SourceGallery* gallery_ = nullptr;
   CameraCalibrationPanel* calibration_ = nullptr;
   ChainCalibrationPanel* head_calibration_ = nullptr;
   QVector<DocumentStack*> stacks_;
   ads::CDockManager* docks_ = nullptr;
+  ads::CDockWidget* cloud_dock_ = nullptr;
   ads::CDockWidget* gallery_dock_ = nullptr;
   ads::CDockWidget* options_dock_ = nullptr;
   ads::CDockWidget* notes_dock_ = nullptr;
   ads::CDockWidget* map_dock_ = nullptr;
   ads::CDockWidget* calibration_dock_ = nullptr;
   ads::CDockWidget* head_calibration_dock_ = nullptr;
+  ads::CDockWidget* search_dock_ = nullptr;
+  ads::CDockWidget* timeline_dock_ = nullptr;
+  bool timeline_follows_ = false;  ///< the review is shown, and the timeline with it
+  bool timeline_wanted_ = true;    ///< the operator did not close it in a review
   QMenu* view_menu_ = nullptr;
   QByteArray first_layout_;
   QByteArray layout_at_close_;

@@ -4,6 +4,9 @@
 #include <QGridLayout>
 #include <QKeySequence>
 #include <QLabel>
+#include <QScreen>
+
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 
@@ -12,7 +15,8 @@ void ShowShortcutSheet(const CommandTable& commands, QWidget* parent) {
   sheet->setAttribute(Qt::WA_DeleteOnClose);
   sheet->setObjectName(QStringLiteral("shortcut_sheet"));
   sheet->setWindowTitle(QObject::tr("Shortcuts"));
-  auto* grid = new QGridLayout(sheet);
+  auto* rows = new QWidget;
+  auto* grid = new QGridLayout(rows);
   grid->setContentsMargins(24, 20, 24, 20);
   grid->setHorizontalSpacing(24);
   grid->setVerticalSpacing(8);
@@ -30,6 +34,10 @@ void ShowShortcutSheet(const CommandTable& commands, QWidget* parent) {
     grid->addWidget(tip, row, 2);
     ++row;
   }
+  // More rows than a screen is high: they scroll.
+  FillWithScroll(sheet, rows);
+  const QSize room = sheet->screen()->availableGeometry().size() * 9 / 10;
+  sheet->resize((rows->sizeHint() + QSize(24, 4)).boundedTo(room));
   sheet->show();
 }
 

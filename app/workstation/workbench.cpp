@@ -1,6 +1,7 @@
 #include "app/workstation/workbench.h"
 
 #include "app/workstation/commands.h"
+#include "app/workstation/review_commands.h"
 
 namespace foresight {
 
@@ -12,6 +13,12 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
       recording(&live.session),
       reviewer(&review.session),
       importer(&review.session),
+      timeline(&reviewer, &review.session),
+      replay(&reviewer, &review.session, &review.depth, &timeline),
+      replay_depth({[this] { return replay.Sweeping(); },
+                    [this] { return review.session.ShownScan()->plan; }},
+                   &review.session),
+      search(&reviewer, &tasks, RecordingViewModel::DefaultFolder()),
       flow(&head, &live.session),
       live_depth(&head, &live.session),
       camera_calibration(&head, &live.session),
@@ -36,13 +43,20 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
           [this](const QString& mission) { reviewer.Open(mission); });
   connect(&reviewer, &ReviewViewModel::opened, this, [this] {
     if (review.map.Mission() != reviewer.Path()) review.map.clear();  // it is of another mission
+  connect(&replay, &ReplayModel::sweepBroken, &replay_depth, &LiveDepthViewModel::clear);
+  connect(&reviewer, &ReviewViewModel::changed, this, [this] {
+    if (reviewer.Missions().empty()) backToLive();  // the last one was closed
   });
   connect(&commands, &CommandTable::refused, this, [this](const QString& text, const QString& why) {
     log.add({Notice::Level::kInfo, tr("%1 is not possible now.").arg(text), why});
   });
-  connect(&commands, &CommandTable::ran, &recording, &RecordingViewModel::keepCommand);
+  connect(&commands, &CommandTable::ran, &recording, [this](const QString& id) {
+    // What is done in a review is no part of the mission that is being recorded.
+    if (!id.startsWith(QLatin1String("review."))) recording.keepCommand(id);
+  });
   ConnectLink(sensor_head);
   AddCommands(this);
+  AddReviewCommands(this);
   KeepCommandsCurrent();
 }
 
@@ -53,6 +67,8 @@ void Workbench::ConnectLink(const std::shared_ptr<SensorHead>& sensor_head) {
   robot_fit = std::make_unique<RobotFitModel>(sensor_head, &live.session, &live.fit, &live.depth);
   connect(link.get(), &LinkViewModel::noticed, &log, &LogModel::add);
   connect(link.get(), &LinkViewModel::scanArrived, &recording, &RecordingViewModel::refreshList);
+  connect(link.get(), &LinkViewModel::connectedChanged, &recording, &RecordingViewModel::keepLink);
+  recording.keepLink(link->Connected());
 }
 
 void Workbench::KeepCommandsCurrent() {
@@ -64,6 +80,8 @@ void Workbench::KeepCommandsCurrent() {
   if (robot_fit) connect(robot_fit.get(), &RobotFitModel::changed, &commands, refresh);
   connect(&recording, &RecordingViewModel::changed, &commands, refresh);
   connect(&reviewer, &ReviewViewModel::changed, &commands, refresh);
+  connect(&timeline, &TimelineModel::changed, &commands, refresh);
+  connect(&replay, &ReplayModel::changed, &commands, refresh);
   connect(this, &Workbench::shownChanged, &commands, refresh);
   for (Desk* desk : {&live, &review}) {
     connect(&desk->fit, &FitViewModel::changed, &commands, refresh);

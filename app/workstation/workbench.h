@@ -12,11 +12,14 @@
 #include "ui/viewmodels/link_view_model.h"
 #include "ui/viewmodels/live_depth_view_model.h"
 #include "ui/viewmodels/log_model.h"
+#include "ui/viewmodels/mission_search_model.h"
 #include "ui/viewmodels/recording_view_model.h"
+#include "ui/viewmodels/replay_model.h"
 #include "ui/viewmodels/review_view_model.h"
 #include "ui/viewmodels/robot_fit_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/send_pose_model.h"
+#include "ui/viewmodels/timeline_model.h"
 
 namespace foresight {
 
@@ -39,6 +42,10 @@ class Workbench : public QObject {
   RecordingViewModel recording;
   ReviewViewModel reviewer;
   ImportViewModel importer;
+  TimelineModel timeline;
+  ReplayModel replay;
+  LiveDepthViewModel replay_depth;
+  MissionSearchModel search;
   ScanFlow flow;
   LiveDepthViewModel live_depth;
   CameraCalibrationModel camera_calibration;

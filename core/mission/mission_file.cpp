@@ -684,7 +684,7 @@ Result<std::vector<DetectionEvent>> MissionFile::ListDetectionEvents(
     std::int64_t detection_id) const {
   return impl_->Read([&](int format) -> Result<std::vector<DetectionEvent>> {
     if (format == 1) return std::vector<DetectionEvent>();
-    FORESIGHT_TRY(auto events, ReadDetectionEvents(*impl_->database, impl_->file));
+    FORESIGHT_TRY(auto events, ReadDetectionEvents(*impl_->database, detection_id, impl_->file));
     return std::move(events[detection_id]);
   });
 }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -273,6 +274,14 @@ Result<fs::path> IndexFileOf(const fs::path& folder, const fs::path& index_folde
 }
 
 }  // namespace
+
+fs::path IndexCacheFolder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
+    return fs::path(cache) / "foresight";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return fs::path(home) / ".cache" / "foresight";
+  return {};
+}
 
 Result<MissionHits> SearchMissions(const fs::path& folder, const MissionQuery& query,
                                    const fs::path& index_folder, const RunContext& context) {

@@ -51,4 +51,7 @@ Result<MissionHits> SearchMissions(const std::filesystem::path& folder, const Mi
                                    const std::filesystem::path& index_folder,
                                    const RunContext& context);
 
+/// Where the index of a folder lies that cannot be written: the user's cache; empty = unknown.
+std::filesystem::path IndexCacheFolder();
+
 }  // namespace foresight

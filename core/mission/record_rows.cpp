@@ -218,7 +218,7 @@ Result<std::vector<DetectionRecord>> ReadDetections(const SqliteDatabase& databa
                                                     std::optional<std::int64_t> scan_id,
                                                     const std::string& file) {
   if (format == 1) return ReadDetections1(database, scan_id, file);
-  FORESIGHT_TRY(const auto events, ReadDetectionEvents(database, file));
+  FORESIGHT_TRY(const auto events, ReadDetectionEvents(database, std::nullopt, file));
   FORESIGHT_TRY(SqliteStatement select,
                 database.Prepare("SELECT id, uuid, scan_id, scan_uuid, kind, utc_ns, author, json, "
                                  "provenance_json, crc32 FROM detection WHERE ? < 0 OR scan_id = ? "
@@ -281,28 +281,31 @@ Status InsertDetectionEvent(SqliteDatabase& database, std::int64_t detection_id,
 }
 
 Result<std::map<std::int64_t, std::vector<DetectionEvent>>> ReadDetectionEvents(
-    const SqliteDatabase& database, const std::string& file) {
+    const SqliteDatabase& database, std::optional<std::int64_t> detection_id,
+    const std::string& file) {
   FORESIGHT_TRY(SqliteStatement select,
                 database.Prepare("SELECT id, detection_id, utc_ns, author, action, text, crc32 "
-                                 "FROM detection_event ORDER BY id"));
+                                 "FROM detection_event WHERE ? < 0 OR detection_id = ? "
+                                 "ORDER BY id"));
+  select.Bind(detection_id.value_or(-1)).Bind(detection_id.value_or(-1));
   std::map<std::int64_t, std::vector<DetectionEvent>> events;
   for (;;) {
     FORESIGHT_TRY(const bool more, select.Step());
     if (!more) return events;
     const std::int64_t id = select.Integer(0);
-    const std::int64_t detection_id = select.Integer(1);
+    const std::int64_t of_detection = select.Integer(1);
     const std::string action = select.Text(4);
     DetectionEvent event;
     event.utc_ns = select.Integer(2);
     event.author = select.Text(3);
     event.text = select.Text(5);
     const std::string where = fmt::format("{}: decision {} on a detection", file, id);
-    if (select.Integer(6) != Checksum(id, detection_id, event, action))
+    if (select.Integer(6) != Checksum(id, of_detection, event, action))
       return Fail(ErrorCode::kBadData, "{} is damaged (checksum)", where);
     const auto known = DetectionActionFromString(action);
     if (!known) return Fail(ErrorCode::kBadData, "{}: {}", where, known.error().message);
     event.action = *known;
-    events[detection_id].push_back(std::move(event));
+    events[of_detection].push_back(std::move(event));
   }
 }
 

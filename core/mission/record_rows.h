@@ -24,9 +24,10 @@ Result<std::map<std::int64_t, std::int64_t>> CountObjects(const SqliteDatabase& 
 
 Status InsertDetectionEvent(SqliteDatabase& database, std::int64_t detection_id,
                             const DetectionEvent& event);
-/// Of every detection, by its id, oldest first.
+/// Of one detection or of every one, by its id, oldest first.
 Result<std::map<std::int64_t, std::vector<DetectionEvent>>> ReadDetectionEvents(
-    const SqliteDatabase& database, const std::string& file);
+    const SqliteDatabase& database, std::optional<std::int64_t> detection_id,
+    const std::string& file);
 
 Result<std::int64_t> InsertDepth(SqliteDatabase& database, DepthRecord depth);
 Result<std::vector<DepthRecord>> ReadDepths(const SqliteDatabase& database,

@@ -85,7 +85,7 @@ HeadStrip::HeadStrip(HeadViewModel* head, CommandTable* commands, QWidget* paren
   ShowStatus();
 }
 
-void HeadStrip::ShowDocument(SessionMode mode, const QString& details) {
+void HeadStrip::ShowDocument(SessionMode mode, const QString& details, bool replayed) {
   row_->SetWanted(back_, mode == SessionMode::kReplay);
   switch (mode) {
     case SessionMode::kLive:
@@ -95,7 +95,8 @@ void HeadStrip::ShowDocument(SessionMode mode, const QString& details) {
       SetBadge(mode_, tr("SIMULATION"), state_color::kActive);
       break;
     case SessionMode::kReplay:
-      SetBadge(mode_, tr("REVIEW: %1").arg(details), state_color::kCaution);
+      SetBadge(mode_, (replayed ? tr("REPLAY: %1") : tr("REVIEW: %1")).arg(details),
+               state_color::kCaution);
       break;
   }
   row_->Arrange();

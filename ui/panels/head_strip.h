@@ -24,8 +24,9 @@ class HeadStrip : public QFrame {
  public:
   HeadStrip(HeadViewModel* head, CommandTable* commands, QWidget* parent = nullptr);
 
-  /// What the panes show: the live session, or `details` of a mission under review.
-  void ShowDocument(SessionMode mode, const QString& details);
+  /// What the panes show: the live session, or `details` of a mission under review, all of a scan
+  /// or a moment of its replay.
+  void ShowDocument(SessionMode mode, const QString& details, bool replayed = false);
 
  private:
   void ShowStatus();

@@ -1,6 +1,7 @@
 #include "ui/panels/mission_panel.h"
 
 #include <QFileInfo>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QStackedWidget>
@@ -60,9 +61,15 @@ QWidget* MissionPanel::BuildReviewPage(CommandTable* commands) {
   reviewed_path_ = Line("faint");
   auto* back = new QPushButton(tr("Back to live"));
   BindButton(back, commands, "view.live");
-  reviewed_ = new ScanList;
-  connect(reviewed_, &ScanList::chosen, review_, &ReviewViewModel::showScan);
-  return Page({reviewed_path_, back, reviewed_});
+  auto* close = new QPushButton(tr("Close"));
+  BindButton(close, commands, "review.close");
+  auto* buttons = new QWidget;
+  auto* row = new QHBoxLayout(buttons);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(back);
+  row->addWidget(close);
+  reviewed_ = new OpenMissions(review_);
+  return Page({reviewed_path_, buttons, reviewed_});
 }
 
 void MissionPanel::ShowDocument(bool review) {
@@ -85,7 +92,6 @@ void MissionPanel::ShowReview() {
                               ? tr("No mission is open for review.")
                               : tr("Review of %1").arg(QFileInfo(review_->Path()).fileName()));
   reviewed_path_->setToolTip(review_->Path());
-  reviewed_->Show(review_->Scans(), review_->ScanIndex());
 }
 
 }  // namespace foresight

@@ -2,6 +2,7 @@
 
 #include <QWidget>
 
+#include "ui/panels/open_missions.h"
 #include "ui/panels/scan_list.h"
 #include "ui/viewmodels/command_table.h"
 #include "ui/viewmodels/recording_view_model.h"
@@ -12,8 +13,8 @@ class QStackedWidget;
 
 namespace foresight {
 
-/// The mission file of the document that is shown: the one that is being recorded, or the one under
-/// review; and its scans. A scan of the running mission is looked at in the review.
+/// The mission file of the document that is shown and its scans: the one that is being recorded, or
+/// those that are open for review. A scan of the running mission is looked at in the review.
 class MissionPanel : public QWidget {
   Q_OBJECT
 
@@ -23,7 +24,7 @@ class MissionPanel : public QWidget {
 
   void ShowDocument(bool review);
   ScanList* Recorded() { return recorded_; }
-  ScanList* Reviewed() { return reviewed_; }
+  OpenMissions* Reviewed() { return reviewed_; }
 
  private:
   QWidget* BuildLivePage();
@@ -38,7 +39,7 @@ class MissionPanel : public QWidget {
   QLabel* waiting_;
   ScanList* recorded_;
   QLabel* reviewed_path_;
-  ScanList* reviewed_;
+  OpenMissions* reviewed_;
 };
 
 }  // namespace foresight

@@ -12,7 +12,6 @@
 #include "ui/widgets/dock_parts.h"
 
 namespace foresight {
-namespace {
 
 QString TextFor(const ScanSummary& scan) {
   const QDateTime begin = QDateTime::fromMSecsSinceEpoch(scan.begin_utc_ns / 1'000'000);
@@ -43,6 +42,8 @@ QIcon IconFor(const ScanSummary& scan) {
   if (pixmap.isNull()) pixmap = EmptyThumbnail();
   return QIcon(pixmap);
 }
+
+namespace {
 
 bool LooksSame(const ScanSummary& a, const ScanSummary& b) {
   return a.uuid == b.uuid && a.state == b.state && a.lines == b.lines && a.objects == b.objects &&

@@ -5,9 +5,15 @@
 
 #include "core/mission/mission_records.h"
 
+class QIcon;
 class QListWidget;
 
 namespace foresight {
+
+/// Time, scope, speed, state and number of objects of a scan, in three lines.
+QString TextFor(const ScanSummary& scan);
+/// Its thumbnail, or an empty one.
+QIcon IconFor(const ScanSummary& scan);
 
 /// The scans of a mission: thumbnail, time, scope, speed, state, number of objects.
 class ScanList : public QWidget {

@@ -35,7 +35,8 @@ std::string MapOptions(DepthOptions options) {
 
 DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {
-  connect(session_, &SessionModel::imageChanged, this, &DepthViewModel::compute);
+  connect(session_, &SessionModel::imageChanged, this,
+          [this] { automatic_ ? compute() : cancel(); });
 }
 
 void DepthViewModel::setThreshold(double threshold) {
@@ -150,6 +151,12 @@ void DepthViewModel::Accept(const DepthOptions& used, Result<DepthResult> depth)
   session_->SetDepth(std::make_shared<const DepthResult>(std::move(*depth)));
   UpdateMask();  // the threshold may have moved while the depth was being computed
   Q_EMIT computed();
+}
+
+void DepthViewModel::ShowAgain(std::shared_ptr<const DepthResult> depth) {
+  runner_.cancel();
+  session_->SetDepth(std::move(depth));
+  UpdateMask();
 }
 
 void DepthViewModel::ReturnToShown() {

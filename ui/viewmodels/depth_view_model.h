@@ -33,6 +33,10 @@ class DepthViewModel : public QObject {
   /// An option of DepthOptionTable by its key: computes again, or only the mask where nothing else
   /// depends on it. Fails with kInvalidOptions, and leaves everything as it is.
   Status SetOption(const std::string& key, const OptionValue& value);
+  /// Whether depth follows by itself when an image is shown; a replay decides when it does.
+  void SetAutomatic(bool automatic) { automatic_ = automatic; }
+  /// Shows a map of the current image that was computed before, with the present mask.
+  void ShowAgain(std::shared_ptr<const DepthResult> depth);
 
  public Q_SLOTS:
   /// In [0, 1], of the largest confidence in the image.
@@ -46,6 +50,7 @@ class DepthViewModel : public QObject {
   void resetOptions();
   /// Computes the depth of the current image again.
   void compute();
+  void cancel() { runner_.cancel(); }
 
  Q_SIGNALS:
   /// A depth map has been made; the session shows it.
@@ -67,6 +72,7 @@ class DepthViewModel : public QObject {
   std::map<DepthMethod, DepthOptions> used_;  ///< with the methods that are not chosen now
   TaskRunner runner_{session_->Tasks()};
   int computed_ = 0;
+  bool automatic_ = true;
 };
 
 }  // namespace foresight

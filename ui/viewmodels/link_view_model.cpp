@@ -3,6 +3,7 @@
 #include <QDateTime>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/viewmodels/age_text.h"
 #include "ui/viewmodels/bytes_text.h"
@@ -120,7 +121,8 @@ LinkViewModel::LinkViewModel(std::shared_ptr<SensorHead> head, TaskQueue* tasks,
 
 void LinkViewModel::Poll() {
   const LinkHealth health = link_->Health();
-  connected_ = health.connected;
+  if (std::exchange(connected_, health.connected) != health.connected)
+    Q_EMIT connectedChanged(connected_);
   has_control_ = health.has_control;
   const LinkText text = TextOf(health, link_->MayOperate());
   QVector<LinkedScanRow> scans;

@@ -49,6 +49,7 @@ class LinkViewModel : public QObject {
   const LinkText& Text() const { return text_; }
   const QVector<LinkedScanRow>& Scans() const { return scans_; }
   bool HasControl() const { return has_control_; }
+  bool Connected() const { return connected_; }
   /// Why control cannot be taken now, as a sentence; empty when it can.
   QString WhyNotTake() const;
   QString WhyNotGive() const;
@@ -67,6 +68,7 @@ class LinkViewModel : public QObject {
 
  Q_SIGNALS:
   void changed();
+  void connectedChanged(bool connected);
   /// All of a scan has come, and is in the mission.
   void scanArrived();
   void noticed(const foresight::Notice& notice);

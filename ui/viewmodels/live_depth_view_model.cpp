@@ -3,11 +3,17 @@
 namespace foresight {
 
 LiveDepthViewModel::LiveDepthViewModel(HeadViewModel* head, SessionModel* session, QObject* parent)
-    : QObject(parent), head_(head), session_(session) {
+    : LiveDepthViewModel(
+          {[head] { return head->Scanning(); }, [head] { return head->Plan().ToPlan(); }}, session,
+          parent) {
+  connect(head, &HeadViewModel::scanStarted, this, &LiveDepthViewModel::clear);
+  connect(head, &HeadViewModel::scanEnded, this, &LiveDepthViewModel::clear);
+}
+
+LiveDepthViewModel::LiveDepthViewModel(SweepSource sweep, SessionModel* session, QObject* parent)
+    : QObject(parent), sweep_(std::move(sweep)), session_(session) {
   connect(session_, &SessionModel::scanChanged, this, &LiveDepthViewModel::RememberScan);
   connect(session_, &SessionModel::cloudChanged, this, &LiveDepthViewModel::Grow);
-  connect(head_, &HeadViewModel::scanStarted, this, &LiveDepthViewModel::Clear);
-  connect(head_, &HeadViewModel::scanEnded, this, &LiveDepthViewModel::Clear);
 }
 
 void LiveDepthViewModel::RememberScan() {
@@ -20,12 +26,14 @@ std::shared_ptr<const CameraFrame> LiveDepthViewModel::ImageToUse() {
     own_image_ = std::make_shared<const CameraFrame>(*session_->CurrentImage());
   if (own_image_) return own_image_;
   if (!last_scan_) return nullptr;
-  if (last_scan_->plan.image_angles_rad != head_->Plan().ToPlan().image_angles_rad) return nullptr;
+  // In a replay the last one may be this very scan, whose image has not been taken yet.
+  if (session_->Mode() == SessionMode::kReplay) return nullptr;
+  if (last_scan_->plan.image_angles_rad != sweep_.plan().image_angles_rad) return nullptr;
   return image_ ? image_ : std::make_shared<const CameraFrame>(last_scan_->frames.front());
 }
 
 void LiveDepthViewModel::Grow() {
-  if (!head_->Scanning() || !session_->Cloud() || runner_.Busy()) return;
+  if (!sweep_.running() || !session_->Cloud() || runner_.Busy()) return;
   const auto image = ImageToUse();
   if (!image) return;
   if (!live_ || image != image_) Begin(image);
@@ -48,13 +56,13 @@ void LiveDepthViewModel::Grow() {
 }
 
 void LiveDepthViewModel::Begin(std::shared_ptr<const CameraFrame> image) {
-  const auto options = FixedForPlan(DefaultsOf(Method()), head_->Plan().ToPlan(), session_->Rig());
+  const auto options = FixedForPlan(DefaultsOf(Method()), sweep_.plan(), session_->Rig());
   if (!options) return;  // a plan that cannot be executed has no preview
   image_ = std::move(image);
   live_ = std::make_shared<LiveDepth>(session_->Rig(), *image_, *options);
 }
 
-void LiveDepthViewModel::Clear() {
+void LiveDepthViewModel::clear() {
   runner_.cancel();
   live_.reset();  // a task that still runs holds on to its own
   own_image_.reset();

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <functional>
+
 #include "core/depth/live_depth.h"
 #include "ui/viewmodels/depth_view_model.h"
 #include "ui/viewmodels/head_view_model.h"
 
 namespace foresight {
+
+/// The sweep that a preview follows: a head's, or one that is replayed.
+struct SweepSource {
+  std::function<bool()> running;
+  std::function<ScanPlan()> plan;
+};
 
 /// A preview of the depth while the head sweeps: the lines so far under the scan's own image once
 /// it has been taken, before that under the image of the scan before, where that was planned at the
@@ -16,6 +24,8 @@ class LiveDepthViewModel : public QObject {
 
  public:
   LiveDepthViewModel(HeadViewModel* head, SessionModel* session, QObject* parent = nullptr);
+  /// Call `clear` when the sweep begins, ends, or loses lines again.
+  LiveDepthViewModel(SweepSource sweep, SessionModel* session, QObject* parent = nullptr);
 
   /// nullptr unless a scan is running and its image was seen before.
   const std::shared_ptr<const DepthResult>& Depth() const { return depth_; }
@@ -26,6 +36,9 @@ class LiveDepthViewModel : public QObject {
   static DepthMethod Method() { return DepthMethods().front().method; }
   TaskRunner* Runner() { return &runner_; }
 
+ public Q_SLOTS:
+  void clear();
+
  Q_SIGNALS:
   void changed();
 
@@ -34,9 +47,8 @@ class LiveDepthViewModel : public QObject {
   void Grow();
   void Begin(std::shared_ptr<const CameraFrame> image);
   std::shared_ptr<const CameraFrame> ImageToUse();
-  void Clear();
 
-  HeadViewModel* head_;
+  SweepSource sweep_;
   SessionModel* session_;
   TaskRunner runner_{session_->Tasks()};
   std::shared_ptr<const Scan> last_scan_;         ///< with an image

@@ -8,6 +8,7 @@
 #include <QStandardPaths>
 #include <algorithm>
 
+#include "core/mission/mission_timeline.h"
 #include "ui/viewmodels/mission_objects.h"
 
 namespace foresight {
@@ -300,6 +301,15 @@ void RecordingViewModel::keepNotice(const Notice& notice) {
 
 void RecordingViewModel::keepCommand(const QString& id) {
   Keep(EventRecord{0, NowUtc_ns(), author_, "info", "command " + id.toStdString(), {}});
+}
+
+void RecordingViewModel::keepLink(bool connected) {
+  Keep(EventRecord{0,
+                   NowUtc_ns(),
+                   kLinkEventSource,
+                   connected ? "info" : "warning",
+                   connected ? kLinkUpText : kLinkLostText,
+                   {}});
 }
 
 void RecordingViewModel::Keep(Change change) {

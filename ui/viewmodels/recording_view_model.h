@@ -80,6 +80,8 @@ class RecordingViewModel : public QObject {
   /// For the mission's log.
   void keepNotice(const foresight::Notice& notice);
   void keepCommand(const QString& id);
+  /// The link to the head came or went.
+  void keepLink(bool connected);
 
  Q_SIGNALS:
   void changed();

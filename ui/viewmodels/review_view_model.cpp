@@ -1,75 +1,37 @@
 #include "ui/viewmodels/review_view_model.h"
 
+#include <algorithm>
+
 #include "ui/viewmodels/mission_objects.h"
-#include "ui/viewmodels/recording_view_model.h"
 
 namespace foresight {
 namespace {
 
-/// What was found in a scan of a mission in earlier reviews.
-Result<std::vector<DetectionRecord>> ReviewedDetections(const std::filesystem::path& mission,
-                                                        const std::filesystem::path& folder,
-                                                        const std::string& scan_uuid) {
-  std::vector<DetectionRecord> records;
-  const auto path = MissionFile::ReviewPathOf(mission, folder);
-  std::error_code error;
-  if (!path || !std::filesystem::exists(*path, error)) return records;  // no review yet
-  FORESIGHT_TRY(const auto notes, MissionFile::OpenReadOnly(*path));
-  FORESIGHT_TRY(records, notes->ListDetections());
-  std::erase_if(records,
-                [&](const DetectionRecord& record) { return record.scan_uuid != scan_uuid; });
-  return records;
-}
-
-/// The objects of a scan out of the mission and out of the file with its review.
-Result<std::vector<FoundObject>> ObjectsOf(const MissionFile& mission,
-                                           const std::filesystem::path& folder,
-                                           const ScanSummary& summary, const Scan& scan) {
-  FORESIGHT_TRY(std::vector<DetectionRecord> records, mission.ListDetections(summary.id));
-  FORESIGHT_TRY(const std::vector<DetectionRecord> reviewed,
-                ReviewedDetections(mission.path(), folder, scan.uuid));
-  for (const DetectionRecord& record : reviewed) {
-    // What was decided in a review counts more than what the mission says of the same object.
-    std::erase_if(records, [&](const DetectionRecord& other) { return other.uuid == record.uuid; });
-    records.push_back(record);
-  }
-  std::vector<FoundObject> objects;
-  for (const DetectionRecord& record : records) {
-    if (record.deleted) continue;
-    FORESIGHT_TRY(FoundObject object, ObjectOf(record, scan.rig, BeginUtc_ns(scan)));
-    object.scan_uuid = scan.uuid;
-    objects.push_back(std::move(object));
-  }
-  return objects;
-}
-
 /// Of the mission and of its review, which counts more.
-Result<std::vector<NoteRecord>> NotesOf(const MissionFile& mission,
-                                        const std::filesystem::path& folder) {
+Result<std::vector<NoteRecord>> NotesOf(const MissionFile& mission) {
   FORESIGHT_TRY(std::vector<NoteRecord> notes, mission.ListNotes());
-  const auto path = MissionFile::ReviewPathOf(mission.path(), folder);
-  std::error_code error;
-  if (!path || !std::filesystem::exists(*path, error)) return notes;  // no review yet
-  FORESIGHT_TRY(const auto review, MissionFile::OpenReadOnly(*path));
+  FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission.path(), ReviewFolder()));
+  if (!review) return notes;
   FORESIGHT_TRY(const std::vector<NoteRecord> later, review->ListNotes());
   notes.insert(notes.end(), later.begin(), later.end());
   return CurrentNotes(notes);
 }
 
-/// Where notes go that cannot lie beside their mission.
-std::filesystem::path NotesFolder() {
-  return RecordingViewModel::DefaultFolder().toStdString();
-}
-
 }  // namespace
 
+struct ReviewViewModel::Wanted {
+  std::vector<std::string> paths;      ///< to be opened; the last one is shown
+  std::shared_ptr<MissionFile> file;   ///< or one that is open is shown
+  std::string scan_uuid, object_uuid;  ///< empty = its last scan, any object
+};
+
 struct ReviewViewModel::Opened {
-  std::shared_ptr<MissionFile> file;
-  std::vector<ScanSummary> scans;
+  std::vector<OpenMission> missions;  ///< the last one is shown
+  std::vector<Error> failed;
   int index = -1;
-  std::shared_ptr<const Scan> scan;
-  std::vector<FoundObject> objects;
-  std::vector<NoteRecord> notes;
+  ReviewedScan scan;
+  std::string object_uuid;
+  std::vector<NoteRecord> notes;  ///< of the mission that is shown
 };
 
 ReviewViewModel::ReviewViewModel(SessionModel* review, QObject* parent)
@@ -97,87 +59,170 @@ ReviewViewModel::ReviewViewModel(SessionModel* review, QObject* parent)
   });
 }
 
-void ReviewViewModel::showScanWith(const QString& uuid) {
-  for (std::size_t i = 0; i < scans_.size(); ++i)
-    if (scans_[i].uuid == uuid.toStdString() && static_cast<int>(i) != scan_index_)
-      showScan(static_cast<int>(i));
-}
-
 QString ReviewViewModel::Path() const {
-  return file_ ? QString::fromStdString(file_->path().string()) : QString();
+  return mission_index_ < 0 ? QString()
+                            : missions_[static_cast<std::size_t>(mission_index_)].Path();
 }
 
-void ReviewViewModel::Open(const QString& path, const std::string& scan_uuid) {
-  Load(tr("Opening the mission"), nullptr, path.toStdString(), scan_uuid);
+std::shared_ptr<MissionFile> ReviewViewModel::File() const {
+  return mission_index_ < 0 ? nullptr : missions_[static_cast<std::size_t>(mission_index_)].file;
+}
+
+const std::vector<ScanSummary>& ReviewViewModel::Scans() const {
+  static const std::vector<ScanSummary> kNone;
+  return mission_index_ < 0 ? kNone : missions_[static_cast<std::size_t>(mission_index_)].scans;
+}
+
+void ReviewViewModel::Open(const QString& path, const std::string& scan_uuid,
+                           const std::string& object_uuid) {
+  const int open = MissionAt(path.toStdString());
+  Wanted wanted{{}, nullptr, scan_uuid, object_uuid};
+  if (open < 0)
+    wanted.paths = {path.toStdString()};
+  else
+    wanted.file = missions_[static_cast<std::size_t>(open)].file;
+  Load(tr("Opening the mission"), std::move(wanted));
+}
+
+void ReviewViewModel::OpenAll(const QStringList& paths) {
+  if (paths.size() == 1) return Open(paths.front());
+  Wanted wanted;
+  for (const QString& path : paths)
+    if (MissionAt(path.toStdString()) < 0) wanted.paths.push_back(path.toStdString());
+  if (!wanted.paths.empty())
+    Load(tr("Opening the missions"), std::move(wanted));
+  else if (!paths.isEmpty())
+    Open(paths.back());
+}
+
+void ReviewViewModel::showScanWith(const QString& uuid) {
+  for (std::size_t i = 0; i < Scans().size(); ++i)
+    if (Scans()[i].uuid == uuid.toStdString() && static_cast<int>(i) != scan_index_)
+      return showScan(static_cast<int>(i));
 }
 
 void ReviewViewModel::showScan(int index) {
-  if (!file_ || index < 0 || index >= static_cast<int>(scans_.size())) return;
-  Load(tr("Loading the scan"), file_, file_->path().string(),
-       scans_[static_cast<std::size_t>(index)].uuid);
+  ShowScanOf(mission_index_, index);
 }
 
-void ReviewViewModel::Load(const QString& title, std::shared_ptr<MissionFile> file,
-                           const std::string& path, const std::string& scan_uuid) {
-  const auto work = [file = std::move(file), path, scan_uuid,
-                     folder = NotesFolder()](const RunContext& context) -> Result<Opened> {
-    context.Report(0.1, "reading");
-    Opened opened;
-    opened.file = file;
-    if (!opened.file) {
-      FORESIGHT_TRY(opened.file, MissionFile::OpenReadOnly(path));
-    }
-    FORESIGHT_TRY(opened.scans, opened.file->ListScans());
-    if (opened.scans.empty())
-      return Fail(ErrorCode::kBadData, "{}: the mission holds no scan", path);
-    opened.index = static_cast<int>(opened.scans.size()) - 1;
-    for (std::size_t i = 0; i < opened.scans.size(); ++i)
-      if (opened.scans[i].uuid == scan_uuid) opened.index = static_cast<int>(i);
-    const ScanSummary& summary = opened.scans[static_cast<std::size_t>(opened.index)];
-    FORESIGHT_TRY(Scan scan, opened.file->LoadScan(summary.id));
-    FORESIGHT_TRY(opened.objects, ObjectsOf(*opened.file, folder, summary, scan));
-    FORESIGHT_TRY(opened.notes, NotesOf(*opened.file, folder));
-    opened.scan = std::make_shared<const Scan>(std::move(scan));
-    return opened;
+void ReviewViewModel::ShowScanOf(int mission, int scan) {
+  if (mission < 0 || mission >= static_cast<int>(missions_.size())) return;
+  const OpenMission& wanted = missions_[static_cast<std::size_t>(mission)];
+  if (scan < 0 || scan >= static_cast<int>(wanted.scans.size())) return;
+  Load(tr("Loading the scan"),
+       {{}, wanted.file, wanted.scans[static_cast<std::size_t>(scan)].uuid, {}});
+}
+
+int ReviewViewModel::MissionAt(const std::filesystem::path& path) const {
+  std::error_code error;
+  for (std::size_t i = 0; i < missions_.size(); ++i)
+    if (missions_[i].file->path() == path ||
+        std::filesystem::equivalent(missions_[i].file->path(), path, error))
+      return static_cast<int>(i);
+  return -1;
+}
+
+Result<ReviewViewModel::Opened> ReviewViewModel::LoadWanted(const Wanted& wanted,
+                                                            const RunContext& context) {
+  context.Report(0.1, "reading");
+  Opened opened;
+  opened.object_uuid = wanted.object_uuid;
+  const auto take = [&](std::shared_ptr<MissionFile> file) -> Status {
+    FORESIGHT_TRY(std::vector<ScanSummary> scans, file->ListScans());
+    if (scans.empty())
+      return Fail(ErrorCode::kBadData, "{}: the mission holds no scan", file->path().string());
+    opened.missions.push_back({std::move(file), std::move(scans)});
+    return {};
   };
-  loader_.Run<Opened>(title, work, [this, title](Result<Opened> opened) {
-    if (opened)
-      Show(std::move(*opened));
-    else
-      session_->Report(NoticeOf(title, opened.error()));
-  });
+  if (wanted.file) FORESIGHT_CHECK(take(wanted.file));
+  for (const std::string& path : wanted.paths) {
+    auto file = MissionFile::OpenReadOnly(path);
+    const Status taken = file ? take(std::move(*file)) : Status(tl::make_unexpected(file.error()));
+    if (!taken) opened.failed.push_back(taken.error());
+  }
+  if (opened.missions.empty()) return opened;
+  const OpenMission& shown = opened.missions.back();
+  opened.index = static_cast<int>(shown.scans.size()) - 1;
+  for (std::size_t i = 0; i < shown.scans.size(); ++i)
+    if (shown.scans[i].uuid == wanted.scan_uuid) opened.index = static_cast<int>(i);
+  FORESIGHT_TRY(opened.notes, NotesOf(*shown.file));
+  FORESIGHT_TRY(opened.scan, LoadReviewedScan(*shown.file, ReviewFolder(),
+                                              shown.scans[static_cast<std::size_t>(opened.index)]));
+  return opened;
+}
+
+void ReviewViewModel::Load(const QString& title, Wanted wanted) {
+  loader_.Run<Opened>(
+      title,
+      [wanted = std::move(wanted)](const RunContext& context) {
+        return LoadWanted(wanted, context);
+      },
+      [this, title](Result<Opened> opened) {
+        if (!opened) return session_->Report(NoticeOf(title, opened.error()));
+        for (const Error& error : opened->failed) session_->Report(NoticeOf(title, error));
+        if (!opened->missions.empty()) Show(std::move(*opened));
+      });
+}
+
+void ReviewViewModel::List(OpenMission mission) {
+  const int known = MissionAt(mission.file->path());
+  if (known < 0)
+    missions_.push_back(std::move(mission));
+  else
+    missions_[static_cast<std::size_t>(known)].scans = std::move(mission.scans);
 }
 
 void ReviewViewModel::Show(Opened loaded) {
-  file_ = std::move(loaded.file);
-  scans_ = std::move(loaded.scans);
-  scan_index_ = loaded.index;
+  const std::filesystem::path shown = loaded.missions.back().file->path();
+  for (OpenMission& mission : loaded.missions) List(std::move(mission));
+  mission_index_ = MissionAt(shown);
+  std::vector<FoundObject> objects = loaded.scan.Objects();
   session_->ShowObjects({});
-  session_->SetScan(std::move(loaded.scan));
-  known_.clear();
-  for (const FoundObject& object : loaded.objects) known_[object.uuid] = object;
-  session_->ShowObjects(std::move(loaded.objects));
+  session_->SetScan(std::move(loaded.scan.scan));
+  session_->ShowObjects(objects);
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (objects[i].uuid == loaded.object_uuid) session_->SelectObject(static_cast<int>(i));
   session_->Notes()->Show(loaded.notes);
+  Follow(loaded.index, objects);
   Q_EMIT opened();
+}
+
+void ReviewViewModel::Follow(int scan, const std::vector<FoundObject>& objects) {
+  scan_index_ = scan;
+  known_.clear();
+  for (const FoundObject& object : objects) known_[object.uuid] = object;
   Q_EMIT changed();
 }
 
 void ReviewViewModel::close() {
+  CloseMission(mission_index_);
+}
+
+void ReviewViewModel::CloseMission(int index) {
+  if (index < 0 || index >= static_cast<int>(missions_.size())) return;
   loader_.cancel();
-  file_.reset();
-  scans_.clear();
-  scan_index_ = -1;
-  session_->ShowObjects({});
-  session_->Notes()->Show({});
-  session_->SetScan(nullptr);
+  missions_.erase(missions_.begin() + index);
+  const bool shown = index == mission_index_;
+  if (index < mission_index_) --mission_index_;
+  if (shown) {
+    mission_index_ = scan_index_ = -1;
+    known_.clear();
+    session_->ShowObjects({});
+    session_->Notes()->Show({});
+    session_->SetScan(nullptr);
+  }
   Q_EMIT changed();
+  if (!shown || missions_.empty()) return;
+  const int next = std::max(0, index - 1);
+  ShowScanOf(next, static_cast<int>(missions_[static_cast<std::size_t>(next)].scans.size()) - 1);
 }
 
 void ReviewViewModel::CopyTo(const QString& path) {
-  if (!file_) return;
+  const auto file = File();
+  if (!file) return;
   copier_.Run<bool>(
       tr("Copying the mission"),
-      [file = file_, path = path.toStdString()](const RunContext&) -> Result<bool> {
+      [file, path = path.toStdString()](const RunContext&) -> Result<bool> {
         FORESIGHT_CHECK(file->ExportTo(path));
         return true;
       },
@@ -191,21 +236,28 @@ void ReviewViewModel::CopyTo(const QString& path) {
 
 void ReviewViewModel::Write(std::function<Status(MissionFile*)> body,
                             const std::string& object_uuid) {
-  if (!file_) return;
+  Keep(std::move(body), [this, object_uuid](const Status& kept) {
+    if (!kept) return session_->Report(NoticeOf(tr("Keeping the review"), kept.error()));
+    if (!object_uuid.empty()) session_->MarkKept(object_uuid);
+  });
+}
+
+void ReviewViewModel::Keep(std::function<Status(MissionFile*)> body,
+                           std::function<void(const Status&)> kept) {
+  const auto file = File();
+  if (!file) return;
   writer_.Run<bool>(
       tr("Keeping the review"),
-      [mission = file_->path(), folder = NotesFolder(),
+      [mission = file->path(), folder = ReviewFolder(),
        body = std::move(body)](const RunContext&) -> Result<bool> {
         FORESIGHT_TRY(const auto notes, MissionFile::OpenReviewOf(mission, folder));
         FORESIGHT_CHECK(body(notes.get()));
         FORESIGHT_CHECK(notes->Close());
         return true;
       },
-      [this, object_uuid](const Result<bool>& kept) {
-        if (!kept)
-          session_->Report(NoticeOf(tr("Keeping the review"), kept.error()));
-        else if (!object_uuid.empty())
-          session_->MarkKept(object_uuid);
+      [this, kept = std::move(kept)](const Result<bool>& written) {
+        kept(written ? Status() : tl::unexpected(written.error()));
+        if (written) Q_EMIT reviewKept();
       });
 }
 

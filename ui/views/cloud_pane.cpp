@@ -33,9 +33,11 @@ CloudPane::CloudPane(const CloudModels& models, QWidget* parent)
   BuildControls();
   BindMap();
   connect(session_, &SessionModel::scanChanged, this, [this] {
-    SetHint(session_->ExpectsScan()   ? tr("Scanning …")
-            : session_->CurrentScan() ? tr("Preparing the cloud …")
-                                      : tr("No scan yet: press Scan (Space)"));
+    const bool replay = session_->Mode() == SessionMode::kReplay;
+    SetHint(session_->ExpectsScan() && replay ? tr("No line had come at this moment")
+            : session_->ExpectsScan()         ? tr("Scanning …")
+            : session_->CurrentScan()         ? tr("Preparing the cloud …")
+                                              : tr("No scan yet: press Scan (Space)"));
   });
   connect(session_, &SessionModel::cloudChanged, this, [this] {
     if (Shown() != Source::kMap) Prepare();

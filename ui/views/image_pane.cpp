@@ -30,8 +30,10 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* 
   choice_->setAccessibleName(tr("Image"));
   Controls()->addWidget(choice_);
   const auto show_hint = [this] {
-    SetHint(session_->Mode() == SessionMode::kReplay
-                ? tr("Open a mission for review (Ctrl+O), or choose one of its scans")
+    const bool review = session_->Mode() == SessionMode::kReplay;
+    SetHint(review && session_->ExpectsScan()
+                ? tr("The image appears at the moment at which it was taken")
+            : review ? tr("Open a mission for review (Ctrl+O), or choose one of its scans")
             : session_->ExpectsScan() ? tr("Scanning: the image appears when it is taken")
             : session_->CurrentScan() ? tr("This scan holds no image")
                                       : tr("No scan yet: press Scan (Space)"));
