@@ -98,7 +98,7 @@ Result<std::vector<CheckedRecord>> RemakeAll(const MissionFile& scans, const Mis
   SortByScan(depths);
   SortByScan(detections);
   std::vector<CheckedRecord> checked;
-  Recomputer recomputer(scans);
+  Recomputer recomputer(scans, &records);
   const double all = std::max(1.0, static_cast<double>(depths.size() + detections.size()));
   const auto part = [&] {
     const double done = static_cast<double>(checked.size());
@@ -203,6 +203,9 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   AddMissionDiffCommand(*mission, invocation);
   AddMissionExportCommand(*mission, invocation);
   AddMissionRunCommand(*mission, invocation);
+  AddMissionResultsCommand(*mission, invocation);
+  AddMissionCompareCommand(*mission, invocation);
+  AddMissionReportCommand(*mission, invocation);
   AddMissionDigestCommand(*mission, invocation);
   AddMissionPoseCommand(*mission, invocation);
 }

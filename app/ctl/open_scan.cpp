@@ -6,7 +6,6 @@
 #include "core/geometry/angles.h"
 
 namespace foresight {
-namespace {
 
 Result<std::int64_t> ChooseScan(const MissionFile& mission, std::int64_t wanted) {
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission.ListScans());
@@ -18,6 +17,8 @@ Result<std::int64_t> ChooseScan(const MissionFile& mission, std::int64_t wanted)
   return Fail(ErrorCode::kInvalidInput, "{}: no scan {}; there are {} to {}",
               mission.path().string(), wanted, scans.front().id, scans.back().id);
 }
+
+namespace {
 
 void WarnUnlessComplete(const std::string& mission, const OpenedScan& opened) {
   const Scan& scan = opened.scan;

@@ -20,12 +20,14 @@ class Actions;
 class CameraCalibrationPanel;
 class ChainCalibrationPanel;
 class CloudPane;
+class ComparisonPane;
 class DepthPane;
 class DocumentStack;
 class HeadStrip;
 class ImagePane;
 class LogStrip;
 class MissionPanel;
+class SideResultsPanel;
 class SourceGallery;
 
 /// Places docks, menus and keys; everything else lives in the view-models, views and panels. Shows
@@ -43,6 +45,9 @@ class MainWindow : public QMainWindow {
   MissionPanel* Mission() { return mission_; }
   LogStrip* Log() { return log_; }
   SourceGallery* Gallery() { return gallery_; }
+  SideResultsPanel* SideResults() { return side_results_; }
+  /// A and B beside each other; nullptr until it is first asked for.
+  ComparisonPane* Comparison() { return comparison_; }
   CameraCalibrationPanel* Calibration() { return calibration_; }
   ChainCalibrationPanel* HeadCalibration() { return head_calibration_; }
 
@@ -59,6 +64,8 @@ class MainWindow : public QMainWindow {
 
  private:
   void AddWindowCommands();
+  void AddCommandsOfResults();
+  void ShowComparison();
   void BuildMenus();
   void BuildCentre();
   void BuildDocks();
@@ -83,11 +90,15 @@ class MainWindow : public QMainWindow {
   LogStrip* log_ = nullptr;
   MissionPanel* mission_ = nullptr;
   SourceGallery* gallery_ = nullptr;
+  SideResultsPanel* side_results_ = nullptr;
+  ComparisonPane* comparison_ = nullptr;
   CameraCalibrationPanel* calibration_ = nullptr;
   ChainCalibrationPanel* head_calibration_ = nullptr;
   QVector<DocumentStack*> stacks_;
   ads::CDockManager* docks_ = nullptr;
   ads::CDockWidget* gallery_dock_ = nullptr;
+  ads::CDockWidget* results_dock_ = nullptr;
+  ads::CDockWidget* comparison_dock_ = nullptr;
   ads::CDockWidget* options_dock_ = nullptr;
   ads::CDockWidget* calibration_dock_ = nullptr;
   ads::CDockWidget* head_calibration_dock_ = nullptr;

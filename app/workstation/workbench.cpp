@@ -11,6 +11,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
       review(SessionMode::kReplay, &tasks),
       recording(&live.session),
       reviewer(&review.session),
+      side_results(&reviewer, &review.session, &review.depth, &review.fit, &review.compare),
       flow(&head, &live.session),
       live_depth(&head, &live.session),
       camera_calibration(&head, &live.session),
@@ -58,6 +59,7 @@ void Workbench::KeepCommandsCurrent() {
   if (robot_fit) connect(robot_fit.get(), &RobotFitModel::changed, &commands, refresh);
   connect(&recording, &RecordingViewModel::changed, &commands, refresh);
   connect(&reviewer, &ReviewViewModel::changed, &commands, refresh);
+  connect(&side_results, &SideResultsModel::changed, &commands, refresh);
   connect(this, &Workbench::shownChanged, &commands, refresh);
   for (Desk* desk : {&live, &review}) {
     connect(&desk->fit, &FitViewModel::changed, &commands, refresh);

@@ -16,6 +16,7 @@
 #include "ui/viewmodels/robot_fit_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/send_pose_model.h"
+#include "ui/viewmodels/side_results_model.h"
 
 namespace foresight {
 
@@ -37,6 +38,7 @@ class Workbench : public QObject {
   Desk review;
   RecordingViewModel recording;
   ReviewViewModel reviewer;
+  SideResultsModel side_results;
   ScanFlow flow;
   LiveDepthViewModel live_depth;
   CameraCalibrationModel camera_calibration;

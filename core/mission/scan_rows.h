@@ -42,6 +42,8 @@ class ScanRows {
   Status InsertFrame(std::int64_t scan_id, const CameraFrame& frame, const std::string& png);
   /// `png` is the scan's first image, small.
   Status InsertThumbnail(std::int64_t scan_id, const std::string& png);
+  /// Unless it is there already.
+  Status InsertRig(const SensorRig& rig);
   /// Counts what the scan has and closes its row.
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
   /// The reverse: the scan runs again.
@@ -62,6 +64,8 @@ class ScanRows {
   /// At most `at_most` lines with seq >= first_seq.
   Result<std::vector<LidarLine>> ReadLines(std::int64_t scan_id, std::int64_t first_seq,
                                            std::size_t at_most) const;
+  /// All of the file, the oldest first.
+  Result<std::vector<SensorRig>> ReadRigs() const;
   Result<MotorTrack> ReadTrack(const ScanRow& scan) const;
   Result<std::vector<ImageSummary>> ReadImageList(const ScanRow& scan) const;
   /// Fails with kInvalidInput when there is no such image.

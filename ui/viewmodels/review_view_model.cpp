@@ -1,38 +1,18 @@
 #include "ui/viewmodels/review_view_model.h"
 
+#include "core/mission/side_result.h"
 #include "ui/viewmodels/mission_objects.h"
 #include "ui/viewmodels/recording_view_model.h"
 
 namespace foresight {
 namespace {
 
-/// What was found in a scan of a mission in earlier reviews.
-Result<std::vector<DetectionRecord>> ReviewedDetections(const std::filesystem::path& mission,
-                                                        const std::filesystem::path& folder,
-                                                        const std::string& scan_uuid) {
-  std::vector<DetectionRecord> records;
-  const auto path = MissionFile::ReviewPathOf(mission, folder);
-  std::error_code error;
-  if (!path || !std::filesystem::exists(*path, error)) return records;  // no review yet
-  FORESIGHT_TRY(const auto notes, MissionFile::OpenReadOnly(*path));
-  FORESIGHT_TRY(records, notes->ListDetections());
-  std::erase_if(records,
-                [&](const DetectionRecord& record) { return record.scan_uuid != scan_uuid; });
-  return records;
-}
-
 /// The objects of a scan out of the mission and out of the file with its review.
 Result<std::vector<FoundObject>> ObjectsOf(const MissionFile& mission,
-                                           const std::filesystem::path& folder,
-                                           const ScanSummary& summary, const Scan& scan) {
-  FORESIGHT_TRY(std::vector<DetectionRecord> records, mission.ListDetections(summary.id));
-  FORESIGHT_TRY(const std::vector<DetectionRecord> reviewed,
-                ReviewedDetections(mission.path(), folder, scan.uuid));
-  for (const DetectionRecord& record : reviewed) {
-    // What was decided in a review counts more than what the mission says of the same object.
-    std::erase_if(records, [&](const DetectionRecord& other) { return other.uuid == record.uuid; });
-    records.push_back(record);
-  }
+                                           const std::filesystem::path& folder, const Scan& scan) {
+  FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission.path(), folder));
+  FORESIGHT_TRY(const std::vector<DetectionRecord> records,
+                DetectionsOfScan(mission, review.get(), scan.uuid));
   std::vector<FoundObject> objects;
   for (const DetectionRecord& record : records) {
     if (record.deleted) continue;
@@ -41,11 +21,6 @@ Result<std::vector<FoundObject>> ObjectsOf(const MissionFile& mission,
     objects.push_back(std::move(object));
   }
   return objects;
-}
-
-/// Where notes go that cannot lie beside their mission.
-std::filesystem::path NotesFolder() {
-  return RecordingViewModel::DefaultFolder().toStdString();
 }
 
 }  // namespace
@@ -96,7 +71,7 @@ void ReviewViewModel::showScan(int index) {
 void ReviewViewModel::Load(const QString& title, std::shared_ptr<MissionFile> file,
                            const std::string& path, const std::string& scan_uuid) {
   const auto work = [file = std::move(file), path, scan_uuid,
-                     folder = NotesFolder()](const RunContext& context) -> Result<Opened> {
+                     folder = ReviewFolder()](const RunContext& context) -> Result<Opened> {
     context.Report(0.1, "reading");
     Opened opened;
     opened.file = file;
@@ -111,7 +86,7 @@ void ReviewViewModel::Load(const QString& title, std::shared_ptr<MissionFile> fi
       if (opened.scans[i].uuid == scan_uuid) opened.index = static_cast<int>(i);
     const ScanSummary& summary = opened.scans[static_cast<std::size_t>(opened.index)];
     FORESIGHT_TRY(Scan scan, opened.file->LoadScan(summary.id));
-    FORESIGHT_TRY(opened.objects, ObjectsOf(*opened.file, folder, summary, scan));
+    FORESIGHT_TRY(opened.objects, ObjectsOf(*opened.file, folder, scan));
     opened.scan = std::make_shared<const Scan>(std::move(scan));
     return opened;
   };
@@ -164,22 +139,33 @@ void ReviewViewModel::CopyTo(const QString& path) {
 
 void ReviewViewModel::Write(std::function<Status(MissionFile*)> body,
                             const std::string& object_uuid) {
+  Keep(std::move(body), [this, object_uuid](const Status& kept) {
+    if (!kept)
+      session_->Report(NoticeOf(tr("Keeping the review"), kept.error()));
+    else if (!object_uuid.empty())
+      session_->MarkKept(object_uuid);
+  });
+}
+
+void ReviewViewModel::Keep(std::function<Status(MissionFile*)> body,
+                           std::function<void(const Status&)> kept) {
   if (!file_) return;
   writer_.Run<bool>(
       tr("Keeping the review"),
-      [mission = file_->path(), folder = NotesFolder(),
+      [mission = file_->path(), folder = ReviewFolder(),
        body = std::move(body)](const RunContext&) -> Result<bool> {
         FORESIGHT_TRY(const auto notes, MissionFile::OpenReviewOf(mission, folder));
         FORESIGHT_CHECK(body(notes.get()));
         FORESIGHT_CHECK(notes->Close());
         return true;
       },
-      [this, object_uuid](const Result<bool>& kept) {
-        if (!kept)
-          session_->Report(NoticeOf(tr("Keeping the review"), kept.error()));
-        else if (!object_uuid.empty())
-          session_->MarkKept(object_uuid);
+      [kept = std::move(kept)](const Result<bool>& written) {
+        kept(written ? Status() : tl::unexpected(written.error()));
       });
+}
+
+std::filesystem::path ReviewViewModel::ReviewFolder() {
+  return RecordingViewModel::DefaultFolder().toStdString();
 }
 
 }  // namespace foresight

@@ -2,6 +2,8 @@
 
 #include <QObject>
 #include <QString>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -30,6 +32,13 @@ class ReviewViewModel : public QObject {
   /// Opens the file and shows its last scan, or the one with `scan_uuid`.
   void Open(const QString& path, const std::string& scan_uuid = {});
   void CopyTo(const QString& path);
+  /// The mission; nullptr when nothing is open.
+  std::shared_ptr<const MissionFile> File() const { return file_; }
+  /// Where reviews lie whose mission's folder cannot be written.
+  static std::filesystem::path ReviewFolder();
+  /// Writes into the review of the mission that is open, in the order of the calls; `kept` is told
+  /// how that ended, in this thread.
+  void Keep(std::function<Status(MissionFile*)> body, std::function<void(const Status&)> kept);
 
  public Q_SLOTS:
   void showScan(int index);

@@ -159,6 +159,7 @@ void CloudCanvas::ResetView() {
   camera_ = home_;
   moved_ = false;
   PlaceCamera();
+  Q_EMIT cameraMoved();
   Redraw();
 }
 
@@ -180,6 +181,7 @@ bool CloudCanvas::event(QEvent* event) {
       camera_.Zoom(std::pow(0.9985, static_cast<QWheelEvent*>(event)->angleDelta().y()));
       moved_ = true;
       PlaceCamera();
+      Q_EMIT cameraMoved();
       Redraw();
       return true;
     case QEvent::KeyPress:
@@ -285,6 +287,12 @@ void CloudCanvas::ShowSample(bool sample) {
   points_->SetVisibility(sample ? 0 : 1);
   sample_->SetVisibility(sample ? 1 : 0);
   if (!sample) Redraw();
+}
+
+void CloudCanvas::SetCamera(const OrbitCamera& camera) {
+  camera_ = camera;
+  moved_ = true;
+  PlaceCamera();
 }
 
 void CloudCanvas::PlaceCamera() {
