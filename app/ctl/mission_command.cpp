@@ -174,6 +174,9 @@ Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& cont
 }  // namespace
 
 void AddMissionSearchCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionResultsCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionCompareCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionReportCommand(CLI::App& mission, Invocation& invocation);
 
 void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* mission = app.add_subcommand("mission", "What a mission file holds");

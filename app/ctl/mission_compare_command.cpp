@@ -1,7 +1,7 @@
 #include <memory>
 
+#include "app/ctl/choose_scan.h"
 #include "app/ctl/command.h"
-#include "app/ctl/open_scan.h"
 #include "core/base/atomic_file.h"
 #include "core/io/png.h"
 #include "core/mission/compare_results.h"

@@ -23,9 +23,6 @@ void AddScanArguments(CLI::App& command, ScanArguments& arguments,
 void AddMissionArguments(CLI::App& command, ScanArguments& arguments,
                          NeedMission need = NeedMission::kYes);
 
-/// The id of the scan with this number, of the last one for 0. Fails with kInvalidInput.
-Result<std::int64_t> ChooseScan(const MissionFile& mission, std::int64_t wanted);
-
 struct OpenedScan {
   std::int64_t id = 0;
   Scan scan;

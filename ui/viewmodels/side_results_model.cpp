@@ -57,7 +57,7 @@ SideResultsModel::SideResultsModel(ReviewViewModel* review, SessionModel* sessio
   connect(session_, &SessionModel::scanChanged, this, &SideResultsModel::FollowScan);
   connect(review_, &ReviewViewModel::changed, this, &SideResultsModel::FollowScan);
   connect(session_, &SessionModel::imageChanged, this, [this] {
-    if (compared_.comparison) compare();
+    if (compared_.comparison) this->compare();  // the parameter has the same name
   });
   connect(&runner_, &TaskRunner::changed, this, &SideResultsModel::changed);
   connect(&comparer_, &TaskRunner::changed, this, &SideResultsModel::changed);

@@ -21,6 +21,10 @@ Cloud RandomCloud(std::uint64_t seed, std::size_t count) {
   return cloud;
 }
 
+Eigen::Vector3f OnGrid(int x, int y) {
+  return {static_cast<float>(x), static_cast<float>(y), 0.0f};
+}
+
 /// Every pair, as the definition says.
 std::vector<float> BruteForce(const Cloud& from, const Cloud& to) {
   std::vector<float> distances;
@@ -43,7 +47,7 @@ TEST(CloudDistance, EqualsBruteForceToTheLastBit) {
 TEST(CloudDistance, PointsOnAGridWithManyEqualCoordinatesEqualBruteForce) {
   Cloud to;
   for (int x = 0; x < 20; ++x)
-    for (int y = 0; y < 20; ++y) to.emplace_back(0.1f * x, 0.1f * y, 0.0f);
+    for (int y = 0; y < 20; ++y) to.push_back(0.1f * OnGrid(x, y));
   const Cloud from = RandomCloud(3, 400);
   EXPECT_EQ(NearestDistances(from, to, {}).value(), BruteForce(from, to));
 }
@@ -60,8 +64,8 @@ TEST(CloudDistance, ACloudMovedOffItsPlaneIsAsFarAsItWasMoved) {
   Cloud plane, moved;
   for (int x = 0; x < 60; ++x)
     for (int y = 0; y < 60; ++y) {
-      plane.emplace_back(0.05f * x, 0.05f * y, 1.0f);
-      moved.emplace_back(0.05f * x, 0.05f * y, 1.0f + 0.0125f);
+      plane.push_back(0.05f * OnGrid(x, y));
+      moved.push_back(0.05f * OnGrid(x, y) + Eigen::Vector3f(0.0f, 0.0f, 0.0125f));
     }
   const CloudDistance distance = DistanceOfClouds(plane, moved, {}).value();
   EXPECT_EQ(distance.points, 3600u);
