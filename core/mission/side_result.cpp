@@ -53,11 +53,6 @@ SideResult SideResultFrom(const EventRecord& event) {
   return result;
 }
 
-std::string WithUnit(const OptionInfo& info, const OptionValue& value) {
-  const std::string text = OptionText(info, value);
-  return info.unit.empty() ? text : text + " " + info.unit;
-}
-
 /// The fits' part of what differs.
 std::vector<std::string> FitDifferences(const std::string& answer_json) {
   std::vector<std::string> words;
@@ -76,7 +71,7 @@ std::vector<std::string> FitDifferences(const std::string& answer_json) {
     if (!values) continue;
     for (const auto& [key, value] : *values) {
       const OptionInfo& info = FindOption(FitOptionTable(*kind), key)->info;
-      words.push_back(fmt::format("{}: {} {}", name, info.title, WithUnit(info, value)));
+      words.push_back(fmt::format("{}: {} {}", name, info.title, OptionInWords(info, value)));
     }
   }
   return words;
@@ -202,7 +197,8 @@ std::vector<std::string> DifferencesInWords(const DepthOptions& options, const D
     const OptionValue value = option.get(options), usual = option.get(base);
     if (value == usual) continue;
     words.push_back(fmt::format("{} {} instead of {}", option.info.title,
-                                WithUnit(option.info, value), WithUnit(option.info, usual)));
+                                OptionInWords(option.info, value),
+                                OptionInWords(option.info, usual)));
   }
   return words;
 }

@@ -7,8 +7,8 @@
 
 namespace foresight {
 
-const Rgb8 kOnlyInFirst = {84, 52, 104};
-const Rgb8 kOnlyInSecond = {38, 92, 58};
+const Rgb8 kOnlyInFirst = {150, 84, 184};
+const Rgb8 kOnlyInSecond = {46, 150, 84};
 
 namespace {
 

@@ -8,7 +8,7 @@ namespace foresight {
 
 /// The difference of two depth maps: blue where the second is nearer, white where they agree,
 /// orange where it is further away, full colour at DepthComparison::kFullScale_m. A pixel that only
-/// the first keeps is dark violet, one of the second alone dark green, one of neither almost black;
+/// the first keeps is violet, one of the second alone green, one of neither almost black;
 /// no colour of the map is any of these.
 ColorImage PaintDifference(const DepthComparison& comparison, const DepthImage& first_m,
                            const MaskImage& first_mask, const DepthImage& second_m,

@@ -20,7 +20,7 @@ constexpr const char* kStyle = R"(
     @page { size: A4; margin: 14mm; }
     body { font-size: 9pt; background: #fff; margin: 0; padding: 0; max-width: none; }
     .pictures { grid-template-columns: 1fr 1fr; gap: 4mm; } figure, tr { break-inside: avoid; }
-    h1, h2, h3 { break-after: avoid; } section + section { break-before: page; } td { overflow-wrap: anywhere; }
+    h1, h2, h3 { break-after: avoid; } section + .pictured { break-before: page; } td { overflow-wrap: anywhere; }
   }
 )";
 
@@ -51,7 +51,8 @@ Status WritePicture(const HtmlReport::Picture& picture, const std::filesystem::p
 }
 
 std::string SectionHtml(const HtmlReport::Section& section) {
-  std::string html = "<section><h2>" + EscapeMarkup(section.title) + "</h2>\n";
+  std::string html = section.pictures.empty() ? "<section>" : "<section class=\"pictured\">";
+  html += "<h2>" + EscapeMarkup(section.title) + "</h2>\n";
   if (!section.text.empty()) html += "<p>" + EscapeMarkup(section.text) + "</p>\n";
   if (!section.pictures.empty()) html += "<div class=\"pictures\">\n";
   for (const auto& picture : section.pictures) html += PictureHtml(picture);

@@ -176,10 +176,9 @@ Table SettingsTable(const DepthOptions& options) {
   table.rows.push_back({"method", InfoOf(options.method).title});
   for (const Option<DepthOptions>& option : DepthOptionTable()) {
     if (!option.AppliesTo(options)) continue;
-    const std::string text = OptionText(option.info, option.get(options));
-    table.rows.push_back({option.info.group.empty() ? option.info.title
-                                                    : option.info.group + ": " + option.info.title,
-                          option.info.unit.empty() ? text : text + " " + option.info.unit});
+    const OptionInfo& info = option.info;
+    table.rows.push_back({info.group.empty() ? info.title : info.group + ": " + info.title,
+                          OptionInWords(info, option.get(options))});
   }
   return table;
 }
@@ -306,9 +305,9 @@ Result<Table> LogTable(const MissionFile& mission, const MissionFile* review) {
   }
   std::stable_sort(lines.begin(), lines.end(),
                    [](const EventRecord& a, const EventRecord& b) { return a.utc_ns < b.utc_ns; });
-  Table table{"Log", {}, {"time (UTC)", "level", "source", "text"}};
+  Table table{"All lines", {}, {"time (UTC)", "level", "source", "text"}};
   if (lines.size() > kMostLines) {
-    table.title = fmt::format("Log, the last {} of {} lines", kMostLines, lines.size());
+    table.title = fmt::format("The last {} of {} lines", kMostLines, lines.size());
     lines.erase(lines.begin(), lines.end() - kMostLines);
   }
   for (const EventRecord& line : lines)

@@ -231,7 +231,7 @@ Result<std::string> PagesOf(const HtmlReport& report, const std::filesystem::pat
   double done = 0.0;
   for (const auto& section : report.sections) {
     context.Report(done++ / all, "writing the PDF");
-    pages.Break();
+    if (done > 1.0 && !section.pictures.empty()) pages.Break();
     pages.Heading(section.title, 4.6);
     pages.Paragraph(section.text);
     FORESIGHT_CHECK(pages.Pictures(section.pictures, context));
