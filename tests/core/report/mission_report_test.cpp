@@ -148,13 +148,13 @@ TEST_F(MissionReportTest, AReportOfOneScanHasThatScanAlone) {
 }
 
 TEST_F(MissionReportTest, AScanThatIsNotThereIsNamedAndACancelledReportSaysSo) {
-  EXPECT_THAT(WriteMissionReport(*mission, nullptr, *folder, {9, false}, {}).error().message,
+  EXPECT_THAT(WriteMissionReport(*mission, nullptr, folder->path(), {9, false}, {}).error().message,
               HasSubstr("no scan 9"));
   std::stop_source stop;
   stop.request_stop();
   RunContext context;
   context.stop = stop.get_token();
-  EXPECT_EQ(WriteMissionReport(*mission, nullptr, *folder, {}, context).error().code,
+  EXPECT_EQ(WriteMissionReport(*mission, nullptr, folder->path(), {}, context).error().code,
             ErrorCode::kCancelled);
 }
 
