@@ -224,6 +224,7 @@ void CloudCanvas::OnMove(const QMouseEvent& event) {
   }
   moved_ = true;
   PlaceCamera();
+  Q_EMIT cameraMoved();
   Redraw();
 }
 
@@ -280,6 +281,7 @@ void CloudCanvas::LookAtPointUnder(const QPointF& position) {
   camera_.focal = {picked[0], picked[1], picked[2]};
   moved_ = true;
   PlaceCamera();
+  Q_EMIT cameraMoved();
   Redraw();
 }
 
@@ -293,6 +295,7 @@ void CloudCanvas::SetCamera(const OrbitCamera& camera) {
   camera_ = camera;
   moved_ = true;
   PlaceCamera();
+  Redraw();
 }
 
 void CloudCanvas::PlaceCamera() {
