@@ -100,7 +100,7 @@ Result<std::vector<CheckedRecord>> RemakeAll(const MissionFile& scans, const Mis
   SortByScan(depths);
   SortByScan(detections);
   std::vector<CheckedRecord> checked;
-  Recomputer recomputer(scans);
+  Recomputer recomputer(scans, &records);
   const double all = std::max(1.0, static_cast<double>(depths.size() + detections.size()));
   const auto part = [&] {
     const double done = static_cast<double>(checked.size());
@@ -176,6 +176,9 @@ Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& cont
 }  // namespace
 
 void AddMissionSearchCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionResultsCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionCompareCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionReportCommand(CLI::App& mission, Invocation& invocation);
 
 void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* mission = app.add_subcommand("mission", "What a mission file holds");
@@ -207,6 +210,9 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
   AddMissionExportCommand(*mission, invocation);
   AddMissionImportCommand(*mission, invocation);
   AddMissionRunCommand(*mission, invocation);
+  AddMissionResultsCommand(*mission, invocation);
+  AddMissionCompareCommand(*mission, invocation);
+  AddMissionReportCommand(*mission, invocation);
   AddMissionDigestCommand(*mission, invocation);
   AddMissionPoseCommand(*mission, invocation);
 }

@@ -6,8 +6,11 @@
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
 #include "core/base/atomic_file.h"
+#include "core/detection/fit_option_table.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/run_again.h"
+#include "core/mission/side_result.h"
+#include "core/options/option_text.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
@@ -19,6 +22,9 @@ struct RunArguments {
   std::string part = "1/1";
   std::string rig;
   std::string source;
+  std::string keep;
+  std::optional<std::int64_t> scan;
+  std::vector<std::string> fit_options;
   DepthArguments depth;
   bool json = false;
 };
@@ -48,29 +54,38 @@ struct Task {
   std::string uuid;
 };
 
-/// Every scan once, in the order of its uuid: the same list whatever the order of the files.
-Result<std::vector<Task>> TasksOf(const std::vector<std::string>& files) {
+/// Every scan once, in the order of its uuid: the same list whatever the order of the files. `only`
+/// = the scans of this number alone.
+Result<std::vector<Task>> TasksOf(const std::vector<std::string>& files,
+                                  std::optional<std::int64_t> only) {
   std::vector<Task> tasks;
   for (const std::string& file : files) {
     FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(file));
     FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
-    for (const ScanSummary& scan : scans) tasks.push_back({file, scan.id, scan.uuid});
+    for (const ScanSummary& scan : scans)
+      if (!only || scan.id == *only) tasks.push_back({file, scan.id, scan.uuid});
   }
   std::stable_sort(tasks.begin(), tasks.end(),
                    [](const Task& a, const Task& b) { return a.uuid < b.uuid; });
+  if (only && tasks.empty())
+    return Fail(ErrorCode::kInvalidInput, "--scan {}: no file has a scan of this number", *only);
   tasks.erase(std::unique(tasks.begin(), tasks.end(),
                           [](const Task& a, const Task& b) { return a.uuid == b.uuid; }),
               tasks.end());
   return tasks;
 }
 
-/// What was found in the scan: in its mission, and in reviews among the files.
+/// What was found in the scan: in its mission, and in reviews among the files. Fits of side results
+/// are no findings of their own.
 Result<std::vector<DetectionRecord>> RecordsOf(const std::vector<std::string>& files,
                                                const Task& task) {
   std::vector<DetectionRecord> all;
   std::set<std::string> known;
   for (const std::string& file : files) {
     FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(file));
+    FORESIGHT_TRY(const std::vector<SideResult> results, ListSideResults(*mission, task.uuid));
+    for (const SideResult& result : results)
+      known.insert(result.detection_uuids.begin(), result.detection_uuids.end());
     FORESIGHT_TRY(const std::vector<DetectionRecord> records, mission->ListDetections());
     for (const DetectionRecord& record : records)
       if (record.scan_uuid == task.uuid && known.insert(record.uuid).second) all.push_back(record);
@@ -96,7 +111,33 @@ Result<RunAgainAnswer> RunTask(const RunArguments& arguments, const RunAgainSett
   FORESIGHT_TRY(const RunAgainAnswer answer, RunAgain(scan, records, settings, context));
   FORESIGHT_CHECK(WriteFileAtomically(std::filesystem::path(arguments.out) / FileNameOf(task.uuid),
                                       answer.json));
+  if (arguments.keep.empty()) return answer;
+  FORESIGHT_TRY(const auto review, MissionFile::OpenReviewOf(task.mission));
+  FORESIGHT_CHECK(KeepSideResult(*review, arguments.keep, scan, settings, answer));
+  FORESIGHT_CHECK(review->Close());
   return answer;
+}
+
+/// "valve.seed=5".
+Status AddFitOption(const std::string& text, RunAgainSettings& settings) {
+  const std::size_t dot = text.find('.'), equals = text.find('=');
+  if (dot == std::string::npos || equals == std::string::npos || equals < dot)
+    return Fail(ErrorCode::kInvalidOptions,
+                "--fit-option '{}': give it as KIND.KEY=VALUE, valve.seed=5 for one", text);
+  const std::string key = text.substr(dot + 1, equals - dot - 1);
+  const auto kind = ObjectKindFromString(text.substr(0, dot));
+  if (!kind)
+    return Fail(ErrorCode::kInvalidOptions, "--fit-option '{}': {}", text, kind.error().message);
+  const Option<FitOptions>* option = FindOption(FitOptionTable(*kind), key);
+  if (option == nullptr)
+    return Fail(ErrorCode::kInvalidOptions, "--fit-option '{}': a {}'s fit has no option '{}'",
+                text, ToString(*kind), key);
+  const auto value = ValueOfFlag(option->info, text.substr(equals + 1));
+  if (!value)
+    return Fail(ErrorCode::kInvalidOptions, "--fit-option '{}': {}", text, value.error().message);
+  FORESIGHT_CHECK(CheckFitOption(*kind, key, *value));
+  settings.fit[*kind][key] = *value;
+  return {};
 }
 
 Result<RunAgainSettings> SettingsFrom(const RunArguments& arguments) {
@@ -105,6 +146,8 @@ Result<RunAgainSettings> SettingsFrom(const RunArguments& arguments) {
   if (!arguments.rig.empty()) {
     FORESIGHT_TRY(settings.rig, LoadSensorRig(arguments.rig));
   }
+  for (const std::string& text : arguments.fit_options)
+    FORESIGHT_CHECK(AddFitOption(text, settings));
   if (arguments.source.empty()) return settings;
   FORESIGHT_TRY(
       settings.source,
@@ -115,7 +158,7 @@ Result<RunAgainSettings> SettingsFrom(const RunArguments& arguments) {
 Result<ExitCode> Run(const RunArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const Part part, ParsePart(arguments.part));
   FORESIGHT_TRY(const RunAgainSettings settings, SettingsFrom(arguments));
-  FORESIGHT_TRY(const std::vector<Task> tasks, TasksOf(arguments.files));
+  FORESIGHT_TRY(const std::vector<Task> tasks, TasksOf(arguments.files, arguments.scan));
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   RunAgainAnswer sum;
   int scans = 0;
@@ -175,6 +218,13 @@ void AddMissionRunCommand(CLI::App& mission, Invocation& invocation) {
   command->add_option("--source", arguments->source,
                       "What is fitted to: raw, or depth (that of --method); without it, what each "
                       "record was fitted to");
+  command->add_option("--fit-option", arguments->fit_options,
+                      "Option of every fit of a kind, as KIND.KEY=VALUE with the keys of records: "
+                      "valve.seed=5");
+  command->add_option("--scan", arguments->scan, "The scan of this number alone");
+  command->add_option("--keep", arguments->keep,
+                      "Keep each scan's result under this name, too, in the review beside its "
+                      "mission; the mission is not touched");
   AddDepthArguments(*command, arguments->depth);
   command->add_flag("--json", arguments->json, "Print the summary as JSON");
   command->callback([&invocation, arguments] {

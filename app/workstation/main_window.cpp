@@ -21,6 +21,7 @@
 #include "app/workstation/document_stack.h"
 #include "app/workstation/import_files.h"
 #include "app/workstation/keys_everywhere.h"
+#include "app/workstation/result_commands.h"
 #include "app/workstation/shortcut_sheet.h"
 #include "core/base/log_file.h"
 #include "ui/panels/camera_calibration_panel.h"
@@ -37,10 +38,12 @@
 #include "ui/panels/mission_search_panel.h"
 #include "ui/panels/objects_panel.h"
 #include "ui/panels/options_panel.h"
+#include "ui/panels/side_results_panel.h"
 #include "ui/panels/source_gallery.h"
 #include "ui/panels/task_strip.h"
 #include "ui/panels/timeline_panel.h"
 #include "ui/views/cloud_pane.h"
+#include "ui/views/comparison_pane.h"
 #include "ui/views/depth_pane.h"
 #include "ui/views/image_pane.h"
 #include "ui/views/measure_overlay.h"
@@ -85,6 +88,7 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
       depth_(MakeDepthPane(&bench->live, &bench->live_depth)),
       cloud_(MakeCloudPane(&bench->live)) {
   AddWindowCommands();
+  AddCommandsOfResults();
   actions_ = new Actions(&bench_->commands, this);
   new KeysEverywhere(&bench_->commands, this);
   new WheelGuard(this);
@@ -287,6 +291,28 @@ void MainWindow::AddWindowCommands() {
                 .run = [this] { ShowShortcutSheet(bench_->commands, this); }});
 }
 
+void MainWindow::AddCommandsOfResults() {
+  AddResultCommands(bench_,
+                    {[this] { Open(results_dock_); }, [this] { ShowComparison(); },
+                     [this] { return side_results_->Name(); },
+                     [this](const QString& title, const QString& filter,
+                            const std::function<void(QString)>& chosen) {
+                       ChooseFile(false, title, filter, {}, chosen);
+                     },
+                     [this](const QString& title, const std::function<void(QString)>& chosen) {
+                       ChooseFolder(title, chosen);
+                     }});
+}
+
+void MainWindow::ShowComparison() {
+  // Three canvases of OpenGL cost a second: they are made for who compares.
+  if (comparison_ == nullptr) {
+    comparison_ = new ComparisonPane(&bench_->side_results);
+    comparison_dock_->widget()->layout()->addWidget(comparison_);
+  }
+  Open(comparison_dock_);
+}
+
 void MainWindow::BuildMenus() {
   addActions(actions_->All());
   const auto menu = [this](const char* id, const QString& title) {
@@ -382,6 +408,9 @@ void MainWindow::BuildDocks() {
   };
   map_dock_ = Dock("map", tr("Map"), Stack(map(&bench_->live), map));
   docks_->addDockWidgetTabToArea(map_dock_, right);
+  side_results_ = new SideResultsPanel(&bench_->side_results, commands);
+  results_dock_ = Dock("side_results", tr("Side results"), side_results_);
+  docks_->addDockWidgetTabToArea(results_dock_, right);
   calibration_ = new CameraCalibrationPanel(&bench_->camera_calibration, &bench_->tasks);
   calibration_dock_ = Dock("calibrate_camera", tr("Calibrate camera"), calibration_);
   docks_->addDockWidgetTabToArea(calibration_dock_, right);
@@ -422,6 +451,13 @@ void MainWindow::BuildDocks() {
   auto* log = Dock("log", tr("Messages"), new LogPanel(&bench_->log));
   auto* bottom = docks_->addDockWidget(ads::BottomDockWidgetArea, log, centre);
   docks_->addDockWidgetTabToArea(gallery_dock_, bottom);
+  auto* comparison = new QWidget;
+  (new QVBoxLayout(comparison))->setContentsMargins(0, 0, 0, 0);
+  comparison_dock_ = Dock("comparison", tr("A and B"), comparison);
+  docks_->addDockWidgetTabToArea(comparison_dock_, centre);
+  centre->setCurrentIndex(0);
+  comparison_dock_->toggleView(false);
+  results_dock_->toggleView(false);
   log->toggleView(false);
   gallery_dock_->toggleView(false);
   search_dock_->toggleView(false);

@@ -20,6 +20,7 @@ class Actions;
 class CameraCalibrationPanel;
 class ChainCalibrationPanel;
 class CloudPane;
+class ComparisonPane;
 class DepthPane;
 class DocumentStack;
 class HeadStrip;
@@ -27,6 +28,7 @@ class ImagePane;
 class LogStrip;
 class MissionPanel;
 class MissionSearchPanel;
+class SideResultsPanel;
 class SourceGallery;
 
 /// Places docks, menus and keys; everything else lives in the view-models, views and panels. Shows
@@ -45,6 +47,9 @@ class MainWindow : public QMainWindow {
   MissionSearchPanel* Search() { return search_; }
   LogStrip* Log() { return log_; }
   SourceGallery* Gallery() { return gallery_; }
+  SideResultsPanel* SideResults() { return side_results_; }
+  /// A and B beside each other; nullptr until it is first asked for.
+  ComparisonPane* Comparison() { return comparison_; }
   CameraCalibrationPanel* Calibration() { return calibration_; }
   ChainCalibrationPanel* HeadCalibration() { return head_calibration_; }
 
@@ -61,6 +66,8 @@ class MainWindow : public QMainWindow {
 
  private:
   void AddWindowCommands();
+  void AddCommandsOfResults();
+  void ShowComparison();
   void BuildMenus();
   void BuildCentre();
   void BuildDocks();
@@ -91,12 +98,16 @@ class MainWindow : public QMainWindow {
   MissionPanel* mission_ = nullptr;
   MissionSearchPanel* search_ = nullptr;
   SourceGallery* gallery_ = nullptr;
+  SideResultsPanel* side_results_ = nullptr;
+  ComparisonPane* comparison_ = nullptr;
   CameraCalibrationPanel* calibration_ = nullptr;
   ChainCalibrationPanel* head_calibration_ = nullptr;
   QVector<DocumentStack*> stacks_;
   ads::CDockManager* docks_ = nullptr;
   ads::CDockWidget* cloud_dock_ = nullptr;
   ads::CDockWidget* gallery_dock_ = nullptr;
+  ads::CDockWidget* results_dock_ = nullptr;
+  ads::CDockWidget* comparison_dock_ = nullptr;
   ads::CDockWidget* options_dock_ = nullptr;
   ads::CDockWidget* notes_dock_ = nullptr;
   ads::CDockWidget* map_dock_ = nullptr;

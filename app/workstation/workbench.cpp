@@ -19,6 +19,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
                     [this] { return review.session.ShownScan()->plan; }},
                    &review.session),
       search(&reviewer, &tasks, RecordingViewModel::DefaultFolder()),
+      side_results(&reviewer, &review.session, &review.depth, &review.fit, &review.compare),
       flow(&head, &live.session),
       live_depth(&head, &live.session),
       camera_calibration(&head, &live.session),
@@ -82,6 +83,7 @@ void Workbench::KeepCommandsCurrent() {
   connect(&reviewer, &ReviewViewModel::changed, &commands, refresh);
   connect(&timeline, &TimelineModel::changed, &commands, refresh);
   connect(&replay, &ReplayModel::changed, &commands, refresh);
+  connect(&side_results, &SideResultsModel::changed, &commands, refresh);
   connect(this, &Workbench::shownChanged, &commands, refresh);
   for (Desk* desk : {&live, &review}) {
     connect(&desk->fit, &FitViewModel::changed, &commands, refresh);

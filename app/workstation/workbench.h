@@ -20,6 +20,7 @@
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/send_pose_model.h"
 #include "ui/viewmodels/timeline_model.h"
+#include "ui/viewmodels/side_results_model.h"
 
 namespace foresight {
 
@@ -46,6 +47,7 @@ class Workbench : public QObject {
   ReplayModel replay;
   LiveDepthViewModel replay_depth;
   MissionSearchModel search;
+  SideResultsModel side_results;
   ScanFlow flow;
   LiveDepthViewModel live_depth;
   CameraCalibrationModel camera_calibration;

@@ -90,6 +90,35 @@ void PdfPage::Polyline(const std::vector<Eigen::Vector2d>& points) {
   cairo_stroke(impl_->get());
 }
 
+void PdfPage::Picture(double x, double y, double width, double height, const ColorImage& image) {
+  if (image.empty()) return;
+  const std::unique_ptr<cairo_surface_t, Closer> surface(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width(), image.height()));
+  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) return;
+  unsigned char* const bytes = cairo_image_surface_get_data(surface.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+  for (int v = 0; v < image.height(); ++v) {
+    auto* const row =
+        reinterpret_cast<std::uint32_t*>(bytes + static_cast<std::size_t>(v) * stride);
+    for (int u = 0; u < image.width(); ++u) {
+      const Rgb8 pixel = image(u, v);
+      row[u] = (std::uint32_t{pixel.r} << 16) | (std::uint32_t{pixel.g} << 8) | pixel.b;
+    }
+  }
+  cairo_surface_mark_dirty(surface.get());
+  cairo_save(impl_->get());
+  cairo_translate(impl_->get(), x, y);
+  cairo_scale(impl_->get(), width / image.width(), height / image.height());
+  cairo_set_source_surface(impl_->get(), surface.get(), 0.0, 0.0);
+  cairo_rectangle(impl_->get(), 0.0, 0.0, image.width(), image.height());
+  cairo_fill(impl_->get());
+  cairo_restore(impl_->get());
+}
+
+void PdfPage::NextPage() {
+  cairo_show_page(impl_->get());
+}
+
 void PdfPage::Text(double x, double y, double size_mm, const std::string& text) {
   cairo_set_font_size(impl_->get(), size_mm);
   cairo_move_to(impl_->get(), x, y);

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "core/base/image.h"
 #include "core/base/result.h"
 
 namespace foresight {
 
-/// A PDF of one page, drawn on in millimetres from its upper left corner. The same drawing gives
-/// the same bytes: its date is a fixed one.
+/// A PDF, drawn on page after page in millimetres from a page's upper left corner. The same drawing
+/// gives the same bytes: its date is a fixed one.
 class PdfPage {
  public:
   struct Color {
@@ -35,6 +36,12 @@ class PdfPage {
   void Dot(double x, double y, double radius);
   void Shape(const std::vector<Eigen::Vector2d>& points, bool filled);
   void Polyline(const std::vector<Eigen::Vector2d>& points);
+
+  /// Fills the rectangle; its pixels are kept as they are.
+  void Picture(double x, double y, double width, double height, const ColorImage& image);
+
+  /// What is drawn from here on is on a page of its own.
+  void NextPage();
 
   /// From its baseline's left end.
   void Text(double x, double y, double size_mm, const std::string& text);

@@ -14,17 +14,6 @@ Pose GuessOf(const ScanForMap& scan, const ScanForMap& last, const MapPlace& las
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> ReturnsInRobot(const RegisteredScan& cloud, const SensorRig& rig) {
-  std::vector<Eigen::Vector3f> points;
-  for (int line = 0; line < cloud.lines; ++line)
-    for (int beam = 0; beam < cloud.beams; ++beam)
-      if (cloud.Valid(line, beam))
-        points.push_back(
-            (rig.robot_from_base * cloud.points[cloud.Index(line, beam)].cast<double>())
-                .cast<float>());
-  return points;
-}
-
 Result<std::vector<MapPlace>> PlaceScans(const std::vector<ScanForMap>& scans,
                                          const AlignCloudsOptions& options,
                                          const RunContext& context) {

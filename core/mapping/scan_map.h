@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mapping/align_clouds.h"
-#include "core/registration/register_scan.h"
+#include "core/registration/returns_in_robot.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
@@ -36,8 +36,5 @@ struct MapPlace {
 Result<std::vector<MapPlace>> PlaceScans(const std::vector<ScanForMap>& scans,
                                          const AlignCloudsOptions& options,
                                          const RunContext& context);
-
-/// The scan's returns in robot, metres.
-std::vector<Eigen::Vector3f> ReturnsInRobot(const RegisteredScan& cloud, const SensorRig& rig);
 
 }  // namespace foresight

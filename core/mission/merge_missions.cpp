@@ -83,6 +83,7 @@ class Merger {
       context.Report(done++ / static_cast<double>(scans.size()), "copying scans");
       FORESIGHT_CHECK(AddScan(source.database(), scan));
     }
+    FORESIGHT_CHECK(AddRigsWithoutScan(source.database()));
     FORESIGHT_CHECK(AddRecords(source.database(), "detection", report_.detections));
     FORESIGHT_CHECK(AddRecords(source.database(), "depth", report_.depth_maps));
     FORESIGHT_CHECK(AddDetectionEvents(source.database()));
@@ -182,6 +183,18 @@ class Merger {
     FORESIGHT_CHECK(Put(table, rows.front()));
     rigs_[yaml] = next;
     return next;
+  }
+
+  /// Rigs that side results were made with in place of their scan's own.
+  Status AddRigsWithoutScan(const SqliteDatabase& from) {
+    FORESIGHT_TRY(SqliteStatement select,
+                  from.Prepare("SELECT id FROM calibration WHERE id NOT IN (SELECT calibration_id "
+                               "FROM scan) ORDER BY id"));
+    for (;;) {
+      FORESIGHT_TRY(const bool more, select.Step());
+      if (!more) return {};
+      FORESIGHT_CHECK(AddRig(from, select.Integer(0)));
+    }
   }
 
   /// In pieces: the pixels of a scan need not fit into memory.

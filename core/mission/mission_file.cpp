@@ -17,6 +17,7 @@
 #include "core/mission/record_rows.h"
 #include "core/mission/scan_rows.h"
 #include "core/mission/thumbnail.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -143,6 +144,18 @@ Status MarkAsReview(SqliteDatabase& database, const std::filesystem::path& path)
   FORESIGHT_TRY(SqliteStatement insert,
                 database.Prepare("INSERT INTO meta(key, value) VALUES(?, ?)"));
   return insert.BindText(kReviewKey).BindText(path.filename().string()).Run();
+}
+
+/// Where the review of a mission lies, if the folder can be written.
+Result<std::filesystem::path> BesideMission(const std::filesystem::path& mission) {
+  std::string name = mission.filename().string();
+  if (name.ends_with(kReviewSuffix))
+    return Fail(ErrorCode::kInvalidInput, "{}: is a review itself", mission.string());
+  constexpr std::string_view kSuffix = ".foresight";
+  if (name.ends_with(kSuffix) && name.size() > kSuffix.size())
+    name.resize(name.size() - kSuffix.size());
+  name += kReviewSuffix;
+  return mission.parent_path() / name;
 }
 
 bool CanWriteTo(const std::filesystem::path& folder) {
@@ -427,19 +440,21 @@ Result<std::unique_ptr<MissionFile>> MissionFile::OpenReadOnly(const std::filesy
 
 Result<std::filesystem::path> MissionFile::ReviewPathOf(const std::filesystem::path& mission,
                                                         const std::filesystem::path& folder) {
-  std::string name = mission.filename().string();
-  if (name.ends_with(kReviewSuffix))
-    return Fail(ErrorCode::kInvalidInput, "{}: is a review itself", mission.string());
-  constexpr std::string_view kSuffix = ".foresight";
-  if (name.ends_with(kSuffix) && name.size() > kSuffix.size())
-    name.resize(name.size() - kSuffix.size());
-  name += kReviewSuffix;
-  const std::filesystem::path beside = mission.parent_path() / name;
+  FORESIGHT_TRY(const std::filesystem::path beside, BesideMission(mission));
   if (::access(beside.c_str(), W_OK) == 0) return beside;
   if (!Exists(beside) && CanWriteTo(mission.parent_path())) return beside;
-  if (!folder.empty() && CanWriteTo(folder)) return folder / name;
+  if (!folder.empty() && CanWriteTo(folder)) return folder / beside.filename();
   return Fail(ErrorCode::kIo, "{}: cannot be written; give a folder for the review",
               beside.string());
+}
+
+Result<std::unique_ptr<MissionFile>> MissionFile::FindReviewOf(
+    const std::filesystem::path& mission, const std::filesystem::path& folder) {
+  FORESIGHT_TRY(const std::filesystem::path beside, BesideMission(mission));
+  const auto written = ReviewPathOf(mission, folder);
+  if (written && Exists(*written)) return OpenReadOnly(*written);
+  if (Exists(beside)) return OpenReadOnly(beside);
+  return nullptr;
 }
 
 Result<std::unique_ptr<MissionFile>> MissionFile::OpenReviewOf(
@@ -725,6 +740,22 @@ Result<std::vector<NoteRecord>> MissionFile::ListNotes() const {
   return impl_->Read([&](int format) -> Result<std::vector<NoteRecord>> {
     if (format < 4) return std::vector<NoteRecord>();
     return ReadNotes(*impl_->database, impl_->file);
+  });
+}
+
+Status MissionFile::AddRig(const SensorRig& rig) {
+  const std::lock_guard lock(impl_->mutex);
+  FORESIGHT_CHECK(impl_->CheckWritable());
+  FORESIGHT_CHECK(rig.Check());
+  return impl_->Write([&] { return impl_->Rows().InsertRig(rig); });
+}
+
+Result<std::optional<SensorRig>> MissionFile::FindRig(const std::string& rig_id) const {
+  return impl_->Read([&](int) -> Result<std::optional<SensorRig>> {
+    FORESIGHT_TRY(const std::vector<SensorRig> rigs, impl_->Rows().ReadRigs());
+    for (const SensorRig& rig : rigs)
+      if (RigId(rig) == rig_id) return rig;
+    return std::nullopt;
   });
 }
 

@@ -53,6 +53,10 @@ class MissionFile {
   static Result<std::filesystem::path> ReviewPathOf(const std::filesystem::path& mission,
                                                     const std::filesystem::path& folder = {});
 
+  /// The review of a mission for reading; nullptr where there is none.
+  static Result<std::unique_ptr<MissionFile>> FindReviewOf(
+      const std::filesystem::path& mission, const std::filesystem::path& folder = {});
+
   const std::filesystem::path& path() const;
   /// Whether this is the file beside a mission, without scans of its own.
   bool IsReview() const;
@@ -127,6 +131,12 @@ class MissionFile {
   Result<std::int64_t> AddNote(const NoteRecord& note);
   /// In their present state, in the order in which they were made; deleted ones too.
   Result<std::vector<NoteRecord>> ListNotes() const;
+  /// Keeps a rig that is not a scan's, for what was made with it in place of the scan's own. A rig
+  /// that is there already is not kept twice.
+  Status AddRig(const SensorRig& rig);
+  /// The rig with this id (core/sensor/rig_id.h), a scan's or one that was added; nullopt where the
+  /// file has none.
+  Result<std::optional<SensorRig>> FindRig(const std::string& rig_id) const;
 
   Result<std::int64_t> AddEvent(const EventRecord& event);
   Result<std::vector<EventRecord>> ListEvents() const;

@@ -5,6 +5,7 @@
 #include "core/detection/detection_json.h"
 #include "core/mission/depth_numbers.h"
 #include "core/mission/json_differences.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -37,8 +38,10 @@ const char* ToString(Recomputed::Outcome outcome) {
   return "not possible";
 }
 
-Status Recomputer::OpenScan(const std::string& uuid, const RunContext& context) {
-  if (bench_.scan() && bench_.scan()->uuid == uuid) return {};
+Status Recomputer::OpenScan(const std::string& uuid, const std::string& rig_id,
+                            const RunContext& context) {
+  if (bench_.scan() && bench_.scan()->uuid == uuid && RigId(bench_.scan()->rig) == rig_id)
+    return {};
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, scans_.ListScans());
   const auto at = std::find_if(scans.begin(), scans.end(),
                                [&](const ScanSummary& scan) { return scan.uuid == uuid; });
@@ -46,6 +49,10 @@ Status Recomputer::OpenScan(const std::string& uuid, const RunContext& context) 
     return Fail(ErrorCode::kInvalidInput, "{} does not hold the scan {}", scans_.path().string(),
                 uuid);
   FORESIGHT_TRY(Scan scan, scans_.LoadScan(at->id));
+  if (RigId(scan.rig) != rig_id) {
+    FORESIGHT_TRY(std::optional<SensorRig> rig, rigs_.FindRig(rig_id));
+    if (rig) scan.rig = std::move(*rig);
+  }
   return bench_.Take(std::make_shared<const Scan>(std::move(scan)), context);
 }
 
@@ -56,7 +63,7 @@ Result<Recomputed> Recomputer::RemakeDetection(const DetectionRecord& record,
       return Fail(ErrorCode::kInvalidInput, "it has no provenance: an earlier program wrote it");
     FORESIGHT_TRY(const Provenance provenance,
                   ProvenanceFromJson(record.provenance_json, "detection " + record.uuid));
-    FORESIGHT_CHECK(OpenScan(record.scan_uuid, context.Part(0.0, 0.2)));
+    FORESIGHT_CHECK(OpenScan(record.scan_uuid, provenance.rig_id, context.Part(0.0, 0.2)));
     FORESIGHT_TRY(const Detection found, bench_.Fit(provenance, context.Part(0.2, 1.0)));
     Recomputed answer;
     const std::string is = DetectionToJson(found, bench_.scan()->rig.robot_from_base);
@@ -72,7 +79,7 @@ Result<Recomputed> Recomputer::RemakeDepth(const DepthRecord& record, const RunC
   const auto made_again = [&]() -> Result<Recomputed> {
     FORESIGHT_TRY(const Provenance provenance,
                   ProvenanceFromJson(record.provenance_json, "depth map " + record.uuid));
-    FORESIGHT_CHECK(OpenScan(record.scan_uuid, context.Part(0.0, 0.2)));
+    FORESIGHT_CHECK(OpenScan(record.scan_uuid, provenance.rig_id, context.Part(0.0, 0.2)));
     FORESIGHT_TRY(const DepthResult* depth, bench_.Depth(provenance, context.Part(0.2, 1.0)));
     Recomputed answer;
     const std::string digest = DigestOf(depth->dense, depth->mask);

@@ -31,17 +31,22 @@ const char* ToString(Recomputed::Outcome outcome);
 class Recomputer {
  public:
   /// @param scans the mission that holds the scans; it must outlive this
-  explicit Recomputer(const MissionFile& scans) : scans_(scans) {}
+  /// @param rigs where rigs are that a record was made with in place of its scan's own: the file of
+  /// the records; nullptr = `scans`. It must outlive this.
+  explicit Recomputer(const MissionFile& scans, const MissionFile* rigs = nullptr)
+      : scans_(scans), rigs_(rigs != nullptr ? *rigs : scans) {}
 
   /// Fails with kCancelled, and where the scans cannot be read.
   Result<Recomputed> RemakeDetection(const DetectionRecord& record, const RunContext& context);
   Result<Recomputed> RemakeDepth(const DepthRecord& record, const RunContext& context);
 
  private:
-  /// Fails with kInvalidInput where the mission does not hold the scan.
-  Status OpenScan(const std::string& uuid, const RunContext& context);
+  /// With the rig of that id, where it is found. Fails with kInvalidInput where the mission does
+  /// not hold the scan.
+  Status OpenScan(const std::string& uuid, const std::string& rig_id, const RunContext& context);
 
   const MissionFile& scans_;
+  const MissionFile& rigs_;
   ScanWorkbench bench_;
 };
 

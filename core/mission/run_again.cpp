@@ -7,9 +7,12 @@
 #include "core/base/version.h"
 #include "core/depth/depth_option_table.h"
 #include "core/detection/detection_json.h"
+#include "core/detection/fit_option_table.h"
 #include "core/geometry/angles.h"
 #include "core/mission/depth_numbers.h"
+#include "core/mission/new_records.h"
 #include "core/mission/provenance.h"
+#include "core/options/option_json.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/rig_id.h"
 
@@ -43,8 +46,11 @@ class Worker {
       ++answer_.depth_maps;
       entry["density"] = depth->density;
       entry["below_density_floor"] = depth->BelowDensityFloor();
-      entry["digest"] = DigestOf(depth->dense, depth->mask);
-      entry.update(ToJson(StatisticsOf(depth->dense, depth->mask)));
+      FORESIGHT_TRY(DepthRecord record,
+                    NewDepthRecord(scan_, *depth, depth->mask, depth->options.mask));
+      entry["digest"] = record.digest;
+      entry.update(ToJson(record.statistics));
+      answer_.depth_records.push_back(std::move(record));
     }
     depths_.push_back(std::move(entry));
     return {};
@@ -72,14 +78,19 @@ class Worker {
   }
 
   RunAgainAnswer Finish() {
-    const Json json = {{"format", 1},
-                       {"program_version", ProgramVersion()},
-                       {"scan_uuid", scan_.uuid},
-                       {"rig_id", RigId(rig_)},
-                       {"other_rig", settings_.rig.has_value()},
-                       {"depth_options", Json::parse(DepthOptionsToJson(settings_.depth))},
-                       {"depth_maps", depths_},
-                       {"fits", fits_}};
+    Json json = {{"format", 1},
+                 {"program_version", ProgramVersion()},
+                 {"scan_uuid", scan_.uuid},
+                 {"rig_id", RigId(rig_)},
+                 {"other_rig", settings_.rig.has_value()},
+                 {"depth_options", Json::parse(DepthOptionsToJson(settings_.depth))}};
+    if (settings_.source) json["source"] = NameOf(*settings_.source);
+    for (const auto& [kind, options] : settings_.fit)
+      if (!options.empty())
+        json["fit_options"][ToString(kind)] =
+            Json::parse(foresight::ToJson(std::vector<KeyedValue>(options.begin(), options.end())));
+    json["depth_maps"] = depths_;
+    json["fits"] = fits_;
     answer_.json = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     return answer_;
   }
@@ -124,8 +135,27 @@ class Worker {
         return Fail(ErrorCode::kInvalidInput, "there is no depth map of image {}", position);
     }
     entry["source"] = NameOf(source);
-    return FitInScan({rig_, cloud_, depth}, source.source, *provenance.roi, *provenance.fit,
-                     context.Part(0.5, 1.0));
+    FitOptions options = *provenance.fit;
+    FORESIGHT_CHECK(Change(options));
+    FORESIGHT_TRY(Detection found, FitInScan({rig_, cloud_, depth}, source.source, *provenance.roi,
+                                             options, context.Part(0.5, 1.0)));
+    FORESIGHT_TRY(const Provenance made,
+                  ProvenanceOfFit(scan_, source.source, depth, settings_.depth.mask, options,
+                                  *provenance.roi));
+    answer_.detection_records.push_back(NewDetectionRecord(scan_, found, made));
+    return found;
+  }
+
+  /// Sets the options of the fit that the settings name.
+  Status Change(FitOptions& options) const {
+    const ObjectKind kind = ObjectKindOf(options);
+    const auto changed = settings_.fit.find(kind);
+    if (changed == settings_.fit.end()) return {};
+    for (const auto& [key, value] : changed->second) {
+      FORESIGHT_CHECK(CheckFitOption(kind, key, value));
+      FORESIGHT_CHECK(SetOption(*FindOption(FitOptionTable(kind), key), options, value));
+    }
+    return std::visit([](const auto& held) { return held.Check(); }, options);
   }
 
   /// The image that the record was fitted on; where it was fitted to returns, the nearest one to
@@ -156,10 +186,19 @@ class Worker {
 
 }  // namespace
 
+Status CheckFitOption(ObjectKind kind, const std::string& key, const OptionValue& value) {
+  const Option<FitOptions>* option = FindOption(FitOptionTable(kind), key);
+  if (option == nullptr)
+    return Fail(ErrorCode::kInvalidOptions, "a {}'s fit has no option '{}'", ToString(kind), key);
+  return CheckOption(option->info, value);
+}
+
 Result<RunAgainAnswer> RunAgain(const Scan& scan, const std::vector<DetectionRecord>& records,
                                 const RunAgainSettings& settings, const RunContext& context) {
   Scan with_rig = scan;
-  if (settings.rig) with_rig.rig = *settings.rig;
+  if (settings.rig) {  // as a file keeps it, so that what is made from the file is the same
+    FORESIGHT_TRY(with_rig.rig, SensorRigFromYaml(SensorRigToYaml(*settings.rig), "rig"));
+  }
   FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(with_rig, context.Part(0.0, 0.1)));
   Worker worker(with_rig, cloud, with_rig.rig, settings);
   std::vector<const DetectionRecord*> wanted;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/depth/pipeline.h"
 #include "core/detection/fit_in_scan.h"
 #include "core/mission/mission_records.h"
+#include "core/options/option.h"
 #include "core/sensor/scan.h"
 
 namespace foresight {
@@ -17,6 +19,8 @@ struct RunAgainSettings {
   DepthOptions depth;                 ///< of every depth map
   std::optional<SensorRig> rig;       ///< none = each scan's own
   std::optional<NamedSource> source;  ///< of every fit; none = what each record was fitted to
+  /// Options of fits by their key in FitOptionTable; those that are not named are each record's.
+  std::map<ObjectKind, std::map<std::string, OptionValue>> fit;
 };
 
 /// What came out of one scan.
@@ -26,7 +30,14 @@ struct RunAgainAnswer {
   int fits = 0;  ///< that found their object
   int fits_without_object = 0;
   int failures = 0;  ///< depth maps or fits that could not be made; the JSON has the reasons
+  /// What was made, as a mission keeps it: without uuids, and of this moment and operator.
+  std::vector<DepthRecord> depth_records;
+  std::vector<DetectionRecord> detection_records;
 };
+
+/// Whether an option is one of the kind's, and its value one that it may have. Fails with
+/// kInvalidOptions, naming the key.
+Status CheckFitOption(ObjectKind kind, const std::string& key, const OptionValue& value);
 
 /// Makes a depth map of every image of the scan, and fits again what `records` found in it, in the
 /// same regions and with the same fit options. A record that names no region is told as a failure.

@@ -140,6 +140,11 @@ Result<std::int64_t> ScanRows::CalibrationId(const std::string& rig_yaml) {
   return id;
 }
 
+Status ScanRows::InsertRig(const SensorRig& rig) {
+  FORESIGHT_CHECK(CalibrationId(SensorRigToYaml(rig)));
+  return {};
+}
+
 Result<std::int64_t> ScanRows::InsertScan(const Scan& header) {
   ScanRow row;
   FORESIGHT_TRY(row.calibration_id, CalibrationId(SensorRigToYaml(header.rig)));
@@ -450,6 +455,18 @@ Result<SensorRig> ScanRows::ReadRig(std::int64_t calibration_id) const {
   if (select.Integer(1) != CalibrationChecksum(calibration_id, yaml))
     return Fail(ErrorCode::kBadData, "{} is damaged (checksum)", where);
   return SensorRigFromYaml(yaml, where);
+}
+
+Result<std::vector<SensorRig>> ScanRows::ReadRigs() const {
+  FORESIGHT_TRY(SqliteStatement select,
+                database_.Prepare("SELECT id FROM calibration ORDER BY id"));
+  std::vector<SensorRig> rigs;
+  for (;;) {
+    FORESIGHT_TRY(const bool more, select.Step());
+    if (!more) return rigs;
+    FORESIGHT_TRY(SensorRig rig, ReadRig(select.Integer(0)));
+    rigs.push_back(std::move(rig));
+  }
 }
 
 Result<std::vector<LidarLine>> ScanRows::ReadLines(std::int64_t scan_id, std::int64_t first_seq,

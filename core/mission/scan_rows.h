@@ -44,6 +44,8 @@ class ScanRows {
   Status InsertFrame(std::int64_t scan_id, const CameraFrame& frame, const std::string& png);
   /// `png` is the scan's first image, small.
   Status InsertThumbnail(std::int64_t scan_id, const std::string& png);
+  /// Unless it is there already.
+  Status InsertRig(const SensorRig& rig);
   /// Counts what the scan has and closes its row.
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
   /// The reverse: the scan runs again.
@@ -65,6 +67,8 @@ class ScanRows {
   /// At most `at_most` lines with seq >= first_seq.
   Result<std::vector<LidarLine>> ReadLines(std::int64_t scan_id, std::int64_t first_seq,
                                            std::size_t at_most) const;
+  /// All of the file, the oldest first.
+  Result<std::vector<SensorRig>> ReadRigs() const;
   Result<MotorTrack> ReadTrack(const ScanRow& scan) const;
   /// Empty where the scan has none, as all of formats 1 and 2.
   Result<GivenCloud> ReadGiven(std::int64_t scan_id) const;

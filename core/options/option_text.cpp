@@ -75,6 +75,13 @@ std::string OptionText(const OptionInfo& info, const OptionValue& value) {
   return std::visit(Writer{info}, value);
 }
 
+std::string OptionInWords(const OptionInfo& info, const OptionValue& value) {
+  const auto* number = std::get_if<double>(&value);
+  if (number != nullptr && *number == 0.0 && !info.automatic.empty()) return info.automatic;
+  const std::string text = OptionText(info, value);
+  return info.unit.empty() ? text : text + " " + info.unit;
+}
+
 Result<OptionValue> OptionFromText(const OptionInfo& info, const std::string& text) {
   switch (info.type) {
     case OptionType::kNumber: {

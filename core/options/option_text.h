@@ -10,7 +10,10 @@ namespace foresight {
 /// digits as they need to be read back as they are.
 std::string OptionText(const OptionInfo& info, const OptionValue& value);
 
-/// The reverse. Fails with kInvalidOptions, saying what is expected.
+/// The same with its unit, for texts: "30 mm"; what 0 stands for where it stands for a rule.
+std::string OptionInWords(const OptionInfo& info, const OptionValue& value);
+
+/// The reverse of OptionText. Fails with kInvalidOptions, saying what is expected.
 Result<OptionValue> OptionFromText(const OptionInfo& info, const std::string& text);
 
 /// "a number", "one of max, min, off", ...

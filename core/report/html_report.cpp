@@ -15,10 +15,17 @@ constexpr const char* kStyle = R"(
   .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(34em, 1fr)); gap: 1.5em; }
   figure { margin: 0; background: #fff; border: 1px solid #d5d9de; padding: .8em; } img { width: 100%; }
   figcaption b { display: block; }
+  h3 { font-size: 1em; margin-bottom: .4em; } section { border-top: 2px solid #aab1ba; margin-top: 2.5em; }
+  @media print {
+    @page { size: A4; margin: 14mm; }
+    body { font-size: 9pt; background: #fff; margin: 0; padding: 0; max-width: none; }
+    .pictures { grid-template-columns: 1fr 1fr; gap: 4mm; } figure, tr { break-inside: avoid; }
+    h1, h2, h3 { break-after: avoid; } section + .pictured { break-before: page; } td { overflow-wrap: anywhere; }
+  }
 )";
 
-std::string TableHtml(const HtmlReport::Table& table) {
-  std::string html = "<h2>" + EscapeMarkup(table.title) + "</h2>\n<table>\n";
+std::string TableHtml(const HtmlReport::Table& table, const char* heading = "h2") {
+  std::string html = fmt::format("<{0}>{1}</{0}>\n<table>\n", heading, EscapeMarkup(table.title));
   if (!table.header.empty()) {
     html += "<tr>";
     for (const std::string& title : table.header) html += "<th>" + EscapeMarkup(title) + "</th>";
@@ -38,6 +45,22 @@ std::string PictureHtml(const HtmlReport::Picture& picture) {
       EscapeMarkup(picture.file), EscapeMarkup(picture.title), EscapeMarkup(picture.caption));
 }
 
+Status WritePicture(const HtmlReport::Picture& picture, const std::filesystem::path& folder) {
+  if (picture.image.empty()) return {};
+  return WritePng(folder / picture.file, picture.image);
+}
+
+std::string SectionHtml(const HtmlReport::Section& section) {
+  std::string html = section.pictures.empty() ? "<section>" : "<section class=\"pictured\">";
+  html += "<h2>" + EscapeMarkup(section.title) + "</h2>\n";
+  if (!section.text.empty()) html += "<p>" + EscapeMarkup(section.text) + "</p>\n";
+  if (!section.pictures.empty()) html += "<div class=\"pictures\">\n";
+  for (const auto& picture : section.pictures) html += PictureHtml(picture);
+  if (!section.pictures.empty()) html += "</div>\n";
+  for (const auto& table : section.tables) html += TableHtml(table, "h3");
+  return html + "</section>\n";
+}
+
 }  // namespace
 
 Status WriteHtmlReport(const HtmlReport& report, const std::filesystem::path& folder) {
@@ -53,10 +76,14 @@ Status WriteHtmlReport(const HtmlReport& report, const std::filesystem::path& fo
     html += "<figure>" + chart.svg + "<figcaption>" + EscapeMarkup(chart.caption) +
             "</figcaption></figure>\n";
   for (const auto& picture : report.pictures) {
-    FORESIGHT_CHECK(WritePng(folder / picture.file, picture.image));
+    FORESIGHT_CHECK(WritePicture(picture, folder));
     html += PictureHtml(picture);
   }
   if (has_figures) html += "</div>\n";
+  for (const auto& section : report.sections) {
+    for (const auto& picture : section.pictures) FORESIGHT_CHECK(WritePicture(picture, folder));
+    html += SectionHtml(section);
+  }
   html += "</body></html>\n";
   return WriteFileAtomically(folder / "report.html", html);
 }

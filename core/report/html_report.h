@@ -9,7 +9,7 @@
 
 namespace foresight {
 
-/// One page with tables and pictures, readable in any browser without a network.
+/// One page with tables and pictures, readable in any browser without a network, and printable.
 struct HtmlReport {
   struct Row {
     std::string name;
@@ -25,7 +25,7 @@ struct HtmlReport {
     std::string file;  ///< name in the report's folder, ending in .png
     std::string title;
     std::string caption;
-    ColorImage image;
+    ColorImage image;  ///< empty = the file is in the folder already
   };
 
   struct Chart {
@@ -38,6 +38,15 @@ struct HtmlReport {
   std::vector<Table> tables;
   std::vector<Chart> charts;
   std::vector<Picture> pictures;
+
+  /// A part of the page with a heading of its own, behind all others.
+  struct Section {
+    std::string title;
+    std::string text;
+    std::vector<Table> tables;
+    std::vector<Picture> pictures;  ///< before the tables
+  };
+  std::vector<Section> sections;
 };
 
 /// Writes report.html and the pictures into an existing folder.

@@ -487,6 +487,14 @@ Result<std::vector<Reader>> AllReaders(const std::string& folder, const std::str
       MissionOf({}));
   add("record of an exported scan", "scan.json", true, good / "export/scan-0001/scan.json",
       WrongJson(), MissionOfExport(good, "scan.json"));
+  add("mission of a report", "nasty.foresight", false, good / "mission.foresight",
+      {"SQLite format 3\0"}, [](const std::string& path, const std::string& out) {
+        return std::vector<std::string>{"mission", "report", path, "-o", out + "/report"};
+      });
+  add("mission that is compared", "nasty.foresight", false, good / "mission.foresight",
+      {"SQLite format 3\0"}, [](const std::string& path, const std::string&) {
+        return std::vector<std::string>{"mission", "compare", path, "--json"};
+      });
   add("calibration of a stereo pair", "nasty.txt", true, good / "stereo/calib.txt", {},
       EvaluateWith(good, "calib.txt"));
   add("image of a stereo pair", "nasty.png", false, good / "stereo/im0.png", WrongPng(),

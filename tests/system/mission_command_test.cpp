@@ -157,6 +157,84 @@ TEST_F(MissionCommand, RunGivesWhatFitGives) {
   EXPECT_NE(paper["depth_maps"][0]["digest"], again["depth_maps"][0]["digest"]);
 }
 
+TEST_F(MissionCommand, ASideResultIsKeptBesideTheMissionListedComparedAndMadeAgain) {
+  const std::string mission = In("side.foresight"), review = In("side.review.foresight");
+  ASSERT_EQ(Mission({"merge", first_, "-o", mission}).exit_code, 0);
+  const std::string before = ReadFile(mission).value();
+  EXPECT_THAT(Mission({"results", mission}).output, HasSubstr("no side results"));
+  const ProgramResult run =
+      Mission({"run", mission, "-o", In("side"), "--method", "paper", "--threshold", "0.25",
+               "--fit-option", "valve.seed=5", "--keep", "softer"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(ReadFile(mission).value(), before);
+  ASSERT_EQ(Mission({"run", mission, "-o", In("plain")}).exit_code, 0);
+
+  const nlohmann::json results = Json(Mission({"results", mission, "--json"}))["results"];
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0]["name"], "softer");
+  EXPECT_THAT(results[0]["differences"].dump(), HasSubstr("method paper instead of foresight"));
+  EXPECT_THAT(results[0]["differences"].dump(), HasSubstr("valve: Seed 5"));
+  EXPECT_EQ(results[0]["answer"], nlohmann::json::parse(FilesOf(In("side")).begin()->second));
+
+  // A review among the files adds nothing: its fits are of the side result.
+  ASSERT_EQ(Mission({"run", mission, review, "-o", In("with_review")}).exit_code, 0);
+  EXPECT_EQ(FilesOf(In("with_review")), FilesOf(In("plain")));
+
+  const ProgramResult compared =
+      Mission({"compare", mission, "--b", "softer", "-o", In("compared"), "--json"});
+  ASSERT_EQ(compared.exit_code, 0) << compared.errors;
+  const nlohmann::json json = Json(compared);
+  EXPECT_GT(json["depth"]["p95_abs_m"].get<double>(), 0.0);
+  EXPECT_GT(json["depth"]["in_both"].get<int>(), 100'000);
+  EXPECT_EQ(json["lidar"]["from_first"]["max_m"], 0.0);
+  ASSERT_EQ(json["objects"].size(), 1u);
+  EXPECT_LT(json["objects"][0]["difference"]["distance_m"].get<double>(), 0.02);
+  EXPECT_EQ(json, nlohmann::json::parse(ReadFile(In("compared/comparison.json")).value()));
+  for (const char* file : {"a.png", "b.png", "difference.png", "histogram.svg"})
+    EXPECT_TRUE(fs::exists(In("compared") + "/" + file)) << file;
+  EXPECT_EQ(Mission({"check", "--recompute", review}).exit_code, 0);
+  const ProgramResult unknown = Mission({"compare", mission, "--b", "harder"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.errors, HasSubstr("no result 'harder'; there are: original, softer"));
+}
+
+TEST_F(MissionCommand, TwoScansOfTwoMissionsAreComparedByTheirClouds) {
+  const nlohmann::json json = Json(Mission({"compare", first_, second_, "--json"}));
+  EXPECT_TRUE(json["depth"].is_null());
+  EXPECT_GT(json["lidar"]["from_first"]["points"].get<int>(), 10'000);
+  EXPECT_GT(json["lidar"]["from_second"]["median_m"].get<double>(), 0.0);
+  EXPECT_LT(json["lidar"]["from_second"]["median_m"].get<double>(), 0.03);  // one place
+  ASSERT_EQ(json["objects"].size(), 1u);
+  EXPECT_TRUE(json["objects"][0]["second"].is_null());  // nothing was fitted in the second
+}
+
+TEST_F(MissionCommand, WrongOptionsOfARunAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"seed=5", "KIND.KEY=VALUE"},
+      {"boat.seed=5", "boat"},
+      {"valve.nothing=5", "no option 'nothing'"},
+      {"valve.seed=x", "valve.seed=x"}};
+  for (const auto& [option, words] : wrong) {
+    const ProgramResult run = Mission({"run", first_, "-o", In("wrong"), "--fit-option", option});
+    EXPECT_EQ(run.exit_code, 2) << option;
+    EXPECT_THAT(run.errors, HasSubstr(words));
+  }
+  EXPECT_EQ(Mission({"run", first_, "-o", In("wrong"), "--scan", "7"}).exit_code, 3);
+  EXPECT_EQ(Mission({"results", first_, "--scan", "7"}).exit_code, 3);
+}
+
+TEST_F(MissionCommand, AReportIsAPageWithPicturesAndAPdf) {
+  const ProgramResult report = Mission({"report", first_, "-o", In("report"), "--pdf", "--json"});
+  ASSERT_EQ(report.exit_code, 0) << report.errors;
+  const nlohmann::json json = Json(report);
+  EXPECT_EQ(json["objects"], 1);
+  for (const auto& file : json["files"])
+    EXPECT_TRUE(fs::exists(fs::path(In("report")) / file.get<std::string>())) << file;
+  EXPECT_THAT(ReadFile(In("report/report.html")).value(), HasSubstr("lidar returns"));
+  EXPECT_THAT(ReadFile(In("report/report.pdf")).value(), testing::StartsWith("%PDF"));
+  EXPECT_EQ(Mission({"report", first_, "--scan", "9", "-o", In("report")}).exit_code, 3);
+}
+
 TEST_F(MissionCommand, AReaderInPythonThatKnowsOnlyTheDocumentationReadsTheSame) {
   const ProgramResult read =
       RunProgram("/usr/bin/python3", {FORESIGHT_SOURCE_DIR "/docs/read_mission.py", first_});

@@ -54,6 +54,16 @@ PointSet PointsOf(const RegisteredScan& scan, const SensorRig& rig, PointColor c
   return set;
 }
 
+PointSet PointsOf(std::vector<Eigen::Vector3f> points, std::vector<float> values,
+                  const Eigen::Vector3f& viewpoint) {
+  PointSet set;
+  set.points = std::move(points);
+  set.values = std::move(values);
+  set.viewpoint = viewpoint;
+  Shuffle(&set);
+  return set;
+}
+
 PointSet PointsOf(const std::vector<Residual>& residuals, const SensorRig& rig) {
   PointSet set;
   for (const Residual& residual : residuals) {

@@ -33,6 +33,10 @@ PointSet PointsOf(const RegisteredScan& scan, const SensorRig& rig, PointColor c
 PointSet PointsOf(const std::vector<Residual>& residuals, const SensorRig& rig);
 inline constexpr double kFullResidual_m = 0.030;
 
+/// Points with a value each.
+PointSet PointsOf(std::vector<Eigen::Vector3f> points, std::vector<float> values,
+                  const Eigen::Vector3f& viewpoint);
+
 /// The depths that the mask keeps, every `stride`-th pixel, unprojected.
 PointSet PointsOf(const DepthImage& depth_m, const MaskImage* mask, const CameraFrame& capture,
                   const SensorRig& rig, PointColor color, int stride);

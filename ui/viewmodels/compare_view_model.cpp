@@ -19,6 +19,8 @@ QString CompareViewModel::SecondTitle() const {
       return tr("Camera image");
     case Kind::kMethod:
       return QString::fromUtf8(InfoOf(method_).title);
+    case Kind::kResults:
+      return second_title_;
     case Kind::kFrozen:
       break;
   }
@@ -32,6 +34,17 @@ void CompareViewModel::Choose(Kind kind) {
   kind_ = kind;
   second_.reset();
   second_mask_.reset();
+  first_ = {};
+}
+
+void CompareViewModel::CompareResults(Side first, Side second) {
+  Choose(Kind::kResults);
+  first_ = std::move(first);
+  second_ = std::move(second.depth);
+  second_mask_ = std::make_shared<const MaskImage>(second_->mask);
+  second_options_ = second_->options;
+  second_title_ = second.title;
+  Q_EMIT changed();
 }
 
 void CompareViewModel::compareWithNothing() {
@@ -75,7 +88,8 @@ void CompareViewModel::FollowDepth() {
     return;
   }
   // Another scan or image: what was beside the old one no longer belongs here.
-  Choose(kind_ == Kind::kFrozen ? Kind::kNothing : kind_);
+  const bool ends = kind_ == Kind::kFrozen || kind_ == Kind::kResults;
+  Choose(ends ? Kind::kNothing : kind_);
   Q_EMIT changed();
 }
 

@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QString>
+#include <string>
 
 #include "core/exchange/support_bundle.h"
 #include "ui/viewmodels/session_model.h"
@@ -25,6 +26,9 @@ class ExportViewModel : public QObject {
   /// `NAME-export` in `folder`; also of one that is being recorded. One after the other, each can
   /// be cancelled.
   void ExportMission(const QString& mission, const QString& folder);
+  /// A page of the mission with pictures, and the same as PDF (core/report/mission_report.h), into
+  /// `NAME-report` in `folder`; of the scan with this uuid alone, where one is given.
+  void WriteReport(const QString& mission, const std::string& scan_uuid, const QString& folder);
   /// What somebody needs who has to find out what went wrong (core/exchange/support_bundle.h).
   void WriteBundle(const QString& path, const SupportBundleSources& sources);
   TaskRunner* MissionRunner() { return &mission_runner_; }

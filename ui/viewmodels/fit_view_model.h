@@ -47,6 +47,8 @@ class FitViewModel : public QObject {
   /// The programs' defaults for the head's mounting, and what the operator chose; a terrain is also
   /// compared with the last one of an earlier scan that the operator accepted.
   FitOptions OptionsFor(ObjectKind kind) const;
+  /// What the operator chose, by the option's key.
+  const std::map<ObjectKind, std::map<std::string, OptionValue>>& Chosen() const { return chosen_; }
   /// The same without what the operator chose.
   FitOptions UsualOptionsFor(ObjectKind kind) const;
   /// An option of FitOptionTable by its key, for every next fit of `Kind`. Fails with

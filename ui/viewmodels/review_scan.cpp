@@ -55,14 +55,6 @@ std::filesystem::path ReviewFolder() {
   return RecordingViewModel::DefaultFolder().toStdString();
 }
 
-Result<std::unique_ptr<MissionFile>> OpenReview(const std::filesystem::path& mission,
-                                                const std::filesystem::path& folder) {
-  const auto path = MissionFile::ReviewPathOf(mission, folder);
-  std::error_code error;
-  if (!path || !std::filesystem::exists(*path, error)) return nullptr;
-  return MissionFile::OpenReadOnly(*path);
-}
-
 Result<ReviewedScan> LoadReviewedScan(const MissionFile& mission,
                                       const std::filesystem::path& folder,
                                       const ScanSummary& summary,
@@ -74,7 +66,7 @@ Result<ReviewedScan> LoadReviewedScan(const MissionFile& mission,
     loaded.scan = std::make_shared<const Scan>(std::move(scan));
   }
   FORESIGHT_TRY(std::vector<Listed> listed, DetectionsOf(mission, summary.uuid));
-  FORESIGHT_TRY(const auto review, OpenReview(mission.path(), folder));
+  FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission.path(), folder));
   if (review) {
     FORESIGHT_TRY(std::vector<Listed> reviewed, DetectionsOf(*review, summary.uuid));
     listed = Join(std::move(listed), std::move(reviewed));

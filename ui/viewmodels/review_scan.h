@@ -34,10 +34,6 @@ Result<ReviewedScan> LoadReviewedScan(const MissionFile& mission,
                                       const ScanSummary& summary,
                                       std::shared_ptr<const Scan> known = nullptr);
 
-/// The file with what was found in reviews of the mission; nullptr = there is none yet.
-Result<std::unique_ptr<MissionFile>> OpenReview(const std::filesystem::path& mission,
-                                                const std::filesystem::path& folder);
-
 /// Where reviews lie that cannot lie beside their mission.
 std::filesystem::path ReviewFolder();
 

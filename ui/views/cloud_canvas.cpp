@@ -198,6 +198,7 @@ void CloudCanvas::LookAt(const Eigen::Vector3d& place) {
   moved_ = true;
   rest_.start();
   PlaceCamera();
+  Q_EMIT cameraMoved();
   Redraw();
 }
 
@@ -211,6 +212,7 @@ void CloudCanvas::GoHome() {
   camera_ = home_;
   moved_ = false;
   PlaceCamera();
+  Q_EMIT cameraMoved();
   Redraw();
 }
 
@@ -245,6 +247,7 @@ bool CloudCanvas::event(QEvent* event) {
       moved_ = true;
       rest_.start();
       PlaceCamera();
+      Q_EMIT cameraMoved();
       Redraw();
       return true;
     case QEvent::KeyPress:
@@ -303,6 +306,7 @@ void CloudCanvas::OnMove(const QMouseEvent& event) {
   }
   moved_ = true;
   PlaceCamera();
+  Q_EMIT cameraMoved();
   Redraw();
 }
 
@@ -394,6 +398,13 @@ void CloudCanvas::ShowSample(bool sample) {
   points_->SetVisibility(sample ? 0 : 1);
   sample_->SetVisibility(sample ? 1 : 0);
   if (!sample) Redraw();
+}
+
+void CloudCanvas::SetCamera(const OrbitCamera& camera) {
+  camera_ = camera;
+  moved_ = true;
+  PlaceCamera();
+  Redraw();
 }
 
 void CloudCanvas::PlaceCamera() {

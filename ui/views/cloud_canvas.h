@@ -62,10 +62,15 @@ class CloudCanvas : public VtkCanvas {
   void GoHome();
   /// Whether the operator has moved the camera since the last reset.
   bool Moved() const { return moved_; }
+  const OrbitCamera& Camera() const { return camera_; }
+  /// Looks from where another canvas does; tells nobody.
+  void SetCamera(const OrbitCamera& camera);
   /// Where a point of robot is on this widget.
   QPoint WidgetFromRobot(const Eigen::Vector3d& point) const;
 
  Q_SIGNALS:
+  /// The operator has moved the camera, or a reset has.
+  void cameraMoved();
   void rectangleDrawn(const foresight::CloudRectangle& rectangle, bool cut);
   void pointClicked(const foresight::CloudClick& click);
   /// A click or a rectangle where the points are not those of a scan.

@@ -26,6 +26,9 @@ void CompareMenu::Fill() {
   QAction* freeze = Add(tr("This depth, frozen as it is now"), kind == Kind::kFrozen);
   freeze->setEnabled(session_->Depth() != nullptr);
   connect(freeze, &QAction::triggered, compare_, &CompareViewModel::compareWithFrozen);
+  if (kind == Kind::kResults)  // chosen in the list of side results; here it only can be ended
+    Add(tr("%1 and %2").arg(compare_->FirstTitle(), compare_->SecondTitle()), true)
+        ->setEnabled(false);
   addSection(tr("Method"));
   for (const DepthMethodInfo& info : DepthMethods()) {
     const bool checked = kind == Kind::kMethod && compare_->OtherMethod() == info.method;

@@ -138,18 +138,22 @@ void DepthPane::Bind() {
   if (live_ != nullptr)
     connect(live_, &LiveDepthViewModel::changed, this, &DepthPane::ShowNewDepth);
   connect(compare_->Runner(), &TaskRunner::changed, this, &DepthPane::ShowState);
-  connect(compare_, &CompareViewModel::changed, this, [this] {
-    PaintSecond();
-    ShowMarks();
-  });
+  connect(compare_, &CompareViewModel::changed, this, &DepthPane::ShowNewDepth);
   connect(compare_, &CompareViewModel::wipeChanged, canvas_, &DepthCanvas::SetWipe);
   connect(canvas_, &DepthCanvas::wiped, compare_, &CompareViewModel::setWipe);
   connect(canvas_, &DepthCanvas::pixelPointedAt, this, &DepthPane::ShowReadout);
 }
 
 std::shared_ptr<const DepthResult> DepthPane::Shown() const {
+  if (compare_->First()) return compare_->First();
   if (session_->Depth() || live_ == nullptr) return session_->Depth();
   return live_->Depth();
+}
+
+const MaskImage* DepthPane::ShownMask() const {
+  const auto result = Shown();
+  if (result == nullptr) return nullptr;
+  return result == session_->Depth() ? session_->Mask().get() : &result->mask;
 }
 
 void DepthPane::ShowNewDepth() {
@@ -187,8 +191,7 @@ void DepthPane::Paint() {
   readout_->clear();
   ShowState();
   if (!result) return;
-  const MaskImage* mask = session_->Depth() ? session_->Mask().get() : &result->mask;
-  canvas_->SetImage(Painted(*result, mask));
+  canvas_->SetImage(Painted(*result, ShownMask()));
   ShowColors();
 }
 
@@ -199,7 +202,7 @@ void DepthPane::PaintSecond() {
   const CameraFrame* frame = session_->CurrentImage();
   if (session_->Depth() && frame && compare_->With() == CompareViewModel::Kind::kImage) {
     canvas_->SetSecond(&frame->image);
-  } else if (session_->Depth() && compare_->Second()) {
+  } else if (Shown() && compare_->Second()) {
     const ColorImage second = Painted(*compare_->Second(), compare_->SecondMask().get());
     canvas_->SetSecond(&second);
   } else {
@@ -212,7 +215,7 @@ void DepthPane::ShowMarks() {
     return MarksOf(result.samples, layers_->Samples(), depth_range_, layers_->DepthColors());
   };
   const auto result = Shown();
-  const DepthResult* second = session_->Depth() ? compare_->Second().get() : nullptr;
+  const DepthResult* second = result ? compare_->Second().get() : nullptr;
   canvas_->SetMarks(result ? marks_of(*result) : std::vector<SampleMark>());
   canvas_->SetSecondMarks(second ? std::optional(marks_of(*second)) : std::nullopt);
   tags_->SetLegend(result ? &result->samples : nullptr, layers_->Samples(),
@@ -233,12 +236,15 @@ void DepthPane::ShowState() {
   SetHint(depth_->Runner()->Busy()       ? tr("Computing depth …")
           : scan && scan->frames.empty() ? tr("This scan holds no image, so there is no depth")
                                          : tr("The depth map appears here after a scan"));
-  const bool compares = session_->Depth() && compare_->With() != CompareViewModel::Kind::kNothing;
+  const bool compares = Shown() && compare_->With() != CompareViewModel::Kind::kNothing;
   const auto title = [](DepthMethod method) { return QString::fromUtf8(InfoOf(method).title); };
   QStringList left;
-  if (compares) left << title(depth_->ShownOptions().method);
+  if (compare_->First())
+    left << compare_->FirstTitle();
+  else if (compares)
+    left << title(depth_->ShownOptions().method);
   if (depth_->Recomputing()) left << tr("recomputing …");
-  if (!session_->Depth() && Shown())
+  if (!session_->Depth() && !compare_->First() && Shown())
     left << tr("Live")
          << (live_->HasOwnImage() ? tr("%1 lines") : tr("%1 lines over the last image"))
                 .arg(live_->Lines());
@@ -272,16 +278,19 @@ QString DepthPane::Readout() const {
 
 void DepthPane::ShowReadout(const Eigen::Vector2d& pixel) {
   readout_->clear();
-  if (!session_->Depth()) return;
+  const auto first = compare_->First() ? compare_->First() : session_->Depth();
+  if (!first) return;
   const int x = static_cast<int>(std::lround(pixel.x()));
   const int y = static_cast<int>(std::lround(pixel.y()));
-  if (!session_->Depth()->dense.depth_m.Contains(x, y)) return;
-  const bool right_of_line =
-      (pixel.x() + 0.5) / session_->Depth()->samples.width > compare_->Wipe();
+  if (!first->dense.depth_m.Contains(x, y)) return;
+  const bool right_of_line = (pixel.x() + 0.5) / first->samples.width > compare_->Wipe();
   const bool second = compare_->Second() && right_of_line;
-  const DepthResult& result = second ? *compare_->Second() : *session_->Depth();
-  const DepthOptions& made_with = second ? compare_->SecondOptions() : depth_->ShownOptions();
-  const double threshold = second ? compare_->SecondOptions().mask.threshold : depth_->Threshold();
+  const DepthResult& result = second ? *compare_->Second() : *first;
+  const DepthOptions& made_with = second              ? compare_->SecondOptions()
+                                  : compare_->First() ? first->options
+                                                      : depth_->ShownOptions();
+  const double threshold =
+      second || compare_->First() ? made_with.mask.threshold : depth_->Threshold();
   readout_->setText(TextOf(ReadDepth(
       {result, layers_->DepthOf(result.dense), threshold, SearchRadius(result, made_with)}, x, y)));
 }

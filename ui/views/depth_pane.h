@@ -49,8 +49,10 @@ class DepthPane : public Pane {
   void BuildFooter();
   QWidget* BuildWarning();
   void Bind();
-  /// The depth on the screen: that of the session, else the preview of a running scan.
+  /// The depth on the screen: result A where two results are compared, that of the session, else
+  /// the preview of a running scan.
   std::shared_ptr<const DepthResult> Shown() const;
+  const MaskImage* ShownMask() const;
   void ShowNewDepth();
   void Paint();
   ColorImage Painted(const DepthResult& result, const MaskImage* mask) const;

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/depth/pipeline.h"
+#include "core/mission/mission_file.h"
+#include "core/mission/run_again.h"
+
+namespace foresight {
+
+/// A scan worked through again with other settings (RunAgain), kept beside what was recorded. Its
+/// depth maps and fits are records like all others; an event of the file with the review holds
+/// them together (docs/formats.md, "Side results").
+struct SideResult {
+  std::string uuid;
+  std::string name;  ///< given by who made it
+  std::string scan_uuid;
+  std::string author;
+  std::int64_t utc_ns = 0;
+  std::string rig_id;
+  bool other_rig = false;  ///< than the scan's own
+  DepthOptions depth;
+  std::vector<std::string> depth_uuids;
+  std::vector<std::string> detection_uuids;
+  std::string answer_json;  ///< RunAgainAnswer::json, bit for bit
+};
+
+/// Adds a side result to the file of a review: its rig, where it is not the scan's own, its depth
+/// maps, its fits, and what holds them together. Whoever opens the scan's mission is not touched.
+/// @param scan as it was run again: its uuid counts
+/// Fails with kInvalidInput without a name, and as MissionFile does.
+Result<SideResult> KeepSideResult(MissionFile& review, const std::string& name, const Scan& scan,
+                                  const RunAgainSettings& settings, const RunAgainAnswer& answer);
+
+/// Of one scan, or of all, the oldest first. `file` is a review, or a mission that one was merged
+/// into. Fails with kBadData, naming the event at fault.
+Result<std::vector<SideResult>> ListSideResults(const MissionFile& file,
+                                                const std::string& scan_uuid = {});
+
+/// Whether an event is what holds a side result together.
+bool IsSideResult(const EventRecord& event);
+
+/// The mission's detections of a scan and those of its review, which may be nullptr, as they stand
+/// now: what a review says of an object counts more. Without those of side results.
+Result<std::vector<DetectionRecord>> DetectionsOfScan(const MissionFile& mission,
+                                                      const MissionFile* review,
+                                                      const std::string& scan_uuid);
+
+/// What a mission's own depth map of the image was made with; the default method's options where
+/// it keeps none. A map of another image of the scan counts where there is none of this one.
+Result<DepthOptions> OriginalDepthOptions(const MissionFile& mission, std::int64_t scan_id,
+                                          std::int64_t image_position);
+
+/// In what depth options differ, in words that an operator knows: "method paper instead of
+/// foresight", "Threshold 0.25 instead of 0.35". Options of another method are compared with what
+/// that method is meant to run with. Empty = in nothing.
+std::vector<std::string> DifferencesInWords(const DepthOptions& options, const DepthOptions& than);
+
+/// The same of a side result: depth options, rig, source and options of fits.
+std::vector<std::string> DifferencesInWords(const SideResult& result, const DepthOptions& original,
+                                            const SensorRig& own_rig);
+
+}  // namespace foresight

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QVector>
+#include <QWidget>
+
+#include "ui/viewmodels/command_table.h"
+#include "ui/viewmodels/side_results_model.h"
+
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QToolButton;
+class QVBoxLayout;
+
+namespace foresight {
+
+/// The side results of the scan under review, a card each: name, author, time and what differs in
+/// words, with the buttons A and B; and what the two that are chosen differ in.
+class SideResultsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  SideResultsPanel(SideResultsModel* model, CommandTable* commands, QWidget* parent = nullptr);
+
+  /// The name for the next run; empty = one is made up.
+  QString Name() const;
+  QLineEdit* NameField() { return name_; }
+  /// Of a row of the model.
+  QToolButton* ButtonA(int index) const { return a_.value(index); }
+  QToolButton* ButtonB(int index) const { return b_.value(index); }
+
+ private:
+  void ShowRows();
+  QWidget* Card(int index);
+
+  SideResultsModel* model_;
+  QLineEdit* name_;
+  QLabel* state_;
+  QVBoxLayout* cards_;
+  QWidget* list_ = nullptr;
+  QLabel* numbers_;
+  QVector<QToolButton*> a_;
+  QVector<QToolButton*> b_;
+};
+
+}  // namespace foresight
