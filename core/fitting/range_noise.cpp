@@ -1,6 +1,5 @@
 #include "core/fitting/range_noise.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -83,62 +82,49 @@ std::vector<std::size_t> NearestInDirection(const std::vector<RangeRay>& rays, s
   return found;
 }
 
-/// By how much a range differs from the plane through its neighbours, divided by what the noise of
-/// all of them makes of one sigma; NaN where they make no plane.
-double OffItsNeighbours(const std::vector<RangeRay>& rays, std::size_t i) {
+/// The second difference of a range and those of two neighbours on opposite sides, as on a grid's
+/// line; NaN where no two lie so.
+double SecondDifferenceAt(const std::vector<RangeRay>& rays, std::size_t i) {
+  constexpr double kOpposite = 0.3;  // of the way to a neighbour
   const std::vector<std::size_t> neighbours = NearestInDirection(rays, i);
-  if (neighbours.size() < kNeighbours) return std::numeric_limits<double>::quiet_NaN();
-  // A plane is linear in inverse range over the tangents of the direction.
-  const Eigen::Vector3d x = rays[i].direction.unitOrthogonal(), y = rays[i].direction.cross(x);
-  Eigen::Matrix<double, kNeighbours, 3> design;
-  Eigen::Matrix<double, kNeighbours, 1> inverse_range;
-  for (int k = 0; k < kNeighbours; ++k) {
-    const RangeRay& ray = rays[neighbours[static_cast<std::size_t>(k)]];
-    const double ahead = ray.direction.dot(rays[i].direction);
-    if (!(ahead > 0.5)) return std::numeric_limits<double>::quiet_NaN();
-    design.row(k) << 1.0, ray.direction.dot(x) / ahead, ray.direction.dot(y) / ahead;
-    inverse_range(k) = 1.0 / (ray.range_m * ahead);
+  double best = std::numeric_limits<double>::infinity();
+  double difference = std::numeric_limits<double>::quiet_NaN();
+  for (const std::size_t a : neighbours) {
+    const Eigen::Vector3d to_a = rays[a].direction - rays[i].direction;
+    for (const std::size_t b : neighbours) {
+      const Eigen::Vector3d to_b = rays[b].direction - rays[i].direction;
+      const double off = (to_a + to_b).norm() / to_a.norm();
+      if (off > kOpposite || to_a.norm() + off * to_a.norm() >= best) continue;
+      best = to_a.norm() + off * to_a.norm();
+      difference = std::abs(rays[a].range_m - 2.0 * rays[i].range_m + rays[b].range_m);
+    }
   }
-  const Eigen::Matrix3d normal = design.transpose() * design;
-  const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
-  if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-9))
-    return std::numeric_limits<double>::quiet_NaN();  // in one line
-  const double predicted = solver.solve(design.transpose() * inverse_range).x();
-  if (!(predicted > 0.0)) return std::numeric_limits<double>::quiet_NaN();
-  const double leverage = solver.solve(Eigen::Vector3d::UnitX()).x();
-  return std::abs(rays[i].range_m - 1.0 / predicted) / std::sqrt(1.0 + leverage);
+  return difference;
 }
 
-/// Of rays without a grid: differences to the planes of their neighbours, sorted.
-std::vector<double> PlaneDifferences(const std::vector<RangeRay>& rays) {
+/// |second differences| of rays without a grid, sorted.
+std::vector<double> ScatteredSecondDifferences(const std::vector<RangeRay>& rays) {
   std::vector<double> differences;
   const std::size_t step = std::max<std::size_t>(1, rays.size() / kAsked);
   for (std::size_t i = 0; i < rays.size(); i += step)
-    if (const double difference = OffItsNeighbours(rays, i); std::isfinite(difference))
+    if (const double difference = SecondDifferenceAt(rays, i); std::isfinite(difference))
       differences.push_back(difference);
   std::sort(differences.begin(), differences.end());
   return differences;
 }
 
-double Bounded(double sigma_m) {
-  return std::clamp(sigma_m, kLeastRangeSigma_m, kLargestRangeSigma_m);
-}
-
 }  // namespace
 
 double EstimateRangeSigma(const RaySet& rays) {
-  const FloatImage grid = RangeGrid(rays);
-  if (grid.empty() && !rays.rays.empty()) {
-    const std::vector<double> differences = PlaneDifferences(rays.rays);
-    if (std::ssize(differences) < kMinTriples) return std::numeric_limits<double>::quiet_NaN();
-    return Bounded(TrimmedDeviation(differences));
-  }
   const int apart = std::max(
       1,
       static_cast<int>(std::lround(1.0 / std::sqrt(std::clamp(rays.samples_per_ray, 0.01, 1.0)))));
-  const std::vector<double> differences = SecondDifferences(grid, apart);
+  const FloatImage grid = RangeGrid(rays);
+  const std::vector<double> differences =
+      grid.empty() ? ScatteredSecondDifferences(rays.rays) : SecondDifferences(grid, apart);
   if (std::ssize(differences) < kMinTriples) return std::numeric_limits<double>::quiet_NaN();
-  return Bounded(TrimmedDeviation(differences) / kSecondDifference);
+  return std::clamp(TrimmedDeviation(differences) / kSecondDifference, kLeastRangeSigma_m,
+                    kLargestRangeSigma_m);
 }
 
 }  // namespace foresight
