@@ -44,6 +44,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
           [this](const QString& mission) { reviewer.Open(mission); });
   connect(&reviewer, &ReviewViewModel::opened, this, [this] {
     if (review.map.Mission() != reviewer.Path()) review.map.clear();  // it is of another mission
+  });
   connect(&replay, &ReplayModel::sweepBroken, &replay_depth, &LiveDepthViewModel::clear);
   connect(&reviewer, &ReviewViewModel::changed, this, [this] {
     if (reviewer.Missions().empty()) backToLive();  // the last one was closed
