@@ -57,9 +57,10 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
       ->capture_default_str()
       ->group(kGroup);
   command
-      .add_option("--cloud", arguments.cloud_file,
-                  "Point cloud, in metres: PLY, PCD, .bin of four floats a point, or text. Regions and "
-                  "robot_from_object of the answer are in the cloud's own frame")
+      .add_option(
+          "--cloud", arguments.cloud_file,
+          "Point cloud, in metres: PLY, PCD, .bin of four floats a point, or text. Regions and "
+          "robot_from_object of the answer are in the cloud's own frame")
       ->group(kGroup);
   command
       .add_option("--viewpoint", arguments.viewpoint,

@@ -56,8 +56,8 @@ void AddFitArguments(CLI::App& command, FitArguments& arguments);
 /// Options that contradict each other or lack one another. Fails with kInvalidOptions.
 Status CheckFitArguments(const FitArguments& arguments);
 
-/// Against gravity in the frame that regions and answers are in, length 1: z, or what --up says of a
-/// cloud's frame.
+/// Against gravity in the frame that regions and answers are in, length 1: z, or what --up says of
+/// a cloud's frame.
 Eigen::Vector3d UpOf(const FitArguments& arguments);
 
 /// The region on the picture at `motor_rad`. Fails with kInvalidOptions: none, or no region.

@@ -4,9 +4,9 @@
 
 #include "core/depth/depth_method.h"
 #include "core/geometry/angles.h"
+#include "core/io/cloud_table.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
-#include "core/io/cloud_table.h"
 #include "core/pictures/cloud_picture.h"
 #include "core/pictures/depth_picture.h"
 #include "core/pictures/detection_picture.h"
@@ -63,7 +63,8 @@ Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
     FORESIGHT_TRY(subject.rig.robot_from_base, CloudFromBase(arguments.up));
   }
   const auto base_from_robot = subject.rig.robot_from_base.Inverse();
-  for (const Eigen::Vector3d& point : cloud.points) subject.points.push_back(base_from_robot * point);
+  for (const Eigen::Vector3d& point : cloud.points)
+    subject.points.push_back(base_from_robot * point);
   subject.viewpoint = base_from_robot * Eigen::Vector3d(arguments.viewpoint.data());
   // Where points of several scans were put together, their numbers are no grid.
   auto places = GridOfTable(cloud, subject.points, subject.viewpoint);
@@ -193,8 +194,7 @@ Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, 
   if (!subject.depth_m.empty())
     return RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad, subject.roi,
                           arguments.density, box_rays);
-  if (!subject.scan)
-    return RaysInCloudOf(subject, arguments, box_rays);
+  if (!subject.scan) return RaysInCloudOf(subject, arguments, box_rays);
   if (arguments.source == "raw")
     return RaysInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi, box_rays);
   FORESIGHT_TRY(const DepthResult depth, DepthFor(subject, arguments, arguments.source, context));

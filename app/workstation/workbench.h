@@ -19,8 +19,8 @@
 #include "ui/viewmodels/robot_fit_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/send_pose_model.h"
-#include "ui/viewmodels/timeline_model.h"
 #include "ui/viewmodels/side_results_model.h"
+#include "ui/viewmodels/timeline_model.h"
 
 namespace foresight {
 

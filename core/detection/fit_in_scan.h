@@ -64,12 +64,11 @@ Result<RaySet> RaysInDepthMap(const DepthImage& masked_depth_m, const SensorRig&
                               double motor_rad, const Roi& roi, double density,
                               BoxRays box_rays = BoxRays::kEndInside);
 
-/// The rays of a cloud that comes without a scan, with the noise as it is measured in the region; 10
-/// mm where it cannot be told. `sigma_m` says it instead. Fails as RaysFromCloud does.
+/// The rays of a cloud that comes without a scan, with the noise as it is measured in the region;
+/// 10 mm where it cannot be told. `sigma_m` says it instead. Fails as RaysFromCloud does.
 Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPlaces& places,
                            const Eigen::Vector3d& viewpoint, const SensorRig& rig, const Roi& roi,
-                           std::optional<double> sigma_m,
-                           BoxRays box_rays = BoxRays::kEndInside);
+                           std::optional<double> sigma_m, BoxRays box_rays = BoxRays::kEndInside);
 
 /// The fit that belongs to the options. Fails as FitValve, FitDrill and FitTerrain do.
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,

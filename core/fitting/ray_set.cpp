@@ -203,8 +203,8 @@ Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
     const Eigen::Vector3d sight = point - viewpoint;
     const double range = sight.norm();
     if (!(range > 0.0) || !region.Holds(viewpoint, point)) continue;
-    const Eigen::Vector2i cell = on_grid ? Eigen::Vector2i(places->beam[i], places->line[i])
-                                         : Eigen::Vector2i::Constant(-1);
+    const Eigen::Vector2i cell =
+        on_grid ? Eigen::Vector2i(places->beam[i], places->line[i]) : Eigen::Vector2i::Constant(-1);
     set.rays.push_back({viewpoint, sight / range, range, cell});
   }
   if (set.rays.empty())

@@ -112,9 +112,9 @@ constexpr std::array kTables2 = {kMeta,           kCalibration, kScan,      kLin
 constexpr std::array kTables3 = {kMeta,  kCalibration, kScan,       kLine,           kMotor,
                                  kImage, kImageData,   kDetection2, kDetectionEvent, kDepth,
                                  kEvent, kThumbnail,   kGivenLine};
-constexpr std::array kTables4 = {kMeta,  kCalibration, kScan,       kLine,           kMotor,
-                                 kImage, kImageData,   kDetection2, kDetectionEvent, kDepth,
-                                 kEvent, kThumbnail,   kGivenLine,  kNote};
+constexpr std::array kTables4 = {
+    kMeta,       kCalibration,    kScan,  kLine,  kMotor,     kImage,     kImageData,
+    kDetection2, kDetectionEvent, kDepth, kEvent, kThumbnail, kGivenLine, kNote};
 
 std::span<const Table> TablesOf(int format) {
   if (format == 1) return kTables1;

@@ -60,6 +60,14 @@ struct MeasureCleanUp {
   }
 };
 
+/// The review has a panel of each kind of its own.
+template <class Panel>
+Panel* PanelInSight() {
+  for (Panel* panel : running->window().findChildren<Panel*>())
+    if (panel->isVisible()) return panel;
+  return nullptr;
+}
+
 TEST_F(Workstation, TwoClicksInTheCloudAreADistanceWithItsLabel) {
   const MeasureCleanUp clean_up;
   Cloud()->ResetView();
@@ -107,7 +115,7 @@ TEST_F(Workstation, ChoosingAMeasurementInTheListTurnsTheCloudAboutIt) {
   ASSERT_EQ(Session().Notes()->All().size(), 1u);
   Cloud()->ResetView();
   ASSERT_TRUE(running->bench().commands.Run("view.notes"));
-  auto* panel = running->window().findChild<NotesPanel*>();
+  auto* panel = PanelInSight<NotesPanel>();
   ASSERT_NE(panel, nullptr);
   ASSERT_EQ(panel->List()->count(), 1);
   Q_EMIT panel->List()->itemClicked(panel->List()->item(0));
@@ -119,7 +127,7 @@ TEST_F(Workstation, ChoosingAMeasurementInTheListTurnsTheCloudAboutIt) {
 TEST_F(Workstation, ANoteThatIsTypedIsListedWithItsTags) {
   const MeasureCleanUp clean_up;
   ASSERT_TRUE(running->bench().commands.Run("view.notes"));
-  auto* panel = running->window().findChild<NotesPanel*>();
+  auto* panel = PanelInSight<NotesPanel>();
   ASSERT_NE(panel, nullptr);
   EXPECT_FALSE(panel->AddButton()->isEnabled());
   panel->Text()->setText(QStringLiteral("the rim is bent"));
@@ -170,7 +178,7 @@ TEST_F(Workstation, AMapIsShownInTheColoursOfItsScansAndLeavesTheScanAlone) {
   running->Settle();
   EXPECT_GT(FractionOf(CloudPixels(), of_first_scan), before + 0.05);
   ASSERT_TRUE(running->bench().commands.Run("view.map"));
-  auto* panel = running->window().findChild<MapPanel*>();
+  auto* panel = PanelInSight<MapPanel>();
   ASSERT_NE(panel, nullptr);
   EXPECT_EQ(panel->Scans()->count(), static_cast<int>(running->bench().recording.Scans().size()));
   // Nothing is measured in a map.

@@ -1,4 +1,5 @@
-// `foresightctl fit --cloud` on clouds of scans that were made here: what a cloud says equals what its mission says.
+// `foresightctl fit --cloud` on clouds of scans that were made here: what a cloud says equals what
+// its mission says.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -70,13 +71,12 @@ class FitOfACloud : public testing::Test {
 TEST_F(FitOfACloud, ADrillIsFoundWhereTheCloudsUpIsWhatUpSays) {
   Scan("drill.yaml");
   const Eigen::Vector3d center(1.3, 0.1, 1.1), size(0.4, 0.4, 0.4);
-  const auto here = nlohmann::json::parse(
-      Ctl({"fit", "drill", mission_, Box(center, size), "--json"}).output);
+  const auto here =
+      nlohmann::json::parse(Ctl({"fit", "drill", mission_, Box(center, size), "--json"}).output);
   ASSERT_TRUE(here.contains("best")) << here.dump();
-  const ProgramResult result =
-      Ctl({"fit", "drill", "--cloud", turned_, "--up", "0,-1,0", "--viewpoint",
-           Numbers(CameraLikeFromRobot() * head_), Box(CameraLikeFromRobot() * center, size),
-           "--json"});
+  const ProgramResult result = Ctl({"fit", "drill", "--cloud", turned_, "--up", "0,-1,0",
+                                    "--viewpoint", Numbers(CameraLikeFromRobot() * head_),
+                                    Box(CameraLikeFromRobot() * center, size), "--json"});
   const auto there = nlohmann::json::parse(result.output);
   ASSERT_TRUE(there.contains("best")) << result.output;
   EXPECT_NE(there["verdict"], "UNSURE") << there["reason"];
@@ -94,14 +94,14 @@ TEST_F(FitOfACloud, BlocksAreFoundWhereTheCloudsUpIsWhatUpSays) {
     return count;
   };
   const Eigen::Vector3d center(1.5, 0.0, 0.2), size(1.6, 2.0, 0.8);
-  const auto here = nlohmann::json::parse(
-      Ctl({"fit", "terrain", mission_, Box(center, size), "--json"}).output);
+  const auto here =
+      nlohmann::json::parse(Ctl({"fit", "terrain", mission_, Box(center, size), "--json"}).output);
   ASSERT_GE(blocks(here), 2) << here.dump();
-  const ProgramResult result = Ctl(
-      {"fit", "terrain", "--cloud", turned_, "--up", "0,-1,0", "--viewpoint",
-       Numbers(CameraLikeFromRobot() * head_),
-       Box(CameraLikeFromRobot() * center, Eigen::Vector3d(size.y(), size.z(), size.x())),
-       "--json"});
+  const ProgramResult result =
+      Ctl({"fit", "terrain", "--cloud", turned_, "--up", "0,-1,0", "--viewpoint",
+           Numbers(CameraLikeFromRobot() * head_),
+           Box(CameraLikeFromRobot() * center, Eigen::Vector3d(size.y(), size.z(), size.x())),
+           "--json"});
   EXPECT_GE(blocks(nlohmann::json::parse(result.output)), 2) << result.output;
 }
 
@@ -114,18 +114,17 @@ TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
   // The wheel of 3 spokes stands 60 mm before the wall; nothing of the wall lies in the box.
   const std::string box = "--box=1.463,0.031,1.380,0.06,0.46,0.46";
   for (const std::vector<std::string>& subject :
-       {std::vector<std::string>{mission_},
-        {"--cloud", cloud_, "--viewpoint", Numbers(head_)}}) {
+       {std::vector<std::string>{mission_}, {"--cloud", cloud_, "--viewpoint", Numbers(head_)}}) {
     std::vector<std::string> arguments = {"fit", "valve", box, "--json"};
     arguments.insert(arguments.end(), subject.begin(), subject.end());
     const ProgramResult result = Ctl(arguments);
     const auto answer = nlohmann::json::parse(result.output);
     ASSERT_TRUE(answer.contains("best")) << result.output;
     EXPECT_EQ(answer["best"]["model"]["spokes"], 3) << subject.front();
-    EXPECT_LT((PositionIn(answer["best"]["robot_from_object"]) -
-               Eigen::Vector3d(1.463, 0.031, 1.380))
-                  .norm(),
-              0.010)
+    EXPECT_LT(
+        (PositionIn(answer["best"]["robot_from_object"]) - Eigen::Vector3d(1.463, 0.031, 1.380))
+            .norm(),
+        0.010)
         << subject.front();
     EXPECT_NE(answer["verdict"], "UNSURE") << subject.front() << " " << answer["reason"];
   }

@@ -90,8 +90,8 @@ void SideResultsModel::List() {
   if (!scan || !mission) return;
   lister_.Run<std::vector<ResultRow>>(
       tr("Listing the side results"),
-      [scan, mission, folder = ReviewFolder()](
-          const RunContext&) -> Result<std::vector<ResultRow>> {
+      [scan, mission,
+       folder = ReviewFolder()](const RunContext&) -> Result<std::vector<ResultRow>> {
         FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission->path(), folder));
         return RowsOf(*mission, review.get(), *scan);
       },
@@ -158,9 +158,8 @@ void SideResultsModel::Start(const QString& name, const std::optional<std::strin
   for (const auto& [kind, options] : fit_->Chosen())
     if (!options.empty()) settings.fit[kind] = options;
   const auto scan = session_->CurrentScan();
-  const auto work =
-      [scan, settings, rig_file, mission = review_->File(),
-       folder = ReviewFolder()](const RunContext& context) -> Result<Made> {
+  const auto work = [scan, settings, rig_file, mission = review_->File(),
+                     folder = ReviewFolder()](const RunContext& context) -> Result<Made> {
     Made made{settings, {}};
     if (rig_file) {
       FORESIGHT_TRY(made.settings.rig, LoadSensorRig(*rig_file));
@@ -238,9 +237,8 @@ void SideResultsModel::compare() {
   const std::optional<std::int64_t> image =
       session_->ImageIndex() >= 0 ? std::optional<std::int64_t>(session_->ImageIndex())
                                   : std::nullopt;
-  const auto work =
-      [a = *a_, b = *b_, image, shown = scan_,
-       folder = ReviewFolder()](const RunContext& context) -> Result<Compared> {
+  const auto work = [a = *a_, b = *b_, image, shown = scan_,
+                     folder = ReviewFolder()](const RunContext& context) -> Result<Compared> {
     // The image that is shown is one of the scan that is shown.
     const auto image_of = [&](const ResultRow& row) {
       return row.scan == shown ? image : std::nullopt;

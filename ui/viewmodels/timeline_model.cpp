@@ -23,7 +23,8 @@ void TimelineModel::Read() {
   reader_.Run<MissionTimeline>(
       tr("Reading the timeline"),
       [mission = mission_](const RunContext&) -> Result<MissionTimeline> {
-        FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission->path(), ReviewFolder()));
+        FORESIGHT_TRY(const auto review,
+                      MissionFile::FindReviewOf(mission->path(), ReviewFolder()));
         return ReadTimeline(*mission, review.get());
       },
       [this, mission = mission_](Result<MissionTimeline> read) {

@@ -105,7 +105,7 @@ TEST_F(ExportMissionTest, EveryPartIsThereAndNothingIsLeftOver) {
     if (entry.is_regular_file())
       there.push_back(std::filesystem::relative(entry.path(), *folder_ / "out"));
   EXPECT_THAT(there, testing::UnorderedElementsAreArray(report_.files));
-  EXPECT_EQ(there.size(), 3u + 1u + 1u + 5u + 4u + 3u + 5u)
+  EXPECT_EQ(there.size(), 4u + 1u + 1u + 5u + 4u + 3u + 5u)
       << "tables, bag, image, rig and cameras, clouds with scan.json, surfaces, depth";
 }
 

@@ -125,6 +125,7 @@ TEST_F(NotesTest, AMissionOfFormat2TakesNotesAndKeepsItsScans) {
   {
     auto database = SqliteDatabase::Open(path, SqliteDatabase::Mode::kReadWrite).value();
     ASSERT_TRUE(database.Run("DROP TABLE note"));
+    ASSERT_TRUE(database.Run("DROP TABLE given_line"));
     ASSERT_TRUE(database.Run("PRAGMA user_version = 2"));
   }
   EXPECT_THAT(NotesIn(path), IsEmpty());
