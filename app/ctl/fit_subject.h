@@ -6,6 +6,7 @@
 
 #include "app/ctl/fit_arguments.h"
 #include "core/detection/outline.h"
+#include "core/registration/recover_grid.h"
 #include "core/registration/register_scan.h"
 
 namespace foresight {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/geometry/angles.h"
+#include "core/registration/recover_grid.h"
 
 namespace foresight {
 namespace {

@@ -7,11 +7,12 @@
 
 #include "core/depth/upsample.h"
 #include "core/fitting/roi.h"
-#include "core/registration/recover_grid.h"
 #include "core/registration/register_scan.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
+
+struct GridPlaces;
 
 /// One measurement with the line of sight it was made along.
 struct RangeRay {

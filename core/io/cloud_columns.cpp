@@ -86,7 +86,8 @@ std::vector<double> ValuesFromColumn(std::string_view block, const CloudColumn& 
 Result<std::vector<std::vector<double>>> ColumnsFromText(std::string_view text,
                                                          std::span<const std::size_t> wanted,
                                                          std::size_t fields, std::size_t count,
-                                                         const std::string& source) {
+                                                         const std::string& source,
+                                                         const std::vector<bool>& needed) {
   std::vector<std::vector<double>> columns(wanted.size());
   for (std::size_t point = 0; point < count;) {
     const auto line = TakeLine(text);
@@ -99,10 +100,10 @@ Result<std::vector<std::vector<double>>> ColumnsFromText(std::string_view text,
                   words.size(), fields);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const auto value = ParseNumber(words[wanted[i]]);
-      if (!value)
+      if (!value && (needed.empty() || needed[i]))
         return Fail(ErrorCode::kBadData, "{}: point {}: '{}' is not a number", source, point,
                     words[wanted[i]].substr(0, 32));
-      columns[i].push_back(*value);
+      columns[i].push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     ++point;
   }

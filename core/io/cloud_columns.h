@@ -34,10 +34,16 @@ std::vector<double> ValuesFromColumn(std::string_view block, const CloudColumn& 
                                      std::size_t count, bool big_endian);
 
 /// Numbers written out: `count` rows of `fields` words each; the columns `wanted`, in their order.
+/// A word that is no number is an error in the columns that are `needed` (empty: in all), NaN
+/// elsewhere.
 Result<std::vector<std::vector<double>>> ColumnsFromText(std::string_view text,
                                                          std::span<const std::size_t> wanted,
                                                          std::size_t fields, std::size_t count,
-                                                         const std::string& source);
+                                                         const std::string& source,
+                                                         const std::vector<bool>& needed = {});
+the columns `wanted`, in their order.Result<std::vector<std::vector<double>>> ColumnsFromText(
+                          std::string_view text, std::span<const std::size_t> wanted,
+                          std::size_t fields, std::size_t count, const std::string&source);
 
 /// Points from numbers written out: `count` rows of `fields` words each, of which `xyz` are wanted.
 Result<std::vector<Eigen::Vector3d>> PointsFromText(std::string_view text,

@@ -176,6 +176,15 @@ bool IsCloudColumn(std::string_view name) {
   return MeaningOf(name).has_value();
 }
 
+std::vector<bool> WhichAreCoordinates(const std::vector<NamedColumn>& columns) {
+  std::vector<bool> coordinates;
+  for (const NamedColumn& column : columns) {
+    const auto meaning = MeaningOf(column.name);
+    coordinates.push_back(meaning && *meaning <= Meaning::kZ);
+  }
+  return coordinates;
+}
+
 Status TakeColumns(std::vector<NamedColumn> columns, CloudTable& table, const std::string& source) {
   std::array<bool, 3> has_axis{};
   for (NamedColumn& column : columns) {

@@ -43,6 +43,8 @@ struct NamedColumn {
 Status TakeColumns(std::vector<NamedColumn> columns, CloudTable& table, const std::string& source);
 /// Whether TakeColumns knows what to do with a column of this name.
 bool IsCloudColumn(std::string_view name);
+/// Which of the columns are x, y or z: a point without one of them is none.
+std::vector<bool> WhichAreCoordinates(const std::vector<NamedColumn>& columns);
 
 /// PLY and PCD as ReadPointCloud reads them, with more of their fields.
 Result<CloudTable> DecodePlyTable(std::string_view bytes, const std::string& source);

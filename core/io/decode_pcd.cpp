@@ -256,8 +256,9 @@ Result<std::vector<NamedColumn>> KnownColumns(const Header& header, std::string_
     const std::vector<std::size_t> first = WordsOfFields(header, words);
     std::vector<std::size_t> wanted;
     for (const std::size_t field : fields) wanted.push_back(first[field]);
-    FORESIGHT_TRY(std::vector<std::vector<double>> values,
-                  ColumnsFromText(bytes, wanted, words, header.points, source));
+    FORESIGHT_TRY(
+        std::vector<std::vector<double>> values,
+        ColumnsFromText(bytes, wanted, words, header.points, source, WhichAreCoordinates(columns)));
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values = std::move(values[i]);
     return columns;
   }

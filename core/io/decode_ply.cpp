@@ -181,7 +181,8 @@ Result<std::vector<NamedColumn>> KnownColumns(const Element& vertex, Format form
   }
   if (format == Format::kAscii) {
     FORESIGHT_TRY(std::vector<std::vector<double>> values,
-                  ColumnsFromText(rest, wanted, vertex.properties.size(), vertex.count, source));
+                  ColumnsFromText(rest, wanted, vertex.properties.size(), vertex.count, source,
+                                  WhichAreCoordinates(columns)));
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values = std::move(values[i]);
   } else {
     for (std::size_t i = 0; i < columns.size(); ++i)

@@ -115,5 +115,16 @@ TEST(CloudTable, WhatIsNoCloudIsRefusedByName) {
     EXPECT_THAT(why(name), HasSubstr(name));
 }
 
+TEST(CloudTable, AWordThatIsNoNumberIsAnErrorInACoordinateOnly) {
+  const std::string header =
+      "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+      "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
+  const auto table = DecodePcdTable(header + "1 2 3 40\n1 2 4 dim\n", "dim.pcd");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->intensity[0], 40.0f);
+  EXPECT_TRUE(std::isnan(table->intensity[1]));
+  EXPECT_FALSE(DecodePcdTable(header + "1 2 3 40\n1 2 far 40\n", "far.pcd"));
+}
+
 }  // namespace
 }  // namespace foresight
