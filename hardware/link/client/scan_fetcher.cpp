@@ -20,7 +20,8 @@ constexpr std::int64_t kMostWaiting = std::int64_t{80} << 20;
 constexpr double kRetry_s = 0.25;     ///< after the link broke
 constexpr double kRetryDisk_s = 2.0;  ///< after this computer's disk did not take something
 constexpr double kEarlyEvery_s = 0.3;
-constexpr double kConfirm_s = 5.0;  ///< for the head's answer that it heard of the end
+constexpr double kLastWord_s = 2.0;  ///< for the word that all is here, at a program's end
+constexpr double kConfirm_s = 5.0;   ///< for the head's answer that it heard of the end
 /// A sign of life and its answer, 300 bytes with all that is around them, take 0.25 s at 9600
 /// bit/s.
 constexpr double kWideRoundTrip_s = 0.12;
@@ -74,6 +75,10 @@ ScanFetcher::ScanFetcher(LinkSession& session, Options options)
 }
 
 ScanFetcher::~ScanFetcher() {
+  // Who ends as soon as a scan's end is here still tells the head that it has all of it.
+  const double end_s = LinkSession::Now() + kLastWord_s;
+  while (ending_ && session_.Connected() && LinkSession::Now() < end_s)
+    std::this_thread::sleep_for(kWatch);
   thread_ = {};
   for (auto& [id, scan] : scans_)
     EndSink(*scan, ScanState::kInterrupted,
@@ -292,6 +297,7 @@ void ScanFetcher::Work(const std::stop_token& stop) {
     if (scan->sink) EndSinksOfOthers(*scan);
     SetComing(scan->header.uuid);
     const Status fetched = Bring(*scan, stop);
+    ending_ = false;
     SetComing("");
     if (fetched && scan->transfer && scan->transfer->TakeMistakenRig()) continue;
     if (fetched && std::exchange(again_, false)) continue;
@@ -511,6 +517,7 @@ Status ScanFetcher::TakeIn(Fetched& scan, std::int64_t most_waiting, std::int64_
     // What could not be read is to come again.
     if (!scan.transfer->TakeInNext() && options_.burst)
       options_.burst->SetHave(scan.transfer->Have());
+    if (scan.transfer->builder().Progress().complete) ending_ = true;
     if (scan.sink) scan.transfer->builder().DeliverTo(*scan.sink);
   }
   Show(scan, left_bytes);

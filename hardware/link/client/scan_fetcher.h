@@ -130,6 +130,8 @@ class ScanFetcher {
   TransferRate rate_;
   double early_s_ = 0.0;  ///< of the thread alone, as what follows
   SilenceWatch silence_;
+  std::atomic<bool> ending_ =
+      false;            ///< the last of a scan is here, and the head does not know yet
   bool again_ = false;  ///< a stream is to begin at once: on a fresh connection, or with less here
   std::atomic<bool> thin_{false};  ///< the path is known to be thin: only what is small may travel
   std::jthread thread_;            ///< last: starts when everything else is there
