@@ -63,7 +63,7 @@ struct MeasureCleanUp {
 /// The review has a panel of each kind of its own.
 template <class Panel>
 Panel* PanelInSight() {
-  for (Panel* panel : running->window().findChildren<Panel*>())
+  for (Panel* panel : Workstation::running->window().findChildren<Panel*>())
     if (panel->isVisible()) return panel;
   return nullptr;
 }
