@@ -41,9 +41,6 @@ Result<std::vector<std::vector<double>>> ColumnsFromText(std::string_view text,
                                                          std::size_t fields, std::size_t count,
                                                          const std::string& source,
                                                          const std::vector<bool>& needed = {});
-the columns `wanted`, in their order.Result<std::vector<std::vector<double>>> ColumnsFromText(
-                          std::string_view text, std::span<const std::size_t> wanted,
-                          std::size_t fields, std::size_t count, const std::string&source);
 
 /// Points from numbers written out: `count` rows of `fields` words each, of which `xyz` are wanted.
 Result<std::vector<Eigen::Vector3d>> PointsFromText(std::string_view text,
