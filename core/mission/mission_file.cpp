@@ -460,7 +460,16 @@ Result<std::unique_ptr<MissionFile>> MissionFile::FindReviewOf(
 Result<std::unique_ptr<MissionFile>> MissionFile::OpenReviewOf(
     const std::filesystem::path& mission, const std::filesystem::path& folder) {
   FORESIGHT_TRY(const std::filesystem::path path, ReviewPathOf(mission, folder));
-  if (!Exists(path)) return MakeNew(path, OpenHow::kCreateReview);
+  if (!Exists(path)) {
+    // Who looks for the review meanwhile finds none, or a whole one.
+    const std::filesystem::path part = Neighbour(path, ".part");
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    FORESIGHT_TRY(std::unique_ptr<MissionFile> made, MakeNew(part, OpenHow::kCreateReview));
+    FORESIGHT_CHECK(made->Close());
+    made.reset();
+    FORESIGHT_CHECK(PublishFile(part, path));
+  }
   FORESIGHT_TRY(std::unique_ptr<MissionFile> review, Open(path));
   if (!review->IsReview())
     return Fail(ErrorCode::kBadData, "{}: is a mission, not the review of one", path.string());

@@ -64,7 +64,8 @@ TEST_F(SideResultsModelTest, ARunWithoutANameGetsOneAndIsListedBesideTheOriginal
   results.RunAgain("  ");
   results.RunAgain("mine");
   ASSERT_TRUE(Settled());
-  ASSERT_TRUE(WaitFor([this] { return results.Rows().size() == 3; }));
+  ASSERT_TRUE(WaitFor([this] { return results.Rows().size() == 3; }))
+      << (notices.empty() ? "nothing was said" : notices.back().what.toStdString());
   EXPECT_EQ(results.Rows()[1].name, "Run 1");
   EXPECT_EQ(results.Rows()[2].name, "mine");
   EXPECT_FALSE(results.Rows()[1].author.isEmpty());
