@@ -458,6 +458,8 @@ void MainWindow::BuildDocks() {
   centre->setCurrentIndex(0);
   comparison_dock_->toggleView(false);
   results_dock_->toggleView(false);
+  notes_dock_->toggleView(false);
+  map_dock_->toggleView(false);
   log->toggleView(false);
   gallery_dock_->toggleView(false);
   search_dock_->toggleView(false);
