@@ -44,7 +44,7 @@ SideResultsPanel::SideResultsPanel(SideResultsModel* model, CommandTable* comman
   BindButton(add, commands, "results.add_mission");
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(6);
-  for (QPushButton* button : {run, with_rig, add}) buttons->addWidget(button);
+  for (QPushButton* button : {with_rig, add}) buttons->addWidget(button);
   auto* words = WordsLabel("faint");
   words->setText(
       tr("A run makes all depth maps and fits of this scan again, with the options that are set "
@@ -59,6 +59,7 @@ SideResultsPanel::SideResultsPanel(SideResultsModel* model, CommandTable* comman
   layout->setSpacing(6);
   layout->addWidget(words);
   layout->addWidget(name_);
+  layout->addWidget(run);
   layout->addLayout(buttons);
   layout->addWidget(state_);
   cards_->setSpacing(6);
