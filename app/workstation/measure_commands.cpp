@@ -52,6 +52,7 @@ void AddMeasureCommands(Workbench* bench) {
   const auto notes = [bench]() -> NotesModel& { return *bench->Shown().session.Notes(); };
   bench->commands.Add({.id = "measure.tool",
                        .menu = "measure",
+                       .icon = "measure",
                        .text = MeasureCommands::tr("Measure"),
                        .tip = MeasureCommands::tr("Click measured points in cloud, depth or image"),
                        .keys = QStringLiteral("L"),
