@@ -46,7 +46,7 @@ Result<ExitCode> Depth(const DepthCommandArguments& arguments, const RunContext&
   FORESIGHT_CHECK(WriteDepthFiles(result, arguments.out));
   FORESIGHT_CHECK(WriteChangeChart(result.dense, arguments.out));
   const std::filesystem::path folder(arguments.out);
-  FORESIGHT_CHECK(WritePng(folder / "image.png", opened.frame.image));
+  FORESIGHT_CHECK(WritePng(folder / "image.png", opened.frame.image, PngContent::kCapture));
   FORESIGHT_CHECK(WriteCsvSamples(folder / "samples.csv", ExportSamples(result.samples)));
   FORESIGHT_CHECK(SaveSensorRig(opened.scan.rig, folder / "rig.yaml"));
   const std::size_t count = result.samples.samples.size();

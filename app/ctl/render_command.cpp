@@ -60,7 +60,7 @@ Result<ExitCode> Render(const RenderArguments& arguments, const RunContext& cont
 
   FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
   const std::filesystem::path folder(arguments.out);
-  FORESIGHT_CHECK(WritePng(folder / "image.png", frame.image));
+  FORESIGHT_CHECK(WritePng(folder / "image.png", frame.image, PngContent::kCapture));
   FORESIGHT_CHECK(WritePfm(folder / "depth.pfm", depth_mm));
   FORESIGHT_CHECK(SaveSensorRig(rig, folder / "rig.yaml"));
   if (!arguments.json) {

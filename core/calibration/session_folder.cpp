@@ -142,7 +142,7 @@ Status SessionFolder::SetBoards(const BoardMount& mount, const CalibrationBoard&
 Result<SessionCapture> SessionFolder::AddIntrinsicImage(const ColorImage& image,
                                                         const std::string& origin) {
   FORESIGHT_CHECK(CheckImageSize(image.width(), image.height(), origin));
-  FORESIGHT_TRY(const std::string bytes, EncodePng(image));
+  FORESIGHT_TRY(const std::string bytes, EncodePng(image, PngContent::kCapture));
   return AddIntrinsicBytes(bytes, ".png", origin);
 }
 
@@ -195,7 +195,7 @@ Result<SessionCapture> SessionFolder::AddStop(int pose, const RecordedStop& stop
   if (stop.image) {
     FORESIGHT_CHECK(CheckImageSize(stop.image->width(), stop.image->height(), what));
     entry.view.image = name + ".png";
-    FORESIGHT_CHECK(WritePng(folder_ / entry.view.image, *stop.image));
+    FORESIGHT_CHECK(WritePng(folder_ / entry.view.image, *stop.image, PngContent::kCapture));
   }
   if (!stop.lines.empty()) {
     entry.lines = name + "_lines.csv";

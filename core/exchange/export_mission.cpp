@@ -168,8 +168,9 @@ class Exporter {
 
   Status WriteImages(const Scan& scan, const Path& sub) {
     for (std::size_t i = 0; i < scan.frames.size(); ++i)
-      FORESIGHT_CHECK(Put(sub / fmt::format("image-{}.png", i),
-                          [&](const Path& path) { return WritePng(path, scan.frames[i].image); }));
+      FORESIGHT_CHECK(Put(sub / fmt::format("image-{}.png", i), [&](const Path& path) {
+        return WritePng(path, scan.frames[i].image, PngContent::kCapture);
+      }));
     return {};
   }
 

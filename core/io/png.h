@@ -25,13 +25,20 @@ Result<ColorImage> DecodePng(std::string_view bytes, const std::string& source);
 Result<GrayImage> DecodePngGray(std::string_view bytes, const std::string& source);
 Result<Image<std::uint16_t>> DecodePng16(std::string_view bytes, const std::string& source);
 
+/// What a PNG is of. Both are lossless; each makes the other's files larger.
+enum class PngContent {
+  kDrawing,  ///< areas of one colour, which repeat: lines, maps, text
+  kCapture,  ///< what a camera saw, with its noise
+};
+
 /// Lossless. Fails with kInvalidInput for an empty image or a side longer than 20000 pixels.
-Result<std::string> EncodePng(const ColorImage& image);
+Result<std::string> EncodePng(const ColorImage& image, PngContent content = PngContent::kDrawing);
 Result<std::string> EncodePng(const GrayImage& image);
 Result<std::string> EncodePng16(const Image<std::uint16_t>& image);
 
 /// Encodes and writes the whole file or nothing.
-Status WritePng(const std::filesystem::path& path, const ColorImage& image);
+Status WritePng(const std::filesystem::path& path, const ColorImage& image,
+                PngContent content = PngContent::kDrawing);
 Status WritePng(const std::filesystem::path& path, const GrayImage& image);
 Status WritePng16(const std::filesystem::path& path, const Image<std::uint16_t>& image);
 

@@ -1,4 +1,5 @@
 #include <png.h>
+#include <zlib.h>
 
 #include <array>
 #include <bit>
@@ -51,7 +52,21 @@ void OnFlush(png_structp) {}
 struct Layout {
   int color_type;
   int bit_depth;
+  PngContent content = PngContent::kDrawing;
 };
+
+/// What is written does not repeat in a capture: only how often a difference occurs helps, and its
+/// means of two neighbours have less noise than one. An image of 1288 x 964 is an eighth smaller
+/// and takes 36 ms instead of 93 (chunks_benchmark).
+void ChooseCompression(png_structp png, PngContent content) {
+  png_set_compression_level(png, kCompressionLevel);
+  if (content == PngContent::kDrawing) {
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
+    return;
+  }
+  png_set_compression_strategy(png, Z_RLE);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_AVG);
+}
 
 bool WriteRows(Encoder& encoder, int width, int height, Layout layout, png_bytepp rows) {
   encoder.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, OnError, OnWarning);
@@ -60,8 +75,7 @@ bool WriteRows(Encoder& encoder, int width, int height, Layout layout, png_bytep
   encoder.info = png_create_info_struct(encoder.png);
   if (encoder.info == nullptr) return false;
   png_set_write_fn(encoder.png, &encoder, OnWrite, OnFlush);
-  png_set_compression_level(encoder.png, kCompressionLevel);
-  png_set_filter(encoder.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
+  ChooseCompression(encoder.png, layout.content);
   png_set_IHDR(encoder.png, encoder.info, static_cast<png_uint_32>(width),
                static_cast<png_uint_32>(height), layout.bit_depth, layout.color_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -91,8 +105,8 @@ Result<std::string> Encode(const Image<Pixel>& image, Layout layout) {
 
 }  // namespace
 
-Result<std::string> EncodePng(const ColorImage& image) {
-  return Encode(image, {PNG_COLOR_TYPE_RGB, 8});
+Result<std::string> EncodePng(const ColorImage& image, PngContent content) {
+  return Encode(image, {PNG_COLOR_TYPE_RGB, 8, content});
 }
 
 Result<std::string> EncodePng(const GrayImage& image) {
@@ -103,8 +117,8 @@ Result<std::string> EncodePng16(const Image<std::uint16_t>& image) {
   return Encode(image, {PNG_COLOR_TYPE_GRAY, 16});
 }
 
-Status WritePng(const std::filesystem::path& path, const ColorImage& image) {
-  FORESIGHT_TRY(const std::string bytes, EncodePng(image));
+Status WritePng(const std::filesystem::path& path, const ColorImage& image, PngContent content) {
+  FORESIGHT_TRY(const std::string bytes, EncodePng(image, content));
   return WriteFileAtomically(path, bytes);
 }
 

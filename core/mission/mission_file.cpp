@@ -543,7 +543,7 @@ Status MissionFile::AppendMotorSamples(std::int64_t scan_id, std::span<const Mot
 
 Status MissionFile::AppendFrame(std::int64_t scan_id, const CameraFrame& frame) {
   // Before the lock: it takes as long as a line's period.
-  FORESIGHT_TRY(const std::string png, EncodePng(frame.image));
+  FORESIGHT_TRY(const std::string png, EncodePng(frame.image, PngContent::kCapture));
   std::string thumbnail;
   if (impl_->wants_thumbnail) {
     FORESIGHT_TRY(thumbnail, ThumbnailOf(frame.image));

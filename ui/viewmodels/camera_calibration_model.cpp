@@ -303,7 +303,7 @@ void CameraCalibrationModel::AddFromHead(const ColorImage& image, double motor_r
   const auto kept = std::make_shared<const ColorImage>(image);
   const std::string name = fmt::format("head-{:+.0f}deg.png", DegreesFromRadians(motor_rad));
   Read({.file = NewFileName(name), .name = tr("the head's image").toStdString()}, false,
-       [kept] { return EncodePng(*kept); });
+       [kept] { return EncodePng(*kept, PngContent::kCapture); });
   Changed();
 }
 

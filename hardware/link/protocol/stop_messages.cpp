@@ -42,7 +42,7 @@ Result<link::StopEvent> ToMessage(int number, const StopCapture& capture) {
   if (capture.image) {
     const CameraFrame& frame = *capture.image;
     link::StopImage& image = *event.mutable_image();
-    FORESIGHT_TRY(*image.mutable_png(), EncodePng(frame.image));
+    FORESIGHT_TRY(*image.mutable_png(), EncodePng(frame.image, PngContent::kCapture));
     image.set_seq(frame.seq);
     image.set_time_s(frame.time_s);
     image.set_exposure_s(frame.exposure_s);

@@ -42,7 +42,7 @@ Result<link::ImageReply> MakeImage(ScanShelf& shelf, const link::ImageRequest& r
   if (request.largest_side_px() > 0) image = ShrinkImage(image, request.largest_side_px());
   link::ImageReply reply;
   FORESIGHT_TRY(*reply.mutable_image(), request.jpeg_quality() == 0
-                                            ? EncodePng(image)
+                                            ? EncodePng(image, PngContent::kCapture)
                                             : EncodeJpeg(image, request.jpeg_quality()));
   reply.set_motor_angle_rad(frame.motor_angle_rad);
   reply.set_full_width(frame.image.width());

@@ -45,6 +45,26 @@ TEST(Png, ColorsComeBackAsTheyWereWritten) {
   EXPECT_EQ(ReadPng(folder / "a.png").value(), image);
 }
 
+TEST(Png, ACaptureComesBackAsItWasAndIsSmallerThanAsADrawing) {
+  Random random(3);
+  ColorImage capture(320, 240);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const auto channel = [&] { return static_cast<std::uint8_t>(90 + y / 3 + random.Index(8)); };
+      capture(x, y) = {channel(), channel(), channel()};
+    }
+  const std::string bytes = EncodePng(capture, PngContent::kCapture).value();
+  EXPECT_EQ(DecodePng(bytes, "a capture").value(), capture);
+  EXPECT_LT(bytes.size(), EncodePng(capture, PngContent::kDrawing)->size());
+  ColorImage drawing(320, 240);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const auto shade = static_cast<std::uint8_t>(x * x % 31 * (y / 16 % 5));
+      drawing(x, y) = {shade, 0, static_cast<std::uint8_t>(255 - shade)};
+    }
+  EXPECT_LT(EncodePng(drawing)->size(), EncodePng(drawing, PngContent::kCapture)->size());
+}
+
 TEST(Png, GreysComeBackAsTheyWereWritten) {
   const TemporaryFolder folder;
   GrayImage image(5, 3);

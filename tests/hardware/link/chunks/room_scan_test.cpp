@@ -70,7 +70,8 @@ TEST(RoomScan, TheFirstCoarseCloudArrivesIn5SecondsOver9600BitsPerSecond) {
 }
 
 TEST(RoomScan, ALosslessImageIsSmallerThanItsPng) {
-  EXPECT_LT(BytesOf(ChunkKind::kImage), EncodePng(RoomScan().frames[0].image)->size());
+  EXPECT_LT(BytesOf(ChunkKind::kImage),
+            EncodePng(RoomScan().frames[0].image, PngContent::kCapture)->size());
   ScanToSend gray{RoomScan(), ""};
   gray.scan.frames.Edit(0).image = ColorOf(RedOf(gray.scan.frames[0].image));
   EXPECT_LT(EncodeItem(gray, {ChunkKind::kImage, 0})->size(),
