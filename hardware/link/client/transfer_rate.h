@@ -8,8 +8,9 @@
 namespace foresight {
 
 /// How fast chunks come, and how many bytes a head may send ahead of what was acknowledged. The
-/// credit doubles while the path uses it up in less than a quarter of a second, and halves where
-/// that takes more than two: what is sent ahead is what a change of mind waits for.
+/// credit grows towards what the path carries in a quarter of a second, twofold or fourfold at a
+/// time, and halves where it takes more than two: what is sent ahead is what a change of mind waits
+/// for.
 class TransferRate {
  public:
   static constexpr std::int64_t kLeastCredit = 4 * 1024;
@@ -29,7 +30,7 @@ class TransferRate {
     since_change_ += bytes;
     if (since_change_ < credit_) return;
     const double took_s = now_s - changed_s_;
-    if (took_s < 0.25) credit_ = std::min(2 * credit_, kMostCredit);
+    if (took_s < 0.25) credit_ = std::min((took_s < 0.0625 ? 4 : 2) * credit_, kMostCredit);
     if (took_s > 2.0) credit_ = std::max(credit_ / 2, kLeastCredit);
     since_change_ = 0;
   }

@@ -50,6 +50,15 @@ TEST(TransferRate, APathOfShortRoundTripsBeginsWithALargeCredit) {
   EXPECT_EQ(rate.credit(), TransferRate::kMostCredit) << "what was learned stays";
 }
 
+TEST(TransferRate, AWindowThatOpensGetsItsCreditWithinAFewHundredths) {
+  TransferRate rate;
+  rate.Begin(0.0, true);
+  double now_s = 2.0;
+  const double end_s = now_s + 0.15;
+  while (now_s < end_s) rate.Received(60'000, kMuch, now_s += 0.0016);  // 300 Mbit/s
+  EXPECT_GE(rate.credit(), 8 * TransferRate::kWideCredit);
+}
+
 TEST(TransferRate, ThePathsRateIsKnownOnlyWhereThereWasMoreToSend) {
   TransferRate rate;
   rate.Begin(0.0);
