@@ -102,6 +102,11 @@ class Sampler(threading.Thread):
             return before[1]
         return before[1] + (after[1] - before[1]) * (moment - before[0]) / (after[0] - before[0])
 
+    def wait_for(self, mbyte, deadline):
+        """Until so much has been received; without an amount until the deadline."""
+        while time.time() < deadline and (mbyte is None or not self.samples or self.samples[-1][1] < 1e6 * mbyte):
+            time.sleep(0.005)
+
     def look(self, begin, end):
         """Bytes in the window, and after how long the first five thousand were there."""
         before = self.at(begin)
@@ -199,7 +204,7 @@ def one_run(arguments, seed, folder):
         processes.append(station)
         watches = {"head": CoreWatch(head.pid), "station": CoreWatch(station.pid)}
         # The first window lasts until the sweep has begun; then the blackouts.
-        time.sleep(arguments.first_s)
+        sampler.wait_for(arguments.first_mbyte, began + arguments.first_s)
         windows = []
         while station.poll() is None and time.time() - began < arguments.limit_s:
             network.open(False)
@@ -254,6 +259,9 @@ def main():
     parser.add_argument("--shortest-s", type=float, default=1.0, help="blackout")
     parser.add_argument("--longest-s", type=float, default=30.0, help="blackout")
     parser.add_argument("--first-s", type=float, default=6.0, help="until the first blackout")
+    parser.add_argument("--first-mbyte", type=float,
+                        help="the first blackout begins when so much has come: a head takes seconds to read a scan of "
+                             "a hundred images that it has kept, and until then there is nothing to send")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for logs and missions (default: a temporary one)")
     parser.add_argument("--limit-s", type=float, default=240.0)
     arguments = parser.parse_args()

@@ -28,10 +28,12 @@ class TransferRate {
     // A blackout before the first bytes says nothing of the path.
     if (since_change_ == 0) changed_s_ = now_s;
     since_change_ += bytes;
-    if (since_change_ < credit_) return;
     const double took_s = now_s - changed_s_;
+    // A head that had less to send than it might says nothing of the path.
+    const bool slow = took_s > 2.0 && (since_change_ >= credit_ || backlog_since_s_ <= changed_s_);
+    if (since_change_ < credit_ && !slow) return;
     if (took_s < 0.25) credit_ = std::min((took_s < 0.0625 ? 4 : 2) * credit_, kMostCredit);
-    if (took_s > 2.0) credit_ = std::max(credit_ / 2, kLeastCredit);
+    if (slow) credit_ = std::max(credit_ / 2, kLeastCredit);
     since_change_ = 0;
   }
   /// A stream began: its rate is not known yet. The credit stays, for a burst of a second has no
