@@ -15,8 +15,9 @@ constexpr std::chrono::milliseconds kNoWait{0};
 constexpr std::chrono::milliseconds kPause{20};
 constexpr std::chrono::milliseconds kWatch{5};  ///< how late a fresh connection is seen
 constexpr double kPause_s = 0.020;
-/// What came and was not decoded yet: two windows of a second at 300 Mbit/s.
-constexpr std::int64_t kMostWaiting = std::int64_t{80} << 20;
+/// What came and was not decoded yet: five windows of a second at 300 Mbit/s, since an image takes
+/// longer to read than to come.
+constexpr std::int64_t kMostWaiting = std::int64_t{200} << 20;
 constexpr double kRetry_s = 0.25;     ///< after the link broke
 constexpr double kRetryDisk_s = 2.0;  ///< after this computer's disk did not take something
 constexpr double kEarlyEvery_s = 0.3;

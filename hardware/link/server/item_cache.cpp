@@ -11,6 +11,8 @@ namespace {
 constexpr std::chrono::milliseconds kTick{100};
 /// An item takes some 55 ms to make where the maker has a core.
 constexpr std::chrono::milliseconds kPatience{60};
+/// And the end 600 ms, for the digest of a scan of 400 MB.
+constexpr std::chrono::milliseconds kPatienceForTheEnd{600};
 /// After this time without a word of the station there is a blackout.
 constexpr std::chrono::milliseconds kQuiet{100};
 /// A quarter of a second at 300 Mbit/s: who sends will soon have to wait.
@@ -80,7 +82,8 @@ Result<SharedParts> ItemCache::Get(const ScanToSend& source, const ItemId& id) {
     return encode_(source, id);
   }
   // The maker may not get a core for a long time, where this computer does other work too.
-  changed_.wait_for(lock, kPatience, [&] { return making_.count(id) == 0; });
+  changed_.wait_for(lock, id.kind == ChunkKind::kEnd ? kPatienceForTheEnd : kPatience,
+                    [&] { return making_.count(id) == 0; });
   const auto found = items_.find(id);
   return found != items_.end() ? found->second.parts : Make(source, id, lock);
 }
