@@ -9,7 +9,8 @@ constexpr double kPath_s = 0.01;  ///< there and back
 
 TEST(SilenceWatch, DoubtsOnceASilence) {
   SilenceWatch watch;
-  watch.Begin(10.0);
+  watch.Begin(9.0);
+  watch.Heard(10.0);
   EXPECT_FALSE(watch.Doubts(10.3, kPath_s));
   EXPECT_TRUE(watch.Doubts(10.35, kPath_s));
   EXPECT_FALSE(watch.Doubts(10.4, kPath_s));
@@ -17,9 +18,20 @@ TEST(SilenceWatch, DoubtsOnceASilence) {
   EXPECT_FALSE(watch.Heard(10.6));
 }
 
+TEST(SilenceWatch, AHeadThatReadsALargeScanBeforeItsFirstWordCostsNoPatience) {
+  SilenceWatch watch;
+  watch.Begin(0.0);
+  EXPECT_FALSE(watch.Doubts(2.3, kPath_s));
+  EXPECT_TRUE(watch.Doubts(2.5, kPath_s)) << "it may be the connection after all";
+  watch.Begin(2.55);
+  watch.Heard(2.9);
+  EXPECT_TRUE(watch.Doubts(3.25, kPath_s)) << "as quick as ever in the blackout that follows";
+}
+
 TEST(SilenceWatch, ALongRoundTripIsNoSilence) {
   SilenceWatch watch;
   watch.Begin(0.0);
+  watch.Heard(0.0);
   EXPECT_FALSE(watch.Doubts(0.8, 0.6));
   EXPECT_TRUE(watch.Doubts(0.95, 0.6));
 }
@@ -27,6 +39,7 @@ TEST(SilenceWatch, ALongRoundTripIsNoSilence) {
 TEST(SilenceWatch, AHeadThatIsSlowIsNotLeftAgainAndAgain) {
   SilenceWatch watch;
   watch.Begin(0.0);
+  watch.Heard(0.0);
   int doubts = 0;
   double now_s = 0.0;
   for (int image = 0; image < 20; ++image) {
@@ -44,6 +57,7 @@ TEST(SilenceWatch, AHeadThatIsSlowIsNotLeftAgainAndAgain) {
 TEST(SilenceWatch, AfterABlackoutItIsQuickAgain) {
   SilenceWatch watch;
   watch.Begin(0.0);
+  watch.Heard(0.0);
   for (double begin_s = 0.0; begin_s < 20.0; begin_s += 2.0) {
     double doubted_s = 0.0;
     for (double now_s = begin_s; now_s < begin_s + 1.0 && doubted_s == 0.0; now_s += 0.01)
