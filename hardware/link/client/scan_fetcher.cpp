@@ -1,5 +1,6 @@
 #include "hardware/link/client/scan_fetcher.h"
 
+#include <algorithm>
 #include <deque>
 
 #include "core/base/log.h"
@@ -18,7 +19,8 @@ constexpr double kPause_s = 0.020;
 /// What came and was not decoded yet: five windows of a second at 300 Mbit/s, since an image takes
 /// longer to read than to come.
 constexpr std::int64_t kMostWaiting = std::int64_t{200} << 20;
-constexpr double kRetry_s = 0.25;     ///< after the link broke at once
+constexpr double kRetry_s = 0.25;  ///< after the link broke at once, again and again
+constexpr double kFirstRetry_s = 0.02;
 constexpr double kRetryDisk_s = 2.0;  ///< after this computer's disk did not take something
 constexpr double kEarlyEvery_s = 0.3;
 constexpr double kLastWord_s = 2.0;  ///< for the word that all is here, at a program's end
@@ -303,15 +305,17 @@ void ScanFetcher::Work(const std::stop_token& stop) {
     SetComing("");
     if (fetched && scan->transfer && scan->transfer->TakeMistakenRig()) continue;
     if (fetched && std::exchange(again_, false)) continue;
-    // A link that broke is tried again as soon as there is a connection, but not without a pause
-    // where that breaks at once; a disk or a mission that takes nothing is tried again later.
+    // A link that broke is tried again as soon as there is a connection, with ever longer pauses
+    // where that breaks at once: it may not be known yet that it is gone. A disk or a mission that
+    // takes nothing is tried again later.
     const bool disk = !fetched && fetched.error().code != ErrorCode::kDevice;
     if (disk) LogError("{}", fetched.error().message);
     const std::lock_guard lock(mutex_);
     if (!fetched) scan->shown.trouble = fetched.error().message;
     const double now_s = LinkSession::Now();
-    const bool lasted = !fetched && now_s - began_s > kRetry_s;
-    scan->not_before_s = now_s + (disk ? kRetryDisk_s : lasted ? 0.0 : kRetry_s);
+    scan->pause_s =
+        now_s - began_s > kRetry_s ? 0.0 : std::clamp(2.0 * scan->pause_s, kFirstRetry_s, kRetry_s);
+    scan->not_before_s = now_s + (disk ? kRetryDisk_s : scan->pause_s);
   }
 }
 

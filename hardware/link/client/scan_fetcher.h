@@ -78,6 +78,7 @@ class ScanFetcher {
     bool done = false;          ///< all of it is here, and kept
     bool confirmed = false;     ///< the head knows that
     double not_before_s = 0.0;  ///< after a failure
+    double pause_s = 0.0;       ///< that came before it, where the link broke at once
     LinkedScan shown;
     bool begun = false;                      ///< its first bytes came, so what is left is known
     std::unique_ptr<ScanTransfer> transfer;  ///< of the thread alone
