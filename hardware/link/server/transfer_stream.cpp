@@ -99,6 +99,7 @@ void TransferStream::TakePreferences(const link::TransferPreferences& preference
 
 void TransferStream::TakeAcknowledge(const link::Acknowledge& acknowledge) {
   for (const link::ChunkId& id : acknowledge.chunks()) {
+    answered_ = true;
     const auto found = sent_.find({static_cast<ChunkKind>(id.kind()), id.item(), id.part()});
     if (found == sent_.end()) continue;
     in_flight_ -= found->second;
@@ -138,13 +139,14 @@ bool TransferStream::MaySend() {
 }
 
 /// On a wide path gRPC may gather what follows at once: to wait until each chunk is on the wire
-/// costs two changes of threads, which others of this computer make long. False where the stream
-/// broke.
+/// costs two changes of threads, which others of this computer make long. Not before the station
+/// answered: as long as HTTP/2's window is a new connection's 64 KB, a chunk that is to be gathered
+/// waits for room that no byte on the wire makes. False where the stream broke.
 bool TransferStream::Write(link::Chunk message) {
   bool wide = false;
   {
     const std::lock_guard lock(mutex_);
-    wide = credit_ >= kWideCredit;
+    wide = answered_ && credit_ >= kWideCredit;
   }
   if (!wide) return Flush() && stream_.Write(message);
   const bool good = !held_ || stream_.Write(*held_, grpc::WriteOptions().set_buffer_hint());

@@ -65,6 +65,7 @@ class TransferStream {
   std::condition_variable wake_;
   bool gone_ = false;
   bool paused_ = false;
+  bool answered_ = false;  ///< the station has had a chunk of this stream
   bool confirmed_ = false;
   std::int64_t credit_ = 0;
   std::int64_t in_flight_ = 0;  ///< bytes that were sent and not acknowledged
