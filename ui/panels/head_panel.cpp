@@ -54,10 +54,15 @@ HeadPanel::HeadPanel(HeadViewModel* head, CommandTable* commands, QWidget* paren
   buttons->setContentsMargins(8, 6, 8, 6);
   whole->addWidget(buttons);
   const int bar = scroll->verticalScrollBar()->sizeHint().width();
-  setMinimumWidth(content->minimumSizeHint().width() + bar);
+  setMinimumWidth(
+      std::max(content->minimumSizeHint().width() + bar, buttons->minimumSizeHint().width()));
   connect(head_, &HeadViewModel::planChanged, this, &HeadPanel::ShowPlan);
   connect(head_, &HeadViewModel::statusChanged, this, &HeadPanel::ShowStatus);
   ShowPlan();
+}
+
+QSize HeadPanel::minimumSizeHint() const {
+  return QWidget::minimumSizeHint().expandedTo({minimumWidth(), 0});
 }
 
 QWidget* HeadPanel::BuildPlan() {

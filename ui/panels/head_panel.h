@@ -22,6 +22,9 @@ class HeadPanel : public QWidget {
  public:
   HeadPanel(HeadViewModel* head, CommandTable* commands, QWidget* parent = nullptr);
 
+  /// Docks ask for this one, and not for the minimum width: nothing scrolls sideways here.
+  QSize minimumSizeHint() const override;
+
  private:
   QWidget* BuildPlan();
   QWidget* BuildPrediction();

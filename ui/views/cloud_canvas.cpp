@@ -116,7 +116,7 @@ CloudCanvas::CloudCanvas(QWidget* parent)
   rest_.setSingleShot(true);
   rest_.setInterval(150);
   connect(&rest_, &QTimer::timeout, this, &CloudCanvas::viewRested);
-  setMinimumSize(120, 70);
+  setMinimumSize(120, 54);
   setFocusPolicy(Qt::ClickFocus);
   setAccessibleName(tr("3D cloud"));
 }

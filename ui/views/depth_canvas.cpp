@@ -57,7 +57,7 @@ DepthCanvas::DepthCanvas(QWidget* parent)
   renderer_->AddActor(image_);
   for (const auto& actor : {region_, gesture_actor_}) renderer_->AddActor(actor);
   PartMarks();
-  setMinimumSize(120, 70);
+  setMinimumSize(120, 54);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);  // the wipe line moves by keys alone
   setAccessibleName(tr("Depth map"));

@@ -45,7 +45,7 @@ ImageCanvas::ImageCanvas(QWidget* parent) : QGraphicsView(parent) {
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setDragMode(ScrollHandDrag);
-  setMinimumSize(120, 70);
+  setMinimumSize(120, 54);
   setAccessibleName(tr("Camera image"));
 
   image_ = scene()->addPixmap({});

@@ -21,6 +21,9 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
   hint_->setObjectName(QStringLiteral("emptyState"));
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);
+  // It may need three lines of a narrow pane; on a low screen a lower pane is better than a window
+  // that is too high.
+  hint_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);
   caption_ = new QuietLabel(QuietLabel::Ground::kWindow);
 
   controls_ = new QHBoxLayout;
