@@ -179,6 +179,7 @@ Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& cont
                 FindDamage(arguments.file, kMostNamed, context.Part(0.0, 0.1)));
   if (damage.count > 0) {
     PrintDamage(arguments, damage);
+    if (arguments.json) return ExitCode::kBadData;  // one document alone on the output
     return Fail(ErrorCode::kBadData,
                 "{}: {} damaged records; save the others with 'foresightctl mission recover {} -o "
                 "NEW.foresight'",
