@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "app/ctl/command.h"
-#include "core/calibration/number_table.h"
 #include "core/geometry/angles.h"
 #include "core/io/point_cloud_file.h"
 #include "core/mapping/mission_map.h"
@@ -11,8 +10,6 @@
 
 namespace foresight {
 namespace {
-
-using Pose = Rigid<frame::Map, frame::Robot>;
 
 struct MapArguments {
   std::string mission;
@@ -22,25 +19,6 @@ struct MapArguments {
   std::vector<std::int64_t> changes;
   bool json = false;
 };
-
-Result<MapOdometry> ReadOdometry(const std::string& file) {
-  MapOdometry poses;
-  if (file.empty()) return poses;
-  const NumberTable table{{"scan", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}, false, ""};
-  const auto add = [&](int line, std::span<const double> row) -> Status {
-    const Eigen::Quaterniond rotation(row[4], row[5], row[6], row[7]);
-    if (std::abs(rotation.norm() - 1.0) > 1e-3)
-      return Fail(ErrorCode::kBadData, "{}:{}: the quaternion has the length {}, not 1", file, line,
-                  rotation.norm());
-    const auto id = static_cast<std::int64_t>(row[0]);
-    if (!poses.try_emplace(id, rotation.normalized(), Eigen::Vector3d(row[1], row[2], row[3]))
-             .second)
-      return Fail(ErrorCode::kBadData, "{}:{}: scan {} stands there twice", file, line, id);
-    return {};
-  };
-  FORESIGHT_CHECK(ReadNumberTable(file, table, add));
-  return poses;
-}
 
 Status WriteMap(const MapArguments& arguments, const MissionFile& mission, const MissionMap& map,
                 std::size_t& count) {
@@ -86,7 +64,10 @@ nlohmann::ordered_json ToJson(const MappedScan& entry) {
 
 Result<ExitCode> Map(const MapArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(arguments.mission));
-  FORESIGHT_TRY(const MapOdometry odometry, ReadOdometry(arguments.odometry));
+  MapOdometry odometry;
+  if (!arguments.odometry.empty()) {
+    FORESIGHT_TRY(odometry, LoadMapOdometry(arguments.odometry));
+  }
   FORESIGHT_TRY(const MissionMap map,
                 MapMission(*mission, arguments.scans, odometry, context.Part(0.0, 0.8)));
   for (const std::string& sentence : map.left_out) PrintNote("{}", sentence);

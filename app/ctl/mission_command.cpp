@@ -4,6 +4,7 @@
 #include "app/ctl/mission_beside.h"
 #include "core/base/utc_text.h"
 #include "core/geometry/angles.h"
+#include "core/mission/mission_damage.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/recompute.h"
 
@@ -154,10 +155,38 @@ void Print(const MissionArguments& arguments, const std::vector<ScanSummary>& sc
   PrintLine(text);
 }
 
+void PrintDamage(const MissionArguments& arguments, const DamageReport& damage) {
+  const std::size_t more = damage.count - damage.records.size();
+  if (arguments.json) {
+    auto list = nlohmann::ordered_json::array();
+    for (const DamagedRecord& record : damage.records)
+      list.push_back({{"table", record.table}, {"where", record.where}, {"what", record.what}});
+    PrintJson({{"mission", arguments.file},
+               {"readable", false},
+               {"damage", list},
+               {"damage_more", more}});
+    return;
+  }
+  std::string text = fmt::format("{}: damage:", arguments.file);
+  for (const DamagedRecord& record : damage.records) text += "\n" + InWords(record);
+  if (more > 0) text += fmt::format("\nand {} more", more);
+  PrintLine(text);
+}
+
 Result<ExitCode> Check(const MissionArguments& arguments, const RunContext& context) {
+  constexpr std::size_t kMostNamed = 100;
+  FORESIGHT_TRY(const DamageReport damage,
+                FindDamage(arguments.file, kMostNamed, context.Part(0.0, 0.1)));
+  if (damage.count > 0) {
+    PrintDamage(arguments, damage);
+    if (arguments.json) return ExitCode::kBadData;  // one document alone on the output
+    return Fail(ErrorCode::kBadData,
+                "{}: {} damaged records; save the others with 'foresightctl mission recover {} -o "
+                "NEW.foresight'",
+                arguments.file, damage.count, arguments.file);
+  }
   FORESIGHT_TRY(const std::unique_ptr<MissionFile> mission,
                 MissionFile::OpenReadOnly(arguments.file));
-  FORESIGHT_CHECK(mission->Verify(context.Part(0.0, 0.1)));
   FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
   std::vector<CheckedRecord> records;
   if (arguments.recompute) {

@@ -83,9 +83,8 @@ Result<std::vector<DetectionRecord>> RecordsOf(const std::vector<std::string>& f
   std::set<std::string> known;
   for (const std::string& file : files) {
     FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(file));
-    FORESIGHT_TRY(const std::vector<SideResult> results, ListSideResults(*mission, task.uuid));
-    for (const SideResult& result : results)
-      known.insert(result.detection_uuids.begin(), result.detection_uuids.end());
+    FORESIGHT_TRY(const std::set<std::string> of_side_results, DetectionsOfSideResults(*mission));
+    known.insert(of_side_results.begin(), of_side_results.end());
     FORESIGHT_TRY(const std::vector<DetectionRecord> records, mission->ListDetections());
     for (const DetectionRecord& record : records)
       if (record.scan_uuid == task.uuid && known.insert(record.uuid).second) all.push_back(record);

@@ -21,6 +21,7 @@
 #include "app/workstation/document_stack.h"
 #include "app/workstation/import_files.h"
 #include "app/workstation/keys_everywhere.h"
+#include "app/workstation/measure_commands.h"
 #include "app/workstation/result_commands.h"
 #include "app/workstation/shortcut_sheet.h"
 #include "core/base/log_file.h"
@@ -292,6 +293,10 @@ void MainWindow::AddWindowCommands() {
 }
 
 void MainWindow::AddCommandsOfResults() {
+  AddMapFileCommands(bench_, [this](const QString& title, const QString& filter,
+                                    const std::function<void(QString)>& chosen) {
+    ChooseFile(false, title, filter, {}, chosen);
+  });
   AddResultCommands(bench_,
                     {[this] { Open(results_dock_); }, [this] { ShowComparison(); },
                      [this] { return side_results_->Name(); },

@@ -45,7 +45,37 @@ const char* IdOf(MeasureKind kind) {
   return "measure.height";
 }
 
+QString MissionOf(Workbench* bench) {
+  return bench->ShowsReview() ? bench->reviewer.Path() : bench->recording.Path();
+}
+
+QString WhyNoMap(Workbench* bench) {
+  const bool none =
+      bench->ShowsReview() ? bench->reviewer.Scans().empty() : bench->recording.Scans().empty();
+  return none ? MeasureCommands::tr("The mission holds no scan.") : bench->Shown().map.WhyNoMap();
+}
+
 }  // namespace
+
+void AddMapFileCommands(Workbench* bench, const AskForFile& ask) {
+  bench->commands.Add(
+      {.id = "map.make_with_odometry",
+       .menu = "measure",
+       .text = MeasureCommands::tr("Make map with odometry"),
+       .tip = MeasureCommands::tr(
+           "Bring the scans together from where a file (CSV: scan,x_m,y_m,z_m,qw,qx,qy,qz) says "
+           "that the robot stood"),
+       .run =
+           [bench, ask] {
+             ask(MeasureCommands::tr("Make the map with the robot's odometry"),
+                 MeasureCommands::tr("Odometry (*.csv)"),
+                 // The mission is the one that was shown when the file was asked for.
+                 [map = &bench->Shown().map, mission = MissionOf(bench)](const QString& file) {
+                   map->Make(mission, file);
+                 });
+           },
+       .why_not = [bench] { return WhyNoMap(bench); }});
+}
 
 void AddMeasureCommands(Workbench* bench) {
   const auto measure = [bench]() -> MeasureViewModel& { return bench->Shown().measure; };
@@ -84,17 +114,8 @@ void AddMeasureCommands(Workbench* bench) {
        .menu = "measure",
        .text = MeasureCommands::tr("Make map"),
        .tip = MeasureCommands::tr("Bring the scans of the mission that is shown together"),
-       .run =
-           [bench] {
-             bench->Shown().map.Make(bench->ShowsReview() ? bench->reviewer.Path()
-                                                          : bench->recording.Path());
-           },
-       .why_not = [bench]() -> QString {
-         const bool none = bench->ShowsReview() ? bench->reviewer.Scans().empty()
-                                                : bench->recording.Scans().empty();
-         return none ? MeasureCommands::tr("The mission holds no scan.")
-                     : bench->Shown().map.WhyNoMap();
-       }});
+       .run = [bench] { bench->Shown().map.Make(MissionOf(bench)); },
+       .why_not = [bench] { return WhyNoMap(bench); }});
   bench->commands.Add({.id = "map.cancel",
                        .menu = "measure",
                        .text = MeasureCommands::tr("Cancel map"),

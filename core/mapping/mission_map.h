@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "core/mapping/map_odometry.h"
 #include "core/mapping/point_pyramid.h"
 #include "core/mapping/scan_changes.h"
 #include "core/mapping/scan_map.h"
@@ -27,9 +27,6 @@ struct MissionMap {
   /// Scans without a return, which no map can hold: why, one sentence each.
   std::vector<std::string> left_out;
 };
-
-/// Where the robot believes that it stood, by the scan's number.
-using MapOdometry = std::map<std::int64_t, Rigid<frame::Map, frame::Robot>>;
 
 /// Loads the scans, all where `ids` is empty, and brings them together (PlaceScans) in the order of
 /// `ids`. Fails as MissionFile does, with kInvalidInput where no scan has a return, and kCancelled.

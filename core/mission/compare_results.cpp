@@ -18,12 +18,7 @@ using Json = nlohmann::ordered_json;
 
 Result<SideResult> FindSideResult(const MissionFile& mission, const MissionFile* review,
                                   const std::string& scan_uuid, const std::string& wanted) {
-  std::vector<SideResult> all;
-  for (const MissionFile* file : {&mission, review}) {
-    if (file == nullptr) continue;
-    FORESIGHT_TRY(const std::vector<SideResult> results, ListSideResults(*file, scan_uuid));
-    all.insert(all.end(), results.begin(), results.end());
-  }
+  FORESIGHT_TRY(const std::vector<SideResult> all, SideResultsOf(mission, review, scan_uuid));
   for (auto result = all.rbegin(); result != all.rend(); ++result)
     if (result->name == wanted || result->uuid == wanted) return *result;
   constexpr std::size_t kFewestDigits = 4;

@@ -11,6 +11,7 @@
 #include "core/base/log.h"
 #include "core/base/publish_file.h"
 #include "core/io/png.h"
+#include "core/mission/damaged_rows.h"
 #include "core/mission/file_handle.h"
 #include "core/mission/migrations.h"
 #include "core/mission/mission_schema.h"
@@ -51,6 +52,19 @@ Result<DatabaseHeader> ReadHeader(const MissionFileHandle& handle, const std::st
   if (bytes.size() <= kReadVersion || !bytes.starts_with(kMagic))
     return Fail(ErrorCode::kBadData, "{}: is not a mission file", file);
   return DatabaseHeader{bytes[kReadVersion] == 2};
+}
+
+/// What SQLite finds wrong with the trees of the file, at most `at_most` sentences.
+Result<std::vector<std::string>> FaultsOfTrees(const SqliteDatabase& database,
+                                               std::size_t at_most) {
+  FORESIGHT_TRY(SqliteStatement check,
+                database.Prepare(fmt::format("PRAGMA quick_check({})", at_most).c_str()));
+  std::vector<std::string> faults;
+  for (;;) {
+    FORESIGHT_TRY(const bool row, check.Step());
+    if (!row) return faults;
+    if (check.Text(0) != "ok") faults.push_back(check.Text(0));
+  }
 }
 
 Status QuickCheck(const SqliteDatabase& database, const std::string& file) {
@@ -797,6 +811,27 @@ Status MissionFile::Verify(const RunContext& context) const {
   FORESIGHT_CHECK(ListNotes());
   FORESIGHT_CHECK(ListEvents());
   return {};
+}
+
+Result<DamageReport> MissionFile::FindDamage(std::size_t at_most, const RunContext& context) const {
+  const Status whole = Verify(context.Part(0.0, 0.5));
+  if (whole) return DamageReport();
+  if (whole.error().code != ErrorCode::kBadData) return tl::unexpected(whole.error());
+  const auto name_rows = [&](int) -> Result<DamageReport> {
+    FORESIGHT_TRY(const std::vector<StoredTable> tables, ReadStoredTables(*impl_->database));
+    DamagedRows rows(tables, at_most);
+    if (const auto faults = FaultsOfTrees(*impl_->database, at_most))
+      for (const std::string& fault : *faults) rows.Tell({"file", "", fault});
+    FORESIGHT_CHECK(ReadThroughTables(*impl_->database, tables, rows, context.Part(0.5, 0.9)));
+    return rows.Report();
+  };
+  FORESIGHT_TRY(DamageReport report, impl_->Read(name_rows));
+  // Rows with a good checksum can still contradict each other.
+  for (const std::int64_t id : report.sound_scans)
+    if (const auto scan = LoadScan(id); !scan)
+      report.Add({"scan", fmt::format("scan {}", id), scan.error().message}, at_most);
+  if (report.count == 0) report.Add({"file", "", whole.error().message}, at_most);
+  return report;
 }
 
 Status MissionFile::ExportTo(const std::filesystem::path& path) const {

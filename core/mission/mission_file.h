@@ -11,6 +11,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/mission/mission_damage.h"
 #include "core/mission/mission_records.h"
 #include "core/sensor/scan.h"
 
@@ -141,8 +142,10 @@ class MissionFile {
   Result<std::int64_t> AddEvent(const EventRecord& event);
   Result<std::vector<EventRecord>> ListEvents() const;
 
-  /// Reads everything there is and checks it.
+  /// Reads everything there is and checks it; fails at the first damage.
   Status Verify(const RunContext& context) const;
+  /// Names every damaged record, at most `at_most` of them (FindDamage).
+  Result<DamageReport> FindDamage(std::size_t at_most, const RunContext& context) const;
   /// Writes a compact copy: one file, complete without its neighbours, also while the mission is
   /// being recorded, which goes on meanwhile. Replaces `target`.
   Status ExportTo(const std::filesystem::path& target) const;

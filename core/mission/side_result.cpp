@@ -1,8 +1,8 @@
 #include "core/mission/side_result.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/depth/depth_method.h"
 #include "core/depth/depth_option_table.h"
@@ -20,6 +20,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kEventSource = "side result";
+constexpr const char* kChangeSource = "side result change";
+constexpr const char* kRenamed = "renamed";
+constexpr const char* kDeleted = "deleted";
+constexpr const char* kRestored = "restored";
 
 std::string ToJson(const SideResult& result) {
   // The answer stays a text: what is read back is what was written, to the last bit.
@@ -51,6 +55,54 @@ SideResult SideResultFrom(const EventRecord& event) {
   if (!depth) throw std::invalid_argument(depth.error().message);
   result.depth = *depth;
   return result;
+}
+
+void ApplyChange(const EventRecord& event, std::vector<SideResult>& results) {
+  const nlohmann::json value = ParseJson(event.json);
+  const auto uuid = value.at("uuid").get<std::string>();
+  const auto action = value.at("action").get<std::string>();
+  for (SideResult& result : results) {
+    if (result.uuid != uuid) continue;
+    if (action == kRenamed)
+      result.name = event.text;
+    else if (action == kDeleted || action == kRestored)
+      result.deleted = action == kDeleted;
+    else
+      throw std::invalid_argument(fmt::format("'{}' is no change of a side result", action));
+  }
+}
+
+/// Of all scans, deleted ones too.
+Result<std::vector<SideResult>> AllSideResults(std::initializer_list<const MissionFile*> files) {
+  std::vector<SideResult> results;
+  for (const MissionFile* file : files) {
+    if (file == nullptr) continue;
+    FORESIGHT_TRY(const std::vector<EventRecord> events, file->ListEvents());
+    for (const EventRecord& event : events) {
+      if (!IsSideResult(event)) continue;
+      try {
+        if (event.source == kEventSource)
+          results.push_back(SideResultFrom(event));
+        else
+          ApplyChange(event, results);
+      } catch (const std::bad_alloc&) {
+        throw;
+      } catch (const std::exception& fault) {
+        return Fail(ErrorCode::kBadData, "{}: event {}: side result: {}", file->path().string(),
+                    event.id, fault.what());
+      }
+    }
+  }
+  return results;
+}
+
+Status Change(MissionFile& review, const std::string& uuid, const char* action,
+              const std::string& name) {
+  const std::string json =
+      Json{{"format", 1}, {"uuid", uuid}, {"author", OperatorName()}, {"action", action}}.dump(
+          -1, ' ', false, Json::error_handler_t::replace);
+  FORESIGHT_CHECK(review.AddEvent({0, NowUtc_ns(), kChangeSource, "info", name, json}));
+  return {};
 }
 
 /// The fits' part of what differs.
@@ -117,26 +169,42 @@ Result<SideResult> KeepSideResult(MissionFile& review, const std::string& name, 
 }
 
 bool IsSideResult(const EventRecord& event) {
-  return event.source == kEventSource;
+  return event.source == kEventSource || event.source == kChangeSource;
 }
 
 Result<std::vector<SideResult>> ListSideResults(const MissionFile& file,
                                                 const std::string& scan_uuid) {
-  FORESIGHT_TRY(const std::vector<EventRecord> events, file.ListEvents());
-  std::vector<SideResult> results;
-  for (const EventRecord& event : events) {
-    if (!IsSideResult(event)) continue;
-    try {
-      SideResult result = SideResultFrom(event);
-      if (scan_uuid.empty() || result.scan_uuid == scan_uuid) results.push_back(std::move(result));
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& fault) {
-      return Fail(ErrorCode::kBadData, "{}: event {}: side result: {}", file.path().string(),
-                  event.id, fault.what());
-    }
-  }
+  return SideResultsOf(file, nullptr, scan_uuid);
+}
+
+Result<std::vector<SideResult>> SideResultsOf(const MissionFile& mission, const MissionFile* review,
+                                              const std::string& scan_uuid) {
+  FORESIGHT_TRY(std::vector<SideResult> results, AllSideResults({&mission, review}));
+  std::erase_if(results, [&](const SideResult& result) {
+    return result.deleted || (!scan_uuid.empty() && result.scan_uuid != scan_uuid);
+  });
   return results;
+}
+
+Status RenameSideResult(MissionFile& review, const std::string& uuid, const std::string& name) {
+  if (name.empty()) return Fail(ErrorCode::kInvalidInput, "a side result needs a name");
+  return Change(review, uuid, kRenamed, name);
+}
+
+Status DeleteSideResult(MissionFile& review, const std::string& uuid) {
+  return Change(review, uuid, kDeleted, {});
+}
+
+Status RestoreSideResult(MissionFile& review, const std::string& uuid) {
+  return Change(review, uuid, kRestored, {});
+}
+
+Result<std::set<std::string>> DetectionsOfSideResults(const MissionFile& file) {
+  FORESIGHT_TRY(const std::vector<SideResult> results, AllSideResults({&file}));
+  std::set<std::string> uuids;
+  for (const SideResult& result : results)
+    uuids.insert(result.detection_uuids.begin(), result.detection_uuids.end());
+  return uuids;
 }
 
 Result<std::vector<DetectionRecord>> DetectionsOfScan(const MissionFile& mission,
@@ -146,9 +214,8 @@ Result<std::vector<DetectionRecord>> DetectionsOfScan(const MissionFile& mission
   std::set<std::string> of_side_results;
   for (const MissionFile* file : {&mission, review}) {
     if (file == nullptr) continue;
-    FORESIGHT_TRY(const std::vector<SideResult> results, ListSideResults(*file));
-    for (const SideResult& result : results)
-      of_side_results.insert(result.detection_uuids.begin(), result.detection_uuids.end());
+    FORESIGHT_TRY(const std::set<std::string> of_file, DetectionsOfSideResults(*file));
+    of_side_results.insert(of_file.begin(), of_file.end());
     FORESIGHT_TRY(const std::vector<DetectionRecord> records, file->ListDetections());
     for (const DetectionRecord& record : records) {
       if (record.scan_uuid != scan_uuid) continue;
@@ -164,7 +231,7 @@ Result<std::vector<DetectionRecord>> DetectionsOfScan(const MissionFile& mission
 Result<DepthOptions> OriginalDepthOptions(const MissionFile& mission, std::int64_t scan_id,
                                           std::int64_t image_position) {
   FORESIGHT_TRY(const std::vector<DepthRecord> depths, mission.ListDepths(scan_id));
-  FORESIGHT_TRY(const std::vector<SideResult> results, ListSideResults(mission));
+  FORESIGHT_TRY(const std::vector<SideResult> results, AllSideResults({&mission}));
   const auto is_original = [&](const DepthRecord& record) {
     return std::none_of(results.begin(), results.end(), [&](const SideResult& result) {
       return std::count(result.depth_uuids.begin(), result.depth_uuids.end(), record.uuid) > 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct SideResult {
   std::vector<std::string> depth_uuids;
   std::vector<std::string> detection_uuids;
   std::string answer_json;  ///< RunAgainAnswer::json, bit for bit
+  bool deleted = false;     ///< was taken out of the lists; its records stay
 };
 
 /// Adds a side result to the file of a review: its rig, where it is not the scan's own, its depth
@@ -33,12 +35,28 @@ struct SideResult {
 Result<SideResult> KeepSideResult(MissionFile& review, const std::string& name, const Scan& scan,
                                   const RunAgainSettings& settings, const RunAgainAnswer& answer);
 
-/// Of one scan, or of all, the oldest first. `file` is a review, or a mission that one was merged
-/// into. Fails with kBadData, naming the event at fault.
+/// Of one scan, or of all, the oldest first, under their present names, without those that were
+/// deleted. `file` is a review, or a mission that one was merged into. Fails with kBadData, naming
+/// the event at fault.
 Result<std::vector<SideResult>> ListSideResults(const MissionFile& file,
                                                 const std::string& scan_uuid = {});
+/// The same of a mission and its review, which may be nullptr: what the review says of the
+/// mission's own counts.
+Result<std::vector<SideResult>> SideResultsOf(const MissionFile& mission, const MissionFile* review,
+                                              const std::string& scan_uuid = {});
 
-/// Whether an event is what holds a side result together.
+/// Gives a side result another name. Nothing is overwritten: the change is an event of `review`.
+/// Fails with kInvalidInput without a name, and as MissionFile does.
+Status RenameSideResult(MissionFile& review, const std::string& uuid, const std::string& name);
+/// Takes a side result out of the lists, or brings it back. Its records stay in the file.
+Status DeleteSideResult(MissionFile& review, const std::string& uuid);
+Status RestoreSideResult(MissionFile& review, const std::string& uuid);
+
+/// Uuids of the detections in a file that belong to side results, deleted ones too: they are no
+/// findings of their own.
+Result<std::set<std::string>> DetectionsOfSideResults(const MissionFile& file);
+
+/// Whether an event is what holds a side result together, or changes one.
 bool IsSideResult(const EventRecord& event);
 
 /// The mission's detections of a scan and those of its review, which may be nullptr, as they stand

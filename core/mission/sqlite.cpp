@@ -156,11 +156,19 @@ bool SqliteDatabase::InTransaction() const {
 }
 
 Result<SqliteDatabase> SqliteDatabase::Open(const std::filesystem::path& path, Mode mode) {
+  return OpenUri(Uri(path, mode == Mode::kImmutable), path.string(), OpenFlags(mode));
+}
+
+Result<SqliteDatabase> SqliteDatabase::OpenInMemory() {
+  return OpenUri("file::memory:", "memory", OpenFlags(Mode::kCreate));
+}
+
+Result<SqliteDatabase> SqliteDatabase::OpenUri(const std::string& uri, const std::string& file,
+                                               int flags) {
   SqliteDatabase database;
-  database.file_ = path.string();
+  database.file_ = file;
   sqlite3* connection = nullptr;
-  const int code = sqlite3_open_v2(Uri(path, mode == Mode::kImmutable).c_str(), &connection,
-                                   OpenFlags(mode), nullptr);
+  const int code = sqlite3_open_v2(uri.c_str(), &connection, flags, nullptr);
   database.connection_.reset(connection);
   if (code != SQLITE_OK) return SqliteFailure(connection, code, database.file_);
   sqlite3_busy_timeout(connection, kBusyTimeout_ms);

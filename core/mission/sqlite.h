@@ -58,6 +58,8 @@ class SqliteDatabase {
   /// kImmutable: of a file that nobody will change meanwhile; needs and leaves no file beside it.
   enum class Mode { kCreate, kReadWrite, kReadOnly, kImmutable };
   static Result<SqliteDatabase> Open(const std::filesystem::path& path, Mode mode);
+  /// An empty one without a file.
+  static Result<SqliteDatabase> OpenInMemory();
 
   Status Run(const char* sql);
   Result<SqliteStatement> Prepare(const char* sql) const;
@@ -69,6 +71,8 @@ class SqliteDatabase {
   struct Close {
     void operator()(sqlite3* connection) const;
   };
+
+  static Result<SqliteDatabase> OpenUri(const std::string& uri, const std::string& file, int flags);
 
   std::unique_ptr<sqlite3, Close> connection_;
   std::string file_;

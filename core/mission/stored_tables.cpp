@@ -160,6 +160,24 @@ Result<bool> InsertStored(SqliteDatabase& database, const StoredTable& table,
   return inserted;
 }
 
+std::vector<StoredValue> StoredValuesOf(const SqliteStatement& row, const StoredTable& table) {
+  std::vector<StoredValue> values;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const int column = static_cast<int>(i);
+    if (row.IsNull(column))
+      values.emplace_back();
+    else if (table.columns[i].kind == Kind::kInteger)
+      values.emplace_back(row.Integer(column));
+    else if (table.columns[i].kind == Kind::kReal)
+      values.emplace_back(row.Number(column));
+    else if (table.columns[i].kind == Kind::kText)
+      values.emplace_back(row.Text(column));
+    else
+      values.emplace_back(StoredBlob{row.Blob(column)});
+  }
+  return values;
+}
+
 Result<std::vector<std::vector<StoredValue>>> ReadStored(const SqliteDatabase& database,
                                                          const StoredTable& table,
                                                          const std::string& condition) {
@@ -170,21 +188,7 @@ Result<std::vector<std::vector<StoredValue>>> ReadStored(const SqliteDatabase& d
   for (;;) {
     FORESIGHT_TRY(const bool more, select.Step());
     if (!more) return rows;
-    std::vector<StoredValue> values;
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-      const int column = static_cast<int>(i);
-      if (select.IsNull(column))
-        values.emplace_back();
-      else if (table.columns[i].kind == Kind::kInteger)
-        values.emplace_back(select.Integer(column));
-      else if (table.columns[i].kind == Kind::kReal)
-        values.emplace_back(select.Number(column));
-      else if (table.columns[i].kind == Kind::kText)
-        values.emplace_back(select.Text(column));
-      else
-        values.emplace_back(StoredBlob{select.Blob(column)});
-    }
-    rows.push_back(std::move(values));
+    rows.push_back(StoredValuesOf(select, table));
   }
 }
 

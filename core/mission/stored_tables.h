@@ -51,6 +51,9 @@ bool HasGoodChecksum(const StoredTable& table, const std::vector<StoredValue>& v
 Result<bool> InsertStored(SqliteDatabase& database, const StoredTable& table,
                           const std::vector<StoredValue>& values);
 
+/// The values of the row that a statement `SELECT *` stands at.
+std::vector<StoredValue> StoredValuesOf(const SqliteStatement& row, const StoredTable& table);
+
 /// All rows for which the condition holds ("scan_id = 3 ORDER BY batch"). For tables without
 /// pixels.
 Result<std::vector<std::vector<StoredValue>>> ReadStored(const SqliteDatabase& database,

@@ -89,11 +89,7 @@ Result<ReportedScan> Read(const MissionFile& mission, const MissionFile* review,
     reported.objects.push_back(
         {record, std::move(*detection), provenance ? std::optional(*provenance) : std::nullopt});
   }
-  for (const MissionFile* file : {&mission, review}) {
-    if (file == nullptr) continue;
-    FORESIGHT_TRY(const std::vector<SideResult> results, ListSideResults(*file, summary.uuid));
-    reported.side_results.insert(reported.side_results.end(), results.begin(), results.end());
-  }
+  FORESIGHT_TRY(reported.side_results, SideResultsOf(mission, review, summary.uuid));
   reported.image = ImageToShow(reported);
   FORESIGHT_TRY(reported.options, OriginalDepthOptions(mission, summary.id, reported.image));
   return reported;

@@ -117,6 +117,11 @@ TEST_F(MissionCommand, ADamagedMissionIsNamedAndRecovered) {
   const ProgramResult check = Mission({"check", In("torn.foresight")});
   EXPECT_EQ(check.exit_code, 3);
   EXPECT_THAT(check.errors, HasSubstr("torn.foresight"));
+  EXPECT_THAT(check.output, HasSubstr("is not a mission file"));
+  const ProgramResult json = Mission({"check", In("torn.foresight"), "--json"});
+  EXPECT_EQ(json.exit_code, 3);
+  EXPECT_EQ(Json(json)["readable"], false);
+  EXPECT_EQ(Json(json)["damage"][0]["table"], "file");
   const ProgramResult recovered =
       Mission({"recover", In("torn.foresight"), "-o", In("recovered.foresight"), "--json"});
   EXPECT_EQ(recovered.exit_code, 0) << recovered.errors << recovered.output;
@@ -237,12 +242,102 @@ TEST_F(MissionCommand, AReportIsAPageWithPicturesAndAPdf) {
   EXPECT_EQ(Mission({"report", first_, "--scan", "9", "-o", In("report")}).exit_code, 3);
 }
 
+/// A disk that is full: files cannot grow beyond a size. What is there already stays as it was.
+class FullDisk : public MissionCommand {
+ protected:
+  /// Runs it with room, and again without: the files of the first run are the same afterwards.
+  void ExpectOldFilesStay(const std::vector<std::string>& arguments, const std::string& out) {
+    const ProgramResult roomy = Run(arguments);
+    ASSERT_LE(roomy.exit_code, 1) << roomy.errors;
+    const auto before = FilesOf(out);
+    ASSERT_FALSE(before.empty());
+    const std::string mission = ReadFile(first_).value();
+    std::size_t largest = 0;
+    for (const auto& [name, content] : before) largest = std::max(largest, content.size());
+    for (const std::size_t bytes : {std::size_t{2'000}, largest / 3, largest * 3 / 4}) {
+      const ProgramResult full = RunProgram(FORESIGHTCTL, arguments, {.file_bytes = bytes});
+      EXPECT_EQ(full.exit_code, 3) << bytes << full.output;
+      EXPECT_EQ(full.ErrorLines(), 1) << full.errors;
+      EXPECT_THAT(full.errors, HasSubstr(out)) << "the error names the file";
+      const auto after = FilesOf(out);
+      for (const auto& [name, content] : after) {
+        const auto old = before.find(name);
+        ASSERT_NE(old, before.end()) << name << " was left behind, " << content.size() << " bytes";
+        // PDF and JSON may hold a time.
+        EXPECT_GE(content.size() + 64, old->second.size()) << name << " was written by half";
+      }
+      EXPECT_EQ(after.size(), before.size());
+      EXPECT_EQ(ReadFile(first_).value(), mission);
+    }
+  }
+};
+
+TEST_F(FullDisk, AReportLeavesTheOneBefore) {
+  ExpectOldFilesStay({"mission", "report", first_, "-o", In("full-report"), "--pdf"},
+                     In("full-report"));
+}
+
+TEST_F(FullDisk, AMapLeavesTheOneBefore) {
+  fs::create_directory(In("full-map"));
+  for (const char* name : {"map.ply", "map.pcd"})
+    ExpectOldFilesStay({"map", first_, "-o", In("full-map") + "/" + name}, In("full-map"));
+}
+
+TEST_F(FullDisk, AComparisonLeavesTheOneBefore) {
+  ExpectOldFilesStay({"mission", "compare", first_, "--b", "original", "-o", In("full-compare")},
+                     In("full-compare"));
+}
+
+TEST_F(FullDisk, ASideResultIsKeptWholeOrNotAtAll) {
+  const std::string copy = In("full-run.foresight"), out = In("full-run");
+  fs::copy_file(first_, copy);
+  const std::string mission = ReadFile(copy).value();
+  const ProgramResult full = RunProgram(
+      FORESIGHTCTL, {"mission", "run", copy, "-o", out, "--keep", "x"}, {.file_bytes = 9'000});
+  EXPECT_EQ(full.exit_code, 3) << full.output;
+  EXPECT_EQ(full.ErrorLines(), 1) << full.errors;
+  EXPECT_EQ(ReadFile(copy).value(), mission);
+  EXPECT_EQ(Mission({"results", copy}).output, "no side results\n");
+  const ProgramResult roomy = Mission({"run", copy, "-o", out, "--keep", "x"});
+  EXPECT_LE(roomy.exit_code, 1) << roomy.errors;
+  EXPECT_THAT(Mission({"results", copy}).output, HasSubstr(" x "));
+}
+
+TEST_F(FullDisk, AnImportLeavesNoMissionBehind) {
+  ASSERT_EQ(Mission({"export", first_, "-o", In("for-import"), "--what", "ply"}).exit_code, 0);
+  const std::string target = In("full-import/m.foresight");
+  fs::create_directory(In("full-import"));
+  const ProgramResult full = RunProgram(
+      FORESIGHTCTL, {"mission", "import", In("for-import"), "-o", target}, {.file_bytes = 60'000});
+  EXPECT_EQ(full.exit_code, 3) << full.output;
+  EXPECT_EQ(full.ErrorLines(), 1) << full.errors;
+  EXPECT_TRUE(FilesOf(In("full-import")).empty());
+}
+
+TEST_F(MissionCommand, ASideResultIsRenamedAndDeletedByName) {
+  const std::string copy = In("renamed.foresight");
+  fs::copy_file(first_, copy);
+  ASSERT_LE(Mission({"run", copy, "-o", In("renamed-run"), "--keep", "x"}).exit_code, 1);
+  EXPECT_EQ(Mission({"results", copy, "--rename", "x"}).exit_code, 2);
+  EXPECT_EQ(Mission({"results", copy, "--rename", "none", "--to", "y"}).exit_code, 3);
+  ASSERT_EQ(Mission({"results", copy, "--rename", "x", "--to", "soft edges"}).exit_code, 0);
+  const nlohmann::json results = Json(Mission({"results", copy, "--json"}))["results"];
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0]["name"], "soft edges");
+  const std::string uuid = results[0]["uuid"];
+  ASSERT_EQ(Mission({"results", copy, "--delete", uuid.substr(0, 8)}).exit_code, 0);
+  EXPECT_EQ(Mission({"results", copy}).output, "no side results\n");
+  EXPECT_EQ(Mission({"compare", copy, "--b", "soft edges"}).exit_code, 3);
+}
+
 TEST_F(MissionCommand, AReaderInPythonThatKnowsOnlyTheDocumentationReadsTheSame) {
   const ProgramResult read =
       RunProgram("/usr/bin/python3", {FORESIGHT_SOURCE_DIR "/docs/read_mission.py", first_});
   ASSERT_EQ(read.exit_code, 0) << read.errors;
   const Scan scan = MissionFile::OpenReadOnly(first_).value()->LoadScan(1).value();
   EXPECT_THAT(read.output, testing::StartsWith("scan 1 " + scan.uuid + " complete\nmotor "));
+  const std::string reader = ReadFile(FORESIGHT_SOURCE_DIR "/docs/read_mission.py").value();
+  EXPECT_LE(std::count(reader.begin(), reader.end(), '\n'), 20);
   for (const LidarLine& line : scan.lines)
     ASSERT_THAT(read.output,
                 HasSubstr(fmt::format(

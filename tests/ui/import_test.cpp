@@ -7,6 +7,7 @@
 #include "core/base/atomic_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/ui/wait_for.h"
+#include "ui/viewmodels/import_choices.h"
 #include "ui/viewmodels/import_view_model.h"
 #include "ui/viewmodels/review_view_model.h"
 
@@ -66,6 +67,39 @@ TEST_F(ImportInTheWindow, ACloudIsShownForReviewAndWhatWasAssumedIsSaid) {
   Import({In("sweep.bin")});
   ASSERT_EQ(missions_.size(), 2);
   EXPECT_EQ(missions_[1], In("sweep-imported-2.foresight")) << "nothing is written over";
+}
+
+TEST_F(ImportInTheWindow, WhatWasChosenIsHowTheFilesAreTaken) {
+  std::string text;
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 30; ++column)
+      text += fmt::format("3000 {} {}\n", 50 * column - 750, 50 * row - 500);
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "wall.xyz", text));
+  const auto options = ImportOptionsFrom({{"unit", "mm"}, {"viewpoint", "0, 0, 0"}});
+  ASSERT_TRUE(options) << options.error().message;
+  importer_.Import({In("wall.xyz")}, QString::fromStdString(folder_.path().string()), *options);
+  ASSERT_TRUE(WaitFor([this] { return !importer_.Runner()->Busy() && !reviewer_.Busy(); }));
+  ASSERT_TRUE(session_.CurrentScan());
+  float furthest = 0.0F;
+  for (const Eigen::Vector3f& point : session_.CurrentScan()->given.points)
+    if (point.allFinite()) furthest = std::max(furthest, point.norm());
+  EXPECT_GT(furthest, 2.9F);
+  EXPECT_LT(furthest, 4.0F);
+}
+
+TEST_F(ImportInTheWindow, AChoiceThatCannotBeIsNamed) {
+  const auto message = [](const ImportChoices& choices) {
+    const auto options = ImportOptionsFrom(choices);
+    return options ? std::string("none") : options.error().message;
+  };
+  EXPECT_EQ(message({}), "none");
+  EXPECT_NE(message({{"viewpoint", "1,2"}}).find("Measured from: 3 numbers"), std::string::npos);
+  EXPECT_NE(message({{"image-deg", "1,x"}}).find("'x' is no number"), std::string::npos);
+  EXPECT_NE(message({{"clouds", "0"}}).find("from 1"), std::string::npos);
+  EXPECT_NE(message({{"rig", "none.yaml"}}).find("none.yaml"), std::string::npos);
+  EXPECT_EQ(ImportKindOf({"a.png", "b.BAG"}), ImportKind::kBag);
+  EXPECT_EQ(ImportKindOf({"a.bin", "a.png"}), ImportKind::kKitti);
+  EXPECT_EQ(ImportKindOf({"a.ply"}), ImportKind::kCloud);
 }
 
 TEST_F(ImportInTheWindow, AFileThatIsNoneIsNamed) {

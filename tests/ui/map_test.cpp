@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QTemporaryDir>
+#include <fstream>
 
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
@@ -55,6 +56,33 @@ TEST_F(MapTest, TheScansOfAMissionComeTogetherInTheBackground) {
   for (const MappedScan& scan : map.Map()->map.scans)
     returns += ReturnsInRobot(scan.cloud, scan.rig).size();
   EXPECT_EQ(map.Map()->pyramid.size(), returns);
+}
+
+TEST_F(MapTest, AFileOfOdometrySaysWhereTheScansBeginAndABadOneIsNamed) {
+  const QString csv = folder.filePath("robot.csv");
+  const auto write = [&csv](const char* rows) {
+    std::ofstream(csv.toStdString()) << "scan,x_m,y_m,z_m,qw,qx,qy,qz\n" << rows;
+  };
+  // Far from the truth: the same place 40 m away does not come together.
+  write("1,0,0,0,1,0,0,0\n2,40,0,0,1,0,0,0\n");
+  map.Make(path, csv);
+  ASSERT_TRUE(Settled());
+  ASSERT_NE(map.Map(), nullptr);
+  EXPECT_FALSE(map.Map()->map.scans[1].place.InMap());
+  write("1,0,0,0,1,0,0,0\n2,0.03,0.02,0,1,0,0,0\n");
+  map.Make(path, csv);
+  ASSERT_TRUE(Settled());
+  ASSERT_TRUE(map.Map()->map.scans[1].place.InMap());
+  // The wall holds a scan in its normal only: along it the valve alone does.
+  EXPECT_LT(map.Map()->map.scans[1].place.map_from_robot.translation().norm(),
+            std::hypot(0.03, 0.02))
+      << "nearer to the truth than the file says";
+  write("1,0,0,0,0,0,0,0\n");
+  map.Make(path, csv);
+  ASSERT_TRUE(Settled());
+  ASSERT_FALSE(notices.empty());
+  EXPECT_THAT((notices.back().what + notices.back().next).toStdString(),
+              HasSubstr("robot.csv:2: the quaternion"));
 }
 
 TEST_F(MapTest, NothingHasChangedBetweenTwoScansOfTheSame) {

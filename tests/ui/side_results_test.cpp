@@ -74,12 +74,60 @@ TEST_F(SideResultsModelTest, ARunWithoutANameGetsOneAndIsListedBesideTheOriginal
   EXPECT_EQ(Kept(), 2u);
 }
 
+TEST_F(SideResultsModelTest, ARenamedAndADeletedOneComeBackByUndo) {
+  results.RunAgain("mine");
+  ASSERT_TRUE(WaitFor([this] { return results.Rows().size() == 2 && tasks.Idle(); }, 60'000));
+  EXPECT_FALSE(results.CanChange(0)) << "the original";
+  results.Rename(1, " better ");
+  ASSERT_TRUE(WaitFor([this] { return results.Rows()[1].name == "better"; }));
+  results.Delete(1);
+  ASSERT_TRUE(WaitFor([this] { return results.Rows().size() == 1; }));
+  EXPECT_EQ(Kept(), 0u);
+  session.Undo()->undo();
+  ASSERT_TRUE(WaitFor([this] { return results.Rows().size() == 2; }));
+  session.Undo()->undo();
+  ASSERT_TRUE(WaitFor([this] { return results.Rows()[1].name == "mine"; }));
+  session.Undo()->redo();
+  ASSERT_TRUE(WaitFor([this] { return results.Rows()[1].name == "better"; }));
+  results.Delete(0);
+  results.Rename(0, "x");
+  ASSERT_TRUE(Settled());
+  EXPECT_EQ(results.Rows()[0].name, "Original");
+}
+
+TEST_F(SideResultsModelTest, ADeletedOneIsComparedNoLonger) {
+  results.RunAgain("mine");
+  ASSERT_TRUE(WaitFor([this] { return results.Rows().size() == 2 && tasks.Idle(); }, 60'000));
+  results.ChooseB(1);
+  ASSERT_TRUE(Settled());
+  results.Delete(1);
+  ASSERT_TRUE(WaitFor([this] { return results.Rows().size() == 1; }));
+  EXPECT_EQ(results.B(), -1);
+  EXPECT_FALSE(results.WhyNoComparison().isEmpty());
+}
+
 TEST_F(SideResultsModelTest, ACancelledRunKeepsNothing) {
   results.RunAgain("never");
   results.Runner()->cancel();
   ASSERT_TRUE(Settled());
   EXPECT_EQ(Kept(), 0u);
   EXPECT_EQ(results.Rows().size(), 1u);
+}
+
+TEST_F(SideResultsModelTest, ARunBelongsToItsMissionWhateverIsOpenedMeanwhile) {
+  Scan other = scan;
+  other.uuid = NewUuid();
+  const QString file = folder.filePath("other.foresight");
+  Write(file, other);
+  results.RunAgain("mine");
+  review.Open(file);
+  ASSERT_TRUE(WaitFor([&] { return review.Path() == file && tasks.Idle(); }, 60'000));
+  ASSERT_TRUE(WaitFor([this] { return Kept() == 1; }, 10'000)) << "in the mission it was begun in";
+  const auto beside_other = MissionFile::FindReviewOf(file.toStdString());
+  ASSERT_TRUE(beside_other);
+  EXPECT_EQ(*beside_other, nullptr) << "not in the one that is open";
+  ASSERT_EQ(results.Rows().size(), 1u);
+  EXPECT_EQ(results.Rows()[0].scan, other.uuid);
 }
 
 TEST_F(SideResultsModelTest, ARigFileThatIsNoneIsNamedAndNothingIsKept) {

@@ -43,10 +43,13 @@ MapPanel::MapPanel(MapViewModel* map, ClipBoxModel* clip, CommandTable* commands
   scans_->setSelectionMode(QAbstractItemView::NoSelection);
   auto* make = new QPushButton(tr("Make map"));
   BindButton(make, commands, "map.make");
+  auto* with_odometry = NarrowButton("mapWithOdometry", tr("With odometry"));
+  BindButton(with_odometry, commands, "map.make_with_odometry");
   auto* cancel = new QPushButton(tr("Cancel"));
   BindButton(cancel, commands, "map.cancel");
   auto* row = new QHBoxLayout;
   row->addWidget(make);
+  row->addWidget(with_odometry);
   row->addWidget(cancel);
   row->addStretch(1);
   auto* inner = new QWidget;

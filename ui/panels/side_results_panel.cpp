@@ -4,6 +4,8 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
+#include <QMenu>
+#include <QPointer>
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -94,6 +96,8 @@ QWidget* SideResultsPanel::Card(int index) {
   top->addWidget(name, 1);
   top->addWidget(a);
   top->addWidget(b);
+  more_ << (model_->CanChange(index) ? BuildMore(index, name, layout) : nullptr);
+  if (more_.back() != nullptr) top->addWidget(more_.back());
   layout->addLayout(top);
   QStringList who;
   if (!row.author.isEmpty()) who << row.author;
@@ -109,6 +113,38 @@ QWidget* SideResultsPanel::Card(int index) {
   return card;
 }
 
+QToolButton* SideResultsPanel::BuildMore(int index, QLabel* title, QVBoxLayout* card) {
+  const QString name = model_->Rows()[static_cast<std::size_t>(index)].name;
+  auto* more = new QToolButton;
+  more->setText(tr("More"));
+  more->setAccessibleName(tr("Rename or delete %1").arg(name));
+  more->setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(more);
+  menu->addAction(tr("Rename"), this, [this, index, name, title, card] {
+    auto* field = new QLineEdit(name);
+    field->setObjectName(QStringLiteral("renameResult"));
+    field->setAccessibleName(tr("New name of %1").arg(name));
+    title->hide();
+    card->insertWidget(1, field);
+    field->selectAll();
+    field->setFocus();
+    // After this signal: the cards are made anew then.
+    connect(
+        field, &QLineEdit::editingFinished, this,
+        [this, index, field = QPointer<QLineEdit>(field), title = QPointer<QLabel>(title)] {
+          if (!field) return;  // Return and the loss of focus are both told
+          const QString wanted = field->text();
+          field->deleteLater();
+          if (title) title->show();
+          model_->Rename(index, wanted);
+        },
+        Qt::QueuedConnection);
+  });
+  menu->addAction(tr("Delete"), this, [this, index] { model_->Delete(index); });
+  more->setMenu(menu);
+  return more;
+}
+
 void SideResultsPanel::ShowRows() {
   if (list_ != nullptr) {
     list_->hide();
@@ -116,6 +152,7 @@ void SideResultsPanel::ShowRows() {
   }
   a_.clear();
   b_.clear();
+  more_.clear();
   list_ = new QWidget;
   auto* layout = new QVBoxLayout(list_);
   layout->setContentsMargins(0, 0, 0, 0);

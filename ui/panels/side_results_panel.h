@@ -28,10 +28,13 @@ class SideResultsPanel : public QWidget {
   /// Of a row of the model.
   QToolButton* ButtonA(int index) const { return a_.value(index); }
   QToolButton* ButtonB(int index) const { return b_.value(index); }
+  /// Its menu renames and deletes; nullptr for an original.
+  QToolButton* MoreButton(int index) const { return more_.value(index); }
 
  private:
   void ShowRows();
   QWidget* Card(int index);
+  QToolButton* BuildMore(int index, QLabel* title, QVBoxLayout* card);
 
   SideResultsModel* model_;
   QLineEdit* name_;
@@ -41,6 +44,7 @@ class SideResultsPanel : public QWidget {
   QLabel* numbers_;
   QVector<QToolButton*> a_;
   QVector<QToolButton*> b_;
+  QVector<QToolButton*> more_;
 };
 
 }  // namespace foresight

@@ -27,14 +27,15 @@ struct Imported {
 ImportViewModel::ImportViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {}
 
-void ImportViewModel::Import(const QStringList& files, const QString& folder) {
+void ImportViewModel::Import(const QStringList& files, const QString& folder,
+                             const ImportOptions& options) {
   if (files.isEmpty()) return;
   std::vector<std::filesystem::path> sources;
   for (const QString& file : files) sources.emplace_back(file.toStdString());
-  const auto work = [sources, folder = std::filesystem::path(folder.toStdString())](
+  const auto work = [sources, options, folder = std::filesystem::path(folder.toStdString())](
                         const RunContext& context) -> Result<Imported> {
     Imported imported{FreeName(folder, sources.front()), {}};
-    FORESIGHT_TRY(imported.report, ImportMission(sources, imported.mission, {}, context));
+    FORESIGHT_TRY(imported.report, ImportMission(sources, imported.mission, options, context));
     return imported;
   };
   const QString doing = tr("Importing");

@@ -4,6 +4,7 @@
 #include <QString>
 #include <QStringList>
 
+#include "core/exchange/assemble_scan.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
@@ -20,7 +21,7 @@ class ImportViewModel : public QObject {
   TaskRunner* Runner() { return &runner_; }
   /// Into a new file in `folder` that is named after the first of the files; nothing is replaced.
   /// One import after the other, each can be cancelled.
-  void Import(const QStringList& files, const QString& folder);
+  void Import(const QStringList& files, const QString& folder, const ImportOptions& options = {});
 
  Q_SIGNALS:
   void imported(const QString& mission);

@@ -13,12 +13,16 @@ QString MapViewModel::WhyNoMap() const {
   return Busy() ? tr("A map is being made.") : QString();
 }
 
-void MapViewModel::Make(const QString& mission) {
-  const auto work = [path = mission.toStdString()](
+void MapViewModel::Make(const QString& mission, const QString& odometry_file) {
+  const auto work = [path = mission.toStdString(), poses = odometry_file.toStdString()](
                         const RunContext& context) -> Result<std::shared_ptr<const ShownMap>> {
+    MapOdometry odometry;
+    if (!poses.empty()) {
+      FORESIGHT_TRY(odometry, LoadMapOdometry(poses));
+    }
     FORESIGHT_TRY(const auto file, MissionFile::OpenReadOnly(path));
     auto shown = std::make_shared<ShownMap>();
-    FORESIGHT_TRY(shown->map, MapMission(*file, {}, {}, context.Part(0.0, 0.9)));
+    FORESIGHT_TRY(shown->map, MapMission(*file, {}, odometry, context.Part(0.0, 0.9)));
     FORESIGHT_TRY(shown->pyramid,
                   PointPyramid::Build(PointsOfMap(shown->map), {}, context.Part(0.9, 1.0)));
     return std::shared_ptr<const ShownMap>(std::move(shown));

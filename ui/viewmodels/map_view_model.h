@@ -30,8 +30,9 @@ class MapViewModel : public QObject {
   /// The file it was made from; empty while there is none.
   QString Mission() const { return mission_; }
   bool Busy() const { return runner_.Busy(); }
-  /// Brings all scans of the mission together.
-  void Make(const QString& mission);
+  /// Brings all scans of the mission together, from where a file of the robot's odometry says that
+  /// it stood (LoadMapOdometry); without one each is looked for where the last one was.
+  void Make(const QString& mission, const QString& odometry_file = {});
   /// Looks for what changed from one scan of the map to another, by their places in its list.
   void FindChanges(int before, int after);
   /// Of the last search; empty before one.

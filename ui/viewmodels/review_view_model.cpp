@@ -244,11 +244,15 @@ void ReviewViewModel::Write(std::function<Status(MissionFile*)> body,
 
 void ReviewViewModel::Keep(std::function<Status(MissionFile*)> body,
                            std::function<void(const Status&)> kept) {
-  const auto file = File();
-  if (!file) return;
+  if (const auto file = File()) KeepIn(file->path(), std::move(body), std::move(kept));
+}
+
+void ReviewViewModel::KeepIn(const std::filesystem::path& mission,
+                             std::function<Status(MissionFile*)> body,
+                             std::function<void(const Status&)> kept) {
   writer_.Run<bool>(
       tr("Keeping the review"),
-      [mission = file->path(), folder = ReviewFolder(),
+      [mission, folder = ReviewFolder(),
        body = std::move(body)](const RunContext&) -> Result<bool> {
         FORESIGHT_TRY(const auto notes, MissionFile::OpenReviewOf(mission, folder));
         FORESIGHT_CHECK(body(notes.get()));

@@ -58,6 +58,10 @@ class ReviewViewModel : public QObject {
   /// Writes into the review of the mission that is open, in the order of the calls; `kept` is told
   /// how that ended, in this thread.
   void Keep(std::function<Status(MissionFile*)> body, std::function<void(const Status&)> kept);
+  /// The same beside a mission that need not be the open one any more: what was begun in it belongs
+  /// to it.
+  void KeepIn(const std::filesystem::path& mission, std::function<Status(MissionFile*)> body,
+              std::function<void(const Status&)> kept);
 
   /// The session shows another scan of this mission now: a replay went on to it.
   void Follow(int scan, const std::vector<FoundObject>& objects);

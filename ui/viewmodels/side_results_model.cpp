@@ -9,6 +9,8 @@
 namespace foresight {
 namespace {
 
+const QString kUndoTopic = QStringLiteral("side results");
+
 QString InOneLine(const std::vector<std::string>& words) {
   QStringList list;
   for (const std::string& word : words) list << QString::fromStdString(word);
@@ -21,15 +23,12 @@ Result<std::vector<ResultRow>> RowsOf(const MissionFile& mission, const MissionF
   if (!scan_id) return std::vector<ResultRow>();
   FORESIGHT_TRY(const DepthOptions original, OriginalDepthOptions(mission, *scan_id, -1));
   std::vector<ResultRow> rows;
-  for (const MissionFile* file : {&mission, review}) {
-    if (file == nullptr) continue;
-    FORESIGHT_TRY(const std::vector<SideResult> results, ListSideResults(*file, scan.uuid));
-    for (const SideResult& result : results)
-      rows.push_back({QString::fromStdString(mission.path().string()), scan.uuid, result.uuid,
-                      QString::fromStdString(result.name), QString::fromStdString(result.author),
-                      QDateTime::fromMSecsSinceEpoch(result.utc_ns / 1'000'000),
-                      InOneLine(DifferencesInWords(result, original, scan.rig))});
-  }
+  FORESIGHT_TRY(const std::vector<SideResult> results, SideResultsOf(mission, review, scan.uuid));
+  for (const SideResult& result : results)
+    rows.push_back({QString::fromStdString(mission.path().string()), scan.uuid, result.uuid,
+                    QString::fromStdString(result.name), QString::fromStdString(result.author),
+                    QDateTime::fromMSecsSinceEpoch(result.utc_ns / 1'000'000),
+                    InOneLine(DifferencesInWords(result, original, scan.rig))});
   return rows;
 }
 
@@ -75,6 +74,7 @@ void SideResultsModel::FollowScan() {
   const std::string uuid = scan && review_->File() ? scan->uuid : std::string();
   if (uuid == scan_) return;
   scan_ = uuid;
+  session_->Undo()->Forget(kUndoTopic);
   comparer_.cancel();
   compared_ = {};
   a_.reset();
@@ -110,9 +110,22 @@ void SideResultsModel::List() {
                   tr("as the mission keeps it")}};
         rows_.insert(rows_.end(), listed->begin(), listed->end());
         rows_.insert(rows_.end(), others_.begin(), others_.end());
-        if (!a_) a_ = rows_.front();
+        TakePresentRows();
         Q_EMIT changed();
       });
+}
+
+void SideResultsModel::TakePresentRows() {
+  // A and B have the names that they have now; one that was deleted is chosen no longer.
+  for (std::optional<ResultRow>* side : {&a_, &b_}) {
+    if (!*side) continue;
+    const int index = IndexOf(*side);
+    if (index >= 0)
+      *side = rows_[static_cast<std::size_t>(index)];
+    else
+      side->reset();
+  }
+  if (!a_) a_ = rows_.front();
 }
 
 QString SideResultsModel::WhyNoRun() const {
@@ -170,13 +183,16 @@ void SideResultsModel::Start(const QString& name, const std::optional<std::strin
     FORESIGHT_TRY(made.answer, foresight::RunAgain(*scan, records, made.settings, context));
     return made;
   };
-  runner_.Run<Made>(doing, work, [this, doing, called, scan](Result<Made> made) {
+  // Another mission may be open when the run is done: the result belongs to this one.
+  const std::filesystem::path mission = review_->File()->path();
+  runner_.Run<Made>(doing, work, [this, doing, called, scan, mission](Result<Made> made) {
     if (!made) {
       session_->Report(NoticeOf(doing, made.error()));
       return;
     }
     const int failures = made->answer.failures;
-    review_->Keep(
+    review_->KeepIn(
+        mission,
         [called, scan, kept = std::move(*made)](MissionFile* review) -> Status {
           FORESIGHT_CHECK(
               KeepSideResult(*review, called.toStdString(), *scan, kept.settings, kept.answer));
@@ -194,6 +210,48 @@ void SideResultsModel::Start(const QString& name, const std::optional<std::strin
           List();
         });
   });
+}
+
+bool SideResultsModel::CanChange(int index) const {
+  if (index < 0 || index >= static_cast<int>(rows_.size())) return false;
+  return rows_[static_cast<std::size_t>(index)].result != kOriginalResult;
+}
+
+void SideResultsModel::Rename(int index, const QString& name) {
+  const std::string wanted = name.trimmed().toStdString();
+  if (!CanChange(index) || wanted.empty()) return;
+  const ResultRow& row = rows_[static_cast<std::size_t>(index)];
+  const std::string before = row.name.toStdString();
+  if (wanted == before) return;
+  const auto to = [uuid = row.result](const std::string& called) {
+    return [uuid, called](MissionFile& review) { return RenameSideResult(review, uuid, called); };
+  };
+  ChangeWithUndo(tr("Rename %1").arg(row.name), to(wanted), to(before));
+}
+
+void SideResultsModel::Delete(int index) {
+  if (!CanChange(index)) return;
+  const ResultRow& row = rows_[static_cast<std::size_t>(index)];
+  ChangeWithUndo(
+      tr("Delete %1").arg(row.name),
+      [uuid = row.result](MissionFile& review) { return DeleteSideResult(review, uuid); },
+      [uuid = row.result](MissionFile& review) { return RestoreSideResult(review, uuid); });
+}
+
+void SideResultsModel::ChangeWithUndo(const QString& text, const Change& change,
+                                      const Change& back) {
+  session_->Undo()->Push(
+      text, kUndoTopic, [this, text, back] { KeepChange(text, back); },
+      [this, text, change] { KeepChange(text, change); });
+  KeepChange(text, change);
+}
+
+void SideResultsModel::KeepChange(const QString& text, const Change& change) {
+  review_->Keep([change](MissionFile* review) { return change(*review); },
+                [this, text](const Status& kept) {
+                  if (!kept) session_->Report(NoticeOf(text, kept.error()));
+                  List();
+                });
 }
 
 void SideResultsModel::AddMission(const QString& file) {

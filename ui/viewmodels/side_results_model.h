@@ -3,6 +3,7 @@
 #include <QDateTime>
 #include <QObject>
 #include <QString>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -64,6 +65,12 @@ class SideResultsModel : public QObject {
   void RunAgain(const QString& name);
   /// The same with the rig of a file in place of the scan's own.
   void RunAgainWithRig(const QString& name, const QString& rig_file);
+  /// Whether a row of Rows() is a side result: originals are neither renamed nor deleted.
+  bool CanChange(int index) const;
+  /// Another name for a side result, or none of it in the list; both can be undone. What was kept
+  /// of it stays in the review.
+  void Rename(int index, const QString& name);
+  void Delete(int index);
   /// Lists the scans of another mission too.
   void AddMission(const QString& file);
   TaskRunner* Runner() { return &runner_; }
@@ -80,7 +87,11 @@ class SideResultsModel : public QObject {
  private:
   void FollowScan();
   void List();
+  void TakePresentRows();
   void Start(const QString& name, const std::optional<std::string>& rig_file);
+  using Change = std::function<Status(MissionFile&)>;
+  void ChangeWithUndo(const QString& text, const Change& change, const Change& back);
+  void KeepChange(const QString& text, const Change& change);
   void Choose(int index, std::optional<ResultRow>* side);
   int IndexOf(const std::optional<ResultRow>& row) const;
   QString FreeName() const;

@@ -103,6 +103,29 @@ TEST_F(SideResultTest, TheMissionStaysAsItIsToTheLastByte) {
   EXPECT_EQ(ReadFile(path).value(), bytes_before);
 }
 
+TEST_F(SideResultTest, IsRenamedAndDeletedAndBroughtBackWithoutAWordBeingOverwritten) {
+  const std::vector<SideResult> before = All();
+  const auto change = [](const auto& body) {
+    const auto review = MissionFile::OpenReviewOf(path).value();
+    ASSERT_TRUE(body(*review));
+  };
+  change([&](MissionFile& review) { return RenameSideResult(review, before[0].uuid, "other"); });
+  EXPECT_EQ(All()[0].name, "other");
+  EXPECT_EQ(All()[0].answer_json, before[0].answer_json);
+  change([&](MissionFile& review) { return DeleteSideResult(review, before[0].uuid); });
+  ASSERT_EQ(All().size(), 1u);
+  EXPECT_EQ(All()[0].uuid, before[1].uuid);
+  // What it found is no finding of the scan for that.
+  EXPECT_EQ(DetectionsOfScan(*Mission(), Review().get(), scan.uuid)->size(), 1u);
+  change([&](MissionFile& review) { return RestoreSideResult(review, before[0].uuid); });
+  change([&](MissionFile& review) {
+    return RenameSideResult(review, before[0].uuid, before[0].name);
+  });
+  ASSERT_EQ(All().size(), 2u);
+  EXPECT_EQ(All()[0].name, before[0].name);
+  EXPECT_FALSE(RenameSideResult(*MissionFile::OpenReviewOf(path).value(), before[0].uuid, ""));
+}
+
 TEST_F(SideResultTest, IsListedWithNameAuthorTimeAndItsWholeAnswer) {
   const std::vector<SideResult> all = All();
   ASSERT_EQ(all.size(), 2u);
