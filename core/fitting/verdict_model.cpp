@@ -6,6 +6,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/embedded_files.h"
+#include "core/fitting/gate.h"
 #include "core/fitting/ray_set.h"
 #include "core/io/yaml_reader.h"
 
@@ -108,9 +109,11 @@ double VerdictModel::Probability(std::span<const double> values) const {
 }
 
 std::string VerdictModel::Reservation() const {
-  if (fits >= kLeastFits) return {};
-  return fmt::format("nobody knows yet how often such an answer is right: only {} were tried",
-                     fits);
+  const Gate gate{.what = "{} such answers were tried",
+                  .number = static_cast<double>(fits),
+                  .limit = static_cast<double>(kLeastFits),
+                  .advice = "nobody knows yet how often one is right"};
+  return gate.Failed() ? gate.Sentence() : std::string();
 }
 
 void VerdictModel::AddReservation(std::vector<std::string>& failed_gates) const {

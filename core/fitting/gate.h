@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/fitting/verdict.h"
+
+namespace foresight {
+
+/// One number that an answer has to keep on one side of a limit, and how an operator is told where
+/// it does not. Every reason of a verdict with a number in it is made here, so that the number and
+/// the limit in a sentence are those of the gate that failed, and differ as printed.
+struct Gate {
+  enum class Side { kAtLeast, kAtMost };
+  enum class Unit {
+    kCount,
+    kFraction,  ///< "22 %"
+    kRatio,     ///< "1.19"
+    kLength,    ///< metres: "31 mm"
+    kAngle,     ///< radians: "2.4 deg"
+    kOdds,      ///< nats: "12 : 1", "1 : 400", "10^13 : 1"
+  };
+  /// How much it weighs.
+  enum class Kind {
+    kHard,   ///< "(at least 40)"
+    kUsual,  ///< it only lowers the probability: "(usually at least 60 %)"
+  };
+
+  std::string what;  ///< with "{}" for the number: "{} measurements lie on the valve"
+  Unit unit = Unit::kCount;
+  double number = 0.0;
+  Side side = Side::kAtLeast;
+  double limit = 0.0;
+  std::string advice = {};  ///< what follows from it; empty = nothing
+  Kind kind = Kind::kHard;
+  std::string limit_note = {};  ///< "for CONFIRMED"; empty = nothing
+
+  /// Not on its side; NaN always.
+  bool Failed() const;
+  /// "31 measurements lie on the valve (at least 40): scan slower". Of a gate that failed.
+  std::string Sentence() const;
+};
+
+/// Adds the sentence of a gate that failed.
+void AddIfFailed(const Gate& gate, std::vector<std::string>& failed_gates);
+
+/// The reason of a verdict whose level, probability and failed gates are filled in: its first
+/// failed gate; of a CONFIRMED one `confirmed`; else its probability, which is below `least_likely`
+/// or what CONFIRMED needs, with the first of the `usual` limits that it misses.
+std::string ReasonOf(const Verdict& verdict, double least_likely, const std::string& confirmed,
+                     const std::vector<Gate>& usual);
+
+}  // namespace foresight
