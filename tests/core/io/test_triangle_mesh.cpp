@@ -28,7 +28,8 @@ double SixVolumes(const TriangleMesh& mesh) {
   return sum;
 }
 
-/// A tetrahedron of volume 4: its corner is at the origin, its sides on the axes are 2, 3 and 4 long.
+/// A tetrahedron of volume 4: its corner is at the origin, its sides on the axes are 2, 3 and 4
+/// long.
 const std::vector<Eigen::Vector3f> kCorners = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
 const std::vector<Eigen::Vector3i> kFaces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
 
