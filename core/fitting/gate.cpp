@@ -141,6 +141,32 @@ void AddIfFailed(const Gate& gate, std::vector<std::string>& failed_gates) {
   if (gate.Failed()) failed_gates.push_back(gate.Sentence());
 }
 
+double MeanOf(const VerdictModel& model, std::string_view feature) {
+  const auto found =
+      std::find_if(model.features.begin(), model.features.end(),
+                   [&](const VerdictModel::Feature& known) { return known.name == feature; });
+  FORESIGHT_EXPECTS(found != model.features.end(), "a model has the features of its object");
+  return found->mean;
+}
+
+std::vector<Gate> WeightiestFirst(const VerdictModel& model, std::span<const double> values,
+                                  const std::vector<FeatureGate>& gates) {
+  const std::vector<double> shares = model.Contributions(values);
+  std::vector<std::pair<double, Gate>> weighty;
+  for (const FeatureGate& it : gates)
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      if (model.features[i].name == it.feature && shares[i] < 0.0 && it.gate.Failed())
+        weighty.emplace_back(shares[i], it.gate);
+  std::stable_sort(weighty.begin(), weighty.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Gate> usual;
+  for (auto& [share, gate] : weighty) {
+    gate.kind = Gate::Kind::kUsual;
+    usual.push_back(std::move(gate));
+  }
+  return usual;
+}
+
 std::string ReasonOf(const Verdict& verdict, double least_likely, const std::string& confirmed,
                      const std::vector<Gate>& usual) {
   if (!verdict.failed_gates.empty()) return verdict.failed_gates.front();

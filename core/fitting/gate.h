@@ -1,9 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/fitting/verdict.h"
+#include "core/fitting/verdict_model.h"
 
 namespace foresight {
 
@@ -23,7 +26,7 @@ struct Gate {
   /// How much it weighs.
   enum class Kind {
     kHard,   ///< "(at least 40)"
-    kUsual,  ///< it only lowers the probability: "(usually at least 60 %)"
+    kUsual,  ///< a mean of others, which only moves the probability: "(usually at least 60 %)"
   };
 
   std::string what;  ///< with "{}" for the number: "{} measurements lie on the valve"
@@ -43,6 +46,22 @@ struct Gate {
 
 /// Adds the sentence of a gate that failed.
 void AddIfFailed(const Gate& gate, std::vector<std::string>& failed_gates);
+
+/// A gate on what a feature of a verdict's model was computed from.
+struct FeatureGate {
+  std::string feature;
+  Gate gate;  ///< its limit is the feature's mean, in the gate's unit
+};
+
+/// Of the gates, as usual ones, those that failed and whose feature takes something off the
+/// probability, the most first. `values` are the model's features. A gate whose feature the model
+/// lacks, or weighs the other way round, is none of them.
+std::vector<Gate> WeightiestFirst(const VerdictModel& model, std::span<const double> values,
+                                  const std::vector<FeatureGate>& gates);
+
+/// The mean of a feature over the answers that a model was fitted to. Throws ContractViolation
+/// where it has none of this name.
+double MeanOf(const VerdictModel& model, std::string_view feature);
 
 /// The reason of a verdict whose level, probability and failed gates are filled in: its first
 /// failed gate; of a CONFIRMED one `confirmed`; else its probability, which is below `least_likely`

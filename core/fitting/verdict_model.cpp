@@ -96,14 +96,25 @@ VerdictSource VerdictSourceOf(const RaySet& rays) {
   return rays.beams ? VerdictSource::kDense : VerdictSource::kAlone;
 }
 
-double VerdictModel::Probability(std::span<const double> values) const {
+std::vector<double> VerdictModel::Contributions(std::span<const double> values) const {
   FORESIGHT_EXPECTS(values.size() == features.size(), "as many values as the model has features");
-  double sum = bias;
+  std::vector<double> contributions;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) return 0.0;
     const Feature& feature = features[i];
-    sum += feature.weight *
-           std::clamp((values[i] - feature.mean) / feature.deviation, -kFarthest, kFarthest);
+    contributions.push_back(
+        std::isfinite(values[i])
+            ? feature.weight *
+                  std::clamp((values[i] - feature.mean) / feature.deviation, -kFarthest, kFarthest)
+            : std::nan(""));
+  }
+  return contributions;
+}
+
+double VerdictModel::Probability(std::span<const double> values) const {
+  double sum = bias;
+  for (const double contribution : Contributions(values)) {
+    if (std::isnan(contribution)) return 0.0;
+    sum += contribution;
   }
   return 1.0 / (1.0 + std::exp(-sum));
 }

@@ -61,6 +61,14 @@ Gate SeeThroughGate(const DrillEvidence& evidence, double limit) {
           .limit = limit};
 }
 
+Gate AlternativeGate(const DrillEvidence& evidence, double limit_nats) {
+  return {
+      .what = fmt::format("the odds against a {} in its place are {{}}", evidence.best_alternative),
+      .unit = Gate::Unit::kOdds,
+      .number = evidence.alternative_margin_nats,
+      .limit = limit_nats};
+}
+
 /// What its direction has against it: the first of these that it misses.
 std::vector<Gate> DirectionGates(const DrillEvidence& evidence, bool dense) {
   const double least_margin = dense ? kMinYawMarginDense_nats : kMinYawMargin_nats;
@@ -135,12 +143,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
               failed);
   AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
   // As likely as the drill, or not looked at, is not behind: the limit is just above 0.
-  AddIfFailed({.what = fmt::format("the odds against a {} in its place are {{}}",
-                                   evidence.best_alternative),
-               .unit = Gate::Unit::kOdds,
-               .number = evidence.alternative_margin_nats,
-               .limit = std::numeric_limits<double>::min()},
-              failed);
+  AddIfFailed(AlternativeGate(evidence, std::numeric_limits<double>::min()), failed);
   AddPartOutside(region, detection.best, failed);
   for (const Gate& gate : DirectionGates(evidence, rays.dense)) {
     AddIfFailed(gate, failed);
@@ -158,26 +161,39 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
   return failed;
 }
 
-/// What answers that are right usually keep.
-std::vector<Gate> UsualGates(const DrillDetection& detection) {
-  constexpr double kUsualSeeThrough = 0.08;
+/// The nats that Compressed made a value of.
+double Expanded(double value) {
+  return std::copysign(std::expm1(std::abs(value)), value);
+}
+
+/// What may be unusual about it.
+std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const VerdictModel& model) {
   const DrillEvidence& evidence = detection.evidence;
-  std::vector<Gate> gates = {{.what = "{} of the beams on the drill agree with it",
-                              .unit = Gate::Unit::kFraction,
-                              .number = evidence.inlier_ratio,
-                              .limit = 0.7},
-                             SeeThroughGate(evidence, kUsualSeeThrough),
-                             {.what = "its direction is known to {}",
-                              .unit = Gate::Unit::kAngle,
-                              .number = detection.sigma_yaw_rad,
-                              .side = Gate::Side::kAtMost,
-                              .limit = RadiansFromDegrees(4.0)},
-                             {.what = "the odds against another direction are {}",
-                              .unit = Gate::Unit::kOdds,
-                              .number = evidence.yaw_margin_nats,
-                              .limit = 5.0 * kMinYawMargin_nats}};
-  for (Gate& gate : gates) gate.kind = Gate::Kind::kUsual;
-  return gates;
+  const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
+  return {{"inlier_ratio",
+           {.what = "{} of the beams on the drill agree with it",
+            .unit = Gate::Unit::kFraction,
+            .number = evidence.inlier_ratio,
+            .limit = mean("inlier_ratio")}},
+          {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+          {"log_sigma_yaw",
+           {.what = "its direction is known to {}",
+            .unit = Gate::Unit::kAngle,
+            .number = detection.sigma_yaw_rad,
+            .side = Gate::Side::kAtMost,
+            .limit = std::exp(mean("log_sigma_yaw"))}},
+          {"log_yaw_margin",
+           {.what = "the odds against another direction are {}",
+            .unit = Gate::Unit::kOdds,
+            .number = evidence.yaw_margin_nats,
+            .limit = Expanded(mean("log_yaw_margin"))}},
+          {"log_head",
+           {.what = "the odds that a head is seen are {}",
+            .unit = Gate::Unit::kOdds,
+            .number = evidence.head_nats,
+            .limit = Expanded(mean("log_head"))}},
+          {"log_alternative_margin",
+           AlternativeGate(evidence, Expanded(mean("log_alternative_margin")))}};
 }
 
 double Squared(double value) {
@@ -314,7 +330,7 @@ Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetecti
       verdict, Verdict::kLikely,
       fmt::format("{} beams on the drill, {:.0f} % of them agree; the other way fits worse",
                   detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio),
-      UsualGates(detection));
+      WeightiestFirst(model, verdict.features, FeatureGates(detection, model)));
   return verdict;
 }
 

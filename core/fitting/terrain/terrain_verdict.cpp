@@ -50,23 +50,39 @@ std::vector<std::string> FailedGates(const BlockEvidence& evidence) {
   return failed;
 }
 
-/// What blocks that are right usually keep.
-std::vector<Gate> UsualGates(const TerrainSurface& block, const RectangleEvidence& evidence) {
+/// What may be unusual about it.
+std::vector<FeatureGate> FeatureGates(const TerrainSurface& block,
+                                      const RectangleEvidence& evidence,
+                                      const VerdictModel& model) {
   const BlockEvidence& seen = block.evidence;
-  std::vector<Gate> gates = {EdgesGate(seen, 4),
-                             {.what = "its extent differs from a block's by {}",
-                              .unit = Gate::Unit::kLength,
-                              .number = evidence.size_error_m,
-                              .side = Gate::Side::kAtMost,
-                              .limit = 0.04},
-                             CoverGate(seen, 0.8),
-                             {.what = "{} of the beams on it went through",
-                              .unit = Gate::Unit::kFraction,
-                              .number = seen.see_through,
-                              .side = Gate::Side::kAtMost,
-                              .limit = 0.05}};
-  for (Gate& gate : gates) gate.kind = Gate::Kind::kUsual;
-  return gates;
+  const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
+  return {
+      {"four_edges", EdgesGate(seen, 4)},
+      {"size_error",
+       {.what = "its extent differs from a block's by {}",
+        .unit = Gate::Unit::kLength,
+        .number = evidence.size_error_m,
+        .side = Gate::Side::kAtMost,
+        .limit = mean("size_error")}},
+      {"cover", CoverGate(seen, mean("cover"))},
+      {"see_through",
+       {.what = "{} of the beams on it went through",
+        .unit = Gate::Unit::kFraction,
+        .number = seen.see_through,
+        .side = Gate::Side::kAtMost,
+        .limit = mean("see_through")}},
+      {"rms",
+       {.what = "its points scatter by {}",
+        .unit = Gate::Unit::kLength,
+        .number = seen.rms_m,
+        .side = Gate::Side::kAtMost,
+        .limit = mean("rms")}},
+      {"log_sigma_place",
+       {.what = "its place is known to {}",
+        .unit = Gate::Unit::kLength,
+        .number = std::hypot(std::sqrt(block.covariance(0, 0)), std::sqrt(block.covariance(1, 1))),
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_place"))}}};
 }
 
 std::vector<double> FeaturesOf(const RaySet& rays, const TerrainSurface& block,
@@ -126,7 +142,7 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
       ReasonOf(verdict, kWorthOffering,
                fmt::format("{} confirmed, {:.0f} % of its top seen",
                            Edges(block.evidence.confirmed_edges), 100.0 * block.evidence.cover),
-               UsualGates(block, evidence));
+               WeightiestFirst(model, verdict.features, FeatureGates(block, evidence, model)));
   return verdict;
 }
 

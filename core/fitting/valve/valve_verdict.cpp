@@ -1,6 +1,7 @@
 #include "core/fitting/valve/valve_verdict.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/fitting/gate.h"
 #include "core/fitting/region_place.h"
@@ -36,6 +37,15 @@ Gate BlockedGate(const ValveEvidence& evidence, double limit) {
           .number = evidence.blocked_gaps,
           .side = Gate::Side::kAtMost,
           .limit = limit};
+}
+
+/// Of a detection with alternatives.
+Gate MarginGate(const ValveDetection& detection, double limit_nats) {
+  return {.what = fmt::format("the odds of {} against {} are {{}}", NameOf(detection.best.model),
+                              NameOf(detection.alternatives.front().model)),
+          .unit = Gate::Unit::kOdds,
+          .number = detection.evidence.margin_nats,
+          .limit = limit_nats};
 }
 
 Gate SmallestRim(const ValveModel& model, double limit_m) {
@@ -92,13 +102,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
               failed);
   AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
   AddIfFailed(BlockedGate(evidence, kMaxBlockedGaps), failed);
-  if (!detection.alternatives.empty())
-    AddIfFailed({.what = fmt::format("the odds of {} against {} are {{}}", NameOf(best.model),
-                                     NameOf(detection.alternatives.front().model)),
-                 .unit = Gate::Unit::kOdds,
-                 .number = evidence.margin_nats,
-                 .limit = kMinMargin_nats},
-                failed);
+  if (!detection.alternatives.empty()) AddIfFailed(MarginGate(detection, kMinMargin_nats), failed);
   AddIfFailed({.what = "the valve lies {} from the region's centre",
                .unit = Gate::Unit::kLength,
                .number = DistanceFromRegionCenter(region, best),
@@ -110,31 +114,43 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
   return failed;
 }
 
-/// What answers that are right usually keep.
-std::vector<Gate> UsualGates(const ValveDetection& detection) {
-  constexpr double kUsualSeeThrough = 0.08, kUsualBlockedGaps = 0.15, kUsualAxisSigma_rad = 0.04;
+/// What may be unusual about it.
+std::vector<FeatureGate> FeatureGates(const ValveDetection& detection, const VerdictModel& model) {
   const ValveEvidence& evidence = detection.evidence;
-  std::vector<Gate> gates = {{.what = fmt::format("{{}} of the {} is seen",
-                                                  detection.best.model.IsLever() ? "lever" : "rim"),
-                              .unit = Gate::Unit::kFraction,
-                              .number = evidence.arc_coverage,
-                              .limit = 0.6},
-                             {.what = "of the beams on one spoke {} agree",
-                              .unit = Gate::Unit::kFraction,
-                              .number = evidence.weakest_spoke,
-                              .limit = 0.4},
-                             {.what = "{} of the beams on the valve agree with it",
-                              .unit = Gate::Unit::kFraction,
-                              .number = evidence.inlier_ratio,
-                              .limit = 0.6},
-                             SeeThroughGate(evidence, kUsualSeeThrough),
-                             BlockedGate(evidence, kUsualBlockedGaps),
-                             {.what = "the axis is known to {}",
-                              .unit = Gate::Unit::kAngle,
-                              .number = detection.sigma_axis_rad,
-                              .side = Gate::Side::kAtMost,
-                              .limit = kUsualAxisSigma_rad}};
-  for (Gate& gate : gates) gate.kind = Gate::Kind::kUsual;
+  const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
+  std::vector<FeatureGate> gates = {
+      {"arc_coverage",
+       {.what =
+            fmt::format("{{}} of the {} is seen", detection.best.model.IsLever() ? "lever" : "rim"),
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.arc_coverage,
+        .limit = mean("arc_coverage")}},
+      {"weakest_spoke",
+       {.what = "of the beams on one spoke {} agree",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.weakest_spoke,
+        .limit = mean("weakest_spoke")}},
+      {"inlier_ratio",
+       {.what = "{} of the beams on the valve agree with it",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.inlier_ratio,
+        .limit = mean("inlier_ratio")}},
+      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"blocked_gaps", BlockedGate(evidence, mean("blocked_gaps"))},
+      {"log_sigma_axis",
+       {.what = "the axis is known to {}",
+        .unit = Gate::Unit::kAngle,
+        .number = detection.sigma_axis_rad,
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_axis"))}},
+      {"log_sigma_pos",
+       {.what = "its place is known to {}",
+        .unit = Gate::Unit::kLength,
+        .number = detection.sigma_position_m.norm(),
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_pos"))}}};
+  if (!detection.alternatives.empty())
+    gates.push_back({"log_margin", MarginGate(detection, std::expm1(mean("log_margin")))});
   return gates;
 }
 
@@ -157,7 +173,7 @@ Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetecti
       ReasonOf(verdict, Verdict::kLikely,
                fmt::format("{} beams on the valve, {:.0f} % of them agree", detection.evidence.hits,
                            100.0 * detection.evidence.inlier_ratio),
-               UsualGates(detection));
+               WeightiestFirst(model, verdict.features, FeatureGates(detection, model)));
   return verdict;
 }
 

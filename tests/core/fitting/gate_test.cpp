@@ -100,6 +100,32 @@ void ExpectStatedGatesFail(const Verdict& verdict, int* stated_count) {
   }
 }
 
+TEST(Reasons, NameWhatTakesMostOffTheProbability) {
+  VerdictModel model;
+  model.features = {{.name = "seen", .mean = 0.8, .deviation = 0.1, .weight = 1.0},
+                    {.name = "agree", .mean = 0.9, .deviation = 0.1, .weight = 2.0},
+                    {.name = "odd", .mean = 0.5, .deviation = 0.1, .weight = -5.0}};
+  const auto gate = [](const char* what, double number, double limit) {
+    return Gate{.what = what, .unit = Gate::Unit::kFraction, .number = number, .limit = limit};
+  };
+  const auto reasons = [&](double seen, double agree, double odd) {
+    std::vector<std::string> sentences;
+    for (const Gate& it : WeightiestFirst(model, std::vector<double>{seen, agree, odd},
+                                          {{"seen", gate("{} seen", seen, 0.8)},
+                                           {"agree", gate("{} agree", agree, 0.9)},
+                                           {"odd", gate("{} odd", odd, 0.5)}}))
+      sentences.push_back(it.Sentence());
+    return sentences;
+  };
+  EXPECT_THAT(reasons(0.7, 0.8, 0.5), ::testing::ElementsAre("80 % agree (usually at least 90 %)",
+                                                             "70 % seen (usually at least 80 %)"));
+  EXPECT_THAT(reasons(0.6, 0.85, 0.5),
+              ::testing::ElementsAre("60 % seen (usually at least 80 %)",
+                                     "85 % agree (usually at least 90 %)"));
+  // What the model counts in its favour is no reason, whatever the gate says.
+  EXPECT_THAT(reasons(0.9, 0.95, 0.2), ::testing::IsEmpty());
+}
+
 /// A fan of rays along z onto a wall.
 RaySet Fan() {
   RaySet rays;
