@@ -47,10 +47,14 @@ struct Gate {
 /// Adds the sentence of a gate that failed.
 void AddIfFailed(const Gate& gate, std::vector<std::string>& failed_gates);
 
+/// Another answer that is this far behind, "far less likely", is never a reason.
+inline constexpr double kFarBehind_nats = 50.0;
+
 /// A gate on what a feature of a verdict's model was computed from.
 struct FeatureGate {
   std::string feature;
-  Gate gate;  ///< its limit is the feature's mean, in the gate's unit
+  Gate gate;  ///< its limit is the feature's mean, in the gate's unit, of odds at most
+              ///< kFarBehind_nats
 };
 
 /// Of the gates, as usual ones, those that failed and whose feature takes something off the

@@ -170,30 +170,33 @@ double Expanded(double value) {
 std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const VerdictModel& model) {
   const DrillEvidence& evidence = detection.evidence;
   const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
-  return {{"inlier_ratio",
-           {.what = "{} of the beams on the drill agree with it",
-            .unit = Gate::Unit::kFraction,
-            .number = evidence.inlier_ratio,
-            .limit = mean("inlier_ratio")}},
-          {"see_through", SeeThroughGate(evidence, mean("see_through"))},
-          {"log_sigma_yaw",
-           {.what = "its direction is known to {}",
-            .unit = Gate::Unit::kAngle,
-            .number = detection.sigma_yaw_rad,
-            .side = Gate::Side::kAtMost,
-            .limit = std::exp(mean("log_sigma_yaw"))}},
-          {"log_yaw_margin",
-           {.what = "the odds against another direction are {}",
-            .unit = Gate::Unit::kOdds,
-            .number = evidence.yaw_margin_nats,
-            .limit = Expanded(mean("log_yaw_margin"))}},
-          {"log_head",
-           {.what = "the odds that a head is seen are {}",
-            .unit = Gate::Unit::kOdds,
-            .number = evidence.head_nats,
-            .limit = Expanded(mean("log_head"))}},
-          {"log_alternative_margin",
-           AlternativeGate(evidence, Expanded(mean("log_alternative_margin")))}};
+  const auto usual_nats = [&](const char* feature) {
+    return std::min(kFarBehind_nats, Expanded(mean(feature)));
+  };
+  return {
+      {"inlier_ratio",
+       {.what = "{} of the beams on the drill agree with it",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.inlier_ratio,
+        .limit = mean("inlier_ratio")}},
+      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"log_sigma_yaw",
+       {.what = "its direction is known to {}",
+        .unit = Gate::Unit::kAngle,
+        .number = detection.sigma_yaw_rad,
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_yaw"))}},
+      {"log_yaw_margin",
+       {.what = "the odds against another direction are {}",
+        .unit = Gate::Unit::kOdds,
+        .number = evidence.yaw_margin_nats,
+        .limit = usual_nats("log_yaw_margin")}},
+      {"log_head",
+       {.what = "the odds that a head is seen are {}",
+        .unit = Gate::Unit::kOdds,
+        .number = evidence.head_nats,
+        .limit = usual_nats("log_head")}},
+      {"log_alternative_margin", AlternativeGate(evidence, usual_nats("log_alternative_margin"))}};
 }
 
 double Squared(double value) {

@@ -150,7 +150,9 @@ std::vector<FeatureGate> FeatureGates(const ValveDetection& detection, const Ver
         .side = Gate::Side::kAtMost,
         .limit = std::exp(mean("log_sigma_pos"))}}};
   if (!detection.alternatives.empty())
-    gates.push_back({"log_margin", MarginGate(detection, std::expm1(mean("log_margin")))});
+    gates.push_back(
+        {"log_margin",
+         MarginGate(detection, std::min(kFarBehind_nats, std::expm1(mean("log_margin"))))});
   return gates;
 }
 
