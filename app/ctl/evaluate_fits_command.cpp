@@ -20,6 +20,7 @@ namespace {
 
 struct EvaluateFitsArguments {
   std::string kind;
+  std::string world = "home";
   std::uint64_t first_seed = 1;
   int count = 50;
   std::string only;  ///< "positives", "negatives"; empty = both
@@ -57,6 +58,16 @@ class OutcomeTable {
       FORESIGHT_CHECK(DropTornLine(path));
     }
     return AppendToFile(path, "");  // not after hours of trials
+  }
+
+  /// A seed means another scene in each world. Fails with kInvalidInput.
+  Status CheckWorld(FitWorld world) const {
+    for (const FitOutcome& outcome : outcomes_)
+      if (outcome.world != world)
+        return Fail(ErrorCode::kInvalidInput,
+                    "{}: seed {} in it is of the {} world: name another table", path_, outcome.seed,
+                    ToString(outcome.world));
+    return {};
   }
 
   std::set<std::uint64_t> Seeds() const {
@@ -161,6 +172,11 @@ void PrintTable(const FitStatistics& s) {
   for (const ErrorSpread& error : s.errors)
     PrintLine(
         fmt::format("  {:<16}  median {:.3f}, 95 % {:.3f}", error.name, error.median, error.p95));
+  for (const SigmaSpread& sigma : s.sigmas)
+    PrintLine(fmt::format("  {:<16}  spread over predicted {:.2f}, root mean square {:.2f}",
+                          sigma.name, sigma.robust, sigma.rms));
+  for (const ReasonCount& reason : s.right_not_confirmed)
+    PrintLine(fmt::format("  right, not CONFIRMED {:>3}: {}", reason.count, reason.reason));
   PrintLine(fmt::format("  CPU               median {:.2f} s, 95 % {:.2f} s", s.seconds_median,
                         s.seconds_p95));
 }
@@ -169,6 +185,13 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
   nlohmann::ordered_json errors = nlohmann::ordered_json::object();
   for (const ErrorSpread& error : s.errors)
     errors[error.name] = {{"median", Finite(error.median)}, {"p95", Finite(error.p95)}};
+  nlohmann::ordered_json sigmas = nlohmann::ordered_json::object();
+  for (const SigmaSpread& sigma : s.sigmas)
+    sigmas[sigma.name] = {{"spread_over_predicted", Finite(sigma.robust)},
+                          {"root_mean_square", Finite(sigma.rms)}};
+  nlohmann::ordered_json reasons = nlohmann::ordered_json::array();
+  for (const ReasonCount& reason : s.right_not_confirmed)
+    reasons.push_back({{"reason", reason.reason}, {"count", reason.count}});
   return {{"source", s.source},
           {"positives", s.positives},
           {"found", s.found},
@@ -186,6 +209,8 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"auc", Finite(s.auc)},
           {"ece", Finite(s.ece)},
           {"errors", errors},
+          {"sigmas", sigmas},
+          {"right_not_confirmed", reasons},
           {"seconds", {{"median", Finite(s.seconds_median)}, {"p95", Finite(s.seconds_p95)}}}};
 }
 
@@ -203,10 +228,13 @@ Result<std::regex> PatternFrom(const std::string& text) {
 }
 
 Result<ExitCode> EvaluateFits(const EvaluateFitsArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
+  FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population,
+                MakeFitPopulation(arguments.kind,
+                                  arguments.world == "other" ? FitWorld::kOther : FitWorld::kHome));
   FORESIGHT_TRY(const std::regex what, PatternFrom(arguments.what));
   OutcomeTable table;
   FORESIGHT_CHECK(table.Open(arguments.table));
+  FORESIGHT_CHECK(table.CheckWorld(population->World()));
   FORESIGHT_CHECK(RunTrials(*population, arguments, table, context));
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   std::vector<FitOutcome> counted = table.Sorted();
@@ -230,6 +258,12 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("object", arguments->kind, "valve, drill or terrain")
       ->required()
       ->check(CLI::IsMember(FitPopulationKinds()));
+  command
+      ->add_option("--world", arguments->world,
+                   "home, whose constants the fits know, or other, which shares none of them: it "
+                   "judges only, nothing is ever fitted to it")
+      ->check(CLI::IsMember({"home", "other"}))
+      ->capture_default_str();
   AddSeedOption(*command, "--first-seed", arguments->first_seed, "Seed of the first scene")
       ->capture_default_str();
   command->add_option("--count", arguments->count, "Number of scenes")

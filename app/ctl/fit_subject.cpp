@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/common/output.h"
 #include "core/depth/depth_method.h"
 #include "core/geometry/angles.h"
 #include "core/io/cloud_table.h"
@@ -57,6 +58,26 @@ BoxRoi BoxAround(const std::vector<Eigen::Vector3d>& points) {
           box.sizes() + Eigen::Vector3d::Constant(2.0 * kMargin_m)};
 }
 
+/// Says it where the grid that a cloud was measured on is not the file's own: terrain, the noise
+/// and the flat surfaces round an object are read off it.
+void NoteGrid(const std::string& file, const Result<GridPlaces>& of_table,
+              const GridPlaces& taken) {
+  if (taken.kind == GridPlaces::Kind::kScattered)
+    PrintNote(
+        "{}: no order of lines is found in its points. Without their grid terrain is found less "
+        "often and edges are less sure. Give a cloud with columns 'line' and 'beam' "
+        "(foresightctl cloud writes them), or the mission itself.",
+        file);
+  else if (!of_table)
+    PrintNote("{}: {}. Its grid of {} lines is guessed from the order of its points.", file,
+              of_table.error().message, taken.lines);
+  else if (taken.kind == GridPlaces::Kind::kSweeps)
+    PrintNote(
+        "{}: it does not say where its lines are. Its grid of {} lines is guessed from the order "
+        "of its points.",
+        file, taken.lines);
+}
+
 Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
   FORESIGHT_TRY(const CloudTable cloud, ReadCloudTable(arguments.cloud_file));
   if (arguments.rig.empty()) {
@@ -68,8 +89,8 @@ Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
   subject.viewpoint = base_from_robot * Eigen::Vector3d(arguments.viewpoint.data());
   // Where points of several scans were put together, their numbers are no grid.
   auto places = GridOfTable(cloud, subject.points, subject.viewpoint);
-  subject.places =
-      places ? std::move(*places) : RecoverGrid(subject.points, subject.viewpoint, cloud.ring);
+  subject.places = places ? *places : RecoverGrid(subject.points, subject.viewpoint, cloud.ring);
+  NoteGrid(arguments.cloud_file, places, subject.places);
   return {};
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/evaluation/drill_scene.h"
+#include "core/evaluation/sigma_errors.h"
 #include "core/fitting/drill/drill_verdict.h"
 #include "core/geometry/angles.h"
 
@@ -68,6 +70,9 @@ std::vector<FitOutcome> DrillPopulation::Judge(const FitTrial& trial,
                     {"yaw_deg", errors.yaw_deg},
                     {"axis_deg", errors.axis_deg},
                     {"flip", errors.yaw_deg > kFlipped_deg ? 1.0 : 0.0}};
+  AddSigmaErrors(detection.best.base_from_object.Inverse() *
+                     (trial.TrueBaseFromRobot() * truth.robot_from_object),
+                 detection.covariance, 2.0 * std::numbers::pi, outcome.errors);
   outcome.pose_ok = errors.xy_mm < kPlaceOk_mm && errors.yaw_deg < kYawOk_deg;
   outcome.all_ok = errors.xy_mm < kPlaceAllOk_mm && errors.yaw_deg < kYawAllOk_deg &&
                    errors.axis_deg < kAxisAllOk_deg;

@@ -25,8 +25,16 @@ VerdictLevel LevelFrom(const std::string& name) {
   return *level;
 }
 
+FitWorld WorldFrom(const ordered_json& value) {
+  if (!value.contains("world")) return FitWorld::kHome;  // tables of earlier programs
+  const Result<FitWorld> world = FitWorldFromString(value.at("world").get<std::string>());
+  if (!world) throw std::invalid_argument(world.error().message);
+  return *world;
+}
+
 FitOutcome OutcomeFrom(const ordered_json& value) {
   FitOutcome outcome;
+  outcome.world = WorldFrom(value);
   if (!value.at("seed").is_number_unsigned()) throw std::invalid_argument("'seed' is no seed");
   outcome.seed = value.at("seed");
   outcome.what = value.at("what");
@@ -53,7 +61,8 @@ std::string FitOutcomeToJson(const FitOutcome& outcome) {
   for (const double feature : outcome.verdict.features) features.push_back(Number(feature));
   ordered_json errors = ordered_json::object();
   for (const auto& [name, value] : outcome.errors) errors[name] = Number(value);
-  const ordered_json json = {{"seed", outcome.seed},
+  const ordered_json json = {{"world", ToString(outcome.world)},
+                             {"seed", outcome.seed},
                              {"what", outcome.what},
                              {"source", outcome.source},
                              {"positive", outcome.positive},

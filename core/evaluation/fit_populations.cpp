@@ -2,23 +2,24 @@
 
 #include <functional>
 
-#include "core/evaluation/drill_population.h"
-#include "core/evaluation/terrain_population.h"
-#include "core/evaluation/valve_population.h"
+#include "core/evaluation/other_populations.h"
 
 namespace foresight {
 namespace {
 
 struct Entry {
   std::string kind;
-  std::function<std::unique_ptr<FitPopulation>()> make;
+  std::function<std::unique_ptr<FitPopulation>()> make, make_other;
 };
 
 const std::vector<Entry>& Entries() {
   static const std::vector<Entry> entries = {
-      {"valve", [] { return std::make_unique<ValvePopulation>(); }},
-      {"drill", [] { return std::make_unique<DrillPopulation>(); }},
-      {"terrain", [] { return std::make_unique<TerrainPopulation>(); }},
+      {"valve", [] { return std::make_unique<ValvePopulation>(); },
+       [] { return std::make_unique<OtherValvePopulation>(); }},
+      {"drill", [] { return std::make_unique<DrillPopulation>(); },
+       [] { return std::make_unique<OtherDrillPopulation>(); }},
+      {"terrain", [] { return std::make_unique<TerrainPopulation>(); },
+       [] { return std::make_unique<OtherTerrainPopulation>(); }},
   };
   return entries;
 }
@@ -31,10 +32,10 @@ std::vector<std::string> FitPopulationKinds() {
   return kinds;
 }
 
-Result<std::unique_ptr<FitPopulation>> MakeFitPopulation(const std::string& kind) {
+Result<std::unique_ptr<FitPopulation>> MakeFitPopulation(const std::string& kind, FitWorld world) {
   std::string known;
   for (const Entry& entry : Entries()) {
-    if (entry.kind == kind) return entry.make();
+    if (entry.kind == kind) return world == FitWorld::kOther ? entry.make_other() : entry.make();
     known += (known.empty() ? "" : ", ") + entry.kind;
   }
   return Fail(ErrorCode::kInvalidOptions, "object '{}' is not one of: {}", kind, known);

@@ -12,6 +12,7 @@ namespace foresight {
 std::vector<std::string> FitPopulationKinds();
 
 /// Fails with kInvalidOptions, listing the kinds there are.
-Result<std::unique_ptr<FitPopulation>> MakeFitPopulation(const std::string& kind);
+Result<std::unique_ptr<FitPopulation>> MakeFitPopulation(const std::string& kind,
+                                                         FitWorld world = FitWorld::kHome);
 
 }  // namespace foresight

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <set>
 #include <string_view>
+
+#include "core/evaluation/sigma_errors.h"
 
 namespace foresight {
 namespace {
@@ -19,17 +22,76 @@ double Quantile(std::vector<double> values, double fraction) {
   return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
 }
 
-std::vector<ErrorSpread> SpreadsOf(const std::vector<const FitOutcome*>& answers) {
+bool IsInSigmas(const std::string& name) {
+  return name.ends_with(kSigmaErrorSuffix);
+}
+
+std::vector<std::string> ErrorNames(const std::vector<const FitOutcome*>& answers) {
   std::vector<std::string> names;
   for (const FitOutcome* answer : answers)
     for (const auto& [name, value] : answer->errors)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+/// Of one error, the finite values.
+std::vector<double> SizesOf(const std::vector<const FitOutcome*>& answers,
+                            const std::string& name) {
+  std::vector<double> values;
+  for (const FitOutcome* answer : answers)
+    for (const auto& [error, value] : answer->errors)
+      if (error == name && std::isfinite(value)) values.push_back(std::abs(value));
+  return values;
+}
+
+std::vector<SigmaSpread> SigmaSpreadsOf(const std::vector<const FitOutcome*>& answers) {
+  constexpr double kMedianOfNormal = 0.67449;
+  std::vector<SigmaSpread> spreads;
+  for (const std::string& name : ErrorNames(answers)) {
+    if (!IsInSigmas(name)) continue;
+    const std::vector<double> values = SizesOf(answers, name);
+    double squares = 0.0;
+    for (const double value : values) squares += value * value;
+    spreads.push_back({name.substr(0, name.size() - std::strlen(kSigmaErrorSuffix)),
+                       Quantile(values, 0.5) / kMedianOfNormal,
+                       std::sqrt(squares / static_cast<double>(values.size()))});
+  }
+  return spreads;
+}
+
+/// "only # measurements lie on it".
+std::string WithoutNumbers(const std::string& reason) {
+  std::string text;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 0; i < reason.size(); ++i) {
+    if (!is_digit(reason[i])) {
+      text += reason[i];
+      continue;
+    }
+    text += '#';
+    while (i + 1 < reason.size() &&
+           (is_digit(reason[i + 1]) || ((reason[i + 1] == '.' || reason[i + 1] == ',') &&
+                                        i + 2 < reason.size() && is_digit(reason[i + 2]))))
+      ++i;
+  }
+  return text;
+}
+
+void CountReason(const std::string& reason, std::vector<ReasonCount>& counts) {
+  const std::string text = WithoutNumbers(reason);
+  const auto known = std::find_if(counts.begin(), counts.end(),
+                                  [&](const ReasonCount& count) { return count.reason == text; });
+  if (known != counts.end())
+    ++known->count;
+  else
+    counts.push_back({text, 1});
+}
+
+std::vector<ErrorSpread> SpreadsOf(const std::vector<const FitOutcome*>& answers) {
   std::vector<ErrorSpread> spreads;
-  for (const std::string& name : names) {
-    std::vector<double> values;
-    for (const FitOutcome* answer : answers)
-      for (const auto& [error, value] : answer->errors)
-        if (error == name && std::isfinite(value)) values.push_back(std::abs(value));
+  for (const std::string& name : ErrorNames(answers)) {
+    if (IsInSigmas(name)) continue;
+    const std::vector<double> values = SizesOf(answers, name);
     spreads.push_back({name, Quantile(values, 0.5), Quantile(values, 0.95)});
   }
   return spreads;
@@ -81,6 +143,8 @@ FitStatistics StatisticsOfSource(const std::string& source, std::span<const FitO
     if (!outcome.positive) negatives.insert(outcome.seed);
     seconds.push_back(outcome.seconds);
     if (outcome.pose_ok) good.push_back(&outcome);
+    if (outcome.positive && outcome.all_ok && outcome.verdict.level != VerdictLevel::kConfirmed)
+      CountReason(outcome.reason, statistics.right_not_confirmed);
     // What is found in a scene but is none of the things in view is no miss.
     if (outcome.positive && (!outcome.found || ErrorOf(outcome, "in_view") != 0.0))
       there.push_back(outcome.pose_ok ? 1.0 : 0.0);
@@ -95,6 +159,9 @@ FitStatistics StatisticsOfSource(const std::string& source, std::span<const FitO
   statistics.recall = MeanOf(there);
   statistics.false_area = MeanOf(false_areas);
   statistics.errors = SpreadsOf(good);
+  statistics.sigmas = SigmaSpreadsOf(good);
+  std::stable_sort(statistics.right_not_confirmed.begin(), statistics.right_not_confirmed.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
   statistics.auc = AreaUnderRoc(probabilities, right);
   statistics.ece = CalibrationErrorOf(probabilities, right);
   statistics.seconds_median = Quantile(seconds, 0.5);

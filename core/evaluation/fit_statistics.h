@@ -15,6 +15,19 @@ struct ErrorSpread {
   double p95 = 0.0;
 };
 
+/// How far errors lie from what their covariance says, for one direction: 1 where it is right.
+struct SigmaSpread {
+  std::string name;     ///< "x", "tilt_y", ...
+  double robust = 0.0;  ///< the median of |error| / deviation over that of a normal error
+  double rms = 0.0;     ///< root mean square of error / deviation
+};
+
+/// How often a reason was given; numbers in it are written as "#".
+struct ReasonCount {
+  std::string reason;
+  int count = 0;
+};
+
 /// How one source did over a population.
 struct FitStatistics {
   std::string source;
@@ -28,6 +41,9 @@ struct FitStatistics {
   /// Mean "false_area" of the answers that are LIKELY or CONFIRMED; NaN where there is none.
   double false_area = 0.0;
   std::vector<ErrorSpread> errors;
+  std::vector<SigmaSpread> sigmas;  ///< spread over predicted, of answers that are right
+  /// Why answers that are right in every respect are not CONFIRMED, the most frequent first.
+  std::vector<ReasonCount> right_not_confirmed;
   int confirmed = 0;        ///< of all answers, negatives' too
   int confirmed_right = 0;  ///< all_ok
   int likely = 0;

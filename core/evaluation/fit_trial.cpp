@@ -3,12 +3,10 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 
+#include "core/evaluation/drawn_region.h"
 #include "core/registration/register_scan.h"
-#include "core/simulation/noise_stream.h"
 #include "core/simulation/simulate_scan.h"
 
 namespace foresight {
@@ -21,32 +19,6 @@ double CpuSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// A circle as an operator draws it: a little wider than the thing and not quite centred.
-Result<ImageRoi> DrawnRegion(const FitTrialScene& scene, const World& world, double motor_rad,
-                             std::uint64_t seed) {
-  constexpr int kCorners = 24;
-  constexpr double kLeastWider = 1.10, kMostWider = 1.35, kOffCentre = 0.08;
-  const SensorRig& rig = world.true_rig();
-  const Eigen::Vector3d focus =
-      rig.CameraFromBase(motor_rad) * (world.BaseFromRobot() * scene.focus_m);
-  Random random = NoiseStream(seed, NoisePurpose::kDrawnRegion);
-  const double radius = scene.focus_radius_m * random.Uniform(kLeastWider, kMostWider);
-  const Eigen::Vector3d shift(scene.focus_radius_m * random.Uniform(-kOffCentre, kOffCentre),
-                              scene.focus_radius_m * random.Uniform(-kOffCentre, kOffCentre), 0.0);
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitY().cross(focus).normalized();
-  const Eigen::Vector3d down = focus.cross(right).normalized();
-  ImageRoi roi{motor_rad, {}};
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    const Eigen::Vector3d at =
-        focus + shift + radius * (std::cos(angle) * right + std::sin(angle) * down);
-    if (const auto pixel = rig.camera.Project(at); pixel && at.z() > 0.0)
-      roi.polygon.push_back(*pixel);
-  }
-  FORESIGHT_CHECK(roi.Check());
-  return roi;
-}
-
 Result<Scan> Simulated(const World& world, const ScanPlan& plan, bool with_image,
                        const RunContext& context) {
   if (with_image) return SimulateScan(world, plan, context);
@@ -57,10 +29,21 @@ Result<Scan> Simulated(const World& world, const ScanPlan& plan, bool with_image
   return scan;
 }
 
+/// Keeps the first lines.
+void Interrupt(double fraction, Scan& scan) {
+  std::vector<LidarLine> lines(scan.lines.begin(), scan.lines.end());
+  lines.resize(std::max<std::size_t>(
+      1, static_cast<std::size_t>(fraction * static_cast<double>(lines.size()))));
+  scan.lines = std::move(lines);
+  scan.state = ScanState::kInterrupted;
+  scan.reason = "the simulated scan was interrupted";
+}
+
 void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const std::string& source,
                  const Result<Detection>& found, double seconds,
                  std::vector<FitOutcome>& outcomes) {
   for (FitOutcome& outcome : population.Judge(trial, found)) {
+    outcome.world = population.World();
     outcome.seed = trial.seed;
     outcome.source = source;
     outcome.what = trial.scene.what;
@@ -71,6 +54,16 @@ void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const s
 }
 
 }  // namespace
+
+const char* ToString(FitWorld world) {
+  return world == FitWorld::kOther ? "other" : "home";
+}
+
+Result<FitWorld> FitWorldFromString(const std::string& name) {
+  for (const FitWorld world : {FitWorld::kHome, FitWorld::kOther})
+    if (name == ToString(world)) return world;
+  return Fail(ErrorCode::kBadData, "world '{}' is neither home nor other", name);
+}
 
 bool FitTrialOptions::NeedsImage() const {
   return std::any_of(sources.begin(), sources.end(),
@@ -92,10 +85,12 @@ Result<FitTrial> MakeFitTrial(const FitPopulation& population, std::uint64_t see
   FORESIGHT_CHECK(scene.world.Check());
   const World world(scene.scene, DefaultSensorRig(), scene.world);
   FORESIGHT_TRY(Scan scan, Simulated(world, scene.plan, options.NeedsImage(), context));
-  if (options.rig_error) scan.rig = MiscalibratedRig(scan.rig, *options.rig_error, seed);
+  if (const auto& error = options.rig_error ? options.rig_error : scene.rig_error)
+    scan.rig = MiscalibratedRig(scan.rig, *error, seed);
+  if (scene.scanned < 1.0) Interrupt(scene.scanned, scan);
   FORESIGHT_TRY(RegisteredScan cloud, RegisterScan(scan, context));
   const double motor_rad = scan.frames.front().motor_angle_rad;
-  FORESIGHT_TRY(const ImageRoi roi, DrawnRegion(scene, world, motor_rad, seed));
+  FORESIGHT_TRY(const Roi roi, DrawnRegion(scene, world, motor_rad, seed));
   return FitTrial{seed,     std::move(scene), world,
                   scan.rig, std::move(cloud), std::move(scan.frames.front()),
                   roi};

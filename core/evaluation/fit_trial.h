@@ -14,6 +14,16 @@
 
 namespace foresight {
 
+/// Where scenes come from.
+enum class FitWorld {
+  kHome,   ///< whose constants the fits know: for tuning and weights, and for tests on other seeds
+  kOther,  ///< which shares none of them: it judges only, other_world.h
+};
+/// "home", "other".
+const char* ToString(FitWorld world);
+/// Fails with kBadData for any other word.
+Result<FitWorld> FitWorldFromString(const std::string& name);
+
 /// A scene that a fit is tried on, drawn at random by a seed, and how it is looked at.
 struct FitTrialScene {
   std::shared_ptr<const Scene> scene;
@@ -24,6 +34,19 @@ struct FitTrialScene {
   /// What an operator would draw a region round: a sphere in robot.
   Eigen::Vector3d focus_m = Eigen::Vector3d::Zero();
   double focus_radius_m = 0.2;
+
+  /// How the operator draws it.
+  enum class Region {
+    kCircle,     ///< a little wider than the focus, not quite centred
+    kRectangle,  ///< 1.0 to 2.2 times as large as what is seen, off by up to a quarter of it
+    kTightBox,   ///< in the cloud, along robot's axes
+  } region = Region::kCircle;
+  /// Points of its surface, in robot, for rectangles and boxes; empty = it is about the focus.
+  std::vector<Eigen::Vector3d> object_points = {};
+  /// Of the believed rig, where the trial's options name none.
+  std::optional<CalibrationError> rig_error = {};
+  /// Fraction of the lines that were measured before the scan was interrupted.
+  double scanned = 1.0;
 };
 
 /// A scene as the head brings it home.
@@ -34,7 +57,7 @@ struct FitTrial {
   SensorRig rig;  ///< the believed one
   RegisteredScan cloud;
   CameraFrame frame;  ///< its image is empty where no dense source was asked for
-  ImageRoi roi;       ///< as an operator draws it: a circle round the focus, not quite centred
+  Roi roi;            ///< as an operator draws it
 
   /// Truth in the believed head's base.
   Rigid<frame::Base, frame::Robot> TrueBaseFromRobot() const { return world.BaseFromRobot(); }
@@ -42,6 +65,7 @@ struct FitTrial {
 
 /// What became of one answer.
 struct FitOutcome {
+  FitWorld world = FitWorld::kHome;
   std::uint64_t seed = 0;
   std::string what;
   std::string source;    ///< "raw" or a depth method's name
@@ -50,8 +74,9 @@ struct FitOutcome {
   bool pose_ok = false;  ///< fitting is right where it counts (docs/evaluation.md)
   bool all_ok = false;   ///< and in every other respect: what a CONFIRMED answer promises
   Verdict verdict;
-  std::vector<std::pair<std::string, double>> errors;  ///< "center_mm", "axis_deg", ...
-  double seconds = 0.0;                                ///< of CPU, the fit alone
+  /// "center_mm", "axis_deg", ...; in deviations where the name ends with kSigmaErrorSuffix.
+  std::vector<std::pair<std::string, double>> errors;
+  double seconds = 0.0;  ///< of CPU, the fit alone
   std::string reason;
 };
 
@@ -60,6 +85,7 @@ class FitPopulation {
  public:
   virtual ~FitPopulation() = default;
   virtual ObjectKind Kind() const = 0;
+  virtual FitWorld World() const { return FitWorld::kHome; }
   /// About one in six is a negative: other things, an empty region, a wall, half an object, a
   /// table's edge, distractors.
   virtual FitTrialScene MakeScene(std::uint64_t seed) const = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/evaluation/sigma_errors.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/lidar_view.h"
 #include "core/simulation/ray_caster.h"
@@ -46,7 +47,7 @@ class CameraView {
   bool Sees(const Eigen::Vector3d& in_robot) const {
     const auto pixel =
         trial_.world.true_rig().camera.Project(robot_from_camera_.Inverse() * in_robot);
-    if (!pixel || !trial_.roi.Contains(*pixel)) return false;
+    if (!pixel || !InRegion(*pixel, in_robot)) return false;
     const Eigen::Vector3d sight = in_robot - robot_from_camera_.translation();
     const SceneRay ray{robot_from_camera_.translation().cast<float>(),
                        sight.normalized().cast<float>()};
@@ -54,6 +55,12 @@ class CameraView {
   }
 
  private:
+  bool InRegion(const Eigen::Vector2d& pixel, const Eigen::Vector3d& in_robot) const {
+    if (const auto* box = std::get_if<BoxRoi>(&trial_.roi))
+      return box->Contains(trial_.TrueBaseFromRobot() * in_robot);
+    return std::get<ImageRoi>(trial_.roi).Contains(pixel);
+  }
+
   const FitTrial& trial_;
   const RayCaster& caster_;
   Rigid<frame::Robot, frame::Camera> robot_from_camera_;
@@ -152,6 +159,8 @@ FitOutcome JudgeOne(const TerrainSurface& found, std::span<const TrueBlock> bloc
                                                {"height_mm", result.height_mm},
                                                {"toehold_iou", ToeholdOverlap(found, truth)},
                                                {"in_view", first && truth.Visible() ? 1.0 : 0.0}});
+  AddSigmaErrors(found.base_from_object.Inverse() * truth.base_from_object, found.covariance,
+                 0.5 * std::numbers::pi, outcome.errors);
   return outcome;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/evaluation/sigma_errors.h"
 #include "core/evaluation/valve_scene.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/geometry/angles.h"
@@ -78,6 +79,11 @@ std::vector<FitOutcome> ValvePopulation::Judge(const FitTrial& trial,
   outcome.errors = {{"center_mm", errors.center_mm}, {"along_mm", errors.along_mm},
                     {"axis_deg", errors.axis_deg},   {"radius_mm", errors.radius_mm},
                     {"phase_deg", errors.phase_deg}, {"spokes", errors.spokes_right ? 0.0 : 1.0}};
+  const bool round = truth.model.IsLever() || truth.model.spokes == 0;
+  AddSigmaErrors(detection.best.base_from_object.Inverse() *
+                     (trial.TrueBaseFromRobot() * truth.robot_from_object),
+                 detection.covariance, 2.0 * std::numbers::pi / (round ? 1 : truth.model.spokes),
+                 outcome.errors);
   const double size_ok_mm = truth.model.IsLever() ? kLengthOk_mm : kRadiusOk_mm;
   outcome.pose_ok = detection.best.model.kind == truth.model.kind &&
                     errors.center_mm < kCenterOk_mm && errors.axis_deg < kAxisOk_deg &&

@@ -139,6 +139,12 @@ Status VerdictFitOptions::Check() const {
 Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
                                      const VerdictFitOptions& options) {
   FORESIGHT_CHECK(options.Check());
+  for (const FitOutcome& outcome : outcomes)
+    if (outcome.world != FitWorld::kHome)
+      return Fail(ErrorCode::kInvalidInput,
+                  "verdict of {}: seed {} is of the {} world, which judges only: nothing is ever "
+                  "fitted to it",
+                  options.object, outcome.seed, ToString(outcome.world));
   const std::vector<Example> examples = ExamplesFrom(outcomes, options);
   const auto right = static_cast<int>(
       std::count_if(examples.begin(), examples.end(), [](const Example& e) { return e.right; }));

@@ -26,7 +26,8 @@ struct VerdictFitOptions {
 /// Weights of the probability that an answer is right in every respect, from judged answers (those
 /// found, negatives too), by penalised maximum likelihood on standardised evidence. AUC and ECE are
 /// those of folds that were left out; answers of one scene stay in one fold. Fails with
-/// kInvalidOptions and kTooFewPoints (fewer than 10 right or 10 wrong answers, no evidence).
+/// kInvalidOptions, kInvalidInput (answers of the other world) and kTooFewPoints (fewer than 10
+/// right or 10 wrong answers, no evidence).
 Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
                                      const VerdictFitOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/embedded_files.h"
+#include "core/fitting/gate.h"
 #include "core/fitting/ray_set.h"
 #include "core/io/yaml_reader.h"
 
@@ -95,22 +96,35 @@ VerdictSource VerdictSourceOf(const RaySet& rays) {
   return rays.beams ? VerdictSource::kDense : VerdictSource::kAlone;
 }
 
-double VerdictModel::Probability(std::span<const double> values) const {
+std::vector<double> VerdictModel::Contributions(std::span<const double> values) const {
   FORESIGHT_EXPECTS(values.size() == features.size(), "as many values as the model has features");
-  double sum = bias;
+  std::vector<double> contributions;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) return 0.0;
     const Feature& feature = features[i];
-    sum += feature.weight *
-           std::clamp((values[i] - feature.mean) / feature.deviation, -kFarthest, kFarthest);
+    contributions.push_back(
+        std::isfinite(values[i])
+            ? feature.weight *
+                  std::clamp((values[i] - feature.mean) / feature.deviation, -kFarthest, kFarthest)
+            : std::nan(""));
+  }
+  return contributions;
+}
+
+double VerdictModel::Probability(std::span<const double> values) const {
+  double sum = bias;
+  for (const double contribution : Contributions(values)) {
+    if (std::isnan(contribution)) return 0.0;
+    sum += contribution;
   }
   return 1.0 / (1.0 + std::exp(-sum));
 }
 
 std::string VerdictModel::Reservation() const {
-  if (fits >= kLeastFits) return {};
-  return fmt::format("nobody knows yet how often such an answer is right: only {} were tried",
-                     fits);
+  const Gate gate{.what = "{} such answers were tried",
+                  .number = static_cast<double>(fits),
+                  .limit = static_cast<double>(kLeastFits),
+                  .advice = "nobody knows yet how often one is right"};
+  return gate.Failed() ? gate.Sentence() : std::string();
 }
 
 void VerdictModel::AddReservation(std::vector<std::string>& failed_gates) const {

@@ -50,6 +50,10 @@ struct VerdictModel {
   /// known out there. Throws ContractViolation for another number of values than features.
   double Probability(std::span<const double> values) const;
 
+  /// What each value adds to the logarithm of the odds, against a value at its mean. NaN where it
+  /// is not finite. Values as for Probability.
+  std::vector<double> Contributions(std::span<const double> values) const;
+
   /// Why nothing may be CONFIRMED by this model: its population is too small to promise 98 of 100.
   /// Empty when it is large enough.
   std::string Reservation() const;

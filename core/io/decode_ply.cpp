@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "core/io/cloud_columns.h"
 #include "core/io/cloud_table.h"
 #include "core/io/read_point_cloud.h"
+#include "core/io/triangle_mesh.h"
 
 namespace foresight {
 namespace {
@@ -20,6 +22,10 @@ struct Element {
   std::size_t count = 0;
   std::vector<Property> properties;
   bool has_list = false;
+  /// Of the last list: its length's type and its entries', and how many properties stand before it.
+  CloudScalar list_length = CloudScalar::kUint8, list_entry = CloudScalar::kInt32;
+  std::size_t before_list = 0;
+  int lists = 0;
 
   std::size_t RecordBytes() const {
     std::size_t bytes = 0;
@@ -73,13 +79,24 @@ Status ReadHeaderLine(const std::vector<std::string_view>& words, Header& header
     if (!count)
       return Fail(ErrorCode::kBadData, "{}: '{}' elements '{}' are not 0 to {}", source,
                   words[2].substr(0, 32), words[1].substr(0, 32), kMostCloudPoints);
-    header.elements.push_back({words[1], *count, {}, false});
+    Element element;
+    element.name = words[1];
+    element.count = *count;
+    header.elements.push_back(std::move(element));
     return {};
   }
   if (words[0] != "property" || words.size() < 3 || header.elements.empty()) return fail();
   Element& element = header.elements.back();
   if (words[1] == "list") {
     element.has_list = true;
+    element.before_list = element.properties.size();
+    ++element.lists;
+    const auto length = words.size() >= 5 ? ScalarNamed(words[2]) : std::nullopt;
+    const auto entry = words.size() >= 5 ? ScalarNamed(words[3]) : std::nullopt;
+    if (length && entry) {
+      element.list_length = *length;
+      element.list_entry = *entry;
+    }
     return {};
   }
   const auto type = ScalarNamed(words[1]);
@@ -203,6 +220,77 @@ auto AtVertices(const Header& header, std::string_view bytes, const std::string&
   return Fail(ErrorCode::kBadData, "{}: PLY without vertices", source);
 }
 
+/// A number from the front of `rest`; nullopt where too few bytes are left.
+std::optional<double> TakeBinary(CloudScalar type, bool big_endian, std::string_view& rest) {
+  const std::size_t size = SizeOf(type);
+  if (rest.size() < size) return std::nullopt;
+  const double value = ValuesFromColumn(rest.substr(0, size), {type, 0, size}, 1, big_endian)[0];
+  rest.remove_prefix(size);
+  return value;
+}
+
+/// Adds a polygon's triangles; corners are checked later.
+void AddFan(const std::vector<double>& corners, std::vector<Eigen::Vector3i>& triangles) {
+  const auto index = [&](std::size_t i) {
+    return corners[i] >= 0.0 && corners[i] < 1e9 ? static_cast<int>(corners[i]) : -1;
+  };
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    triangles.emplace_back(index(0), index(i - 1), index(i));
+}
+
+std::optional<std::vector<double>> TakeBinaryFace(const Element& face, bool big_endian,
+                                                  std::string_view& rest) {
+  std::vector<double> corners;
+  for (std::size_t i = 0; i <= face.properties.size(); ++i) {
+    if (i == face.before_list) {
+      const auto length = TakeBinary(face.list_length, big_endian, rest);
+      if (!length || !(*length >= 0.0) || *length > static_cast<double>(rest.size()))
+        return std::nullopt;
+      for (int k = 0; k < static_cast<int>(*length); ++k) {
+        const auto corner = TakeBinary(face.list_entry, big_endian, rest);
+        if (!corner) return std::nullopt;
+        corners.push_back(*corner);
+      }
+    }
+    if (i < face.properties.size() && !TakeBinary(face.properties[i].type, big_endian, rest))
+      return std::nullopt;
+  }
+  return corners;
+}
+
+std::optional<std::vector<double>> TakeTextFace(const Element& face, std::string_view& rest) {
+  const auto line = TakeLine(rest);
+  const std::vector<std::string_view> words = line ? Words(*line) : std::vector<std::string_view>();
+  if (words.size() <= face.before_list) return std::nullopt;
+  const auto length = ParseCount(words[face.before_list], words.size());
+  if (!length || words.size() < face.before_list + 1 + *length) return std::nullopt;
+  std::vector<double> corners;
+  for (std::size_t k = 0; k < *length; ++k) {
+    const auto corner = ParseCount(words[face.before_list + 1 + k], kMostCloudPoints);
+    if (!corner) return std::nullopt;
+    corners.push_back(static_cast<double>(*corner));
+  }
+  return corners;
+}
+
+Result<std::vector<Eigen::Vector3i>> ReadFaces(const Element& face, Format format,
+                                               std::string_view rest, const std::string& source) {
+  if (face.lists != 1)
+    return Fail(ErrorCode::kBadData, "{}: faces with {} lists are not read", source, face.lists);
+  std::vector<Eigen::Vector3i> triangles;
+  for (std::size_t i = 0; i < face.count; ++i) {
+    const auto corners = format == Format::kAscii
+                             ? TakeTextFace(face, rest)
+                             : TakeBinaryFace(face, format == Format::kBigEndian, rest);
+    if (!corners)
+      return Fail(ErrorCode::kBadData, "{}: face {} of {} cannot be read", source, i + 1,
+                  face.count);
+    AddFan(*corners, triangles);
+    if (triangles.size() > TriangleMesh::kMostTriangles) break;  // Check says so
+  }
+  return triangles;
+}
+
 Result<Header> ReadPlyHeader(std::string_view& bytes, const std::string& source) {
   if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
     return Fail(ErrorCode::kBadData, "{}: is not a PLY file: it does not start with 'ply'", source);
@@ -217,6 +305,24 @@ Result<std::vector<Eigen::Vector3d>> DecodePly(std::string_view bytes, const std
                     [&](const Element& vertex, Format format, std::string_view rest) {
                       return ReadVertices(vertex, format, rest, source);
                     });
+}
+
+Result<TriangleMesh> DecodePlyMesh(std::string_view bytes, const std::string& source) {
+  FORESIGHT_TRY(const Header header, ReadPlyHeader(bytes, source));
+  TriangleMesh mesh;
+  bool has_faces = false;
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") {
+      FORESIGHT_TRY(mesh.vertices, ReadVertices(element, header.format, bytes, source));
+    } else if (element.name == "face") {
+      FORESIGHT_TRY(mesh.triangles, ReadFaces(element, header.format, bytes, source));
+      has_faces = true;
+    }
+    if (has_faces && !mesh.vertices.empty()) break;
+    FORESIGHT_CHECK(SkipElement(element, header.format, bytes, source));
+  }
+  FORESIGHT_CHECK(mesh.Check(source));
+  return mesh;
 }
 
 Result<CloudTable> DecodePlyTable(std::string_view bytes, const std::string& source) {

@@ -41,6 +41,11 @@ class LidarSimulator {
   std::vector<SceneRay> RaysOfLine(double time_s,
                                    const std::function<double(double)>& plate_rad_at) const;
   double ReturnPower(const SceneRay& ray, const SceneHit& hit) const;
+  /// What one ray of a footprint brings back: of a translucent surface also what lies behind it.
+  void AddReturns(const SceneRay& ray, const SceneHit& hit, double divisor,
+                  std::vector<Echo>& returns) const;
+  Echo ReturnOf(const SceneRay& ray, const SceneHit& hit, double divisor) const;
+  double RangeError(double normal, Random& random) const;
   /// Merges and sorts `returns`; nullopt when there are none.
   std::optional<Echo> StrongestEcho(std::vector<Echo>& returns) const;
   std::optional<Echo> AddNoise(const std::optional<Echo>& echo, Random& random) const;
@@ -52,7 +57,13 @@ class LidarSimulator {
   Rigid<frame::Robot, frame::Base> robot_from_base_;
   LidarNoise noise_;
   std::uint64_t seed_;
-  std::vector<Eigen::Vector3d> footprint_;  ///< directions around the x axis
+  /// One of the rays that a beam is made of.
+  struct FootprintRay {
+    Eigen::Vector3d direction;  ///< around the x axis
+    double divisor = 1.0;       ///< 1 / its part of the beam's light
+  };
+  static std::vector<FootprintRay> FootprintOf(const LidarNoise& noise);
+  std::vector<FootprintRay> footprint_;
 };
 
 }  // namespace foresight

@@ -41,7 +41,12 @@ Status LidarNoise::Check() const {
   FORESIGHT_CHECK(RaysPerSide("lidar footprint_side", footprint_side));
   FORESIGHT_CHECK(NotNegative("lidar pulse_length_m", pulse_length_m));
   FORESIGHT_CHECK(Positive("lidar dropout_power", dropout_power));
-  return CheckFraction("lidar spurious_fraction", spurious_fraction);
+  FORESIGHT_CHECK(CheckFraction("lidar spurious_fraction", spurious_fraction));
+  if (tail_degrees < 0 || tail_degrees > 100)
+    return Fail(ErrorCode::kInvalidOptions, "lidar tail_degrees {} is not between 0 and 100",
+                tail_degrees);
+  FORESIGHT_CHECK(NotNegative("lidar walk_of_black_m", walk_of_black_m));
+  return CheckFraction("lidar leading_edge", leading_edge);
 }
 
 Status CameraNoise::Check() const {

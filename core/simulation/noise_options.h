@@ -20,7 +20,17 @@ struct LidarNoise {
   double pulse_length_m = 0.5;        ///< surfaces closer together than this merge into one return
   double dropout_power = 0.001;       ///< weaker returns are lost: a white sheet beyond 30 m
   double spurious_fraction = 0.0005;  ///< returns at a random range
-  bool enabled = true;                ///< false: exact ranges along the beam's centre, nothing lost
+  /// How a beam's light is spread over its footprint: evenly over the rectangle, or as a Gaussian
+  /// whose deviations are half of its half sides.
+  enum class Footprint { kEven, kGaussian } footprint = Footprint::kEven;
+  /// Degrees of freedom of Student's t distribution of the range error, with the deviation above
+  /// as its scale; 0 = normal.
+  int tail_degrees = 0;
+  /// A surface of reflectance 0 reads longer by this, one of reflectance 1 not at all.
+  double walk_of_black_m = 0.0;
+  /// What merges reads this fraction of the way from its mean range to its nearest surface.
+  double leading_edge = 0.0;
+  bool enabled = true;  ///< false: exact ranges along the beam's centre, nothing lost
 
   Status Check() const;
 };

@@ -76,7 +76,8 @@ struct Scene {
 };
 
 /// Reads a scene file, docs/simulation.md. Fails with kBadData, naming the file and the line; an
-/// unknown key is an error.
+/// unknown key is an error. LoadScene reads the meshes that a scene names from its own folder; what
+/// comes from no file can have none.
 Result<Scene> SceneFromYaml(const std::string& yaml, const std::string& source);
 Result<Scene> LoadScene(const std::filesystem::path& path);
 

@@ -3,6 +3,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/geometry/angles.h"
+#include "core/io/triangle_mesh.h"
 #include "core/io/yaml_reader.h"
 #include "core/simulation/board_stand.h"
 #include "core/simulation/scene.h"
@@ -147,6 +148,8 @@ Material MaterialOf(YamlMap map) {
   material.lidar_reflectance = ReadFraction(map, "lidar_reflectance", material.lidar_reflectance);
   material.specular = ReadFraction(map, "specular", material.specular);
   material.emission = Brightness(map, "emission", material.emission);
+  material.translucency = ReadFraction(map, "translucency", material.translucency);
+  material.penetration_m = ReadFraction(map, "penetration_m", material.penetration_m);
   map.Finish();
   return material;
 }
@@ -162,7 +165,8 @@ Light LightOf(YamlMap& map) {
 /// Reads the parts of one scene file that name materials.
 class SceneReader {
  public:
-  explicit SceneReader(YamlMap& map) : map_(map) {}
+  /// `folder`: where the scene's meshes are; nullptr = it comes from no file.
+  SceneReader(YamlMap& map, const std::filesystem::path* folder) : map_(map), folder_(folder) {}
 
   Scene Read() {
     const int version = map_.Integer("foresight_scene");
@@ -206,6 +210,7 @@ class SceneReader {
 
   void ReadSolid(YamlMap& map);
   Shape ShapeOf(YamlMap& map, const std::string& kind, Pose& pose) const;
+  Shape MeshOf(YamlMap& map) const;
   double LengthOrEnds(YamlMap& map, Pose& pose) const;
   void ReadObject(YamlMap& map);
   void ReadValve(YamlMap& map);
@@ -216,6 +221,7 @@ class SceneReader {
   void ReadPlace(YamlMap& map);
 
   YamlMap& map_;
+  const std::filesystem::path* folder_;
   Scene scene_;
   std::map<std::string, Material> materials_;
 };
@@ -252,6 +258,7 @@ Shape SceneReader::ShapeOf(YamlMap& map, const std::string& kind, Pose& pose) co
       map.Fault(map.Node("size_m"), fmt::format("'size_m' has a side beyond {} m", kFarthest_m));
     return RectangleShape(size[0], size[1]);
   }
+  if (kind == "mesh") return MeshOf(map);
   if (kind == "sphere") return SphereShape(Positive(map, "radius_m"));
   if (kind == "torus") {
     const double radius = Positive(map, "radius_m");
@@ -261,7 +268,25 @@ Shape SceneReader::ShapeOf(YamlMap& map, const std::string& kind, Pose& pose) co
     return TorusShape(radius, tube);
   }
   map.Fault(map.Node("shape"),
-            "shape '" + kind + "' is not box, plane, cylinder, capsule, sphere or torus");
+            "shape '" + kind + "' is not box, plane, cylinder, capsule, sphere, torus or mesh");
+}
+
+Shape SceneReader::MeshOf(YamlMap& map) const {
+  const std::string file = map.Text("file");
+  const double scale = Positive(map, "scale", 1.0);
+  if (folder_ == nullptr)
+    map.Fault(map.Node("file"), "a scene that comes from no file has no meshes beside it");
+  const auto mesh = ReadTriangleMesh(*folder_ / file);
+  if (!mesh) map.Fault(map.Node("file"), mesh.error().message);
+  Shape shape;
+  for (const Eigen::Vector3d& vertex : mesh->vertices) {
+    if (!((scale * vertex).cwiseAbs().maxCoeff() <= kFarthest_m))
+      map.Fault(map.Node("file"),
+                fmt::format("'{}' reaches beyond {} m: is 'scale' right?", file, kFarthest_m));
+    shape.vertices.push_back((scale * vertex).cast<float>());
+  }
+  shape.triangles = mesh->triangles;
+  return shape;
 }
 
 void SceneReader::ReadSolid(YamlMap& map) {
@@ -391,15 +416,26 @@ void SceneReader::ReadPlace(YamlMap& map) {
 
 }  // namespace
 
-Result<Scene> SceneFromYaml(const std::string& yaml, const std::string& source) {
+namespace {
+
+Result<Scene> SceneFrom(const std::string& yaml, const std::string& source,
+                        const std::filesystem::path* folder) {
   Scene scene;
-  FORESIGHT_CHECK(ParseYaml(yaml, source, [&](YamlMap& map) { scene = SceneReader(map).Read(); }));
+  FORESIGHT_CHECK(
+      ParseYaml(yaml, source, [&](YamlMap& map) { scene = SceneReader(map, folder).Read(); }));
   return scene;
+}
+
+}  // namespace
+
+Result<Scene> SceneFromYaml(const std::string& yaml, const std::string& source) {
+  return SceneFrom(yaml, source, nullptr);
 }
 
 Result<Scene> LoadScene(const std::filesystem::path& path) {
   FORESIGHT_TRY(const std::string yaml, ReadFile(path, 1 << 20));
-  return SceneFromYaml(yaml, path.string());
+  const std::filesystem::path folder = path.parent_path();
+  return SceneFrom(yaml, path.string(), &folder);
 }
 
 }  // namespace foresight

@@ -1,5 +1,6 @@
 #include "core/simulation/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,8 +22,7 @@ void AddQuad(int a, int b, int c, int d, Shape& shape) {
   shape.triangles.emplace_back(a, c, d);
 }
 
-/// Turns an outline that runs upwards on the outside (from below the solid to above it).
-Shape Revolve(const Outline& outline, bool closed) {
+Shape Revolve(std::span<const Eigen::Vector2d> outline, bool closed) {
   Shape shape;
   const int points = static_cast<int>(outline.size());
   for (int i = 0; i < kCornersPerTurn; ++i) {
@@ -84,7 +84,8 @@ Shape RectangleShape(double width_m, double height_m) {
 
 Shape CylinderShape(double radius_m, double length_m) {
   const double half = 0.5 * length_m;
-  return Revolve({{0.0, -half}, {radius_m, -half}, {radius_m, half}, {0.0, half}}, false);
+  const Outline outline = {{0.0, -half}, {radius_m, -half}, {radius_m, half}, {0.0, half}};
+  return Revolve(outline, false);
 }
 
 Shape SphereShape(double radius_m) {
@@ -116,9 +117,43 @@ Shape DishShape(double radius_m, double dish_m, double thickness_m) {
   const Eigen::Vector2d hub(0.0, -dish_m);
   const Eigen::Vector2d rim(radius_m, 0.0);
   const double half_at_axis = 0.5 * thickness_m / along.x();
-  return Revolve({hub - Eigen::Vector2d(0.0, half_at_axis), rim - half, rim + half,
-                  hub + Eigen::Vector2d(0.0, half_at_axis)},
-                 false);
+  const Outline outline = {hub - Eigen::Vector2d(0.0, half_at_axis), rim - half, rim + half,
+                           hub + Eigen::Vector2d(0.0, half_at_axis)};
+  return Revolve(outline, false);
+}
+
+Shape RevolvedShape(std::span<const Eigen::Vector2d> outline, bool closed) {
+  FORESIGHT_EXPECTS(outline.size() >= 2, "an outline has two points");
+  return Revolve(outline, closed);
+}
+
+Shape SweptShape(std::span<const Eigen::Vector2d> section, std::span<const Eigen::Vector3d> path,
+                 const Eigen::Vector3d& up, std::span<const double> scales) {
+  FORESIGHT_EXPECTS(section.size() >= 3 && path.size() >= 2, "a section moves along a path");
+  FORESIGHT_EXPECTS(scales.empty() || scales.size() == path.size(), "a scale for each point");
+  Shape shape;
+  const int corners = static_cast<int>(section.size());
+  const int points = static_cast<int>(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Eigen::Vector3d along =
+        (path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0]).normalized();
+    const Eigen::Vector3d x = up.cross(along).normalized();
+    const Eigen::Vector3d y = along.cross(x);
+    const double scale = scales.empty() ? 1.0 : scales[i];
+    for (const Eigen::Vector2d& corner : section)
+      shape.vertices.push_back((path[i] + scale * (corner.x() * x + corner.y() * y)).cast<float>());
+  }
+  for (int i = 0; i + 1 < points; ++i)
+    for (int j = 0; j < corners; ++j) {
+      const int here = i * corners, next = here + corners, k = (j + 1) % corners;
+      AddQuad(here + j, here + k, next + k, next + j, shape);
+    }
+  for (int j = 1; j + 1 < corners; ++j) {
+    const int last = (points - 1) * corners;
+    shape.triangles.emplace_back(0, j + 1, j);
+    shape.triangles.emplace_back(last, last + j, last + j + 1);
+  }
+  return shape;
 }
 
 void AppendShape(const Shape& shape, const Rigid<frame::Robot, frame::Object>& robot_from_shape,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "core/geometry/rigid.h"
@@ -28,6 +29,16 @@ Shape TorusShape(double radius_m, double tube_radius_m);
 Shape CapsuleShape(double radius_m, double length_m);
 /// A plate of constant thickness between a hub at z = -dish_m and the circle z = 0, r = radius_m.
 Shape DishShape(double radius_m, double dish_m, double thickness_m);
+
+/// Points (radius, z), turned around z. They run upwards on the outside, from below the solid to
+/// above it; closed = the last is joined to the first, as of a ring's section.
+Shape RevolvedShape(std::span<const Eigen::Vector2d> outline, bool closed);
+
+/// A convex section, counter-clockwise in its own x and y, moved along a path of at least two
+/// points. Its y stays as near to `up` as the path allows, which never runs along it; x = y cross
+/// the path. `scales` widen it at each point, empty = 1. Its ends are capped.
+Shape SweptShape(std::span<const Eigen::Vector2d> section, std::span<const Eigen::Vector3d> path,
+                 const Eigen::Vector3d& up, std::span<const double> scales = {});
 
 /// Adds the shape to a mesh.
 void AppendShape(const Shape& shape, const Rigid<frame::Robot, frame::Object>& robot_from_shape,

@@ -67,5 +67,30 @@ TEST(EvaluateFits, APatternThatIsNoneIsAMistake) {
   EXPECT_NE(result.errors.find("(wheel"), std::string::npos) << result.errors;
 }
 
+TEST(EvaluateFits, TheOtherWorldIsJudgedLikeOursAndNeverFittedTo) {
+  const TemporaryFolder folder;
+  const std::string table = folder / "other.jsonl";
+  const ProgramResult result =
+      RunProgram(FORESIGHTCTL, {"evaluate-fits", "drill", "--world", "other", "--count", "2",
+                                "--source", "raw", "--table", table, "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto rows = nlohmann::json::parse(result.output);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_TRUE(rows[0].contains("right_not_confirmed"));
+  const auto outcomes = LoadFitOutcomes(table);
+  ASSERT_TRUE(outcomes);
+  for (const FitOutcome& outcome : *outcomes) EXPECT_EQ(outcome.world, FitWorld::kOther);
+
+  const ProgramResult fitted =
+      RunProgram(FORESIGHTCTL,
+                 {"verdict", "fit", "drill", table, "--population", "x", "-o", folder / "v.yaml"});
+  EXPECT_NE(fitted.exit_code, 0);
+  EXPECT_NE(fitted.errors.find("judges only"), std::string::npos) << fitted.errors;
+  const ProgramResult mixed = RunProgram(FORESIGHTCTL, {"evaluate-fits", "drill", "--count", "2",
+                                                        "--source", "raw", "--table", table});
+  EXPECT_NE(mixed.exit_code, 0);
+  EXPECT_NE(mixed.errors.find("other world"), std::string::npos) << mixed.errors;
+}
+
 }  // namespace
 }  // namespace foresight

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
+#include "core/base/random.h"
 #include "core/io/read_point_cloud.h"
 #include "tests/support/run_program.h"
 
@@ -151,6 +152,38 @@ TEST_F(FitOfACloud, IsTrustedAboutAsMuchAsItsMission) {
   // Ten times the noise that the cloud has: who says so is believed.
   const auto noisy = of({"--cloud", cloud_, "--viewpoint", Numbers(head_), "--noise-mm", "60"});
   EXPECT_NE(noisy.dump(), cloud.dump());
+}
+
+TEST_F(FitOfACloud, SaysSoWhereTheGridOfItsPointsIsLost) {
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-4", "--to", "4", "--out",
+                 mission_})
+                .exit_code,
+            0);
+  ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
+  // Nothing is in it: what is said is said before the fit.
+  const std::string box = "--box=1.0,0,1.4,0.02,0.02,0.02";
+  const auto errors = [&](const std::string& file) {
+    return Ctl({"fit", "valve", "--cloud", file, "--viewpoint", Numbers(head_), box}).errors;
+  };
+  // Ours says of each point what line it is of.
+  EXPECT_EQ(errors(cloud_).find("grid"), std::string::npos) << errors(cloud_);
+  auto points = ReadPointCloud(cloud_);
+  ASSERT_TRUE(points);
+  const auto write = [&](const std::string& name) {
+    std::string text;
+    for (const Eigen::Vector3d& point : *points)
+      text += fmt::format("{:.5f} {:.5f} {:.5f}\n", point.x(), point.y(), point.z());
+    EXPECT_TRUE(WriteFileAtomically(folder_ / name, text));
+    return std::string(folder_ / name);
+  };
+  const std::string ordered = errors(write("ordered.xyz"));
+  EXPECT_NE(ordered.find("guessed from the order"), std::string::npos) << ordered;
+  Random random(5);
+  for (std::size_t i = points->size(); i > 1; --i)
+    std::swap((*points)[i - 1],
+              (*points)[static_cast<std::size_t>(random.Index(static_cast<int>(i)))]);
+  const std::string shuffled = errors(write("shuffled.xyz"));
+  EXPECT_NE(shuffled.find("no order of lines"), std::string::npos) << shuffled;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/gate.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -148,39 +149,70 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
 
 namespace {
 
-/// Why it is not LIKELY; empty when nothing speaks against it.
-std::string FailedGate(const RaySet& rays, const CylinderBounds& bounds,
-                       const CylinderDetection& found) {
+/// Why it is not LIKELY: what it misses.
+std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& bounds,
+                                     const CylinderDetection& found) {
   const CylinderEvidence& evidence = found.evidence;
-  const double hits = evidence.hits * std::min(1.0, rays.samples_per_ray);
-  if (hits < kLikelyHits)
-    return fmt::format("only {:.0f} measurements lie on it: scan slower or move closer", hits);
-  if (evidence.see_through > kLikelySeeThrough)
-    return fmt::format("{:.0f} % of the beams went through it", 100.0 * evidence.see_through);
-  if (evidence.inlier_ratio < kLikelyInliers)
-    return fmt::format("only {:.0f} % of the beams on it agree with it",
-                       100.0 * evidence.inlier_ratio);
-  if (evidence.box_margin_nats < kLikelyMargin_nats)
-    return "a box explains it as well: it may be square, or a wall's edge";
-  if (evidence.seen_arc_rad < kLikelyArc_rad)
-    return fmt::format("only {:.0f} deg of its girth are seen",
-                       DegreesFromRadians(evidence.seen_arc_rad));
-  if (!(found.sigma_radius_m < kLikelyRadiusSigma * found.model.radius_m))
-    return fmt::format("its radius is only known to {:.0f} mm", 1000.0 * found.sigma_radius_m);
-  if (found.model.length_m < found.model.radius_m)
-    return "less of its length is seen than its radius";
-  if (found.model.radius_m > 0.98 * bounds.max_radius_m ||
-      found.model.radius_m < 1.02 * bounds.min_radius_m)
-    return fmt::format("its radius, {:.0f} mm, is at the end of the range",
-                       1000.0 * found.model.radius_m);
-  return {};
+  std::vector<std::string> failed;
+  AddIfFailed({.what = "{} measurements lie on it",
+               .number = evidence.hits * std::min(1.0, rays.samples_per_ray),
+               .limit = kLikelyHits,
+               .advice = "scan slower or move closer"},
+              failed);
+  AddIfFailed({.what = "{} of the beams went through it",
+               .unit = Gate::Unit::kFraction,
+               .number = evidence.see_through,
+               .side = Gate::Side::kAtMost,
+               .limit = kLikelySeeThrough},
+              failed);
+  AddIfFailed({.what = "{} of the beams on it agree with it",
+               .unit = Gate::Unit::kFraction,
+               .number = evidence.inlier_ratio,
+               .limit = kLikelyInliers},
+              failed);
+  AddIfFailed({.what = "the odds against a box in its place are {}",
+               .unit = Gate::Unit::kOdds,
+               .number = evidence.box_margin_nats,
+               .limit = kLikelyMargin_nats,
+               .advice = "it may be square, or a wall's edge"},
+              failed);
+  AddIfFailed({.what = "{} of its girth are seen",
+               .unit = Gate::Unit::kAngle,
+               .number = evidence.seen_arc_rad,
+               .limit = kLikelyArc_rad},
+              failed);
+  AddIfFailed({.what = "its radius is known to {}",
+               .unit = Gate::Unit::kLength,
+               .number = found.sigma_radius_m,
+               .side = Gate::Side::kAtMost,
+               .limit = kLikelyRadiusSigma * found.model.radius_m},
+              failed);
+  AddIfFailed({.what = "{} of its length are seen",
+               .unit = Gate::Unit::kLength,
+               .number = found.model.length_m,
+               .limit = found.model.radius_m,
+               .limit_note = "of this radius"},
+              failed);
+  Gate radius{.what = "its radius is {}",
+              .unit = Gate::Unit::kLength,
+              .number = found.model.radius_m,
+              .side = Gate::Side::kAtMost,
+              .limit = 0.98 * bounds.max_radius_m,
+              .advice = "it is at the end of the range of radii"};
+  AddIfFailed(radius, failed);
+  radius.side = Gate::Side::kAtLeast;
+  radius.limit = 1.02 * bounds.min_radius_m;
+  AddIfFailed(radius, failed);
+  return failed;
 }
 
 }  // namespace
 
 void Assess(const RaySet& rays, const CylinderBounds& bounds, CylinderDetection& detection) {
-  detection.reason = FailedGate(rays, bounds, detection);
-  if (!detection.reason.empty()) return;
+  if (const auto failed = FailedGates(rays, bounds, detection); !failed.empty()) {
+    detection.reason = failed.front();
+    return;
+  }
   detection.level = VerdictLevel::kLikely;
   detection.reason = fmt::format(
       "{} beams on it, {:.0f} % of them agree; never confirmed, as no probability was "

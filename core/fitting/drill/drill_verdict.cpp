@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/drill/support_and_background.h"
+#include "core/fitting/gate.h"
 #include "core/fitting/region_place.h"
 #include "core/fitting/verdict_model.h"
 #include "core/geometry/angles.h"
@@ -51,40 +53,78 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           detection.best.model.body_tilt_rad.norm()};
 }
 
-/// What its direction has against it; empty when nothing.
-std::string FailedDirectionGate(const DrillEvidence& evidence, bool dense) {
-  if (evidence.head_nats < kMinHead_nats) return "the head is not seen: it may point either way";
+Gate SeeThroughGate(const DrillEvidence& evidence, double limit) {
+  return {.what = "{} of the beams went through the drill",
+          .unit = Gate::Unit::kFraction,
+          .number = evidence.see_through,
+          .side = Gate::Side::kAtMost,
+          .limit = limit};
+}
+
+Gate AlternativeGate(const DrillEvidence& evidence, double limit_nats) {
+  return {
+      .what = fmt::format("the odds against a {} in its place are {{}}", evidence.best_alternative),
+      .unit = Gate::Unit::kOdds,
+      .number = evidence.alternative_margin_nats,
+      .limit = limit_nats};
+}
+
+/// What its direction has against it: the first of these that it misses.
+std::vector<Gate> DirectionGates(const DrillEvidence& evidence, bool dense) {
   const double least_margin = dense ? kMinYawMarginDense_nats : kMinYawMargin_nats;
-  if (evidence.flip_margin_nats < least_margin)
-    return "turned by 180 deg it fits almost as well: it may point either way";
-  if (evidence.yaw_margin_nats < least_margin) return "another direction fits almost as well";
-  return {};
+  return {{.what = "the odds that a head is seen are {}",
+           .unit = Gate::Unit::kOdds,
+           .number = evidence.head_nats,
+           .limit = kMinHead_nats,
+           .advice = "it may point either way"},
+          {.what = "the odds against the same drill turned by 180 deg are {}",
+           .unit = Gate::Unit::kOdds,
+           .number = evidence.flip_margin_nats,
+           .limit = least_margin,
+           .advice = "it may point either way"},
+          {.what = "the odds against another direction are {}",
+           .unit = Gate::Unit::kOdds,
+           .number = evidence.yaw_margin_nats,
+           .limit = least_margin}};
 }
 
-/// A part of the drill that the region does not show, so that nobody saw whether it is there; empty
-/// when it shows them all. A bit may stick out.
-std::string PartOutside(const RaySet& region, const DrillCandidate& drill) {
-  for (const SolidPart& part : drill.model.parts)
-    if (part.name != "bit" &&
-        DistanceFromRays(region, drill.base_from_object * part.object_from_part.translation()) >
-            kMaxOutside_m)
-      return fmt::format("its {} lies outside of the region: draw the region around all of it",
-                         part.name);
-  return {};
+/// A part of the drill that the region does not show, so that nobody saw whether it is there. A bit
+/// may stick out.
+void AddPartOutside(const RaySet& region, const DrillCandidate& drill,
+                    std::vector<std::string>& failed) {
+  for (const SolidPart& part : drill.model.parts) {
+    if (part.name == "bit") continue;
+    const Gate gate{.what = fmt::format("its {} lies {{}} outside of the region", part.name),
+                    .unit = Gate::Unit::kLength,
+                    .number = DistanceFromRays(
+                        region, drill.base_from_object * part.object_from_part.translation()),
+                    .side = Gate::Side::kAtMost,
+                    .limit = kMaxOutside_m,
+                    .advice = "draw the region around all of it"};
+    AddIfFailed(gate, failed);
+    if (gate.Failed()) return;
+  }
 }
 
-/// What a size or a lean at its bound says; empty when nothing.
-std::string FailedBoundGate(const DrillModel& model, const DrillState& drill,
-                            const DrillPrior& prior) {
+/// What a size or a lean at its bound says.
+void AddFailedBoundGates(const DrillModel& model, const DrillState& drill, const DrillPrior& prior,
+                         std::vector<std::string>& failed) {
   const double range = drill.kind->max_scale - drill.kind->min_scale;
-  if (model.scale < drill.kind->min_scale + kBound * range ||
-      model.scale > drill.kind->max_scale - kBound * range)
-    return fmt::format("its size, {:.2f} of the template's, is at the end of the range",
-                       model.scale);
-  if (model.body_tilt_rad.norm() > 0.95 * prior.max_tilt_rad)
-    return fmt::format("it leans by {:.0f} deg, the most there is",
-                       DegreesFromRadians(model.body_tilt_rad.norm()));
-  return {};
+  Gate size{.what = "its size is {} of the template's",
+            .unit = Gate::Unit::kRatio,
+            .number = model.scale,
+            .limit = drill.kind->min_scale + kBound * range,
+            .advice = "at the end of the range of sizes nothing is confirmed"};
+  AddIfFailed(size, failed);
+  size.side = Gate::Side::kAtMost;
+  size.limit = drill.kind->max_scale - kBound * range;
+  AddIfFailed(size, failed);
+  AddIfFailed({.what = "it leans by {}",
+               .unit = Gate::Unit::kAngle,
+               .number = model.body_tilt_rad.norm(),
+               .side = Gate::Side::kAtMost,
+               .limit = 0.95 * prior.max_tilt_rad},
+              failed);
 }
 
 /// Why the drill must not be confirmed.
@@ -93,46 +133,70 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
                                      const DrillPrior& prior) {
   const DrillEvidence& evidence = detection.evidence;
   const DrillModel& model = detection.best.model;
-  std::vector<std::string> failed_gates;
-  const auto object = [&failed_gates](std::string failed_gate) {
-    if (!failed_gate.empty()) failed_gates.push_back(std::move(failed_gate));
-  };
-  if (!detection.table) object("no table is seen under it: draw the region a little lower");
-  if (const double hits = Hits(rays, evidence); hits < kMinHits)
-    object(
-        fmt::format("only {:.0f} measurements lie on the drill: scan slower or move closer", hits));
-  if (evidence.see_through > kMaxSeeThrough)
-    object(
-        fmt::format("{:.0f} % of the beams went through the drill", 100.0 * evidence.see_through));
-  if (!(evidence.alternative_margin_nats > 0.0))
-    object(fmt::format("a {} explains it as well", evidence.best_alternative));
-  object(PartOutside(region, detection.best));
-  object(FailedDirectionGate(evidence, rays.dense));
-  object(FailedBoundGate(model, drill, prior));
-  const double off_m = DistanceFromRegionCenter(
-      region, detection.best.base_from_object * model.object_from_grasp.translation());
-  if (off_m > kMaxOffCenter_m)
-    object(
-        fmt::format("the drill lies {:.0f} mm from the region's centre: draw the region around it",
-                    1000.0 * off_m));
-  return failed_gates;
+  std::vector<std::string> failed;
+  if (!detection.table)
+    failed.push_back("no table is seen under it: draw the region a little lower");
+  AddIfFailed({.what = "{} measurements lie on the drill",
+               .number = Hits(rays, evidence),
+               .limit = kMinHits,
+               .advice = "scan slower or move closer"},
+              failed);
+  AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
+  // As likely as the drill, or not looked at, is not behind: the limit is just above 0.
+  AddIfFailed(AlternativeGate(evidence, std::numeric_limits<double>::min()), failed);
+  AddPartOutside(region, detection.best, failed);
+  for (const Gate& gate : DirectionGates(evidence, rays.dense)) {
+    AddIfFailed(gate, failed);
+    if (gate.Failed()) break;
+  }
+  AddFailedBoundGates(model, drill, prior, failed);
+  AddIfFailed({.what = "the drill lies {} from the region's centre",
+               .unit = Gate::Unit::kLength,
+               .number = DistanceFromRegionCenter(
+                   region, detection.best.base_from_object * model.object_from_grasp.translation()),
+               .side = Gate::Side::kAtMost,
+               .limit = kMaxOffCenter_m,
+               .advice = "draw the region around it"},
+              failed);
+  return failed;
 }
 
-std::string WeakestPoint(const DrillDetection& detection) {
+/// The nats that Compressed made a value of.
+double Expanded(double value) {
+  return std::copysign(std::expm1(std::abs(value)), value);
+}
+
+/// What may be unusual about it.
+std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const VerdictModel& model) {
   const DrillEvidence& evidence = detection.evidence;
-  if (evidence.inlier_ratio < 0.7)
-    return fmt::format("only {:.0f} % of the beams on the drill agree with it",
-                       100.0 * evidence.inlier_ratio);
-  if (evidence.see_through > 0.08)
-    return fmt::format("{:.0f} % of the beams went through the drill",
-                       100.0 * evidence.see_through);
-  if (detection.sigma_yaw_rad > RadiansFromDegrees(4.0))
-    return fmt::format("its direction is known to {:.0f} deg only",
-                       DegreesFromRadians(detection.sigma_yaw_rad));
-  if (evidence.yaw_margin_nats < 5.0 * kMinYawMargin_nats)
-    return fmt::format("another direction is {}", MarginWords(evidence.yaw_margin_nats));
-  return fmt::format("a {} in its place is {}", evidence.best_alternative,
-                     MarginWords(evidence.alternative_margin_nats));
+  const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
+  const auto usual_nats = [&](const char* feature) {
+    return std::min(kFarBehind_nats, Expanded(mean(feature)));
+  };
+  return {
+      {"inlier_ratio",
+       {.what = "{} of the beams on the drill agree with it",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.inlier_ratio,
+        .limit = mean("inlier_ratio")}},
+      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"log_sigma_yaw",
+       {.what = "its direction is known to {}",
+        .unit = Gate::Unit::kAngle,
+        .number = detection.sigma_yaw_rad,
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_yaw"))}},
+      {"log_yaw_margin",
+       {.what = "the odds against another direction are {}",
+        .unit = Gate::Unit::kOdds,
+        .number = evidence.yaw_margin_nats,
+        .limit = usual_nats("log_yaw_margin")}},
+      {"log_head",
+       {.what = "the odds that a head is seen are {}",
+        .unit = Gate::Unit::kOdds,
+        .number = evidence.head_nats,
+        .limit = usual_nats("log_head")}},
+      {"log_alternative_margin", AlternativeGate(evidence, usual_nats("log_alternative_margin"))}};
 }
 
 double Squared(double value) {
@@ -265,14 +329,11 @@ Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetecti
   verdict.failed_gates = FailedGates(rays, region, detection, drill, prior);
   model.AddReservation(verdict.failed_gates);
   verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
-  if (!verdict.failed_gates.empty())
-    verdict.reason = verdict.failed_gates.front();
-  else if (verdict.level == VerdictLevel::kConfirmed)
-    verdict.reason =
-        fmt::format("{} beams on the drill, {:.0f} % of them agree; the other way fits worse",
-                    detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio);
-  else
-    verdict.reason = WeakestPoint(detection);
+  verdict.reason = ReasonOf(
+      verdict, Verdict::kLikely,
+      fmt::format("{} beams on the drill, {:.0f} % of them agree; the other way fits worse",
+                  detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio),
+      WeightiestFirst(model, verdict.features, FeatureGates(detection, model)));
   return verdict;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/gate.h"
 #include "core/fitting/verdict_model.h"
-#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
@@ -23,31 +23,66 @@ std::string Edges(int count) {
   return kWords[std::clamp(count, 0, 4)];
 }
 
-/// Why a block must not be confirmed.
-std::vector<std::string> FailedGates(const BlockEvidence& evidence) {
-  std::vector<std::string> failed_gates;
-  if (evidence.outside > kMaxOutside)
-    failed_gates.push_back(
-        fmt::format("part of a larger patch: {:.0f} % of a block's area lies beyond it",
-                    100.0 * evidence.outside));
-  if (evidence.cover < kMinCover)
-    failed_gates.push_back(fmt::format("only {:.0f} % of its top is seen", 100.0 * evidence.cover));
-  if (evidence.confirmed_edges < kMinEdges)
-    failed_gates.push_back(fmt::format("{} not confirmed", Edges(4 - evidence.confirmed_edges)));
-  return failed_gates;
+Gate CoverGate(const BlockEvidence& evidence, double limit) {
+  return {.what = "{} of its top is seen",
+          .unit = Gate::Unit::kFraction,
+          .number = evidence.cover,
+          .limit = limit};
 }
 
-std::string WeakestPoint(const TerrainSurface& block, const RectangleEvidence& evidence) {
+Gate EdgesGate(const BlockEvidence& evidence, int limit) {
+  return {.what = "{} of its four edges are confirmed",
+          .number = static_cast<double>(evidence.confirmed_edges),
+          .limit = static_cast<double>(limit)};
+}
+
+/// Why a block must not be confirmed.
+std::vector<std::string> FailedGates(const BlockEvidence& evidence) {
+  std::vector<std::string> failed;
+  AddIfFailed({.what = "part of a larger patch: {} of a block's area lies beyond it",
+               .unit = Gate::Unit::kFraction,
+               .number = evidence.outside,
+               .side = Gate::Side::kAtMost,
+               .limit = kMaxOutside},
+              failed);
+  AddIfFailed(CoverGate(evidence, kMinCover), failed);
+  AddIfFailed(EdgesGate(evidence, kMinEdges), failed);
+  return failed;
+}
+
+/// What may be unusual about it.
+std::vector<FeatureGate> FeatureGates(const TerrainSurface& block,
+                                      const RectangleEvidence& evidence,
+                                      const VerdictModel& model) {
   const BlockEvidence& seen = block.evidence;
-  if (seen.confirmed_edges < 4)
-    return fmt::format("{} not confirmed", Edges(4 - seen.confirmed_edges));
-  if (evidence.size_error_m > 0.04)
-    return fmt::format("its extent differs from a block's by {:.0f} mm",
-                       1000.0 * evidence.size_error_m);
-  if (seen.cover < 0.8) return fmt::format("only {:.0f} % of its top is seen", 100.0 * seen.cover);
-  if (seen.see_through > 0.05)
-    return fmt::format("{:.0f} % of the beams on it went through", 100.0 * seen.see_through);
-  return fmt::format("its points scatter by {:.0f} mm", 1000.0 * seen.rms_m);
+  const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
+  return {
+      {"four_edges", EdgesGate(seen, 4)},
+      {"size_error",
+       {.what = "its extent differs from a block's by {}",
+        .unit = Gate::Unit::kLength,
+        .number = evidence.size_error_m,
+        .side = Gate::Side::kAtMost,
+        .limit = mean("size_error")}},
+      {"cover", CoverGate(seen, mean("cover"))},
+      {"see_through",
+       {.what = "{} of the beams on it went through",
+        .unit = Gate::Unit::kFraction,
+        .number = seen.see_through,
+        .side = Gate::Side::kAtMost,
+        .limit = mean("see_through")}},
+      {"rms",
+       {.what = "its points scatter by {}",
+        .unit = Gate::Unit::kLength,
+        .number = seen.rms_m,
+        .side = Gate::Side::kAtMost,
+        .limit = mean("rms")}},
+      {"log_sigma_place",
+       {.what = "its place is known to {}",
+        .unit = Gate::Unit::kLength,
+        .number = std::hypot(std::sqrt(block.covariance(0, 0)), std::sqrt(block.covariance(1, 1))),
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_place"))}}};
 }
 
 std::vector<double> FeaturesOf(const RaySet& rays, const TerrainSurface& block,
@@ -103,14 +138,11 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
       verdict.probability < kWorthOffering || block.evidence.confirmed_edges <= kUnsureEdges;
   verdict.level =
       unsure ? VerdictLevel::kUnsure : LevelFor(verdict.probability, !verdict.failed_gates.empty());
-  if (!verdict.failed_gates.empty())
-    verdict.reason = verdict.failed_gates.front();
-  else if (verdict.level == VerdictLevel::kConfirmed)
-    verdict.reason =
-        fmt::format("{} confirmed, {:.0f} % of its top seen", Edges(block.evidence.confirmed_edges),
-                    100.0 * block.evidence.cover);
-  else
-    verdict.reason = WeakestPoint(block, evidence);
+  verdict.reason =
+      ReasonOf(verdict, kWorthOffering,
+               fmt::format("{} confirmed, {:.0f} % of its top seen",
+                           Edges(block.evidence.confirmed_edges), 100.0 * block.evidence.cover),
+               WeightiestFirst(model, verdict.features, FeatureGates(block, evidence, model)));
   return verdict;
 }
 

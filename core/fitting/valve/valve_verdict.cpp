@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/gate.h"
 #include "core/fitting/region_place.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/verdict_model.h"
-#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
@@ -23,29 +23,69 @@ std::string NameOf(const ValveModel& model) {
   return model.spokes == 0 ? "a disc" : fmt::format("{} spokes", model.spokes);
 }
 
-/// Why there is no valve to speak of; empty when there may be one.
-std::string FailedConfirmationGate(const ValveDetection& detection,
-                                   const FitValveOptions& options) {
-  const ValveEvidence& evidence = detection.evidence;
-  const ValveModel& model = detection.best.model;
-  if (evidence.see_through > kAbsurdSeeThrough)
-    return fmt::format("{:.0f} % of the beams went through the valve",
-                       100.0 * evidence.see_through);
-  if (!model.IsLever() && (model.rim_radius_m < 0.9 * options.min_rim_radius_m ||
-                           model.rim_radius_m > 1.1 * options.max_rim_radius_m))
-    return fmt::format("a rim of {:.0f} mm radius is out of range", 1000.0 * model.rim_radius_m);
-  return {};
+Gate SeeThroughGate(const ValveEvidence& evidence, double limit) {
+  return {.what = "{} of the beams went through the valve",
+          .unit = Gate::Unit::kFraction,
+          .number = evidence.see_through,
+          .side = Gate::Side::kAtMost,
+          .limit = limit};
 }
 
-/// What a size or a shape alone says against confirming; empty when nothing does.
-std::string FailedShapeGate(const ValveModel& model, const FitValveOptions& options) {
-  if (model.IsLever()) return "a bar looks like a lever: check it in the image";
-  if (model.spokes == 0) return "no spokes are seen: any round or flat thing looks like this";
-  if (model.rim_radius_m < 1.08 * options.min_rim_radius_m ||
-      model.rim_radius_m > 1.04 * options.max_rim_radius_m)
-    return fmt::format("the rim's radius of {:.0f} mm is at the end of its range",
-                       1000.0 * model.rim_radius_m);
-  return {};
+Gate BlockedGate(const ValveEvidence& evidence, double limit) {
+  return {.what = "{} of the beams beside the valve's parts did not get through",
+          .unit = Gate::Unit::kFraction,
+          .number = evidence.blocked_gaps,
+          .side = Gate::Side::kAtMost,
+          .limit = limit};
+}
+
+/// Of a detection with alternatives.
+Gate MarginGate(const ValveDetection& detection, double limit_nats) {
+  return {.what = fmt::format("the odds of {} against {} are {{}}", NameOf(detection.best.model),
+                              NameOf(detection.alternatives.front().model)),
+          .unit = Gate::Unit::kOdds,
+          .number = detection.evidence.margin_nats,
+          .limit = limit_nats};
+}
+
+Gate SmallestRim(const ValveModel& model, double limit_m) {
+  return {.what = "the rim's radius is {}",
+          .unit = Gate::Unit::kLength,
+          .number = model.rim_radius_m,
+          .side = Gate::Side::kAtLeast,
+          .limit = limit_m,
+          .advice = "at the end of the range of sizes nothing is confirmed"};
+}
+
+Gate LargestRim(const ValveModel& model, double limit_m) {
+  Gate gate = SmallestRim(model, limit_m);
+  gate.side = Gate::Side::kAtMost;
+  return gate;
+}
+
+/// Why there is no valve to speak of.
+std::vector<std::string> FailedExistenceGates(const ValveDetection& detection,
+                                              const FitValveOptions& options) {
+  const ValveModel& model = detection.best.model;
+  std::vector<std::string> failed;
+  AddIfFailed(SeeThroughGate(detection.evidence, kAbsurdSeeThrough), failed);
+  if (model.IsLever()) return failed;
+  AddIfFailed(SmallestRim(model, 0.9 * options.min_rim_radius_m), failed);
+  AddIfFailed(LargestRim(model, 1.1 * options.max_rim_radius_m), failed);
+  return failed;
+}
+
+/// What a size or a shape alone says against confirming.
+void AddFailedShapeGates(const ValveModel& model, const FitValveOptions& options,
+                         std::vector<std::string>& failed) {
+  if (model.IsLever()) {
+    failed.push_back("a bar looks like a lever: check it in the image");
+  } else if (model.spokes == 0) {
+    failed.push_back("no spokes are seen: any round or flat thing looks like this");
+  } else {
+    AddIfFailed(SmallestRim(model, 1.08 * options.min_rim_radius_m), failed);
+    AddIfFailed(LargestRim(model, 1.04 * options.max_rim_radius_m), failed);
+  }
 }
 
 /// Why the valve must not be confirmed.
@@ -54,51 +94,66 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
                                      const FitValveOptions& options) {
   const ValveEvidence& evidence = detection.evidence;
   const ValveCandidate& best = detection.best;
-  std::vector<std::string> failed_gates;
-  if (const double hits = MeasuredHits(rays, evidence); hits < kMinHits)
-    failed_gates.push_back(
-        fmt::format("only {:.0f} measurements lie on the valve: scan slower or move closer", hits));
-  if (evidence.see_through > kMaxSeeThrough)
-    failed_gates.push_back(
-        fmt::format("{:.0f} % of the beams went through the valve", 100.0 * evidence.see_through));
-  if (evidence.blocked_gaps > kMaxBlockedGaps)
-    failed_gates.push_back(
-        fmt::format("{:.0f} % of the beams beside the valve's parts did not get through",
-                    100.0 * evidence.blocked_gaps));
-  if (evidence.margin_nats < kMinMargin_nats && !detection.alternatives.empty())
-    failed_gates.push_back(fmt::format("{} and {} fit almost equally well", NameOf(best.model),
-                                       NameOf(detection.alternatives.front().model)));
-  if (const double off_m = DistanceFromRegionCenter(region, best); off_m > kMaxOffCenter_m)
-    failed_gates.push_back(
-        fmt::format("the valve lies {:.0f} mm from the region's centre: draw the region around it",
-                    1000.0 * off_m));
-  if (std::string shape = FailedShapeGate(best.model, options); !shape.empty())
-    failed_gates.push_back(std::move(shape));
-  return failed_gates;
+  std::vector<std::string> failed;
+  AddIfFailed({.what = "{} measurements lie on the valve",
+               .number = MeasuredHits(rays, evidence),
+               .limit = kMinHits,
+               .advice = "scan slower or move closer"},
+              failed);
+  AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
+  AddIfFailed(BlockedGate(evidence, kMaxBlockedGaps), failed);
+  if (!detection.alternatives.empty()) AddIfFailed(MarginGate(detection, kMinMargin_nats), failed);
+  AddIfFailed({.what = "the valve lies {} from the region's centre",
+               .unit = Gate::Unit::kLength,
+               .number = DistanceFromRegionCenter(region, best),
+               .side = Gate::Side::kAtMost,
+               .limit = kMaxOffCenter_m,
+               .advice = "draw the region around it"},
+              failed);
+  AddFailedShapeGates(best.model, options, failed);
+  return failed;
 }
 
-std::string WeakestPoint(const ValveDetection& detection) {
+/// What may be unusual about it.
+std::vector<FeatureGate> FeatureGates(const ValveDetection& detection, const VerdictModel& model) {
   const ValveEvidence& evidence = detection.evidence;
-  if (evidence.arc_coverage < 0.6)
-    return fmt::format("only {:.0f} % of the {} is seen", 100.0 * evidence.arc_coverage,
-                       detection.best.model.IsLever() ? "lever" : "rim");
-  if (evidence.weakest_spoke < 0.4)
-    return fmt::format("of the beams on one spoke only {:.0f} % agree",
-                       100.0 * evidence.weakest_spoke);
-  if (evidence.inlier_ratio < 0.6)
-    return fmt::format("only {:.0f} % of the beams on the valve agree with it",
-                       100.0 * evidence.inlier_ratio);
-  if (evidence.see_through > 0.08)
-    return fmt::format("{:.0f} % of the beams went through the valve",
-                       100.0 * evidence.see_through);
-  if (evidence.blocked_gaps > 0.15)
-    return fmt::format("{:.0f} % of the beams beside the valve's parts did not get through",
-                       100.0 * evidence.blocked_gaps);
-  if (detection.sigma_axis_rad > 0.04)
-    return fmt::format("the axis is known to {:.1f} deg only",
-                       DegreesFromRadians(detection.sigma_axis_rad));
-  return fmt::format("{}, but the next answer is {}", NameOf(detection.best.model),
-                     MarginWords(evidence.margin_nats));
+  const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
+  std::vector<FeatureGate> gates = {
+      {"arc_coverage",
+       {.what =
+            fmt::format("{{}} of the {} is seen", detection.best.model.IsLever() ? "lever" : "rim"),
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.arc_coverage,
+        .limit = mean("arc_coverage")}},
+      {"weakest_spoke",
+       {.what = "of the beams on one spoke {} agree",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.weakest_spoke,
+        .limit = mean("weakest_spoke")}},
+      {"inlier_ratio",
+       {.what = "{} of the beams on the valve agree with it",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.inlier_ratio,
+        .limit = mean("inlier_ratio")}},
+      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"blocked_gaps", BlockedGate(evidence, mean("blocked_gaps"))},
+      {"log_sigma_axis",
+       {.what = "the axis is known to {}",
+        .unit = Gate::Unit::kAngle,
+        .number = detection.sigma_axis_rad,
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_axis"))}},
+      {"log_sigma_pos",
+       {.what = "its place is known to {}",
+        .unit = Gate::Unit::kLength,
+        .number = detection.sigma_position_m.norm(),
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_pos"))}}};
+  if (!detection.alternatives.empty())
+    gates.push_back(
+        {"log_margin",
+         MarginGate(detection, std::min(kFarBehind_nats, std::expm1(mean("log_margin"))))});
+  return gates;
 }
 
 }  // namespace
@@ -106,24 +161,21 @@ std::string WeakestPoint(const ValveDetection& detection) {
 Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetection& detection,
                     const FitValveOptions& options) {
   const VerdictModel& model = ShippedVerdictModel("valve", VerdictSourceOf(rays));
-  const std::string failed_confirmation = FailedConfirmationGate(detection, options);
   Verdict verdict;
   verdict.failed_gates = FailedGates(rays, region, detection, options);
   model.AddReservation(verdict.failed_gates);
   verdict.features = ValveFeatures(rays, detection);
   verdict.probability = model.Probability(verdict.features);
-  if (!failed_confirmation.empty()) {
-    verdict.failed_gates.insert(verdict.failed_gates.begin(), failed_confirmation);
+  if (const auto failed = FailedExistenceGates(detection, options); !failed.empty()) {
+    verdict.failed_gates.insert(verdict.failed_gates.begin(), failed.begin(), failed.end());
     verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
   }
   verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
-  if (!verdict.failed_gates.empty())
-    verdict.reason = verdict.failed_gates.front();
-  else if (verdict.level == VerdictLevel::kConfirmed)
-    verdict.reason = fmt::format("{} beams on the valve, {:.0f} % of them agree",
-                                 detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio);
-  else
-    verdict.reason = WeakestPoint(detection);
+  verdict.reason =
+      ReasonOf(verdict, Verdict::kLikely,
+               fmt::format("{} beams on the valve, {:.0f} % of them agree", detection.evidence.hits,
+                           100.0 * detection.evidence.inlier_ratio),
+               WeightiestFirst(model, verdict.features, FeatureGates(detection, model)));
   return verdict;
 }
 

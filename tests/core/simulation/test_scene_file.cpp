@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/atomic_file.h"
+#include "core/simulation/ray_caster.h"
 #include "core/simulation/scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {
@@ -106,6 +109,49 @@ TEST(SceneFile, APipeReachesBothOfItsPoints) {
   }
   EXPECT_NEAR(low, 3.0, 1e-5);
   EXPECT_NEAR(high, 5.0, 1e-5);
+}
+
+/// A cube of 20 units as an OBJ file, beside a scene that has it in millimetres.
+class SceneWithMesh : public testing::Test {
+ protected:
+  SceneWithMesh() {
+    std::string obj;
+    for (int i = 0; i < 8; ++i)
+      obj += fmt::format("v {} {} {}\n", i & 1 ? 10 : -10, i & 2 ? 10 : -10, i & 4 ? 10 : -10);
+    obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    EXPECT_TRUE(WriteFileAtomically(folder_ / "cube.obj", obj));
+  }
+  Result<Scene> Load(const std::string& solid) const {
+    EXPECT_TRUE(WriteFileAtomically(folder_ / "scene.yaml", SceneWithSolid(solid)));
+    return LoadScene(folder_ / "scene.yaml");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SceneWithMesh, StandsWhereItsPoseSaysInTheUnitOfItsScale) {
+  const auto scene =
+      Load("{shape: mesh, file: cube.obj, scale: 0.001, position_m: [2, 0, 1], material: grey}");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const RayCaster caster(std::make_shared<const Scene>(*scene));
+  // 10 mm before and above the middle; what lies nearer, the other solid of 1 m, is behind us.
+  EXPECT_NEAR(caster.Cast({{1.5f, 0.0f, 1.005f}, {1.0f, 0.0f, 0.0f}}).distance_m, 0.49, 1e-5);
+  EXPECT_EQ(caster.Cast({{1.5f, 0.0f, 1.011f}, {1.0f, 0.0f, 0.0f}}).mesh, -1);
+}
+
+TEST_F(SceneWithMesh, NamesTheLineOfAMeshThatIsNotThereOrTooLarge) {
+  const auto missing = Load("{shape: mesh, file: wheel.stl, material: grey}");
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message,
+              testing::AllOf(HasSubstr("scene.yaml:7"), HasSubstr("wheel.stl")));
+  const auto large = Load("{shape: mesh, file: cube.obj, scale: 500, material: grey}");
+  ASSERT_FALSE(large);
+  EXPECT_THAT(large.error().message, HasSubstr("'scale'"));
+}
+
+TEST(SceneFile, WhatComesFromNoFileHasNoMeshBesideIt) {
+  EXPECT_THAT(ErrorOf(SceneWithSolid("{shape: mesh, file: /etc/passwd, material: grey}")),
+              testing::AllOf(HasSubstr("test.yaml:7"), HasSubstr("no file")));
 }
 
 TEST(SceneFile, TurnsRollPitchYawAboutFixedAxesInThisOrder) {

@@ -55,6 +55,33 @@ TEST(Shapes, FlatDishIsAPlateOfItsThickness) {
   EXPECT_NEAR(VolumeOf(DishShape(0.15, 0.0, 0.01)), expected, kRoundFraction * expected);
 }
 
+TEST(Shapes, ASweptSectionIsClosedAndWoundOutwards) {
+  const std::vector<Eigen::Vector2d> section = {
+      {-0.01, -0.02}, {0.01, -0.02}, {0.01, 0.02}, {-0.01, 0.02}};
+  const std::vector<Eigen::Vector3d> straight = {{0.0, 0.0, 0.1}, {0.3, 0.0, 0.1}};
+  EXPECT_NEAR(VolumeOf(SweptShape(section, straight, Eigen::Vector3d::UnitZ())), 0.00024, 1e-9);
+  // x of the section lies across the path, y stays up.
+  float high = 0.0f;
+  for (const Eigen::Vector3f& v : SweptShape(section, straight, Eigen::Vector3d::UnitZ()).vertices)
+    high = std::max(high, v.z());
+  EXPECT_NEAR(high, 0.12f, 1e-6f);
+}
+
+TEST(Shapes, ASectionThatShrinksToHalfIsThePartOfAPyramid) {
+  const std::vector<Eigen::Vector2d> section = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}};
+  const std::vector<Eigen::Vector3d> path = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.6}};
+  const std::vector<double> scales = {1.0, 0.5};
+  EXPECT_NEAR(VolumeOf(SweptShape(section, path, Eigen::Vector3d::UnitY(), scales)),
+              0.6 / 3.0 * (0.04 + 0.02 + 0.01), 1e-8);
+}
+
+TEST(Shapes, ARevolvedRectangleIsARingOfItsSection) {
+  const std::vector<Eigen::Vector2d> section = {
+      {0.14, -0.01}, {0.16, -0.01}, {0.16, 0.01}, {0.14, 0.01}};
+  const double expected = 2.0 * kPi * 0.15 * 0.0004;
+  EXPECT_NEAR(VolumeOf(RevolvedShape(section, true)), expected, kRoundFraction * expected);
+}
+
 TEST(Shapes, NoTriangleIsWithoutArea) {
   for (const Shape& shape : {SphereShape(0.1), CylinderShape(0.1, 0.2), CapsuleShape(0.1, 0.2),
                              DishShape(0.15, 0.03, 0.01)})

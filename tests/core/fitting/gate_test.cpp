@@ -1,0 +1,279 @@
+#include "core/fitting/gate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/fitting/cylinder/cylinder_evidence.h"
+#include "core/fitting/drill/drill_verdict.h"
+#include "core/fitting/terrain/terrain_verdict.h"
+#include "core/fitting/valve/valve_verdict.h"
+#include "tests/support/gate_sentence.h"
+
+namespace foresight {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr int kAnswers = 500;
+
+TEST(Gate, SaysItsNumberItsLimitAndWhatToDo) {
+  const Gate gate{.what = "{} measurements lie on the valve",
+                  .number = 31.0,
+                  .limit = 40.0,
+                  .advice = "scan slower"};
+  EXPECT_TRUE(gate.Failed());
+  EXPECT_EQ(gate.Sentence(), "31 measurements lie on the valve (at least 40): scan slower");
+}
+
+TEST(Gate, ANumberOnItsLimitHasNotFailed) {
+  EXPECT_FALSE((Gate{.what = "{}", .number = 40.0, .limit = 40.0}.Failed()));
+  EXPECT_FALSE(
+      (Gate{.what = "{}", .number = 40.0, .side = Gate::Side::kAtMost, .limit = 40.0}.Failed()));
+  EXPECT_TRUE((Gate{.what = "{}", .number = std::nan(""), .limit = 40.0}.Failed()));
+}
+
+TEST(Gate, ShowsAsManyDigitsAsTellTheNumberFromTheLimit) {
+  const auto sentence = [](Gate::Unit unit, double number, double limit) {
+    return Gate{.what = "{}",
+                .unit = unit,
+                .number = number,
+                .side = number < limit ? Gate::Side::kAtLeast : Gate::Side::kAtMost,
+                .limit = limit}
+        .Sentence();
+  };
+  EXPECT_EQ(sentence(Gate::Unit::kFraction, 0.1502, 0.15), "15.02 % (at most 15 %)");
+  EXPECT_EQ(sentence(Gate::Unit::kCount, 39.7, 40.0), "39.7 (at least 40)");
+  EXPECT_EQ(sentence(Gate::Unit::kLength, 0.1804, 0.15), "180 mm (at most 150 mm)");
+  EXPECT_EQ(sentence(Gate::Unit::kAngle, 0.06, 0.04), "3.4 deg (at most 2.3 deg)");
+  EXPECT_EQ(sentence(Gate::Unit::kRatio, 1.203, 1.19), "1.20 (at most 1.19)");
+  EXPECT_EQ(sentence(Gate::Unit::kCount, 40.0 - 1e-9, 40.0), "just under 40 (at least 40)");
+}
+
+TEST(Gate, ToldOddsAreThoseOfTheLikelihoods) {
+  const auto sentence = [](double nats, double limit) {
+    return Gate{.what = "{}", .unit = Gate::Unit::kOdds, .number = nats, .limit = limit}.Sentence();
+  };
+  EXPECT_EQ(sentence(std::log(12.0), 10.0), "12 : 1 (at least 22000 : 1)");
+  EXPECT_EQ(sentence(-41.0, 1e-300), "1 : 10^18 (at least 1 : 1)");
+  EXPECT_EQ(sentence(12.0, 30.0), "160000 : 1 (at least 10^13 : 1)");
+  EXPECT_EQ(sentence(29.95, 30.0), "10^13.01 : 1 (at least 10^13.03 : 1)");
+}
+
+TEST(Gate, ItsNumberIsOnTheWrongSideOfItsLimitInEveryUnit) {
+  Random random(7);
+  for (const Gate::Unit unit : {Gate::Unit::kCount, Gate::Unit::kFraction, Gate::Unit::kRatio,
+                                Gate::Unit::kLength, Gate::Unit::kAngle, Gate::Unit::kOdds})
+    for (int i = 0; i < kAnswers; ++i) {
+      Gate gate{.what = "of the 7 things {} are", .unit = unit};
+      const double scale = unit == Gate::Unit::kOdds    ? 50.0
+                           : unit == Gate::Unit::kCount ? 99.0
+                                                        : 1.0;
+      gate.limit = scale * random.Uniform();
+      // From far off to a hair's breadth.
+      const double off = scale * std::pow(10.0, random.Uniform(-9.0, 0.5));
+      gate.side = random.Index(2) == 0 ? Gate::Side::kAtLeast : Gate::Side::kAtMost;
+      gate.number = gate.limit + (gate.side == Gate::Side::kAtLeast ? -off : off);
+      const auto stated = testing::StatedGates(gate.Sentence());
+      ASSERT_EQ(stated.size(), 1u) << gate.Sentence();
+      ASSERT_TRUE(stated.front().Fails()) << gate.Sentence();
+      ASSERT_EQ(stated.front().at_least, gate.side == Gate::Side::kAtLeast);
+    }
+}
+
+/// Each reason of many answers, by level: gates fail as they are stated, and an answer that is not
+/// CONFIRMED has one.
+void ExpectStatedGatesFail(const Verdict& verdict, int* stated_count) {
+  std::vector<std::string> sentences = verdict.failed_gates;
+  sentences.push_back(verdict.reason);
+  for (const std::string& sentence : sentences) {
+    EXPECT_THAT(sentence, Not(HasSubstr("nats")));
+    EXPECT_THAT(sentence, Not(HasSubstr("{}")));
+    for (const auto& gate : testing::StatedGates(sentence)) {
+      EXPECT_TRUE(gate.Fails()) << sentence;
+      ++*stated_count;
+    }
+  }
+  if (verdict.level != VerdictLevel::kConfirmed && verdict.failed_gates.empty()) {
+    EXPECT_FALSE(testing::StatedGates(verdict.reason).empty()) << verdict.reason;
+  }
+}
+
+TEST(Reasons, NameWhatTakesMostOffTheProbability) {
+  VerdictModel model;
+  model.features = {{.name = "seen", .mean = 0.8, .deviation = 0.1, .weight = 1.0},
+                    {.name = "agree", .mean = 0.9, .deviation = 0.1, .weight = 2.0},
+                    {.name = "odd", .mean = 0.5, .deviation = 0.1, .weight = -5.0}};
+  const auto gate = [](const char* what, double number, double limit) {
+    return Gate{.what = what, .unit = Gate::Unit::kFraction, .number = number, .limit = limit};
+  };
+  const auto reasons = [&](double seen, double agree, double odd) {
+    std::vector<std::string> sentences;
+    for (const Gate& it : WeightiestFirst(model, std::vector<double>{seen, agree, odd},
+                                          {{"seen", gate("{} seen", seen, 0.8)},
+                                           {"agree", gate("{} agree", agree, 0.9)},
+                                           {"odd", gate("{} odd", odd, 0.5)}}))
+      sentences.push_back(it.Sentence());
+    return sentences;
+  };
+  EXPECT_THAT(reasons(0.7, 0.8, 0.5), ::testing::ElementsAre("80 % agree (usually at least 90 %)",
+                                                             "70 % seen (usually at least 80 %)"));
+  EXPECT_THAT(reasons(0.6, 0.85, 0.5),
+              ::testing::ElementsAre("60 % seen (usually at least 80 %)",
+                                     "85 % agree (usually at least 90 %)"));
+  // What the model counts in its favour is no reason, whatever the gate says.
+  EXPECT_THAT(reasons(0.9, 0.95, 0.2), ::testing::IsEmpty());
+}
+
+/// A fan of rays along z onto a wall.
+RaySet Fan() {
+  RaySet rays;
+  for (int i = -10; i <= 10; ++i)
+    for (int j = -10; j <= 10; ++j) {
+      RangeRay ray{Eigen::Vector3d::Zero(), Eigen::Vector3d(0.02 * i, 0.02 * j, 1.0).normalized(),
+                   1.2};
+      rays.rays.push_back(ray);
+    }
+  return rays;
+}
+
+double Around(double limit, Random& random) {
+  return limit * random.Uniform(0.5, 1.5);
+}
+
+TEST(Reasons, OfValvesFailAsTheyAreStated) {
+  Random random(11);
+  const RaySet rays = Fan();
+  int stated = 0;
+  for (int i = 0; i < kAnswers; ++i) {
+    ValveDetection found;
+    found.best.model.rim_radius_m = random.Uniform(0.035, 0.28);
+    found.best.model.spokes = random.Index(10) == 0 ? 0 : 2 + random.Index(5);
+    found.best.base_from_object = {Eigen::Quaterniond::Identity(),
+                                   {0.16 * random.Uniform(), 0.0, 1.0}};
+    found.sigma_axis_rad = Around(0.04, random);
+    found.sigma_position_m = Eigen::Vector3d::Constant(0.002);
+    found.sigma_phase_rad = 0.02;
+    found.evidence = {.rays = 441,
+                      .hits = 20 + random.Index(400),
+                      .inlier_ratio = random.Uniform(0.5, 1.0),
+                      .see_through = random.Uniform(0.0, 0.3),
+                      .blocked_gaps = random.Uniform(0.0, 0.5),
+                      .rms_m = 0.008,
+                      .arc_coverage = random.Uniform(0.4, 1.0),
+                      .margin_nats = random.Uniform(-50.0, 500.0),
+                      .gain_nats = random.Uniform(0.0, 2000.0),
+                      .weakest_spoke = random.Uniform(0.2, 1.0)};
+    if (random.Index(3) == 0) found.evidence.margin_nats = random.Uniform(-5.0, 12.0);
+    found.alternatives.push_back(found.best);
+    found.alternatives.front().model.spokes = 5;
+    const Verdict verdict = AssessValve(rays, rays, found, {});
+    ExpectStatedGatesFail(verdict, &stated);
+    if (found.evidence.margin_nats >= kFarBehind_nats) {
+      EXPECT_THAT(verdict.reason, Not(HasSubstr("odds"))) << found.evidence.margin_nats;
+    }
+  }
+  EXPECT_GT(stated, kAnswers / 2);
+}
+
+TEST(Reasons, OfDrillsFailAsTheyAreStated) {
+  Random random(12);
+  const RaySet rays = Fan();
+  const std::vector<DrillTemplate> kinds = ShippedDrillTemplates();
+  int stated = 0;
+  for (int i = 0; i < kAnswers; ++i) {
+    DrillState state;
+    state.kind = &kinds[static_cast<std::size_t>(random.Index(static_cast<int>(kinds.size())))];
+    state.values[kDrillScale] = random.Uniform(state.kind->min_scale, state.kind->max_scale);
+    if (random.Index(4) == 0) state.values[kDrillScale] = state.kind->max_scale;
+    state.values[kDrillTiltX] = random.Uniform(0.0, 0.27);
+    DrillDetection found;
+    found.best = CandidateOf(state, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}});
+    found.table = Plane();
+    found.sigma_yaw_rad = random.Uniform(0.01, 0.2);
+    found.evidence = {.rays = 441,
+                      .hits = 20 + random.Index(400),
+                      .inlier_ratio = random.Uniform(0.4, 1.0),
+                      .see_through = random.Uniform(0.0, 0.2),
+                      .rms_m = 0.008,
+                      .yaw_margin_nats = random.Uniform(-20.0, 100.0),
+                      .flip_margin_nats = random.Uniform(-20.0, 100.0),
+                      .head_nats = random.Uniform(0.0, 100.0),
+                      .gain_nats = 500.0,
+                      .alternative_margin_nats = random.Uniform(-50.0, 400.0),
+                      .best_alternative = "box and cylinder"};
+    ExpectStatedGatesFail(AssessDrill(rays, rays, found, state, {}), &stated);
+  }
+  EXPECT_GT(stated, kAnswers / 2);
+}
+
+TEST(Reasons, ABetterAlternativeIsNotCalledAsGood) {
+  const RaySet rays = Fan();
+  const std::vector<DrillTemplate> kinds = ShippedDrillTemplates();
+  DrillState state;
+  state.kind = &kinds.front();
+  state.values[kDrillScale] = 1.0;
+  DrillDetection found;
+  found.best = CandidateOf(state, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}});
+  found.table = Plane();
+  found.evidence = {.hits = 300,
+                    .inlier_ratio = 0.9,
+                    .alternative_margin_nats = -41.0,
+                    .best_alternative = "box and cylinder"};
+  const Verdict verdict = AssessDrill(rays, rays, found, state, {});
+  ASSERT_FALSE(verdict.failed_gates.empty());
+  EXPECT_EQ(verdict.reason,
+            "the odds against a box and cylinder in its place are 1 : 10^18 (at least 1 : 1)");
+}
+
+TEST(Reasons, OfBlocksFailAsTheyAreStated) {
+  Random random(13);
+  const RaySet rays = Fan();
+  int stated = 0;
+  for (int i = 0; i < kAnswers; ++i) {
+    TerrainSurface block;
+    block.base_from_object = {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.5}};
+    block.covariance = PoseCovariance::Identity() * 1e-5;
+    block.toehold.sigma_tilt_rad = 0.003;
+    block.evidence = {.points = 20 + random.Index(500),
+                      .cover = random.Uniform(0.4, 1.0),
+                      .see_through = random.Uniform(0.0, 0.1),
+                      .outside = random.Uniform(0.0, 0.2),
+                      .confirmed_edges = random.Index(5),
+                      .rms_m = 0.006};
+    RectangleEvidence evidence;
+    evidence.block = block.evidence;
+    evidence.size_error_m = random.Uniform(0.0, 0.08);
+    ExpectStatedGatesFail(AssessBlock(rays, block, evidence), &stated);
+  }
+  EXPECT_GT(stated, kAnswers / 2);
+}
+
+TEST(Reasons, OfCylindersFailAsTheyAreStated) {
+  Random random(14);
+  const RaySet rays = Fan();
+  int stated = 0;
+  for (int i = 0; i < kAnswers; ++i) {
+    CylinderDetection found;
+    found.model = {.radius_m = random.Uniform(0.01, 0.61), .length_m = random.Uniform(0.05, 1.0)};
+    found.sigma_radius_m = random.Index(20) == 0 ? std::nan("") : random.Uniform(0.001, 0.05);
+    found.evidence = {.rays = 441,
+                      .hits = 20 + random.Index(100),
+                      .inlier_ratio = random.Uniform(0.5, 1.0),
+                      .see_through = random.Uniform(0.0, 0.15),
+                      .seen_arc_rad = random.Uniform(0.8, 3.0),
+                      .box_margin_nats = random.Uniform(-10.0, 60.0)};
+    Assess(rays, {}, found);
+    for (const auto& gate : testing::StatedGates(found.reason)) {
+      EXPECT_TRUE(gate.Fails()) << found.reason;
+      ++stated;
+    }
+    EXPECT_EQ(found.level == VerdictLevel::kLikely, testing::StatedGates(found.reason).empty())
+        << found.reason;
+  }
+  EXPECT_GT(stated, kAnswers / 2);
+}
+
+}  // namespace
+}  // namespace foresight
