@@ -76,34 +76,36 @@ std::vector<ConfidenceClass> ByConfidence(const std::vector<HeldOutBeam>& beams,
   return classes;
 }
 
-/// Differences along lines that stayed out, each the mean of neighbours that agree with it: the map
-/// changes little from beam to beam, their noise does.
-std::vector<NoisyError> SmoothedErrors(const std::vector<HeldOutBeam>& lines) {
-  constexpr int kReach = 2;
-  constexpr double kAgree_sigmas = 3.0;
+/// Differences along lines that stayed out, each with a draw of its noise. Of four neighbouring
+/// beams the map is off by about the same, a + b x, while their noise is independent: the outer two
+/// and the inner two measure it twice. Half the sum of both is the error, with as much noise as
+/// half their difference shows. Where the four do not agree, the map's error is larger than any
+/// noise.
+std::vector<NoisyError> ErrorsAndNoise(const std::vector<HeldOutBeam>& lines) {
   std::vector<const HeldOutBeam*> order;
-  for (const HeldOutBeam& beam : lines) order.push_back(&beam);
+  for (const HeldOutBeam& beam : lines)
+    if (beam.kept) order.push_back(&beam);
   std::sort(order.begin(), order.end(), [](const HeldOutBeam* a, const HeldOutBeam* b) {
     return a->line != b->line ? a->line < b->line : a->beam < b->beam;
   });
+  constexpr std::size_t kBeams = 4;
   std::vector<NoisyError> errors;
-  const auto count = static_cast<std::ptrdiff_t>(order.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const HeldOutBeam& beam = *order[static_cast<std::size_t>(i)];
-    if (!beam.kept) continue;
-    double sum_m = 0.0;
-    int agreeing = 0;
-    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, i - kReach);
-         j <= std::min(count - 1, i + kReach); ++j) {
-      const HeldOutBeam& other = *order[static_cast<std::size_t>(j)];
-      const bool near =
-          other.kept && other.line == beam.line && std::abs(other.beam - beam.beam) <= kReach;
-      const double apart_m = std::abs(other.Error_m() - beam.Error_m());
-      if (!near || !(apart_m <= kAgree_sigmas * std::hypot(beam.noise_m, other.noise_m))) continue;
-      sum_m += other.Error_m();
-      ++agreeing;
+  for (std::size_t i = 0; i + kBeams <= order.size(); ++i) {
+    const HeldOutBeam& first = *order[i];
+    const HeldOutBeam& last = *order[i + kBeams - 1];
+    if (last.line != first.line || last.beam != first.beam + static_cast<int>(kBeams) - 1) continue;
+    double least_m = first.Error_m(), most_m = first.Error_m();
+    for (std::size_t j = i; j < i + kBeams; ++j) {
+      least_m = std::min(least_m, order[j]->Error_m());
+      most_m = std::max(most_m, order[j]->Error_m());
     }
-    if (agreeing > 0) errors.push_back({sum_m / agreeing, beam.noise_m / std::sqrt(agreeing)});
+    if (most_m - least_m > RightWithin_m(first.depth_m)) {
+      errors.push_back({order[i + 1]->Error_m(), 0.0});
+      continue;
+    }
+    const double outer_m = 0.5 * (first.Error_m() + last.Error_m());
+    const double inner_m = 0.5 * (order[i + 1]->Error_m() + order[i + 2]->Error_m());
+    errors.push_back({0.5 * (outer_m + inner_m), 0.5 * (outer_m - inner_m)});
   }
   return errors;
 }
@@ -181,7 +183,7 @@ DepthCheck SummariseHeldOut(const std::vector<HeldOutBeam>& scattered,
         both, [](const HeldOutBeam& beam) { return beam.kept; }, options.beams_per_measurement);
     check.promise.to = 1.0;
   }
-  const std::vector<NoisyError> errors = SmoothedErrors(lines);
+  const std::vector<NoisyError> errors = ErrorsAndNoise(lines);
   check.map_q50_m = QuantileWithoutNoise(errors, 0.50);
   check.map_q80_m = QuantileWithoutNoise(errors, 0.80);
   check.map_q95_m = QuantileWithoutNoise(errors, 0.95);

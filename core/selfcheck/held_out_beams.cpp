@@ -1,12 +1,10 @@
 #include "core/selfcheck/held_out_beams.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/depth/depth_method.h"
-#include "core/fitting/range_noise.h"
 
 namespace foresight {
 namespace {
@@ -43,8 +41,9 @@ class Neighbourhood {
   }
 
   bool FarFromBoth(const AlignedSample& s, int beam_a, int line_a, int beam_b, int line_b) const {
+    // A neighbour that was not measured is not far: NaN fails the comparison.
     const auto far = [&](int beam, int line) {
-      return !(std::abs(Depth(beam, line) - s.depth_m) <= RightWithin_m(s.depth_m));
+      return std::abs(Depth(beam, line) - s.depth_m) > RightWithin_m(s.depth_m);
     };
     return OffTheLine(s, beam_a, line_a, beam_b, line_b) && far(beam_a, line_a) &&
            far(beam_b, line_b);
@@ -53,39 +52,6 @@ class Neighbourhood {
   const AlignedSamples& samples_;
   const Image<std::int32_t> grid_;
 };
-
-/// Depths differ by up to two within a class of noise.
-int NoiseClass(double depth_m) {
-  return std::clamp(static_cast<int>(std::floor(std::log2(std::max(depth_m, 1e-3)))) + 2, 0, 9);
-}
-
-std::vector<float> Noise(const AlignedSamples& samples) {
-  std::array<RaySet, 10> classes;
-  RaySet all;
-  for (const AlignedSample& s : samples.samples) {
-    const RangeRay ray{Eigen::Vector3d::Zero(),
-                       s.point.cast<double>().normalized(),
-                       s.point.cast<double>().norm(),
-                       {s.beam, s.line}};
-    classes[static_cast<std::size_t>(NoiseClass(s.depth_m))].rays.push_back(ray);
-    all.rays.push_back(ray);
-  }
-  constexpr double kUnknown_m = 0.010;  // of a UTM-30LX
-  const double of_all_m = EstimateRangeSigma(all);
-  std::array<double, 10> sigmas_m;
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    sigmas_m[c] = EstimateRangeSigma(classes[c]);
-    if (!std::isfinite(sigmas_m[c])) sigmas_m[c] = std::isfinite(of_all_m) ? of_all_m : kUnknown_m;
-  }
-  std::vector<float> noise_m;
-  noise_m.reserve(samples.samples.size());
-  for (const AlignedSample& s : samples.samples) {
-    const double along_z = s.point.norm() > 0.0f ? s.depth_m / s.point.norm() : 1.0;
-    noise_m.push_back(
-        static_cast<float>(along_z * sigmas_m[static_cast<std::size_t>(NoiseClass(s.depth_m))]));
-  }
-  return noise_m;
-}
 
 DepthOptions WithoutRejection(DepthOptions options) {
   options.flying.rule = FlyingPointOptions::Rule::kOff;
@@ -181,7 +147,6 @@ Result<JudgedBeams> JudgeBeams(AlignedSamples aligned, const DepthOptions& optio
     beams.at_edge.push_back(neighbours.IsAtEdge(sample) ? 1 : 0);
     floats.push_back(neighbours.Floats(sample) ? 1 : 0);
   }
-  beams.noise_m = Noise(aligned);
   FORESIGHT_CHECK(RejectOutliers(aligned, options, context));
   beams.samples = aligned;
   FORESIGHT_CHECK(RejectFlipping(aligned, DefaultsOf(DepthMethod::kForesight).flipping, context));
@@ -205,7 +170,7 @@ Result<std::vector<HeldOutBeam>> HoldOut(const JudgedBeams& beams, const ColorIm
     const auto [x, y] = PixelOf(result.dense.depth_m, s.u, s.v);
     held_out.push_back({s.line, s.beam, s.depth_m, DepthAt(result.dense.depth_m, s.u, s.v),
                         result.dense.confidence(x, y), result.mask(x, y) != 0,
-                        beams.at_edge[i] != 0, beams.noise_m[i]});
+                        beams.at_edge[i] != 0});
   }
   if (held_out.empty())
     return Fail(ErrorCode::kTooFewPoints,

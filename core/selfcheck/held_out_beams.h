@@ -37,7 +37,6 @@ struct HeldOutBeam {
   float confidence = 0.0f;  ///< of the map there
   bool kept = false;        ///< the map's mask keeps it
   bool at_edge = false;     ///< of depth: off the plane through its neighbours on the grid
-  float noise_m = 0.0f;     ///< standard deviation of depth_m
 
   double Error_m() const { return static_cast<double>(map_m) - depth_m; }
   bool IsRight() const;  ///< within RightWithin_m
@@ -48,13 +47,11 @@ struct JudgedBeams {
   AlignedSamples samples;             ///< with the reason of each rejection
   std::vector<std::uint8_t> counts;   ///< one a sample; 0 = says nothing about the map
   std::vector<std::uint8_t> at_edge;  ///< one a sample
-  std::vector<float> noise_m;         ///< standard deviation of each depth
 };
 
 /// Judges aligned samples. Those that the options reject do not count, nor those that float between
 /// two surfaces, far from both neighbours along or across the line, or that the camera cannot see
-/// (Fig. 4 with Foresight's margin), whatever the method. The noise is that of second differences
-/// along the lines, for each doubling of the depth. Fails as RejectOutliers does. O(samples).
+/// (Fig. 4 with Foresight's margin), whatever the method. Fails as RejectOutliers does. O(samples).
 /// @param aligned without rejections
 Result<JudgedBeams> JudgeBeams(AlignedSamples aligned, const DepthOptions& options,
                                const RunContext& context);

@@ -38,7 +38,6 @@ std::vector<HeldOutBeam> Beams(double confidence, double right) {
     beam.line = i / 50;
     beam.beam = i % 50;
     beam.depth_m = 3.0f;
-    beam.noise_m = 0.005f;
     beam.map_m = random.Uniform() < right ? 3.005f : 3.3f;
     beam.confidence = static_cast<float>(confidence);
     beam.kept = true;
