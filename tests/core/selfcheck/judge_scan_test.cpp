@@ -93,6 +93,29 @@ TEST(JudgeScan, DepthThatPromisesTooMuchIsTold) {
   EXPECT_EQ(Judged(Depth(0.95, 0.6), Rig(Camera(0.03, 0.02))).light, CheckLight::kRed);
 }
 
+TEST(SummariseHeldOut, TheMapsOwnErrorIsWithoutTheBeamsNoise) {
+  Random random(7);
+  std::vector<HeldOutBeam> beams;
+  for (int line = 0; line < 600; ++line) {
+    const double map_error_m = 0.003 * random.Normal();  // the same all along a line
+    for (int beam = 0; beam < 30; ++beam) {
+      HeldOutBeam held_out;
+      held_out.line = line;
+      held_out.beam = beam;
+      held_out.depth_m = static_cast<float>(3.0 + 0.006 * random.Normal());
+      held_out.map_m = static_cast<float>(3.0 + map_error_m);
+      held_out.confidence = 0.95f;
+      held_out.kept = true;
+      beams.push_back(held_out);
+    }
+  }
+  const DepthCheck check = SummariseHeldOut(beams, beams, DepthMethod::kForesight, {});
+  // Quantiles of |z|: 1.282 and 1.960. 600 lines tell them to 5 %.
+  EXPECT_NEAR(check.all.q80_m, 1.282 * std::hypot(0.003, 0.006), 0.0003);
+  EXPECT_NEAR(check.map_q80_m, 1.282 * 0.003, 0.15 * 1.282 * 0.003);
+  EXPECT_NEAR(check.map_q95_m, 1.960 * 0.003, 0.15 * 1.960 * 0.003);
+}
+
 TEST(JudgeScan, AFewBeamsSayNothingOfTheDepth) {
   auto beams = Beams(0.95, 0.5);
   beams.resize(90);
