@@ -180,6 +180,10 @@ class ScanJudge {
     std::string sentence = OperatorText(
         "depth is right to {:.0f} mm in 80 % and to {:.0f} mm in 95 % of the places it keeps",
         std::max(1.0, 1000.0 * depth.map_q80_m), std::max(1.0, 1000.0 * depth.map_q95_m));
+    if (depth.TooFewBeams())
+      sentence = OperatorText(
+          "depth: of {} beams held out {} lie where the mask keeps the map, too few to judge it",
+          depth.left_out, depth.all.beams);
     if (light >= CheckLight::kAmber)
       sentence = OperatorText(
           "depth that promises to be right in {:.0f} % of the places is right in {:.0f} %: scan "

@@ -111,8 +111,7 @@ std::vector<NoisyError> ErrorsAndNoise(const std::vector<HeldOutBeam>& lines) {
 }
 
 DepthCheck::State StateOf(const DepthCheck& check, const DepthCheckOptions& options) {
-  if (check.all.beams < options.least_beams) return DepthCheck::State::kNotSeen;
-  if (check.promise.beams == 0) return DepthCheck::State::kNotSeen;
+  if (check.TooFewBeams() || check.promise.beams == 0) return DepthCheck::State::kNotSeen;
   const double shortfall = check.promise.promised - check.promise.right;
   if (shortfall < std::max(options.least_shortfall, options.sigmas * check.promise.sigma))
     return DepthCheck::State::kGood;

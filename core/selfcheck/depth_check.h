@@ -46,7 +46,6 @@ struct DepthCheckOptions {
   double least_shortfall = 0.03;  ///< of `right` below what was promised, to be amber
   double red_shortfall = 0.15;
   double sigmas = 3.0;
-  int least_beams = 200;
 
   Status Check() const;
 };
@@ -75,6 +74,9 @@ struct DepthCheck {
   int left_out = 0;     ///< beams that stayed out and count
   int not_counted = 0;  ///< all beams that are rejected, or that the camera cannot see
   double seconds = 0.0;
+
+  static constexpr int kLeastBeams = 200;  ///< where the mask keeps the map
+  bool TooFewBeams() const { return all.beams < kLeastBeams; }
 };
 
 /// "good", "less than promised", "far less than promised", "not seen".

@@ -121,6 +121,9 @@ TEST(JudgeScan, AFewBeamsSayNothingOfTheDepth) {
   beams.resize(90);
   const DepthCheck depth = SummariseHeldOut(beams, beams, DepthMethod::kForesight, {});
   EXPECT_EQ(depth.state, DepthCheck::State::kNotSeen);
+  EXPECT_THAT(
+      Judged(depth, Rig(Camera(0.03, 0.02))).points.at(3).sentence,
+      StartsWith("depth: of 180 beams held out 180 lie where the mask keeps the map, too few"));
 }
 
 TEST(JudgeScan, AnObjectThatDiffersBetweenHalvesIsTold) {
