@@ -16,6 +16,7 @@ using Invocation = std::function<Result<ExitCode>(const RunContext&)>;
 
 /// Adds a subcommand and its options to `app`; when it is chosen, parsing fills `invocation`.
 void AddScanCommand(CLI::App& app, Invocation& invocation);
+void AddCheckCommand(CLI::App& app, Invocation& invocation);
 void AddCloudCommand(CLI::App& app, Invocation& invocation);
 void AddDepthCommand(CLI::App& app, Invocation& invocation);
 void AddFitCommand(CLI::App& app, Invocation& invocation);

@@ -1,9 +1,13 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "app/common/seed_option.h"
 #include "app/ctl/command.h"
+#include "core/base/quantile.h"
 #include "core/evaluation/check_trial.h"
 #include "core/geometry/angles.h"
+#include "core/selfcheck/gather_rig.h"
 
 namespace foresight {
 namespace {
@@ -14,6 +18,11 @@ struct EvaluateCheckArguments {
   int count = 30;
   double turn_deg = 0.3;
   double stamp_ms = 10.0;
+  double calibration_deg = DegreesFromRadians(CheckTrialOptions().calibration_error.rotation_rad);
+  double calibration_mm = 1000.0 * CheckTrialOptions().calibration_error.translation_m;
+  int gather = 1;      ///< so many scans share a rig
+  bool depth = false;  ///< check the depth too
+  bool rig = true;     ///< try the damages
   bool json = false;
 };
 
@@ -88,6 +97,77 @@ void Print(const std::vector<CheckOutcome>& outcomes, const std::vector<RigDamag
   }
 }
 
+double Ratio(double measured, double truth) {
+  return truth > 0.0 ? measured / truth : std::nan("");
+}
+
+nlohmann::ordered_json ToJson(const DepthCheckOutcome& outcome) {
+  const DepthCheck& c = outcome.check;
+  return {{"seed", outcome.seed},
+          {"scene", outcome.scene},
+          {"state", ToString(c.state)},
+          {"seconds", c.seconds},
+          {"kept", c.kept},
+          {"beams", c.all.beams},
+          {"against_beams_m", {c.all.q50_m, c.all.q80_m, c.all.q95_m}},
+          {"scattered_m", {c.scattered.q50_m, c.scattered.q80_m, c.scattered.q95_m}},
+          {"lines_m", {c.lines.q50_m, c.lines.q80_m, c.lines.q95_m}},
+          {"map_m", {c.map_q50_m, c.map_q80_m, c.map_q95_m}},
+          {"true_m", {outcome.true_q50_m, outcome.true_q80_m, outcome.true_q95_m}},
+          {"promised", c.promise.promised},
+          {"right", c.promise.right},
+          {"true_right", outcome.true_right}};
+}
+
+/// How near the check's quantiles come to the true ones: the median of the ratios, and how many are
+/// within 15 %.
+void Print(const std::vector<DepthCheckOutcome>& outcomes) {
+  PrintLine(fmt::format("{:<10}{:>8}{:>22}{:>22}{:>14}", "depth", "scans", "check / truth, median",
+                        "25 to 75 %", "within 15 %"));
+  const auto row = [&](const char* name, const auto& measured, const auto& truth) {
+    std::vector<double> ratios;
+    for (const DepthCheckOutcome& outcome : outcomes)
+      ratios.push_back(Ratio(measured(outcome), truth(outcome)));
+    const auto near = std::count_if(ratios.begin(), ratios.end(),
+                                    [](double ratio) { return std::abs(ratio - 1.0) <= 0.15; });
+    PrintLine(fmt::format(
+        "{:<10}{:>8}{:>22.2f}{:>22}{:>14}", name, ratios.size(), Quantile(ratios, 0.5),
+        fmt::format("{:.2f} to {:.2f}", Quantile(ratios, 0.25), Quantile(ratios, 0.75)), near));
+  };
+  row(
+      "50 %", [](const auto& o) { return o.check.map_q50_m; },
+      [](const auto& o) { return o.true_q50_m; });
+  row(
+      "80 %", [](const auto& o) { return o.check.map_q80_m; },
+      [](const auto& o) { return o.true_q80_m; });
+  row(
+      "95 %", [](const auto& o) { return o.check.map_q95_m; },
+      [](const auto& o) { return o.true_q95_m; });
+  row(
+      "right", [](const auto& o) { return o.check.promise.right; },
+      [](const auto& o) { return o.true_right; });
+}
+
+/// Checks of the same damage that share a rig, as one.
+std::vector<CheckOutcome> Gathered(const std::vector<CheckOutcome>& outcomes,
+                                   const std::vector<RigDamage>& damages) {
+  std::vector<CheckOutcome> gathered;
+  for (const RigDamage& damage : damages) {
+    std::vector<RigCheck> checks;
+    CheckOutcome sum;
+    for (const CheckOutcome& outcome : outcomes) {
+      if (outcome.damage != damage.name) continue;
+      if (checks.empty()) sum = outcome;
+      checks.push_back(outcome.check);
+      if (checks.size() > 1) sum.seconds += outcome.seconds;
+    }
+    if (checks.empty()) continue;
+    sum.check = GatherRig(checks, DefaultSensorRig(), RigCheckLimits());
+    gathered.push_back(std::move(sum));
+  }
+  return gathered;
+}
+
 Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const RunContext& context) {
   // Three of the scans in turn are of random scenes: a valve, a drill, a terrain.
   std::vector<std::shared_ptr<const Scene>> scenes = {nullptr, nullptr, nullptr};
@@ -98,20 +178,41 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
   const auto damages =
       UsualDamages(RadiansFromDegrees(arguments.turn_deg), 1e-3 * arguments.stamp_ms);
   std::vector<CheckOutcome> all;
-  for (int i = 0; i < arguments.count; ++i) {
-    const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(i);
-    FORESIGHT_TRY(auto outcomes, RunCheckTrial(scenes[seed % scenes.size()], seed, damages,
-                                               CheckTrialOptions(), context));
-    for (CheckOutcome& outcome : outcomes) all.push_back(std::move(outcome));
-    PrintProgress(fmt::format("scan {} of {}", i + 1, arguments.count),
-                  i + 1 == arguments.count ? ProgressEnd::kLast : ProgressEnd::kMore);
+  std::vector<DepthCheckOutcome> depths;
+  for (int first = 0; first < arguments.count; first += arguments.gather) {
+    CheckTrialOptions options;
+    options.calibration_error = {RadiansFromDegrees(arguments.calibration_deg),
+                                 1e-3 * arguments.calibration_mm};
+    options.rig_seed = arguments.first_seed + static_cast<std::uint64_t>(first);
+    std::vector<CheckOutcome> of_rig;
+    for (int i = first; i < std::min(first + arguments.gather, arguments.count); ++i) {
+      const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(i);
+      FORESIGHT_TRY(const CheckTrial trial,
+                    MakeCheckTrial(scenes[seed % scenes.size()], seed, options, context));
+      if (arguments.rig) {
+        FORESIGHT_TRY(auto outcomes, CheckDamages(trial, damages, options, context));
+        for (CheckOutcome& outcome : outcomes) of_rig.push_back(std::move(outcome));
+      }
+      if (arguments.depth) {
+        FORESIGHT_TRY(DepthCheckOutcome outcome,
+                      CheckDepthOfTrial(trial, DefaultsOf(DepthMethod::kForesight),
+                                        DepthCheckOptions(), context));
+        depths.push_back(std::move(outcome));
+      }
+      PrintProgress(fmt::format("scan {} of {}", i + 1, arguments.count),
+                    i + 1 == arguments.count ? ProgressEnd::kLast : ProgressEnd::kMore);
+    }
+    for (CheckOutcome& outcome : arguments.gather > 1 ? Gathered(of_rig, damages) : of_rig)
+      all.push_back(std::move(outcome));
   }
   if (!arguments.json) {
-    Print(all, damages);
+    if (arguments.rig) Print(all, damages);
+    if (arguments.depth) Print(depths);
     return ExitCode::kDone;
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const CheckOutcome& outcome : all) json.push_back(ToJson(outcome));
+  for (const DepthCheckOutcome& outcome : depths) json.push_back(ToJson(outcome));
   PrintJson(json);
   return ExitCode::kDone;
 }
@@ -121,7 +222,8 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
 void AddEvaluateCheckCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<EvaluateCheckArguments>();
   CLI::App* command = app.add_subcommand(
-      "evaluate-check", "Try the check of a rig on simulated scans, with rigs that drifted");
+      "evaluate-check",
+      "Try the checks of scans on simulated ones: rigs that drifted, and depth with its truth");
   command->add_option("--scenes", arguments->scenes, "Scene files beside the random scenes")
       ->delimiter(',');
   AddSeedOption(*command, "--first-seed", arguments->first_seed, "Seed of the first scan")
@@ -135,6 +237,22 @@ void AddEvaluateCheckCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("--stamps", arguments->stamp_ms, "Offset of the stamps, ms")
       ->check(CLI::Range(-100.0, 100.0))
       ->capture_default_str();
+  command
+      ->add_option("--calibration-deg", arguments->calibration_deg,
+                   "What a calibration leaves of each rig")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--calibration-mm", arguments->calibration_mm, "The same of its shift")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command
+      ->add_option("--gather", arguments->gather,
+                   "So many scans in a row share a rig and are judged together")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--depth,!--no-depth", arguments->depth,
+                    "Compare the check of the depth with the truth, too");
+  command->add_flag("--rig,!--no-rig", arguments->rig, "Try the damages of the rig");
   command->add_flag("--json", arguments->json,
                     "Print a JSON list, one object a check, with all that was measured");
   command->callback([&invocation, arguments] {

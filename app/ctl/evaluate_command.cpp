@@ -5,6 +5,7 @@
 #include "app/common/seed_option.h"
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
+#include "app/ctl/evaluate_hold_out.h"
 #include "app/ctl/evaluate_pictures.h"
 #include "app/ctl/evaluation_report.h"
 #include "core/evaluation/evaluate_methods.h"
@@ -20,7 +21,8 @@ struct EvaluateArguments {
   int scale = 1;
   double rotation_error_deg = DegreesFromRadians(CalibrationError().rotation_rad);
   double translation_error_mm = 1000.0 * CalibrationError().translation_m;
-  std::string out;  ///< empty = no pictures
+  std::string out;   ///< empty = no pictures
+  int hold_out = 0;  ///< missions are scored on their own beams: one line in so many is kept
   bool json = false;
 };
 
@@ -101,6 +103,8 @@ Status EvaluateSimulated(const std::string& file, const std::vector<DepthMethod>
 
 Result<ExitCode> Evaluate(const EvaluateArguments& arguments, const RunContext& context) {
   FORESIGHT_TRY(const std::vector<DepthMethod> methods, MethodsFrom(arguments.methods));
+  if (arguments.hold_out > 0)
+    return EvaluateHoldOut(arguments.scenes, methods, arguments.hold_out, arguments.json, context);
   std::optional<EvaluationPictures> pictures;
   if (!arguments.out.empty()) {
     FORESIGHT_CHECK(MakeOutputFolder(arguments.out));
@@ -131,7 +135,7 @@ void AddEvaluateCommand(CLI::App& app, Invocation& invocation) {
       ->add_option("scenes", arguments->scenes,
                    "Folders in Middlebury 2014 form (calib.txt, im0.png, im1.png, disp0GT.pfm or "
                    "disp0.pfm), or "
-                   "scene files (*.yaml) to scan")
+                   "scene files (*.yaml) to scan; with --hold-out missions")
       ->required();
   command->add_option("--method", arguments->methods, "Depth methods, or all: " + MethodNames())
       ->delimiter(',')
@@ -154,6 +158,11 @@ void AddEvaluateCommand(CLI::App& app, Invocation& invocation) {
                    "How far the lidar's believed pose is shifted from the true one (scene files)")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  command
+      ->add_option("--hold-out", arguments->hold_out,
+                   "Score missions, which have no truth: maps of one line in so many (4) against "
+                   "the beams of all the others")
+      ->check(CLI::Range(2, 100));
   command->add_option("-o,--out", arguments->out,
                       "Folder for pictures of depth, error, samples and a view from aside, and "
                       "index.html with all of them");

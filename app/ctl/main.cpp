@@ -20,6 +20,7 @@ int Main(int argc, char** argv) {
   AddDepthCommand(app, invocation);
   AddCloudCommand(app, invocation);
   AddFitCommand(app, invocation);
+  AddCheckCommand(app, invocation);
   AddUpsampleCommand(app, invocation);
   AddEvaluateCommand(app, invocation);
   AddEvaluateFitsCommand(app, invocation);

@@ -1,7 +1,9 @@
 #include "core/evaluation/check_trial.h"
 
 #include <chrono>
+#include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/calibration/tangent.h"
 #include "core/evaluation/drill_scene.h"
 #include "core/evaluation/terrain_scene.h"
@@ -60,11 +62,8 @@ SensorRig RigBefore(const RigDamage& damage, const SensorRig& true_rig) {
   return rig;
 }
 
-Result<std::vector<CheckOutcome>> RunCheckTrial(std::shared_ptr<const Scene> scene,
-                                                std::uint64_t seed,
-                                                const std::vector<RigDamage>& damages,
-                                                const CheckTrialOptions& options,
-                                                const RunContext& context) {
+Result<CheckTrial> MakeCheckTrial(std::shared_ptr<const Scene> scene, std::uint64_t seed,
+                                  const CheckTrialOptions& options, const RunContext& context) {
   WorldOptions world_options;
   world_options.seed = seed;
   if (scene == nullptr) {
@@ -72,21 +71,30 @@ Result<std::vector<CheckOutcome>> RunCheckTrial(std::shared_ptr<const Scene> sce
     scene = random.scene;
     world_options = random.world;
   }
-  const World world(scene, DefaultSensorRig(), world_options);
+  World world(scene, DefaultSensorRig(), world_options);
   FORESIGHT_TRY(Scan scan, SimulateScan(world, options.plan, context));
-  const SensorRig calibrated = MiscalibratedRig(scan.rig, options.calibration_error, seed);
-  Random random = NoiseStream(seed, NoisePurpose::kCalibrationError);
+  scan.rig = MiscalibratedRig(scan.rig, options.calibration_error, options.rig_seed.value_or(seed));
+  return CheckTrial{seed, std::move(world), std::move(scan)};
+}
+
+Result<std::vector<CheckOutcome>> CheckDamages(const CheckTrial& trial,
+                                               const std::vector<RigDamage>& damages,
+                                               const CheckTrialOptions& options,
+                                               const RunContext& context) {
+  Scan scan = trial.scan;
+  Random random =
+      NoiseStream(options.rig_seed.value_or(trial.seed), NoisePurpose::kCalibrationError);
   std::vector<CheckOutcome> outcomes;
   for (RigDamage damage : damages) {
     CheckOutcome outcome;
-    outcome.seed = seed;
-    outcome.scene = world.scene().name;
+    outcome.seed = trial.seed;
+    outcome.scene = trial.world.scene().name;
     outcome.damage = damage.name;
     outcome.sign = random.Uniform() < 0.5 ? -1.0 : 1.0;
     damage.camera_turn_rad *= outcome.sign;
     damage.lidar_turn_rad *= outcome.sign;
     damage.stamp_s *= outcome.sign;
-    scan.rig = RigBefore(damage, calibrated);
+    scan.rig = RigBefore(damage, trial.scan.rig);
     const auto start = std::chrono::steady_clock::now();
     FORESIGHT_TRY(outcome.check, CheckRig(scan, options.check, context));
     outcome.seconds =
@@ -94,6 +102,46 @@ Result<std::vector<CheckOutcome>> RunCheckTrial(std::shared_ptr<const Scene> sce
     outcomes.push_back(std::move(outcome));
   }
   return outcomes;
+}
+
+Result<DepthCheckOutcome> CheckDepthOfTrial(const CheckTrial& trial, const DepthOptions& depth,
+                                            const DepthCheckOptions& options,
+                                            const RunContext& context) {
+  const Scan& scan = trial.scan;
+  const CameraFrame* frame = NearestFrame(scan, 0.5 * (scan.plan.from_rad + scan.plan.to_rad));
+  if (frame == nullptr) return Fail(ErrorCode::kInvalidInput, "the scan has no image");
+  DepthCheckOutcome outcome;
+  outcome.seed = trial.seed;
+  outcome.scene = trial.world.scene().name;
+  FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(scan, context));
+  FORESIGHT_TRY(outcome.check, CheckDepth(cloud, scan.rig, *frame, depth, options, context));
+  FORESIGHT_TRY(const DepthResult whole,
+                ComputeDepthInFrame(cloud, scan.rig, *frame, depth, context));
+  FORESIGHT_TRY(const DepthImage truth_m,
+                TruthSeenByLidar(trial.world, frame->target_angle_rad, scan.plan, context));
+  std::vector<double> errors_m;
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < truth_m.size(); ++i) {
+    const double truth = truth_m.values()[i];
+    if (std::isnan(truth) || whole.mask.values()[i] == 0) continue;
+    const double error = std::abs(whole.dense.depth_m.values()[i] - truth);
+    errors_m.push_back(error);
+    right += error <= RightWithin_m(truth) ? 1 : 0;
+  }
+  outcome.true_q50_m = Quantile(errors_m, 0.50);
+  outcome.true_q80_m = Quantile(errors_m, 0.80);
+  outcome.true_q95_m = Quantile(errors_m, 0.95);
+  outcome.true_right = static_cast<double>(right) / static_cast<double>(errors_m.size());
+  return outcome;
+}
+
+Result<std::vector<CheckOutcome>> RunCheckTrial(std::shared_ptr<const Scene> scene,
+                                                std::uint64_t seed,
+                                                const std::vector<RigDamage>& damages,
+                                                const CheckTrialOptions& options,
+                                                const RunContext& context) {
+  FORESIGHT_TRY(const CheckTrial trial, MakeCheckTrial(std::move(scene), seed, options, context));
+  return CheckDamages(trial, damages, options, context);
 }
 
 }  // namespace foresight

@@ -2,11 +2,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/evaluation/simulated_trial.h"
-#include "core/selfcheck/check_rig.h"
+#include "core/selfcheck/check_scan.h"
 
 namespace foresight {
 
@@ -31,6 +32,9 @@ struct CheckTrialOptions {
   /// What a calibration leaves of each rig.
   CalibrationError calibration_error{.rotation_rad = 0.00087, .translation_m = 0.001};
   RigCheckOptions check;
+  /// Draws the calibration's error and the damages' signs, as scans of one mission share them;
+  /// none = the scan's own seed.
+  std::optional<std::uint64_t> rig_seed;
 
   static ScanPlan CheckPlan();
 };
@@ -45,8 +49,43 @@ struct CheckOutcome {
   double seconds = 0.0;
 };
 
+/// What the check of a scan's depth says, and what is true.
+struct DepthCheckOutcome {
+  std::uint64_t seed = 0;
+  std::string scene;
+  DepthCheck check;
+  /// Quantiles of |map - truth| over the pixels that the mask of the whole scan's map keeps and
+  /// that the lidar could see.
+  double true_q50_m = 0.0;
+  double true_q80_m = 0.0;
+  double true_q95_m = 0.0;
+  double true_right = 0.0;  ///< fraction of these pixels within 50 mm or 1 %
+};
+
+/// A simulated scan as the head brings it home, and the world that it was taken in.
+struct CheckTrial {
+  std::uint64_t seed = 0;
+  World world;
+  Scan scan;  ///< its rig is off as a calibration leaves it
+};
+
 /// One scan of a scene, drawn by the seed from valves, drills and terrains (`scene` null) or with
-/// its noise drawn by the seed, checked with a rig for each damage.
+/// its noise drawn by the seed.
+Result<CheckTrial> MakeCheckTrial(std::shared_ptr<const Scene> scene, std::uint64_t seed,
+                                  const CheckTrialOptions& options, const RunContext& context);
+
+/// Checks the scan with a rig for each damage.
+Result<std::vector<CheckOutcome>> CheckDamages(const CheckTrial& trial,
+                                               const std::vector<RigDamage>& damages,
+                                               const CheckTrialOptions& options,
+                                               const RunContext& context);
+
+/// Checks the depth of the scan's middle image, and compares with the truth.
+Result<DepthCheckOutcome> CheckDepthOfTrial(const CheckTrial& trial, const DepthOptions& depth,
+                                            const DepthCheckOptions& options,
+                                            const RunContext& context);
+
+/// MakeCheckTrial, then CheckDamages.
 Result<std::vector<CheckOutcome>> RunCheckTrial(std::shared_ptr<const Scene> scene,
                                                 std::uint64_t seed,
                                                 const std::vector<RigDamage>& damages,

@@ -18,19 +18,6 @@ Eigen::Vector3d RandomDirection(Random& random) {
   }
 }
 
-/// The true depth at the pixels that the lidar could see, NaN at the others.
-Result<DepthImage> TruthSeenByLidar(const World& world, const ScanPlan& plan,
-                                    const RunContext& context) {
-  const double image_rad = plan.image_angles_rad.front();
-  DepthImage truth_m = world.TrueDepth(image_rad, context);
-  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the true depth was cancelled");
-  const MaskImage seen = world.SeenByLidar(truth_m, image_rad, plan.from_rad, plan.to_rad, context);
-  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the true depth was cancelled");
-  for (std::size_t i = 0; i < truth_m.size(); ++i)
-    if (seen.values()[i] == 0) truth_m.values()[i] = std::numeric_limits<float>::quiet_NaN();
-  return truth_m;
-}
-
 }  // namespace
 
 Status CalibrationError::Check() const {
@@ -76,6 +63,17 @@ Status SimulatedTrialOptions::Check() const {
   return calibration_error.Check();
 }
 
+Result<DepthImage> TruthSeenByLidar(const World& world, double image_rad, const ScanPlan& plan,
+                                    const RunContext& context) {
+  DepthImage truth_m = world.TrueDepth(image_rad, context);
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the true depth was cancelled");
+  const MaskImage seen = world.SeenByLidar(truth_m, image_rad, plan.from_rad, plan.to_rad, context);
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the true depth was cancelled");
+  for (std::size_t i = 0; i < truth_m.size(); ++i)
+    if (seen.values()[i] == 0) truth_m.values()[i] = std::numeric_limits<float>::quiet_NaN();
+  return truth_m;
+}
+
 Result<SimulatedTrial> MakeSimulatedTrial(std::shared_ptr<const Scene> scene,
                                           const SimulatedTrialOptions& options,
                                           const RunContext& context) {
@@ -88,7 +86,8 @@ Result<SimulatedTrial> MakeSimulatedTrial(std::shared_ptr<const Scene> scene,
   trial.rig = scan.rig;
   FORESIGHT_TRY(trial.cloud, RegisterScan(scan, context.Part(0.8, 0.9)));
   trial.frame = std::move(scan.frames.front());
-  FORESIGHT_TRY(trial.truth_m, TruthSeenByLidar(world, options.plan, context.Part(0.9, 1.0)));
+  FORESIGHT_TRY(trial.truth_m, TruthSeenByLidar(world, options.plan.image_angles_rad.front(),
+                                                options.plan, context.Part(0.9, 1.0)));
   return trial;
 }
 

@@ -47,6 +47,11 @@ struct SimulatedTrial {
   DepthImage truth_m;
 };
 
+/// z in the true camera at the pixels of the image at `image_rad` that the lidar could see during
+/// the plan's upward sweep, NaN at the others. Fails with kCancelled.
+Result<DepthImage> TruthSeenByLidar(const World& world, double image_rad, const ScanPlan& plan,
+                                    const RunContext& context);
+
 /// Simulates the scan once; methods are then run on it with EvaluateOnTrial.
 Result<SimulatedTrial> MakeSimulatedTrial(std::shared_ptr<const Scene> scene,
                                           const SimulatedTrialOptions& options,

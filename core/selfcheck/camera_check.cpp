@@ -207,10 +207,10 @@ std::vector<ImageEdge> EdgesInImages(const Scan& scan, const std::vector<DepthEd
   return seen;
 }
 
-Shift CoarseSearch(const EdgeMatcher& matcher, double reach_px) {
+/// Fails with kCancelled.
+Result<Shift> CoarseSearch(const EdgeMatcher& matcher, double reach_px, const RunContext& context) {
   constexpr double kStep_px = 3.0;
-  Shift best = Shift::Zero();
-  double best_score = matcher.Objective(best, -1);
+  std::vector<Shift> shifts = {Shift::Zero()};
   const int steps = static_cast<int>(reach_px / kStep_px);
   for (int x = -steps; x <= steps; ++x)
     for (int y = -steps; y <= steps; ++y)
@@ -219,12 +219,16 @@ Shift CoarseSearch(const EdgeMatcher& matcher, double reach_px) {
         shift[0] = kStep_px * x * matcher.PerPixel(0);
         shift[1] = kStep_px * y * matcher.PerPixel(1);
         shift[2] = kStep_px * roll * matcher.PerPixel(2);
-        const double score = matcher.Objective(shift, -1);
-        if (score <= best_score) continue;
-        best_score = score;
-        best = shift;
+        shifts.push_back(shift);
       }
-  return best;
+  std::vector<double> scores(shifts.size());
+  const bool finished = ParallelFor(static_cast<int>(shifts.size()), context, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    scores[at] = matcher.Objective(shifts[at], -1);
+  });
+  if (!finished) return Fail(ErrorCode::kCancelled, "the check was cancelled");
+  return shifts[static_cast<std::size_t>(std::max_element(scores.begin(), scores.end()) -
+                                         scores.begin())];
 }
 
 double ScoreAside(const EdgeMatcher& matcher, const Shift& best, double reach_px) {
@@ -307,7 +311,7 @@ Result<CameraCheck> CheckCamera(const Scan& scan, const RegisteredScan& cloud,
   // From where the rig has it, and from the best place within reach: of texture, too.
   use_blur(kCoarse_px);
   Shift near = matcher.Climb(Shift::Zero(), 2.0, 0.5, true, -1);
-  Shift far = CoarseSearch(matcher, options.reach_px);
+  FORESIGHT_TRY(Shift far, CoarseSearch(matcher, options.reach_px, context));
   use_blur(kMiddle_px);
   near = matcher.Climb(near, 2.0, 0.5, true, -1);
   far = matcher.Climb(far, 2.0, 0.5, true, -1);

@@ -203,11 +203,16 @@ RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
 
 Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
                           const RunContext& context) {
-  if (!scan.given.empty())
-    return Fail(ErrorCode::kInvalidInput,
-                "the scan was imported: it has no lidar lines that a rig could be checked with");
   FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(scan, context.Part(0.0, 0.1)));
-  const auto plate = CheckPlate(scan, cloud, options.plate);
+  return CheckRig(scan, cloud, options, context.Part(0.1, 1.0));
+}
+
+Result<RigCheck> CheckRig(const Scan& scan, const RegisteredScan& cloud,
+                          const RigCheckOptions& options, const RunContext& context) {
+  Result<PlateCheck> plate = Fail(ErrorCode::kTooFewPoints,
+                                  "the scan was imported: its points were placed elsewhere, and no "
+                                  "motor's angle is known of them");
+  if (scan.given.empty()) plate = CheckPlate(scan, cloud, options.plate);
   const auto camera = CheckCamera(scan, cloud, options.camera, context.Part(0.2, 1.0));
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the check was cancelled");
   return JudgeRig(scan.rig, plate, camera, options.limits);

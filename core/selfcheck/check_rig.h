@@ -65,10 +65,13 @@ RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
 
 /// Rates `scan.rig` on the scan itself: camera against lidar by image and depth edges, lidar
 /// against the motor by planes, the lidar's stamps against the encoder's by planes seen on the way
-/// up and down. Needs no board and no truth. Fails as RegisterScan does, and with kCancelled; a
-/// scan that says nothing is no failure.
+/// up and down. Needs no board and no truth. Of an imported scan only the edges are looked at.
+/// Fails as RegisterScan does, and with kCancelled; a scan that says nothing is no failure.
 Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
                           const RunContext& context);
+/// The same of a scan that was registered with its rig.
+Result<RigCheck> CheckRig(const Scan& scan, const RegisteredScan& cloud,
+                          const RigCheckOptions& options, const RunContext& context);
 
 /// "fine", "drifted", "not seen".
 const char* ToString(RigFinding::State state);

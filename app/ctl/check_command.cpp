@@ -1,0 +1,205 @@
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "app/ctl/depth_files.h"
+#include "app/ctl/open_scan.h"
+#include "app/ctl/scan_check_report.h"
+#include "core/geometry/angles.h"
+#include "core/mission/kept_check.h"
+#include "core/mission/side_result.h"
+#include "core/registration/register_scan.h"
+#include "core/selfcheck/gather_rig.h"
+#include "core/sensor/rig_id.h"
+
+namespace foresight {
+namespace {
+
+struct CheckArguments {
+  ScanArguments scan;  ///< scan_id 0 = all scans
+  std::string rig;     ///< empty = each scan's own
+  DepthArguments depth;
+  bool no_objects = false;
+  bool keep = false;
+  bool json = false;
+};
+
+/// A scan that was checked.
+struct CheckedScan {
+  std::int64_t id = 0;
+  Scan scan;  ///< its rig is the one that was checked
+  ScanCheck check;
+};
+
+/// The image that was asked for; nullptr where the scan has none.
+const CameraFrame* FrameOf(const Scan& scan, const ScanArguments& arguments) {
+  const double middle_rad = 0.5 * (scan.plan.from_rad + scan.plan.to_rad);
+  return NearestFrame(
+      scan, arguments.image_deg > 90.0 ? middle_rad : RadiansFromDegrees(arguments.image_deg));
+}
+
+class MissionChecker {
+ public:
+  MissionChecker(const CheckArguments& arguments, const MissionFile& mission,
+                 const MissionFile* review)
+      : arguments_(arguments), mission_(mission), review_(review) {}
+
+  Status Prepare() {
+    FORESIGHT_TRY(options_.depth, DepthOptionsFrom(arguments_.depth));
+    if (!arguments_.rig.empty()) {
+      FORESIGHT_TRY(rig_, LoadSensorRig(arguments_.rig));
+    }
+    return {};
+  }
+
+  const ScanCheckOptions& options() const { return options_; }
+
+  Result<CheckedScan> Check(std::int64_t id, const RunContext& context) const {
+    CheckedScan checked;
+    checked.id = id;
+    FORESIGHT_TRY(checked.scan, mission_.LoadScan(id));
+    Scan& scan = checked.scan;
+    std::vector<std::string> left_out;
+    std::vector<KeptObject> objects;
+    if (!arguments_.no_objects && !rig_) {
+      FORESIGHT_TRY(const std::vector<DetectionRecord> records,
+                    DetectionsOfScan(mission_, review_, scan.uuid));
+      objects = AcceptedObjects(scan, records, left_out);
+    }
+    if (rig_) scan.rig = *rig_;
+    FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(scan, context.Part(0.0, 0.1)));
+    FORESIGHT_TRY(checked.check, CheckScan(scan, cloud, FrameOf(scan, arguments_.scan), objects,
+                                           options_, context.Part(0.1, 1.0)));
+    checked.check.cannot_see.insert(checked.check.cannot_see.end(), left_out.begin(),
+                                    left_out.end());
+    return checked;
+  }
+
+ private:
+  const CheckArguments& arguments_;
+  const MissionFile& mission_;
+  const MissionFile* review_;
+  ScanCheckOptions options_;
+  std::optional<SensorRig> rig_;
+};
+
+nlohmann::ordered_json ScanJson(const CheckedScan& checked, const ScanCheckOptions& options) {
+  auto json = nlohmann::ordered_json::parse(ScanCheckToJson(checked.check, checked.scan, options));
+  json["scan"] = checked.id;
+  json["seconds"] = checked.check.seconds;
+  return json;
+}
+
+/// The scans of the last scan's rig together; nothing where there is one alone.
+std::optional<ScanCheck> Gathered(const std::vector<CheckedScan>& all) {
+  std::vector<RigCheck> rigs;
+  if (all.empty()) return std::nullopt;
+  const SensorRig& rig = all.back().scan.rig;
+  for (const CheckedScan& checked : all)
+    if (RigId(checked.scan.rig) == RigId(rig)) rigs.push_back(checked.check.rig);
+  if (rigs.size() < 2) return std::nullopt;
+  return JudgeScan(rig, Fail(ErrorCode::kTooFewPoints, "each scan has its own"),
+                   GatherRig(rigs, rig, RigCheckLimits()), {});
+}
+
+Status Keep(const std::string& mission, const std::vector<CheckedScan>& all,
+            const ScanCheckOptions& options) {
+  FORESIGHT_TRY(const auto review, MissionFile::OpenReviewOf(mission));
+  for (const CheckedScan& checked : all)
+    FORESIGHT_CHECK(KeepScanCheck(*review, checked.scan, checked.check, options));
+  return review->Close();
+}
+
+void Print(const CheckArguments& arguments, const std::vector<CheckedScan>& all,
+           const std::optional<ScanCheck>& gathered, const ScanCheckOptions& options) {
+  if (arguments.json) {
+    auto scans = nlohmann::ordered_json::array();
+    for (const CheckedScan& checked : all) scans.push_back(ScanJson(checked, options));
+    nlohmann::ordered_json json = {{"mission", arguments.scan.mission}, {"scans", scans}};
+    if (gathered) {
+      json["gathered"] =
+          nlohmann::ordered_json::parse(ScanCheckToJson(*gathered, all.back().scan, options));
+      for (const char* of_one : {"scan_uuid", "depth", "depth_options", "objects"})
+        json["gathered"].erase(of_one);
+    }
+    PrintJson(json);
+    return;
+  }
+  for (const CheckedScan& checked : all)
+    PrintLine(fmt::format("scan {}, {:.1f} s\n{}", checked.id, checked.check.seconds,
+                          ScanCheckText(checked.check)));
+  if (!gathered) return;
+  ScanCheck shown = *gathered;
+  std::erase_if(shown.cannot_see,
+                [](const std::string& sentence) { return sentence.starts_with("depth: "); });
+  PrintLine(fmt::format("all {} scans together\n{}", all.size(), ScanCheckText(shown)));
+}
+
+CheckLight Gravest(const std::vector<CheckedScan>& all, const std::optional<ScanCheck>& gathered) {
+  CheckLight light = gathered ? gathered->light : CheckLight::kNotSeen;
+  for (const CheckedScan& checked : all) light = std::max(light, checked.check.light);
+  return light;
+}
+
+Result<ExitCode> Check(const CheckArguments& arguments, const RunContext& context) {
+  const std::string& path = arguments.scan.mission;
+  FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(path));
+  FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(path));
+  FORESIGHT_TRY(const std::vector<ScanSummary> scans, mission->ListScans());
+  MissionChecker checker(arguments, *mission, review.get());
+  FORESIGHT_CHECK(checker.Prepare());
+  std::vector<std::int64_t> wanted;
+  for (const ScanSummary& scan : scans)
+    if (arguments.scan.scan_id == 0 || scan.id == arguments.scan.scan_id) wanted.push_back(scan.id);
+  if (wanted.empty())
+    return arguments.scan.scan_id == 0
+               ? Fail(ErrorCode::kInvalidInput, "{}: there is no scan to check", path)
+               : Fail(ErrorCode::kInvalidInput, "{}: there is no scan {}", path,
+                      arguments.scan.scan_id);
+  std::vector<CheckedScan> all;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto count = static_cast<double>(wanted.size()), at = static_cast<double>(i);
+    auto checked = checker.Check(wanted[i], context.Part(at / count, (at + 1.0) / count));
+    if (!checked) {
+      // One bad scan must not cost the others.
+      if (wanted.size() == 1 || checked.error().code == ErrorCode::kCancelled)
+        return tl::unexpected(Of(fmt::format("{}: scan {}", path, wanted[i]))(checked.error()));
+      PrintNote("{}: scan {}: {}", path, wanted[i], checked.error().message);
+      continue;
+    }
+    all.push_back(std::move(*checked));
+  }
+  const std::optional<ScanCheck> gathered = Gathered(all);
+  Print(arguments, all, gathered, checker.options());
+  if (arguments.keep) FORESIGHT_CHECK(Keep(path, all, checker.options()));
+  const CheckLight light = Gravest(all, gathered);
+  if (light == CheckLight::kNotSeen)
+    return Fail(ErrorCode::kInvalidInput,
+                "{}: nothing can be said: scan where walls and things that stand before others are "
+                "in view, up and down, with an image",
+                path);
+  return light == CheckLight::kGood ? ExitCode::kDone : ExitCode::kNegative;
+}
+
+}  // namespace
+
+void AddCheckCommand(CLI::App& app, Invocation& invocation) {
+  const auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "What scans say about themselves: how good their depth is, whether camera, lidar and motor "
+      "fit, and whether accepted objects hold");
+  AddScanArguments(*command, arguments->scan);
+  command->get_option("--scan")->description("Number of the scan, from 1; default: all of them");
+  command->add_option("--rig", arguments->rig,
+                      "Check this rig (YAML) in place of each scan's own; without objects");
+  AddDepthArguments(*command, arguments->depth);
+  command->add_flag("--no-objects", arguments->no_objects, "Do not fit accepted objects again");
+  command->add_flag("--keep", arguments->keep,
+                    "Keep the result with the scan, in the review beside the mission");
+  command->add_flag("--json", arguments->json, "Print the result as JSON");
+  command->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) { return Check(*arguments, context); };
+  });
+}
+
+}  // namespace foresight

@@ -1,0 +1,222 @@
+#include "core/mission/kept_check.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/version.h"
+#include "core/depth/depth_option_table.h"
+#include "core/detection/detection_json.h"
+#include "core/geometry/angles.h"
+#include "core/io/json_reader.h"
+#include "core/mission/new_records.h"
+#include "core/mission/provenance.h"
+#include "core/sensor/rig_id.h"
+
+namespace foresight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kEventSource = "self-check";
+
+Json Finite(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json ErrorsJson(const HeldOutErrors& errors) {
+  return {{"beams", errors.beams},
+          {"q50_m", Finite(errors.q50_m)},
+          {"q80_m", Finite(errors.q80_m)},
+          {"q95_m", Finite(errors.q95_m)},
+          {"right", Finite(errors.right)}};
+}
+
+Json ClassesJson(const std::vector<HeldOutClass>& classes) {
+  Json list = Json::array();
+  for (const HeldOutClass& one : classes) {
+    Json entry = {{"class", one.name}};
+    entry.update(ErrorsJson(one.errors));
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json ConfidenceJson(const ConfidenceClass& one) {
+  return {{"from", one.from},         {"to", one.to},       {"beams", one.beams},
+          {"promised", one.promised}, {"right", one.right}, {"sigma", one.sigma}};
+}
+
+Json DepthJson(const DepthCheck& depth) {
+  Json confidence = Json::array();
+  for (const ConfidenceClass& one : depth.by_confidence) confidence.push_back(ConfidenceJson(one));
+  return {{"state", ToString(depth.state)},
+          {"method", depth.method},
+          {"image_deg", DegreesFromRadians(depth.image_rad)},
+          {"map",
+           {{"q50_m", Finite(depth.map_q50_m)},
+            {"q80_m", Finite(depth.map_q80_m)},
+            {"q95_m", Finite(depth.map_q95_m)}}},
+          {"against_beams", ErrorsJson(depth.all)},
+          {"against_scattered_beams", ErrorsJson(depth.scattered)},
+          {"against_lines", ErrorsJson(depth.lines)},
+          {"by_distance", ClassesJson(depth.by_distance)},
+          {"by_edge", ClassesJson(depth.by_edge)},
+          {"by_confidence", confidence},
+          {"promise", depth.promise.beams > 0 ? ConfidenceJson(depth.promise) : Json(nullptr)},
+          {"kept", depth.kept},
+          {"held_out", depth.left_out},
+          {"not_counted", depth.not_counted}};
+}
+
+Json RigJson(const RigCheck& rig) {
+  Json findings = Json::array();
+  for (const RigFinding& finding : rig.findings)
+    findings.push_back({{"name", finding.name},
+                        {"state", ToString(finding.state)},
+                        {"value", Finite(finding.value)},
+                        {"sigma", Finite(finding.sigma)},
+                        {"limit", Finite(finding.limit)},
+                        {"unit", finding.unit}});
+  Json json = {{"findings", findings}, {"drifted", rig.drifted}};
+  if (rig.camera)
+    json["camera"] = {{"depth_edges", rig.camera->edges},
+                      {"images", rig.camera->images},
+                      {"score", rig.camera->score},
+                      {"score_before", rig.camera->score_before},
+                      {"score_aside", rig.camera->score_aside},
+                      {"gain_sigmas", rig.camera->gain_sigmas}};
+  if (rig.plate)
+    json["plate"] = {{"planes", rig.plate->planes},
+                     {"cells", rig.plate->cells},
+                     {"up_and_down", rig.plate->up_and_down},
+                     {"residual_m", rig.plate->residual_m}};
+  return json;
+}
+
+Json ObjectJson(const HalfFits& object) {
+  Json differences = Json::array();
+  for (const HalvesDifference& difference : object.differences)
+    differences.push_back({{"axis", difference.axis},
+                           {"value", difference.value},
+                           {"predicted", difference.predicted},
+                           {"sigmas", difference.Sigmas()},
+                           {"unit", difference.is_turn ? "rad" : "m"}});
+  return {{"detection", object.uuid},
+          {"what", object.what},
+          {"state", ToString(object.state)},
+          {"not_seen", object.not_seen},
+          {"differences", differences}};
+}
+
+KeptCheck KeptCheckFrom(const EventRecord& event) {
+  const nlohmann::json value = ParseJson(event.json);
+  KeptCheck check;
+  check.utc_ns = event.utc_ns;
+  check.advice = event.text;
+  value.at("scan_uuid").get_to(check.scan_uuid);
+  value.at("author").get_to(check.author);
+  value.at("answer").get_to(check.answer_json);
+  return check;
+}
+
+Result<KeptObject> ObjectFrom(const Scan& scan, const DetectionRecord& record) {
+  FORESIGHT_TRY(const Provenance provenance,
+                ProvenanceFromJson(record.provenance_json, "detection " + record.uuid));
+  if (!provenance.fit || !provenance.roi)
+    return Fail(ErrorCode::kBadData, "detection {}: its provenance names no fit", record.uuid);
+  if (provenance.rig_id != RigId(scan.rig))
+    return Fail(ErrorCode::kInvalidInput, "detection {}: it was made with another rig",
+                record.uuid);
+  FORESIGHT_TRY(const NamedSource source, FitSourceFromName(provenance.source));
+  KeptObject object;
+  FORESIGHT_TRY(object.detection, DetectionFromJson(record.json));
+  object.uuid = record.uuid;
+  object.name = record.name;
+  object.source = source.source;
+  object.options = *provenance.fit;
+  object.roi = *provenance.roi;
+  if (provenance.depth) object.depth = *provenance.depth;
+  const auto images = static_cast<std::int64_t>(scan.frames.size());
+  if (provenance.image_position >= 0 && provenance.image_position < images)
+    object.frame = &scan.frames[static_cast<std::size_t>(provenance.image_position)];
+  return object;
+}
+
+}  // namespace
+
+std::string ScanCheckToJson(const ScanCheck& check, const Scan& scan,
+                            const ScanCheckOptions& options) {
+  Json points = Json::array();
+  for (const CheckPoint& point : check.points)
+    points.push_back(
+        {{"name", point.name}, {"light", ToString(point.light)}, {"sentence", point.sentence}});
+  Json objects = Json::array();
+  for (const HalfFits& object : check.objects) objects.push_back(ObjectJson(object));
+  return Json{{"format", 1},
+              {"program_version", ProgramVersion()},
+              {"scan_uuid", scan.uuid},
+              {"rig_id", RigId(scan.rig)},
+              {"light", ToString(check.light)},
+              {"advice", check.advice},
+              {"points", points},
+              {"cannot_see", check.cannot_see},
+              {"depth_options", Json::parse(DepthOptionsToJson(options.depth))},
+              {"depth", check.depth ? DepthJson(*check.depth) : Json(nullptr)},
+              {"rig", RigJson(check.rig)},
+              {"objects", objects}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<KeptCheck> KeepScanCheck(MissionFile& file, const Scan& scan, const ScanCheck& check,
+                                const ScanCheckOptions& options) {
+  KeptCheck kept{scan.uuid, OperatorName(), NowUtc_ns(), check.advice,
+                 ScanCheckToJson(check, scan, options)};
+  const bool grave = check.light >= CheckLight::kAmber;
+  const std::string json = Json{
+      {"format", 1},
+      {"scan_uuid", kept.scan_uuid},
+      {"author", kept.author},
+      {"light", ToString(check.light)},
+      {"answer",
+       kept.answer_json}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  FORESIGHT_CHECK(
+      file.AddEvent({0, kept.utc_ns, kEventSource, grave ? "warning" : "info", kept.advice, json}));
+  return kept;
+}
+
+Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file,
+                                              const std::string& scan_uuid) {
+  FORESIGHT_TRY(const std::vector<EventRecord> events, file.ListEvents());
+  std::vector<KeptCheck> checks;
+  for (const EventRecord& event : events) {
+    if (event.source != kEventSource) continue;
+    try {
+      KeptCheck check = KeptCheckFrom(event);
+      if (scan_uuid.empty() || check.scan_uuid == scan_uuid) checks.push_back(std::move(check));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& fault) {
+      return Fail(ErrorCode::kBadData, "{}: event {}: self-check: {}", file.path().string(),
+                  event.id, fault.what());
+    }
+  }
+  return checks;
+}
+
+std::vector<KeptObject> AcceptedObjects(const Scan& scan,
+                                        const std::vector<DetectionRecord>& records,
+                                        std::vector<std::string>& left_out) {
+  std::vector<KeptObject> objects;
+  for (const DetectionRecord& record : records) {
+    if (record.deleted || record.decision != Decision::kAccepted || record.scan_uuid != scan.uuid)
+      continue;
+    auto object = ObjectFrom(scan, record);
+    if (object)
+      objects.push_back(std::move(*object));
+    else
+      left_out.push_back(object.error().message);
+  }
+  return objects;
+}
+
+}  // namespace foresight

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mission/mission_file.h"
+#include "core/selfcheck/check_scan.h"
+
+namespace foresight {
+
+/// What a scan said about itself, kept with it: an event that names the scan (docs/formats.md,
+/// "Self-checks").
+struct KeptCheck {
+  std::string scan_uuid;
+  std::string author;
+  std::int64_t utc_ns = 0;
+  std::string advice;
+  std::string answer_json;  ///< ScanCheckToJson, bit for bit
+};
+
+/// All that a check found and what it was made with, as one JSON object.
+std::string ScanCheckToJson(const ScanCheck& check, const Scan& scan,
+                            const ScanCheckOptions& options);
+
+/// Adds a check to `file`: the scan's mission, or the review beside it. Fails as
+/// MissionFile::AddEvent.
+Result<KeptCheck> KeepScanCheck(MissionFile& file, const Scan& scan, const ScanCheck& check,
+                                const ScanCheckOptions& options);
+
+/// Of one scan, or of all, the oldest first. Fails with kBadData, naming the event at fault.
+Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file,
+                                              const std::string& scan_uuid = {});
+
+/// What was accepted in a scan, ready to be made again: detections that are not deleted, with a
+/// provenance that names this scan's rig. `left_out` gets a sentence for each that cannot be made
+/// again. The frames are those of `scan`, which must outlive the answer.
+std::vector<KeptObject> AcceptedObjects(const Scan& scan,
+                                        const std::vector<DetectionRecord>& records,
+                                        std::vector<std::string>& left_out);
+
+}  // namespace foresight

@@ -1,0 +1,149 @@
+// foresightctl check: what scans say about themselves, and what it exits with; evaluate --hold-out.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/calibration/tangent.h"
+#include "core/geometry/angles.h"
+#include "core/mission/kept_check.h"
+#include "core/mission/new_records.h"
+#include "core/registration/register_scan.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace foresight {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+ProgramResult Ctl(const std::vector<std::string>& arguments) {
+  return RunProgram(FORESIGHTCTL, arguments);
+}
+
+/// A scan of the shipped scene, up and down.
+void ScanScene(const std::string& scene, const std::string& mission, int seed) {
+  const ProgramResult scan =
+      Ctl({"scan", "--scene",
+           std::string(FORESIGHT_SOURCE_DIR) + "/resources/scenes/" + scene + ".yaml", "--passes",
+           "2", "--speed", "20", "--seed", std::to_string(seed), "--out", mission});
+  ASSERT_EQ(scan.exit_code, 0) << scan.errors;
+}
+
+/// Of the room; made once.
+const std::string& RoomMission() {
+  static const TemporaryFolder kFolder;
+  static const std::string kMission = [] {
+    const std::string mission = kFolder / "room.foresight";
+    ScanScene("room", mission, 4);
+    return mission;
+  }();
+  return kMission;
+}
+
+/// The room's rig, with a camera that turned by so much about its y axis since.
+std::string TurnedRig(const TemporaryFolder& folder, double turn_deg) {
+  SensorRig rig = MissionFile::OpenReadOnly(RoomMission()).value()->LoadScan(1).value().rig;
+  const Eigen::Quaterniond turn = RotationExp({0.0, RadiansFromDegrees(turn_deg), 0.0});
+  rig.camera_from_head = {turn * rig.camera_from_head.rotation(),
+                          turn * rig.camera_from_head.translation()};
+  rig.camera_from_lidar = {turn * rig.camera_from_lidar.rotation(),
+                           turn * rig.camera_from_lidar.translation()};
+  const std::string path = folder / "turned.yaml";
+  EXPECT_TRUE(SaveSensorRig(rig, path));
+  return path;
+}
+
+TEST(CheckCommand, AGoodScanSaysSoAndHowGoodItsDepthIs) {
+  const ProgramResult result = Ctl({"check", RoomMission(), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.output << result.errors;
+  const Json scan = Json::parse(result.output)["scans"][0];
+  EXPECT_EQ(scan["light"], "good");
+  EXPECT_THAT(scan["advice"], StartsWith("nothing to do: "));
+  // The beams' noise is 4 to 5 mm at the room's distances.
+  EXPECT_GT(scan["depth"]["against_beams"]["q80_m"].get<double>(), 0.005);
+  EXPECT_LT(scan["depth"]["against_beams"]["q80_m"].get<double>(), 0.010);
+  EXPECT_LT(scan["depth"]["map"]["q80_m"].get<double>(), 0.005);
+  EXPECT_GT(scan["depth"]["promise"]["right"].get<double>(), 0.98);
+  EXPECT_THAT(scan["cannot_see"].dump(), HasSubstr("motor's zero"));
+}
+
+TEST(CheckCommand, SaysOnWhichSideTheEdgesLieAndWhatToDo) {
+  const TemporaryFolder folder;
+  // The camera that took the image looks 0.4 deg further to the right than this rig knows.
+  const ProgramResult result = Ctl({"check", RoomMission(), "--rig", TurnedRig(folder, 0.4)});
+  EXPECT_EQ(result.exit_code, 1) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("px left of the lidar's: check the calibration"));
+}
+
+TEST(CheckCommand, KeepsTheResultWithTheScanInItsReview) {
+  const std::string& mission = RoomMission();
+  ASSERT_EQ(Ctl({"check", mission, "--keep"}).exit_code, 0);
+  const auto review = MissionFile::FindReviewOf(mission);
+  ASSERT_TRUE(review && *review);
+  const auto checks = ListScanChecks(**review);
+  ASSERT_TRUE(checks) << checks.error().message;
+  ASSERT_FALSE(checks->empty());
+  const KeptCheck& kept = checks->back();
+  EXPECT_EQ(kept.scan_uuid, MissionFile::OpenReadOnly(mission).value()->Summary(1).value().uuid);
+  EXPECT_FALSE(kept.author.empty());
+  EXPECT_THAT(kept.advice, StartsWith("nothing to do"));
+  EXPECT_EQ(Json::parse(kept.answer_json)["depth"]["method"], "foresight");
+}
+
+TEST(CheckCommand, AnAcceptedObjectIsFittedInHalves) {
+  const TemporaryFolder folder;
+  const std::string mission = folder / "valve.foresight";
+  ScanScene("valve", mission, 2);
+  ASSERT_EQ(
+      Ctl({"fit", "valve", mission, "--two-clicks", "560,500,720,500", "--source", "raw", "--save"})
+          .exit_code,
+      0);
+  EXPECT_THAT(Json::parse(Ctl({"check", mission, "--json"}).output)["scans"][0]["objects"],
+              IsEmpty())
+      << "nobody accepted it yet";
+  {
+    auto file = MissionFile::Open(mission).value();
+    const std::int64_t id = file->ListDetections().value().front().id;
+    ASSERT_TRUE(
+        file->AddDetectionEvent(id, {NowUtc_ns(), "anna", DetectionEvent::Action::kAccepted, ""}));
+    ASSERT_TRUE(file->Close());
+  }
+  const ProgramResult result = Ctl({"check", mission, "--json"});
+  const Json objects = Json::parse(result.output)["scans"][0]["objects"];
+  ASSERT_EQ(objects.size(), 1u) << result.errors;
+  EXPECT_NE(objects[0]["state"], "not seen") << objects[0].dump();
+  ASSERT_FALSE(objects[0]["differences"].empty());
+  for (const Json& difference : objects[0]["differences"])
+    if (difference["unit"] == "m") {
+      EXPECT_LT(std::abs(difference["value"].get<double>()), 0.02) << difference.dump();
+    }
+}
+
+TEST(CheckCommand, BadDataIsNoVerdict) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(Ctl({"check", folder / "none.foresight"}).exit_code, 3);
+  EXPECT_EQ(Ctl({"check"}).exit_code, 2);
+  const ProgramResult missing = Ctl({"check", RoomMission(), "--scan", "7"});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.errors, HasSubstr("there is no scan 7"));
+}
+
+TEST(EvaluateHoldOut, ComparesMethodsOnTheLinesThatTheyWereNotGiven) {
+  const ProgramResult result =
+      Ctl({"evaluate", RoomMission(), "--hold-out", "4", "--method", "foresight,jbu", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const Json rows = Json::parse(result.output);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0]["beams"], rows[1]["beams"]);
+  // At Foresight's coverage, planes beat averages; evaluation.md has by how much.
+  EXPECT_LT(rows[0]["our_mask"]["q95_mm"].get<double>(),
+            rows[1]["our_mask"]["q95_mm"].get<double>());
+  EXPECT_EQ(rows[0]["our_mask"]["coverage"], rows[1]["our_mask"]["coverage"]);
+}
+
+}  // namespace
+}  // namespace foresight
