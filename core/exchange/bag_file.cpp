@@ -91,7 +91,9 @@ struct BagFile::Impl {
 BagFile::BagFile() : impl_(std::make_unique<Impl>()) {}
 
 BagFile::~BagFile() {
-  (void)Close();  // who wants to know has closed it
+  // Who wants to know has closed it. A bag that cannot be closed, as on a full disk, is let go of:
+  // its destructor would try once more, and an exception there ends the program.
+  if (!Close().empty()) (void)impl_.release();
 }
 
 std::string BagFile::Open(const std::string& path) {

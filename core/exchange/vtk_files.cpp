@@ -10,6 +10,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
+#include <vtkObject.h>
 #include <vtkPLYWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -19,6 +20,9 @@
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 
 #include "core/base/atomic_file.h"
@@ -89,8 +93,21 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(std::span<const CloudPoint> points,
   return data;
 }
 
+/// What went wrong is told by our own error and not by VTK's lines on stderr.
+class NoWarnings {
+ public:
+  NoWarnings() { vtkObject::GlobalWarningDisplayOff(); }
+  ~NoWarnings() { vtkObject::SetGlobalWarningDisplay(before_); }
+  NoWarnings(const NoWarnings&) = delete;
+  NoWarnings& operator=(const NoWarnings&) = delete;
+
+ private:
+  vtkTypeBool before_ = vtkObject::GetGlobalWarningDisplay();
+};
+
 template <class Writer>
 bool Write(Writer& writer, const std::filesystem::path& part) {
+  const NoWarnings quiet;
   writer.SetFileName(part.c_str());
   return writer.Write() == 1 && writer.GetErrorCode() == vtkErrorCode::NoError;
 }
@@ -102,6 +119,19 @@ bool WritePolyData(vtkPolyData* data, const std::filesystem::path& part) {
   return Write(*writer, part);
 }
 
+/// VTK's writer does not see that a disk is full: its last line is the last triangle's, or the file
+/// is not whole.
+bool WriteObj(vtkPolyData* data, const std::filesystem::path& part) {
+  vtkNew<vtkOBJWriter> writer;
+  writer->SetInputData(data);
+  if (!Write(*writer, part)) return false;
+  std::ifstream file(part);
+  vtkIdType faces = 0;
+  std::string line;
+  while (std::getline(file, line) && !file.eof()) faces += line.starts_with("f ") ? 1 : 0;
+  return faces == data->GetNumberOfPolys();
+}
+
 bool WriteGltf(vtkPolyData* data, const std::filesystem::path& part) {
   // The writer wants a scene of buildings, each of meshes.
   vtkNew<vtkMultiBlockDataSet> building, scene;
@@ -111,7 +141,9 @@ bool WriteGltf(vtkPolyData* data, const std::filesystem::path& part) {
   writer->SetInputData(scene);
   writer->InlineDataOn();
   writer->SaveTexturesOff();
-  return Write(*writer, part);
+  if (!Write(*writer, part)) return false;
+  std::ifstream file(part);
+  return nlohmann::json::accept(file);  // as with an OBJ file
 }
 
 }  // namespace
@@ -190,11 +222,7 @@ Status WriteSurface(const std::filesystem::path& path, std::span<const CloudPoin
       writer->SetArrayName("rgb");
       return Write(*writer, part);
     }
-    if (ending == ".obj") {
-      vtkNew<vtkOBJWriter> writer;
-      writer->SetInputData(data);
-      return Write(*writer, part);
-    }
+    if (ending == ".obj") return WriteObj(data.Get(), part);
     if (ending == ".gltf") return WriteGltf(data.Get(), part);
     return WritePolyData(data.Get(), part);
   });

@@ -3,7 +3,10 @@
 #include <cairo/cairo-pdf.h>
 #include <cairo/cairo.h>
 
+#include <memory>
 #include <numbers>
+
+#include "core/io/jpeg.h"
 
 namespace foresight {
 namespace {
@@ -22,6 +25,19 @@ cairo_status_t Append(void* closure, const unsigned char* data, unsigned int len
 
 void SelectFont(cairo_t* context, cairo_font_weight_t weight) {
   cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, weight);
+}
+
+/// The file keeps the surface as a JPEG, a tenth of its pixels' size; as they are where none can
+/// be made.
+void KeepAsJpeg(cairo_surface_t* surface, const ColorImage& image) {
+  constexpr int kQuality = 90;  // the finest lines of outlines stay clean
+  auto jpeg = EncodeJpeg(image, kQuality);
+  if (!jpeg) return;
+  auto kept = std::make_unique<std::string>(std::move(*jpeg));
+  const cairo_status_t status = cairo_surface_set_mime_data(
+      surface, CAIRO_MIME_TYPE_JPEG, reinterpret_cast<const unsigned char*>(kept->data()),
+      kept->size(), [](void* text) { delete static_cast<std::string*>(text); }, kept.get());
+  if (status == CAIRO_STATUS_SUCCESS) (void)kept.release();  // the surface deletes it
 }
 
 }  // namespace
@@ -106,6 +122,7 @@ void PdfPage::Picture(double x, double y, double width, double height, const Col
     }
   }
   cairo_surface_mark_dirty(surface.get());
+  KeepAsJpeg(surface.get(), image);
   cairo_save(impl_->get());
   cairo_translate(impl_->get(), x, y);
   cairo_scale(impl_->get(), width / image.width(), height / image.height());

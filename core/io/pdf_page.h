@@ -37,7 +37,7 @@ class PdfPage {
   void Shape(const std::vector<Eigen::Vector2d>& points, bool filled);
   void Polyline(const std::vector<Eigen::Vector2d>& points);
 
-  /// Fills the rectangle; its pixels are kept as they are.
+  /// Fills the rectangle; the file keeps the image in its full size, as a JPEG of quality 90.
   void Picture(double x, double y, double width, double height, const ColorImage& image);
 
   /// What is drawn from here on is on a page of its own.

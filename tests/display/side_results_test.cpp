@@ -1,8 +1,10 @@
 // Review in the window: the scan run again, A and B compared, and what foresightctl prints of both.
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QTest>
 #include <QToolButton>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -146,13 +148,25 @@ TEST_F(SideResultsWindow, AAndBInTheWindowAreWhatForesightctlPrintsToTheLastDigi
 TEST_F(SideResultsWindow, TheDifferenceMapIsWhiteOfAResultAndItself) {
   ASSERT_TRUE(Compare(0, 0));
   ASSERT_NE(Comparison(), nullptr);
-  const QImage map = Comparison()->Difference()->grabFramebuffer();
-  const auto is_white = [](const QColor& color) {
-    return color.red() > 240 && color.green() > 240 && color.blue() > 240;
-  };
-  EXPECT_GT(FractionOf(map, is_white), 0.1);  // the timeline takes a part of the window's height
+  // Every pixel that the masked map has, where it stands on the pane.
+  DepthCanvas* canvas = Comparison()->Difference();
+  const QImage pane = canvas->grabFramebuffer();
+  const double zoom = static_cast<double>(pane.width()) / canvas->width();
+  const auto& mask = Results().Last().a->depth->mask;
+  int measured = 0, white = 0;
+  for (int v = 0; v < mask.height(); ++v)
+    for (int u = 0; u < mask.width(); ++u) {
+      const QPointF place = QPointF(canvas->WidgetFromPixel({u, v})) * zoom;
+      const QPoint at(qRound(place.x()), qRound(place.y()));
+      if (mask(u, v) == 0 || !pane.rect().contains(at)) continue;
+      const QColor color = pane.pixelColor(at);
+      ++measured;
+      white += color.red() > 240 && color.green() > 240 && color.blue() > 240 ? 1 : 0;
+    }
+  ASSERT_GT(measured, 1000);
+  EXPECT_GT(white, 0.95 * measured) << "of " << measured;
   const auto has_hue = [](const QColor& color) { return IsColoured(color); };
-  EXPECT_LT(FractionOf(map, has_hue), 0.002);
+  EXPECT_LT(FractionOf(pane, has_hue), 0.002);
 }
 
 TEST_F(SideResultsWindow, TheDifferenceMapShowsBlueOrangeAndWhatOnlyOneOfThemHas) {
@@ -216,6 +230,26 @@ TEST_F(SideResultsWindow, AnotherRigIsKeptAndMadeAgain) {
   EXPECT_NEAR(Results().Last().comparison->objects[0].difference->distance_m, 0.02, 0.002);
   const std::string review = MissionFile::ReviewPathOf(mission)->string();
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"mission", "check", "--recompute", review}).exit_code, 0);
+}
+
+TEST_F(SideResultsWindow, OneIsRenamedInItsCardAndDeletedAndComesBack) {
+  const QString first = QStringLiteral("first name"), second = QStringLiteral("second name");
+  ASSERT_TRUE(RunAgain(first));
+  EXPECT_EQ(Panel()->MoreButton(0), nullptr) << "the original";
+  const int index = Row(first);
+  Panel()->MoreButton(index)->menu()->actions().at(0)->trigger();
+  auto* field = Panel()->findChild<QLineEdit*>(QStringLiteral("renameResult"));
+  ASSERT_NE(field, nullptr);
+  running->window().grab().save(QCoreApplication::applicationDirPath() +
+                                QStringLiteral("/seen_side_results.png"));
+  field->setText(second);
+  QTest::keyClick(field, Qt::Key_Return);
+  ASSERT_TRUE(WaitFor([&] { return Row(second) == index; }));
+  running->Settle();
+  Panel()->MoreButton(index)->menu()->actions().at(1)->trigger();
+  ASSERT_TRUE(WaitFor([&] { return Row(second) < 0; }));
+  ASSERT_TRUE(running->bench().commands.Run("edit.undo"));
+  ASSERT_TRUE(WaitFor([&] { return Row(second) == index; }));
 }
 
 TEST_F(SideResultsWindow, TheReportIsWrittenBesideWithPictureAndPdf) {

@@ -3,24 +3,32 @@
 #include <qtadvanceddocking/DockWidget.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QDialog>
 #include <QGuiApplication>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMenu>
+#include <QPushButton>
 #include <QScreen>
 #include <QTest>
 #include <QToolButton>
 #include <QWheelEvent>
+#include <fstream>
 
+#include "app/workstation/import_files.h"
 #include "app/workstation/main_window.h"
+#include "core/mission/side_result.h"
 #include "tests/display/mouse.h"
 #include "tests/display/pixels.h"
 #include "tests/review/mission_for_review.h"
 #include "tests/ui/fake_head.h"
 #include "tests/ui/wait_for.h"
+#include "ui/panels/import_dialog.h"
 #include "ui/panels/mission_panel.h"
 #include "ui/panels/mission_search_panel.h"
+#include "ui/panels/side_results_panel.h"
 #include "ui/panels/timeline_panel.h"
 #include "ui/panels/timeline_view.h"
 #include "ui/views/cloud_pane.h"
@@ -275,6 +283,65 @@ TEST_F(ReviewWindow, TheSheetOfShortcutsFitsTheScreenAndListsTheKeysOfTheReplay)
 TEST_F(ReviewWindow, WithTheTimelineTheWindowFitsAScreenThatIsNotLow) {
   EXPECT_LE(parts->window.minimumSizeHint().width(), 960);
   EXPECT_LE(parts->window.minimumSizeHint().height(), 800) << "on a lower one it is a tab";
+}
+
+TEST_F(ReviewWindow, HowFilesAreImportedIsAskedAndRememberedForTheirKind) {
+  const QTemporaryDir folder;
+  const QString file = folder.filePath("wall.xyz");
+  {
+    std::ofstream text(file.toStdString());
+    for (int row = 0; row < 20; ++row)
+      for (int column = 0; column < 30; ++column)
+        text << "3000 " << 50 * column - 750 << ' ' << 50 * row - 500 << '\n';
+  }
+  const auto ask = [&]() -> ImportDialog* {
+    AskHowToImport(&parts->window, &bench(), {file}, folder.path());
+    return parts->window.findChild<ImportDialog*>();
+  };
+  ImportDialog* dialog = ask();
+  ASSERT_NE(dialog, nullptr);
+  EXPECT_FALSE(dialog->isModal());
+  EXPECT_EQ(dialog->Field(QStringLiteral("kitti-camera")), nullptr);
+  qobject_cast<QComboBox*>(dialog->Field(QStringLiteral("unit")))->setCurrentText("mm");
+  auto* viewpoint = qobject_cast<QLineEdit*>(dialog->Field(QStringLiteral("viewpoint")));
+  viewpoint->setText(QStringLiteral("0,0"));
+  dialog->ImportButton()->click();
+  EXPECT_TRUE(dialog->isVisible()) << "a choice that cannot be keeps it open";
+  EXPECT_TRUE(dialog->Fault()->text().contains("3 numbers"))
+      << dialog->Fault()->text().toStdString();
+  QGuiApplication::primaryScreen()
+      ->grabWindow(dialog->winId())
+      .save(QCoreApplication::applicationDirPath() + QStringLiteral("/seen_import_dialog.png"));
+  viewpoint->setText(QStringLiteral("0,0,0"));
+  dialog->ImportButton()->click();
+  ASSERT_TRUE(WaitFor([&] { return bench().reviewer.Path().endsWith("wall-imported.foresight"); }));
+  Settle();
+  dialog = ask();
+  ASSERT_NE(dialog, nullptr);
+  EXPECT_EQ(dialog->Choices().value(QStringLiteral("unit")), QStringLiteral("mm"));
+  EXPECT_EQ(dialog->Choices().value(QStringLiteral("viewpoint")), QStringLiteral("0,0,0"));
+  dialog->reject();
+  bench().reviewer.close();
+  Settle();
+}
+
+TEST_F(ReviewWindow, WhatIsBegunInOneMissionIsNotShownInAnother) {
+  const QString other = mission().MakeAnother(QStringLiteral("meanwhile.foresight"));
+  const QTemporaryDir folder;
+  bench().review.map.Make(mission().Path());
+  bench().side_results.RunAgain(QStringLiteral("begun before"));
+  bench().review.exporter.WriteReport(mission().Path(), {}, folder.path());
+  bench().reviewer.Open(other);
+  ASSERT_TRUE(WaitFor([&] { return bench().reviewer.Path() == other; }));
+  Settle();
+  ASSERT_TRUE(WaitFor([] { return bench().tasks.Idle(); }, 60'000));
+  EXPECT_TRUE(bench().review.map.Map() == nullptr || bench().review.map.Mission() == other);
+  for (const ResultRow& row : bench().side_results.Rows()) EXPECT_EQ(row.mission, other);
+  const auto review = MissionFile::FindReviewOf(other.toStdString());
+  ASSERT_TRUE(review);
+  EXPECT_TRUE(*review == nullptr || ListSideResults(**review)->empty());
+  bench().reviewer.close();
+  Settle();
 }
 
 }  // namespace

@@ -239,6 +239,7 @@ TEST_F(MissionCommand, AReportIsAPageWithPicturesAndAPdf) {
     EXPECT_TRUE(fs::exists(fs::path(In("report")) / file.get<std::string>())) << file;
   EXPECT_THAT(ReadFile(In("report/report.html")).value(), HasSubstr("lidar returns"));
   EXPECT_THAT(ReadFile(In("report/report.pdf")).value(), testing::StartsWith("%PDF"));
+  EXPECT_LT(fs::file_size(In("report/report.pdf")), 400'000u);
   EXPECT_EQ(Mission({"report", first_, "--scan", "9", "-o", In("report")}).exit_code, 3);
 }
 
@@ -271,6 +272,11 @@ class FullDisk : public MissionCommand {
     }
   }
 };
+
+TEST_F(FullDisk, AnExportLeavesTheOneBefore) {
+  ExpectOldFilesStay({"mission", "export", first_, "-o", In("full-export"), "--what", "all"},
+                     In("full-export"));
+}
 
 TEST_F(FullDisk, AReportLeavesTheOneBefore) {
   ExpectOldFilesStay({"mission", "report", first_, "-o", In("full-report"), "--pdf"},

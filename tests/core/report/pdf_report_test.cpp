@@ -6,6 +6,8 @@
 #include <cstdlib>
 
 #include "core/base/atomic_file.h"
+#include "core/base/random.h"
+#include "core/io/pdf_page.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -59,6 +61,20 @@ TEST(PdfReport, RowsThatDoNotFitOnTheSheetAreCounted) {
 
 TEST(PdfReport, TwoOfOneReportAreEqual) {
   EXPECT_EQ(PdfOf(Sheet(5)).value(), PdfOf(Sheet(5)).value());
+}
+
+TEST(PdfPage, APictureIsKeptAsAJpegInAFractionOfItsPixels) {
+  Random random(1);
+  ColorImage photo(1024, 768);
+  for (int v = 0; v < photo.height(); ++v)
+    for (int u = 0; u < photo.width(); ++u)
+      photo(u, v) = {static_cast<std::uint8_t>(u / 5 + random.Index(4)),
+                     static_cast<std::uint8_t>(v / 4 + random.Index(4)), 90};
+  PdfPage page(100.0, 80.0);
+  page.Picture(5.0, 5.0, 90.0, 67.5, photo);
+  const std::string pdf = std::move(page).Bytes().value();
+  EXPECT_THAT(pdf, HasSubstr("/DCTDecode"));
+  EXPECT_LT(pdf.size(), 3 * photo.size() / 6);
 }
 
 }  // namespace
