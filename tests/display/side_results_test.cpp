@@ -240,6 +240,7 @@ TEST_F(SideResultsWindow, OneIsRenamedInItsCardAndDeletedAndComesBack) {
   Panel()->MoreButton(index)->menu()->actions().at(0)->trigger();
   auto* field = Panel()->findChild<QLineEdit*>(QStringLiteral("renameResult"));
   ASSERT_NE(field, nullptr);
+  running->Settle();
   running->window().grab().save(QCoreApplication::applicationDirPath() +
                                 QStringLiteral("/seen_side_results.png"));
   field->setText(second);

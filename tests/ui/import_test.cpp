@@ -63,7 +63,7 @@ TEST_F(ImportInTheWindow, ACloudIsShownForReviewAndWhatWasAssumedIsSaid) {
   EXPECT_EQ(session_.CurrentScan()->given.lines, 8);
   ASSERT_FALSE(said_.empty());
   EXPECT_EQ(said_[0].level, Notice::Level::kWarning);
-  EXPECT_TRUE(said_[0].what.contains("Imported 1 scans")) << said_[0].what.toStdString();
+  EXPECT_TRUE(said_[0].what.contains("Imported a scan")) << said_[0].what.toStdString();
   Import({In("sweep.bin")});
   ASSERT_EQ(missions_.size(), 2);
   EXPECT_EQ(missions_[1], In("sweep-imported-2.foresight")) << "nothing is written over";

@@ -45,19 +45,21 @@ void ImportViewModel::Import(const QStringList& files, const QString& folder,
       return;
     }
     const auto& scans = imported->report.scans;
+    const QString file = QString::fromStdString(imported->mission.string());
     QString assumed;
     for (const ImportReport::Entry& scan : scans)
       for (const std::string& note : scan.notes)
         if (assumed.isEmpty()) assumed = QString::fromStdString(note);
     session_->Report(
         {assumed.isEmpty() ? Notice::Level::kInfo : Notice::Level::kWarning,
-         tr("Imported %1 scans into %2.")
-             .arg(static_cast<qulonglong>(scans.size()))
-             .arg(QString::fromStdString(imported->mission.string())),
+         scans.size() == 1 ? tr("Imported a scan into %1.").arg(file)
+                           : tr("Imported %1 scans into %2.")
+                                 .arg(static_cast<qulonglong>(scans.size()))
+                                 .arg(file),
          assumed.isEmpty()
              ? QString()
              : tr("The mission's log says what was assumed; first: %1.").arg(assumed)});
-    Q_EMIT this->imported(QString::fromStdString(imported->mission.string()));
+    Q_EMIT this->imported(file);
   });
 }
 

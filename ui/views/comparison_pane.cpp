@@ -3,11 +3,13 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
+#include <QScrollArea>
 #include <QSplitter>
 #include <QVBoxLayout>
 
 #include "core/pictures/difference_picture.h"
 #include "ui/render/point_set.h"
+#include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
@@ -70,12 +72,14 @@ QWidget* ComparisonPane::BuildMap() {
   map_ = new QWidget;
   auto* layout = new QHBoxLayout(map_);
   layout->setContentsMargins(0, 0, 0, 0);
-  auto* side = new QVBoxLayout;
+  auto* numbers = new QWidget;
+  auto* side = new QVBoxLayout(numbers);
+  side->setContentsMargins(0, 0, 0, 0);
   side->addWidget(histogram_, 1);
   side->addWidget(counts_);
   layout->addWidget(difference_, 3);
   layout->addWidget(difference_colors_);
-  layout->addLayout(side, 2);
+  layout->addWidget(VerticalScroll(numbers), 2);  // in a low dock they would lie on each other
   difference_colors_->Set(ColorMap::kBalance, {-kFullScale_mm, kFullScale_mm}, tr("B - A, mm"));
   return map_;
 }
