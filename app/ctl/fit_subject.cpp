@@ -116,11 +116,10 @@ Status CheckInImage(const Roi& roi, const CameraModel& camera) {
               box.low.x(), box.low.y(), box.high.x(), box.high.y(), camera.width, camera.height);
 }
 
-Result<Detection> FitInPlainRays(const Result<RaySet>& rays, const FitSubject& subject,
-                                 const std::string& source, const FitOptions& options,
-                                 const RunContext& context) {
-  if (!rays) return tl::unexpected(rays.error());
-  FORESIGHT_TRY(Detection detection, FitInRays(*rays, options, context));
+Result<Detection> FitInPlainRays(const std::function<Result<RaySet>(BoxRays)>& rays_of,
+                                 const FitSubject& subject, const std::string& source,
+                                 const FitOptions& options, const RunContext& context) {
+  FORESIGHT_TRY(Detection detection, FitInRegion(rays_of, subject.roi, options, context));
   OriginOf(detection).roi = subject.roi;
   OriginOf(detection).source = source;
   return detection;
@@ -228,13 +227,16 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
   const auto options = FitOptionsFrom(arguments, subject.rig.robot_from_base);
   if (!options) return {tl::unexpected(options.error()), {}};
   if (!subject.depth_m.empty())
-    return {FitInPlainRays(RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad,
-                                          subject.roi, arguments.density, BoxRaysFor(*options)),
-                           subject, "depth map", *options, context),
+    return {FitInPlainRays(
+                [&](BoxRays box) {
+                  return RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad,
+                                        subject.roi, arguments.density, box);
+                },
+                subject, "depth map", *options, context),
             {}};
   if (!subject.scan)
-    return {FitInPlainRays(RaysInCloudOf(subject, arguments, BoxRaysFor(*options)), subject,
-                           "cloud", *options, context),
+    return {FitInPlainRays([&](BoxRays box) { return RaysInCloudOf(subject, arguments, box); },
+                           subject, "cloud", *options, context),
             {}};
   if (source == "raw")
     return {

@@ -60,11 +60,6 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
   return FitValveOptions();
 }
 
-BoxRays BoxRaysFor(const FitOptions& options) {
-  return std::holds_alternative<FitTerrainOptions>(options) ? BoxRays::kEndInside
-                                                            : BoxRays::kPassThrough;
-}
-
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                           BoxRays box_rays) {
   if (source == FitSource::kRaw)
@@ -108,10 +103,28 @@ Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
   return FitValve(rays, std::get<FitValveOptions>(options), context);
 }
 
+Result<Detection> FitInRegion(const std::function<Result<RaySet>(BoxRays)>& rays_of, const Roi& roi,
+                              const FitOptions& options, const RunContext& context) {
+  const bool is_box = std::holds_alternative<BoxRoi>(roi);
+  if (std::holds_alternative<FitTerrainOptions>(options) || !is_box) {
+    FORESIGHT_TRY(const RaySet rays, rays_of(BoxRays::kEndInside));
+    return FitInRays(rays, options, context);
+  }
+  FORESIGHT_TRY(const RaySet through, rays_of(BoxRays::kPassThrough));
+  Result<Detection> best = FitInRays(through, options, context.Part(0.0, 0.5));
+  if (context.Cancelled() || (best && VerdictOf(*best).level != VerdictLevel::kUnsure)) return best;
+  const auto rays = rays_of(BoxRays::kEndInside);
+  if (!rays) return best;
+  Result<Detection> inside = FitInRays(*rays, options, context.Part(0.5, 1.0));
+  const bool better =
+      inside && (!best || VerdictOf(*inside).probability > VerdictOf(*best).probability);
+  return better ? inside : best;
+}
+
 Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                             const FitOptions& options, const RunContext& context) {
-  FORESIGHT_TRY(const RaySet rays, RaysInScan(scan, source, roi, BoxRaysFor(options)));
-  FORESIGHT_TRY(Detection detection, FitInRays(rays, options, context));
+  const auto rays_of = [&](BoxRays box) { return RaysInScan(scan, source, roi, box); };
+  FORESIGHT_TRY(Detection detection, FitInRegion(rays_of, roi, options, context));
   OriginOf(detection).roi = roi;
   OriginOf(detection).source = NameOf(
       {source, scan.depth != nullptr ? scan.depth->options.method : DepthMethod::kForesight});

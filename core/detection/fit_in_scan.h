@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,11 +49,6 @@ using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOpti
 FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,
                          const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
-/// Which rays of a BoxRoi the fit of an object wants. Of a wheel or a drill that the box is drawn
-/// tightly round, the wall behind it tells what stands in front of it; a terrain's box holds its
-/// ground.
-BoxRays BoxRaysFor(const FitOptions& options);
-
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
 /// RaysFromScan and RaysFromDepth do, and with kState for a depth that is not there.
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
@@ -73,6 +69,15 @@ Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPl
 /// The fit that belongs to the options. Fails as FitValve, FitDrill and FitTerrain do.
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
                             const RunContext& context);
+
+/// The same for a region whose rays `rays_of` gives. Of a wheel or a drill that a box is drawn
+/// tightly round, the wall behind the box tells what stands in front of it, so the beams that went
+/// through count too. What stands in a large box, as a pier, stands in front of the far wall itself
+/// and may hide the object: where that fit is UNSURE or finds nothing, the rays that end inside are
+/// tried alone, and the answer of the higher probability is given. A terrain's box holds its
+/// ground. Fails as the first of both fits, and as `rays_of`.
+Result<Detection> FitInRegion(const std::function<Result<RaySet>(BoxRays)>& rays_of, const Roi& roi,
+                              const FitOptions& options, const RunContext& context);
 
 /// From a region to a detection, with the noise and the thinning that belong to the source: the one
 /// way that every program takes, so that a number never differs between them. Region and source are

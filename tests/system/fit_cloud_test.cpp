@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/io/read_point_cloud.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace foresight {
 namespace {
@@ -184,6 +185,25 @@ TEST_F(FitOfACloud, SaysSoWhereTheGridOfItsPointsIsLost) {
               (*points)[static_cast<std::size_t>(random.Index(static_cast<int>(i)))]);
   const std::string shuffled = errors(write("shuffled.xyz"));
   EXPECT_NE(shuffled.find("no order of lines"), std::string::npos) << shuffled;
+}
+
+/// The pier is narrower than the box, and stands in front of the far wall itself.
+TEST(FitInALargeBox, TheValveIsNotLostToThePierThatItHangsOn) {
+  const TemporaryFolder folder;
+  const std::string mission = folder / "room.foresight";
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "room.yaml", "--seed", "711", "--from", "-30", "--to",
+                 "60", "--images", "0", "--out", mission})
+                .exit_code,
+            0);
+  const ProgramResult answer =
+      Ctl({"fit", "valve", "--box", "1.4,0.9,1.3,0.8,0.8,0.8", "--json", "--mission", mission});
+  ASSERT_EQ(answer.exit_code, 0) << answer.output << answer.errors;
+  const auto json = nlohmann::json::parse(answer.output);
+  EXPECT_NE(json["verdict"], "UNSURE");
+  EXPECT_EQ(json["best"]["model"]["spokes"], 5);
+  EXPECT_LT(
+      (PositionIn(json["best"]["robot_from_object"]) - Eigen::Vector3d(1.42, 0.88, 1.25)).norm(),
+      0.010);
 }
 
 }  // namespace
