@@ -80,7 +80,8 @@ TEST(VerdictModel, SurvivesItsFile) {
 
 TEST(VerdictModel, ASmallPopulationConfirmsNothing) {
   VerdictModel model = TwoFeatures();
-  EXPECT_NE(model.Reservation().find("9 such answers were tried (at least 150)"), std::string::npos);
+  EXPECT_NE(model.Reservation().find("9 such answers were tried (at least 150)"),
+            std::string::npos);
   model.fits = 200;
   EXPECT_EQ(model.Reservation(), "");
 }
