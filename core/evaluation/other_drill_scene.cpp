@@ -79,17 +79,6 @@ DrillTruth Stand(const OtherTool& tool, const Eigen::Vector3d& foot, double yaw_
   return truth;
 }
 
-ScanPlan PlanFor(double elevation_rad, double half_rad, Random& random) {
-  constexpr double kLinesPerSecond = 40.0;
-  ScanPlan plan;
-  const double margin_rad = RadiansFromDegrees(random.Uniform(5.0, 14.0));
-  plan.from_rad = elevation_rad - half_rad - margin_rad;
-  plan.to_rad = elevation_rad + half_rad + margin_rad;
-  plan.speed_rad_s = RadiansFromDegrees(kLinesPerSecond * random.Uniform(0.2, 0.9));
-  plan.image_angles_rad = {elevation_rad};
-  return plan;
-}
-
 }  // namespace
 
 FitTrialScene OtherDrillScene(std::uint64_t seed) {
@@ -129,7 +118,7 @@ FitTrialScene OtherDrillScene(std::uint64_t seed) {
   SetOtherConditions(random, trial);
   scene->name = trial.what;
   trial.scene = scene;
-  trial.plan = PlanFor(elevation, trial.focus_radius_m / distance, random);
+  trial.plan = OtherPlan(elevation, trial.focus_radius_m / distance, 5.0, random);
   return trial;
 }
 

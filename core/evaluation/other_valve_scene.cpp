@@ -75,17 +75,6 @@ void AddBody(const Pose& pose, double hub_z, double wall_m, double radius_m, Ran
   scene.meshes.push_back(std::move(body));
 }
 
-ScanPlan PlanFor(double elevation_rad, double half_rad, Random& random) {
-  constexpr double kLinesPerSecond = 40.0;
-  ScanPlan plan;
-  const double margin_rad = RadiansFromDegrees(random.Uniform(4.0, 14.0));
-  plan.from_rad = elevation_rad - half_rad - margin_rad;
-  plan.to_rad = elevation_rad + half_rad + margin_rad;
-  plan.speed_rad_s = RadiansFromDegrees(kLinesPerSecond * random.Uniform(0.2, 0.9));
-  plan.image_angles_rad = {elevation_rad};
-  return plan;
-}
-
 Eigen::Vector3d TiltedFrom(const Eigen::Vector3d& direction, double angle, Random& random) {
   const Eigen::AngleAxisd side(random.Uniform(-kPi, kPi), direction);
   return Eigen::AngleAxisd(angle, side * direction.unitOrthogonal()) * direction;
@@ -168,7 +157,7 @@ FitTrialScene OtherValveScene(std::uint64_t seed) {
   SetOtherConditions(random, trial);
   scene->name = trial.what;
   trial.scene = scene;
-  trial.plan = PlanFor(elevation, trial.focus_radius_m / distance, random);
+  trial.plan = OtherPlan(elevation, trial.focus_radius_m / distance, 4.0, random);
   return trial;
 }
 

@@ -105,6 +105,17 @@ bool Chance(Random& random, double fraction) {
   return random.Uniform() < fraction;
 }
 
+ScanPlan OtherPlan(double elevation_rad, double half_rad, double least_margin_deg, Random& random) {
+  constexpr double kLinesPerSecond = 40.0;
+  ScanPlan plan;
+  const double margin_rad = RadiansFromDegrees(random.Uniform(least_margin_deg, 14.0));
+  plan.from_rad = elevation_rad - half_rad - margin_rad;
+  plan.to_rad = elevation_rad + half_rad + margin_rad;
+  plan.speed_rad_s = RadiansFromDegrees(kLinesPerSecond * random.Uniform(0.2, 0.9));
+  plan.image_angles_rad = {elevation_rad};
+  return plan;
+}
+
 Eigen::Vector3d OtherHead() {
   return {0.1, 0.0, 1.4};
 }

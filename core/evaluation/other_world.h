@@ -25,6 +25,10 @@ Material OtherMaterial(Random& random);
 /// rectangles (two in three) and tight boxes. Fills what the trial's scene says of these.
 void SetOtherConditions(Random& random, FitTrialScene& trial);
 
+/// A sweep past a thing at this elevation and of this half angle, both in radians, with a margin of
+/// `least_margin_deg` to 14 degrees on both sides, at a fifth to nine tenths of a degree a line.
+ScanPlan OtherPlan(double elevation_rad, double half_rad, double least_margin_deg, Random& random);
+
 /// From where the head of DefaultSensorRig looks, in robot.
 Eigen::Vector3d OtherHead();
 
