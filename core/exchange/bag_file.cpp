@@ -15,6 +15,8 @@
 #include <exception>
 #include <stdexcept>
 
+#include "core/exchange/bag_check.h"
+
 namespace foresight {
 namespace {
 
@@ -233,6 +235,8 @@ BagReader::~BagReader() {
 }
 
 std::string BagReader::Open(const std::string& path) {
+  std::string damage = CheckBag(path);
+  if (!damage.empty()) return damage;
   return Guard([&] { impl_->bag.open(path, rosbag::bagmode::Read); });
 }
 

@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
+#include "core/base/printable.h"
 #include "core/base/publish_file.h"
 #include "core/calibration/kitti_calibration.h"
 #include "core/exchange/import_bag.h"
+#include "core/io/cloud_columns.h"
 #include "core/io/jpeg.h"
 #include "core/io/png.h"
 #include "core/mission/mission_file.h"
@@ -103,6 +105,18 @@ Status AddFolder(const Path& folder, Sources& sources) {
   return {};
 }
 
+/// "Tr: 1 0 0 ...": a calibration's row, and never a point.
+bool HasNamedRow(std::string_view text) {
+  constexpr int kMostLines = 64;  // a calibration has about eight
+  for (int i = 0; i < kMostLines; ++i) {
+    const auto line = TakeLine(text);
+    if (!line) break;
+    const std::vector<std::string_view> words = Words(*line);
+    if (words.size() > 1 && words[0].size() > 1 && words[0].ends_with(':')) return true;
+  }
+  return false;
+}
+
 Status AddSource(const Path& path, Sources& sources) {
   if (IsFolder(path)) return AddFolder(path, sources);
   if (HasExtension(path, {".png", ".jpg", ".jpeg"})) {
@@ -124,9 +138,26 @@ Status AddSource(const Path& path, Sources& sources) {
       sources.kitti_source = path.string();
       return {};
     }
+    if (HasNamedRow(text))
+      return Fail(ErrorCode::kBadData,
+                  "{}: is neither points nor a calibration of KITTI: it has no row P2",
+                  path.string());
   }
   sources.groups.push_back({path.filename().string(), path, {}, {}});
   return {};
+}
+
+/// "a.bin and b.bin", "a.bin, b.bin and 3 more".
+std::string NamesOf(const std::vector<Group>& groups) {
+  constexpr std::size_t kMostNames = 3;
+  std::string names;
+  const std::size_t named = groups.size() > kMostNames ? kMostNames - 1 : groups.size();
+  for (std::size_t i = 0; i < named; ++i) {
+    const bool last = i + 1 == groups.size();
+    names += (i == 0 ? "" : last ? " and " : ", ") + Printable(groups[i].cloud.string());
+  }
+  if (named < groups.size()) names += fmt::format(" and {} more", groups.size() - named);
+  return names;
 }
 
 /// Each image to the cloud that it belongs to.
@@ -139,8 +170,8 @@ Status ShareImages(Sources& sources) {
         owner = &group;
     if (owner == nullptr)
       return Fail(ErrorCode::kInvalidInput,
-                  "{}: belongs to none of {} clouds by its name; import them one by one",
-                  image.string(), sources.groups.size());
+                  "{}: by its name it belongs to none of the clouds {}; import them one by one",
+                  image.string(), NamesOf(sources.groups));
     owner->images.push_back(image);
   }
   return {};

@@ -14,18 +14,21 @@
 #include "core/depth/depth_method.h"
 #include "core/detection/candidates.h"
 #include "core/detection/fit_in_scan.h"
+#include "core/exchange/bag_check.h"
 #include "core/exchange/bag_file.h"
 #include "core/exchange/export_mission.h"
 #include "core/io/png.h"
 #include "core/mission/mission_file.h"
 #include "core/registration/export_cloud.h"
 #include "core/sensor/rig_id.h"
+#include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/ui/synthetic_scan.h"
 
 namespace foresight {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -172,6 +175,45 @@ TEST_F(ImportOfAnExport, ABagThatIsTornOrHasFlippedBytesIsRefusedOrReadAndNeverC
     EXPECT_EQ(report.error().message.find('\n'), std::string::npos) << "one line";
   }
   EXPECT_GE(refused, 20) << "a torn bag has no index";
+}
+
+/// Every length in a bag, one after the other, says a gigabyte more than there is.
+TEST_F(ImportOfAnExport, ALengthThatLiesNeverReachesTheLibrary) {
+  const std::string good = ReadFile(*folder_ / "bag/mission.bag").value();
+  ASSERT_EQ(CheckBag(*folder_ / "bag/mission.bag"), "");
+  std::size_t at = std::string_view("#ROSBAG V2.0\n").size();
+  int lengths = 0;
+  while (at < good.size()) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, good.data() + at, sizeof length);
+    std::string bad = good;
+    bad[at + 3] = static_cast<char>(bad[at + 3] | 0x40);
+    ASSERT_TRUE(WriteFileAtomically(*folder_ / "long.bag", bad));
+    ASSERT_THAT(CheckBag(*folder_ / "long.bag"),
+                HasSubstr(fmt::format("is damaged at byte {}: ", at)))
+        << lengths;
+    at += 4 + length;
+    ++lengths;
+  }
+  EXPECT_GT(lengths, 20);
+}
+
+TEST_F(ImportOfAnExport, PackedBagsAreCheckedAndRead) {
+  for (const char* compression : {"bz2", "lz4"}) {
+    const fs::path packed = *folder_ / (std::string(compression) + ".bag");
+    const ProgramResult made = RunProgram(
+        "/usr/bin/python3", {FORESIGHT_SOURCE_DIR "/tests/core/exchange/pack_bag.py",
+                             *folder_ / "bag/mission.bag", packed.string(), compression});
+    ASSERT_EQ(made.exit_code, 0) << made.errors;
+    ASSERT_EQ(CheckBag(packed), "") << compression;
+    const fs::path mission = *folder_ / (std::string(compression) + ".foresight");
+    ASSERT_TRUE(Import({packed}, mission));
+    ExpectSame(ScanOf(mission));
+    std::string bad = ReadFile(packed).value();
+    bad[bad.size() / 2] = static_cast<char>(bad[bad.size() / 2] ^ 0x10);
+    ASSERT_TRUE(WriteFileAtomically(packed, bad));
+    EXPECT_NE(CheckBag(packed), "") << "the packed data carry a checksum";
+  }
 }
 
 TEST_F(ImportOfAnExport, ItsBagWithoutOurRecordIsPlacedByTf) {
@@ -425,6 +467,7 @@ TEST_F(ImportOfFiles, BadInputOfEveryKindIsRefusedInOneLineThatNamesIt) {
   Write("torn.bag", "#ROSBAG V2.0\n" + std::string(200, 'x'));
   Write("calib.txt", kKitti);
   Write("bad_calib.txt", "P2: 1 2 3\n");
+  Write("odd_calib.txt", "Q0: 1 2 3\n");
   Write("bad.yaml", "foresight_rig: 1\n");
   ASSERT_TRUE(WritePng(folder_ / "small.png", ColorImage(10, 10, {1, 2, 3})));
   ASSERT_TRUE(WritePng(folder_ / "a.png", ColorImage(120, 40, {1, 2, 3})));
@@ -444,7 +487,10 @@ TEST_F(ImportOfFiles, BadInputOfEveryKindIsRefusedInOneLineThatNamesIt) {
   EXPECT_THAT(Why({in("a.bin"), in("calib.txt"), in("a.png"), in("small.png")}),
               HasSubstr("image 1 is 10 x 10, but its camera 120 x 40"));
   EXPECT_THAT(Why({in("a.bin"), in("b.bin"), in("small.png"), in("calib.txt")}),
-              HasSubstr("small.png: belongs to none of 2 clouds"));
+              AllOf(HasSubstr("small.png: by its name it belongs to none of the clouds "),
+                    HasSubstr("a.bin and "), HasSubstr("b.bin; import them one by one")));
+  EXPECT_THAT(Why({in("a.bin"), in("a.png"), in("odd_calib.txt")}),
+              HasSubstr("odd_calib.txt: is neither points nor a calibration of KITTI"));
   EXPECT_THAT(Why({in("nothing")}), HasSubstr("nothing: holds no cloud.ply"));
   EXPECT_THAT(Why({in("no_record")}), HasSubstr("no_record: is no exported scan"));
   ImportOptions up;
