@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -36,6 +37,9 @@ Result<std::vector<DepthMethod>> MethodsFrom(const std::vector<std::string>& nam
     FORESIGHT_TRY(const DepthMethod method, DepthMethodFromName(name));
     methods.push_back(method);
   }
+  // Foresight first: the others are told in its mask too.
+  std::stable_partition(methods.begin(), methods.end(),
+                        [](DepthMethod method) { return method == DepthMethod::kForesight; });
   return methods;
 }
 
@@ -59,6 +63,23 @@ RayOfPixel RayOfCamera(const CameraModel& camera) {
   };
 }
 
+/// Foresight's mask of a scene, as soon as Foresight has run on it.
+class SharedMask {
+ public:
+  /// @returns how good the method's depth is in there; nothing before Foresight has run.
+  Result<std::optional<DepthAccuracy>> Score(DepthMethod method, const DepthResult& result,
+                                             const DepthImage& truth_m, int stride) {
+    if (method == DepthMethod::kForesight) mask_ = result.mask;
+    if (!mask_) return std::nullopt;
+    FORESIGHT_TRY(const DepthAccuracy accuracy,
+                  ScoreDepth(result.dense.depth_m, *mask_, truth_m, stride));
+    return accuracy;
+  }
+
+ private:
+  std::optional<MaskImage> mask_;
+};
+
 Status EvaluateStereo(const std::string& folder, const std::vector<DepthMethod>& methods,
                       const EvaluateArguments& arguments, EvaluationPictures* pictures,
                       std::vector<EvaluationRow>& rows, const RunContext& context) {
@@ -66,6 +87,7 @@ Status EvaluateStereo(const std::string& folder, const std::vector<DepthMethod>&
   StereoEvaluationOptions options;
   options.testbed.seed = arguments.seed;
   options.enlarge = arguments.scale;
+  SharedMask mask;
   for (const DepthMethod method : methods) {
     Announce(scene.name, method);
     options.depth = TestbedOptionsOf(method);
@@ -73,7 +95,9 @@ Status EvaluateStereo(const std::string& folder, const std::vector<DepthMethod>&
     if (pictures != nullptr)
       FORESIGHT_CHECK(pictures->Add({run.depth.score, run.depth.result, run.scene.right,
                                      run.truth_m, RayOfRightView(run.scene)}));
-    rows.push_back({run.depth.score, std::nullopt});
+    FORESIGHT_TRY(auto in_mask,
+                  mask.Score(method, run.depth.result, run.truth_m, ScoreStride(arguments.scale)));
+    rows.push_back({run.depth.score, std::move(in_mask), std::nullopt});
   }
   return {};
 }
@@ -90,13 +114,15 @@ Status EvaluateSimulated(const std::string& file, const std::vector<DepthMethod>
   FORESIGHT_TRY(
       const SimulatedTrial trial,
       MakeSimulatedTrial(std::make_shared<const Scene>(std::move(scene)), options, context));
+  SharedMask mask;
   for (const DepthMethod method : methods) {
     Announce(trial.scene, method);
     FORESIGHT_TRY(const ScoredDepth depth, RunOnTrial(trial, DefaultsOf(method), context));
     if (pictures != nullptr)
       FORESIGHT_CHECK(pictures->Add({depth.score, depth.result, trial.frame.image, trial.truth_m,
                                      RayOfCamera(trial.rig.camera)}));
-    rows.push_back({depth.score, options.calibration_error});
+    FORESIGHT_TRY(auto in_mask, mask.Score(method, depth.result, trial.truth_m, 1));
+    rows.push_back({depth.score, std::move(in_mask), options.calibration_error});
   }
   return {};
 }

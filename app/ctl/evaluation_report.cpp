@@ -25,6 +25,7 @@ nlohmann::ordered_json ToJson(const EvaluationRow& row) {
   json["rejection_precision"] = Finite(score.rejection_precision);
   json["rejection_recall"] = Finite(score.rejection_recall);
   json["without_mask"] = ToJson(score.without_mask);
+  if (row.in_foresight_mask) json["in_foresight_mask"] = ToJson(*row.in_foresight_mask);
   if (row.calibration_error)
     json["calibration_error"] = {
         {"rotation_deg", DegreesFromRadians(row.calibration_error->rotation_rad)},
@@ -32,12 +33,16 @@ nlohmann::ordered_json ToJson(const EvaluationRow& row) {
   return json;
 }
 
-std::string PrintedRow(const MethodScore& s) {
-  return fmt::format(
-      "{:<16} {:<10} {:>8.1f} {:>8.1f} {:>6.3f} {:>6.3f}   {:>8.1f} {:>8.1f} {:>6.3f}   {:>7.2f}",
-      s.scene, s.method, s.with_mask.a80_mm, s.with_mask.a95_mm, s.with_mask.coverage,
-      s.with_mask.unscored_kept, s.without_mask.a80_mm, s.without_mask.a95_mm,
-      s.without_mask.coverage, s.seconds);
+std::string Printed(const DepthAccuracy& accuracy) {
+  return fmt::format("{:>8.1f} {:>8.1f} {:>6.3f}", accuracy.a80_mm, accuracy.a95_mm,
+                     accuracy.coverage);
+}
+
+std::string PrintedRow(const EvaluationRow& row) {
+  const MethodScore& s = row.score;
+  return fmt::format("{:<16} {:<10} {} {:>6.3f}   {}   {:>24}   {:>7.2f}", s.scene, s.method,
+                     Printed(s.with_mask), s.with_mask.unscored_kept, Printed(s.without_mask),
+                     row.in_foresight_mask ? Printed(*row.in_foresight_mask) : "", s.seconds);
 }
 
 }  // namespace
@@ -49,11 +54,13 @@ void PrintEvaluation(const std::vector<EvaluationRow>& rows, bool as_json) {
     PrintJson(list);
     return;
   }
-  PrintLine(fmt::format("{:<27} {:>31}   {:>24}", "", "masked", "not masked"));
-  PrintLine(fmt::format("{:<16} {:<10} {:>8} {:>8} {:>6} {:>6}   {:>8} {:>8} {:>6}   {:>7}",
-                        "scene", "method", "A80 mm", "A95 mm", "cover", "holes", "A80 mm", "A95 mm",
-                        "cover", "seconds"));
-  for (const EvaluationRow& row : rows) PrintLine(PrintedRow(row.score));
+  PrintLine(fmt::format("{:<27} {:>31}   {:>24}   {:>24}", "", "masked", "not masked",
+                        "in Foresight's mask"));
+  PrintLine(fmt::format(
+      "{:<16} {:<10} {:>8} {:>8} {:>6} {:>6}   {:>8} {:>8} {:>6}   {:>8} {:>8} {:>6}   {:>7}",
+      "scene", "method", "A80 mm", "A95 mm", "cover", "holes", "A80 mm", "A95 mm", "cover",
+      "A80 mm", "A95 mm", "cover", "seconds"));
+  for (const EvaluationRow& row : rows) PrintLine(PrintedRow(row));
   const auto simulated = std::find_if(rows.begin(), rows.end(), [](const EvaluationRow& row) {
     return row.calibration_error.has_value();
   });

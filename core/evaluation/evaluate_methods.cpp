@@ -5,10 +5,14 @@
 namespace foresight {
 namespace {
 
-constexpr int kStrideOfEnlarged = 5;
 constexpr double kTestbedSigma_px = 20.0;
 
 }  // namespace
+
+int ScoreStride(int enlarge) {
+  constexpr int kOfEnlarged = 5;
+  return enlarge > 1 ? kOfEnlarged : 1;
+}
 
 DepthOptions TestbedOptionsOf(DepthMethod method) {
   DepthOptions options = DefaultsOf(method);
@@ -32,9 +36,8 @@ Result<StereoRun> RunOnScene(const StereoScene& scene, const StereoEvaluationOpt
   run.truth_m = std::move(trial.truth_m);
   FORESIGHT_TRY(run.depth.result,
                 ComputeDepth(std::move(trial.samples), run.scene.right, options.depth, context));
-  const int stride = options.enlarge > 1 ? kStrideOfEnlarged : 1;
   FORESIGHT_TRY(run.depth.score, ScoreMethod(scene.name, options.depth.method, run.depth.result,
-                                             run.truth_m, stride));
+                                             run.truth_m, ScoreStride(options.enlarge)));
   return run;
 }
 

@@ -16,6 +16,10 @@ struct StereoEvaluationOptions {
 /// uses where the method has one, and the testbed's own sampling steps.
 DepthOptions TestbedOptionsOf(DepthMethod method);
 
+/// Every so manieth row and column of a scene that was enlarged so often is scored: a number
+/// without common factor with the sampling steps.
+int ScoreStride(int enlarge);
+
 /// A scored depth map with what it was computed from: for images.
 struct StereoRun {
   StereoScene scene;  ///< enlarged where that was asked for
@@ -23,8 +27,7 @@ struct StereoRun {
   ScoredDepth depth;
 };
 
-/// Runs the depth pipeline on a scene and scores it. Enlarged scenes are scored on every fifth row
-/// and column, a number without common factor with the sampling steps.
+/// Runs the depth pipeline on a scene and scores it at ScoreStride.
 Result<StereoRun> RunOnScene(const StereoScene& scene, const StereoEvaluationOptions& options,
                              const RunContext& context);
 
