@@ -86,7 +86,9 @@ Result<ExitCode> Calibrate(const ChainArguments& arguments, CalibrationStage sta
   FORESIGHT_TRY(const ChainCalibrationOptions options, OptionsFrom(arguments, stage));
   FORESIGHT_TRY(const CalibrationSession session,
                 ReadCalibrationSession(arguments.session, context.Part(0.0, 0.5)));
-  FORESIGHT_TRY(ChainCalibration found, CalibrateChain(session, options, context.Part(0.5, 0.8)));
+  FORESIGHT_TRY(
+      ChainCalibration found,
+      CalibrateChain(session, options, context.Part(0.5, 0.8)).map_error(Of(arguments.session)));
   for (const std::string& image : session.unusable_images)
     found.notes.push_back("not used: " + image);
   found.rig.name = session.name;

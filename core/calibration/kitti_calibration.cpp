@@ -109,6 +109,11 @@ Result<KittiCamera> KittiCameraFrom(std::string_view text, int number, const std
   const Eigen::Matrix3d rotation = rectified * turn;
   found.camera_from_velodyne = Rigid<frame::Camera, frame::Robot>(
       NearestRotation(rotation), rectified * camera_from_velodyne.col(3) + beside);
+  constexpr double kMostAside_m = 2.0;  // as in SensorRig::Check
+  const Eigen::Vector3d& aside = found.camera_from_velodyne.translation();
+  if (!aside.allFinite() || aside.norm() > kMostAside_m)
+    return Fail(ErrorCode::kBadData, "{}: {} stands {:.3g} m from the velodyne (at most {})",
+                source, name, aside.norm(), kMostAside_m);
   return found;
 }
 

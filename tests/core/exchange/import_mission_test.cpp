@@ -310,6 +310,7 @@ TEST(KittiCalibration, WhatIsNoneIsRefusedByTheRow) {
   EXPECT_THAT(why(kKitti, "P2: 700", "P2: x"), HasSubstr("P2: 'x' is not a number"));
   EXPECT_THAT(why(kKitti, "P2: 700", "P2:"), HasSubstr("11 numbers instead of 12"));
   EXPECT_THAT(why(kKitti, "P2: 700 0", "P2: 700 5"), HasSubstr("no projection"));
+  EXPECT_THAT(why(kKitti, "-0.27", "-2.7e30"), HasSubstr("m from the velodyne (at most 2)"));
   EXPECT_THAT(why(kKitti, "cam: 0 -1", "cam: 0 -2"), HasSubstr("Tr_velo_to_cam is no rotation"));
 }
 
