@@ -119,7 +119,7 @@ std::string Fault(const Reader& reader, const std::vector<std::string>& argument
   if (result.exit_code >= 2) {
     if (LastLine(result.errors).find(reader.file_name) == std::string::npos &&
         LastLine(result.errors).find("/scene") == std::string::npos &&
-        LastLine(result.errors).find("/session/") == std::string::npos &&
+        LastLine(result.errors).find("/session") == std::string::npos &&
         LastLine(result.errors).find("/out: is not a file") == std::string::npos)  // it was read
       return "does not name the file";
     const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();

@@ -97,7 +97,8 @@ TEST_F(CalibrateChainCommand, MotorAloneNeedsNoLidar) {
   EXPECT_THAT(result.output, HasSubstr("plate angle at 80 deg"));
   const ProgramResult lidar = RunProgram(FORESIGHTCTL, {"calibrate", "lidar", session});
   EXPECT_EQ(lidar.exit_code, 1);
-  EXPECT_THAT(lidar.errors, HasSubstr(session + ": the session has no lidar lines"));
+  EXPECT_THAT(lidar.errors,
+              HasSubstr(session + ": camera and lidar: the session has no lidar lines"));
 }
 
 TEST_F(CalibrateChainCommand, TimeRefusesASweepThatGoesOneWay) {
