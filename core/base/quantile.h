@@ -19,4 +19,14 @@ inline double Quantile(std::vector<double> values, double fraction) {
   return *low + (rank - std::floor(rank)) * (*std::min_element(low + 1, values.end()) - *low);
 }
 
+/// The value at rank n / 2 of the sorted ones: one of the values, of two middle ones the upper. NaN
+/// where there is none. O(n).
+template <class Value>
+Value UpperMedian(std::vector<Value> values) {
+  if (values.empty()) return std::numeric_limits<Value>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace foresight

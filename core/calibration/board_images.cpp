@@ -11,6 +11,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/base/sha256.h"
 #include "core/io/image_file.h"
 
@@ -88,9 +89,7 @@ void RejectBlurred(BoardImages& images) {
   for (const ImageRating& rating : images.ratings)
     if (std::isfinite(rating.edge_width_px)) widths.push_back(rating.edge_width_px);
   if (widths.size() < 3) return;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  const double median = *middle;
+  const double median = UpperMedian(std::move(widths));
   const double limit = std::max(kBlurredAgainstOthers * median, kWideEdge_px);
   for (std::size_t i = images.images.size(); i-- > 0;) {
     const double width = images.ratings[i].edge_width_px;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/geometry/nearest_rotation.h"
 #include "core/geometry/symmetric_eigen.h"
 
@@ -74,10 +75,7 @@ Eigen::Matrix3d RobustProjection(const Grid& grid, std::vector<std::size_t>& use
   for (int round = 0;; ++round) {
     const Eigen::Matrix3d projection = Projection(grid, used);
     const std::vector<double> errors = ErrorsOf(grid, used, projection);
-    std::vector<double> sorted = errors;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double most = kMedians * *middle + kAlwaysKept_px;
+    const double most = kMedians * UpperMedian(errors) + kAlwaysKept_px;
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < used.size(); ++i)
       if (errors[i] <= most) kept.push_back(used[i]);

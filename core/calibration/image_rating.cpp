@@ -8,6 +8,8 @@
 #include <map>
 #include <optional>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 namespace {
 
@@ -18,13 +20,6 @@ constexpr double kLightestBlack = 110.0;
 /// Beyond this fraction of a square, edges run into each other.
 constexpr double kWidestEdge = 0.5;
 constexpr double kFarthestSpill = 0.12;
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
@@ -149,7 +144,7 @@ ImageRating RateImage(const GrayImage& image, const CornerGrid& grid) {
       if (column > 0) spacings.push_back((grid.At(column, row) - grid.At(column - 1, row)).norm());
       if (row > 0) spacings.push_back((grid.At(column, row) - grid.At(column, row - 1)).norm());
     }
-  rating.spacing_px = Median(spacings);
+  rating.spacing_px = UpperMedian(spacings);
   rating.coverage = HullArea(grid.pixels) / (static_cast<double>(image.width()) * image.height());
   const SquareLevels levels = MeasureLevels(image, grid);
   const bool first_is_dark = levels.Contrast() > 0.0;
@@ -161,8 +156,8 @@ ImageRating RateImage(const GrayImage& image, const CornerGrid& grid) {
     widths.push_back(edge.width_px);
     spills.push_back(edge.spill_px);
   }
-  rating.edge_width_px = Median(widths);
-  if (!spills.empty()) rating.spill_px = Median(spills);
+  rating.edge_width_px = UpperMedian(widths);
+  if (!spills.empty()) rating.spill_px = UpperMedian(spills);
   return rating;
 }
 
@@ -203,8 +198,8 @@ void RateLevels(const GrayImage& image, const CalibrationBoard& board, const Boa
       static_cast<double>(std::count_if(light.begin(), light.end(),
                                         [](double grey) { return grey >= kSaturated; })) /
       static_cast<double>(light.size());
-  rating->dark_level = Median(std::move(dark));
-  rating->light_level = Median(std::move(light));
+  rating->dark_level = UpperMedian(std::move(dark));
+  rating->light_level = UpperMedian(std::move(light));
 }
 
 }  // namespace
@@ -218,7 +213,7 @@ ImageRating RateView(const GrayImage& image, const CalibrationBoard& board, cons
       if ((board.Corner(view.corner_ids[i]) - board.Corner(view.corner_ids[j])).norm() <
           1.1 * board.square_m)
         spacings.push_back((view.pixels[i] - view.pixels[j]).norm());
-  if (!spacings.empty()) rating.spacing_px = Median(spacings);
+  if (!spacings.empty()) rating.spacing_px = UpperMedian(spacings);
   if (board.kind == CalibrationBoard::Kind::kCharuco) RateLevels(image, board, view, &rating);
   return rating;
 }

@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/base/random.h"
 #include "core/calibration/chain_angles.h"
 
 namespace foresight {
 namespace {
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<double> RangesOf(const std::vector<LidarLine>& lines, int beam,
                              const LidarModel& lidar) {
@@ -30,7 +25,7 @@ std::optional<LidarReturn> MeanReturn(std::vector<double> ranges, std::size_t li
                                       double range_sigma_m, double floor_m) {
   if (2 * ranges.size() < lines || ranges.empty()) return std::nullopt;
   constexpr double kMostSigmas = 3.5;
-  const double median = MedianOf(ranges);
+  const double median = UpperMedian(ranges);
   double sum = 0.0;
   int used = 0;
   for (const double range : ranges)
@@ -146,7 +141,7 @@ double RangeSigmaOf(const CalibrationSession& session) {
       for (int beam = 0; beam < session.prior.lidar.beams && stop.lines.size() >= 5; beam += 4) {
         std::vector<double> ranges = RangesOf(stop.lines, beam, session.prior.lidar);
         if (2 * ranges.size() < stop.lines.size() || ranges.size() < 5) continue;
-        const double median = MedianOf(ranges);
+        const double median = UpperMedian(ranges);
         for (double& range : ranges) {
           range -= median;
           deviations.push_back(std::abs(range));
@@ -157,7 +152,7 @@ double RangeSigmaOf(const CalibrationSession& session) {
   // Ranges are whole millimetres, and so is the median deviation: it only tells spikes from the
   // rest. Of a normal distribution 0.9733 of the variance lie within 3 deviations.
   constexpr double kSigmasOfMedian = 1.4826, kGate = 3.0, kVarianceInGate = 0.9733;
-  const double rough_m = std::max(kSigmasOfMedian * MedianOf(deviations), 0.0005);
+  const double rough_m = std::max(kSigmasOfMedian * UpperMedian(deviations), 0.0005);
   double squares = 0.0, freedom = 0.0;
   for (const std::vector<double>& beam : beams) {
     double sum = 0.0, sum_squares = 0.0, count = 0.0;

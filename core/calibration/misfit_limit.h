@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 
 /// Of the rms of images; 0 where there is none.
 inline double MedianRms(std::vector<double> rms_px) {
-  if (rms_px.empty()) return 0.0;
-  const auto middle = rms_px.begin() + static_cast<std::ptrdiff_t>(rms_px.size() / 2);
-  std::nth_element(rms_px.begin(), middle, rms_px.end());
-  return *middle;
+  return rms_px.empty() ? 0.0 : UpperMedian(std::move(rms_px));
 }
 
 /// An image whose corners are farther off than this, rms, does not show what the others show.

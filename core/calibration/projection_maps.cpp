@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/base/quantile.h"
 #include "core/calibration/fit_lens.h"
 #include "core/geometry/nearest_rotation.h"
 #include "core/geometry/symmetric_eigen.h"
@@ -67,11 +68,7 @@ Eigen::Vector2d ImageField::Middle(int column, int row) const {
 }
 
 double ImageField::Median() const {
-  std::vector<double> finite = Finite(values);
-  if (finite.empty()) return kNone;
-  const auto middle = finite.begin() + static_cast<std::ptrdiff_t>(finite.size() / 2);
-  std::nth_element(finite.begin(), middle, finite.end());
-  return *middle;
+  return UpperMedian(Finite(values));
 }
 
 double ImageField::Largest() const {

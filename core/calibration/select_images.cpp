@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/calibration/fit_lens.h"
 #include "core/calibration/intrinsics_start.h"
 
@@ -20,11 +21,9 @@ constexpr BundleOptions kRobust{.free_warp = true, .loss_px = 1.0};
 /// The median of the distance of two normal coordinates, in standard deviations of one.
 constexpr double kMedianDistance = 1.1774;
 
+/// 0 where there is none.
 double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0.0 : UpperMedian(std::move(values));
 }
 
 /// Corners of one view that are too far off.

@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 namespace {
 
 constexpr const char* kReasonNames[] = {"kept", "flying", "isolated", "flipping"};
-
-/// Median of the values; they are reordered.
-float Median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -95,7 +90,7 @@ Result<SampleSpacing> MeasureSpacing(const AlignedSamples& samples) {
   if (along.empty() || between.empty())
     return Fail(ErrorCode::kTooFewPoints, "{} samples have no neighbours on the lidar's grid",
                 samples.samples.size());
-  return SampleSpacing{Median(along), Median(between)};
+  return SampleSpacing{UpperMedian(std::move(along)), UpperMedian(std::move(between))};
 }
 
 double LocalDensity(const AlignedSamples& samples) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 namespace {
 
@@ -19,10 +21,7 @@ double MedianRayStep(const AlignedSamples& samples, const Image<std::int32_t>& g
     for (int beam = 0; beam + 1 < grid.width(); ++beam)
       if (grid(beam, line) >= 0 && grid(beam + 1, line) >= 0)
         steps.push_back((ray(grid(beam, line)) - ray(grid(beam + 1, line))).norm());
-  if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 0.0 : UpperMedian(std::move(steps));
 }
 
 double DistanceBetween(const AlignedSample& a, const AlignedSample& b,

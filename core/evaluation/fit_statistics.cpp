@@ -8,19 +8,11 @@
 #include <set>
 #include <string_view>
 
+#include "core/base/quantile.h"
 #include "core/evaluation/sigma_errors.h"
 
 namespace foresight {
 namespace {
-
-double Quantile(std::vector<double> values, double fraction) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const double at = fraction * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, values.size() - 1);
-  return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
-}
 
 bool IsInSigmas(const std::string& name) {
   return name.ends_with(kSigmaErrorSuffix);

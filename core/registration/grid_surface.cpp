@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 namespace {
 
@@ -43,10 +45,7 @@ class Surface {
         angles.push_back(std::acos(std::clamp(
             static_cast<double>(Direction(line, beam).dot(Direction(other, beam + step))), -1.0,
             1.0)));
-    if (angles.empty()) return 0.0;
-    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-    std::nth_element(angles.begin(), middle, angles.end());
-    return *middle;
+    return angles.empty() ? 0.0 : UpperMedian(std::move(angles));
   }
 
   /// The corners a b of one line, c d of the next one.

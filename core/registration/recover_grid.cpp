@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/quantile.h"
 #include "core/geometry/symmetric_eigen.h"
 #include "core/sensor/given_cloud.h"
 
@@ -46,11 +47,9 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
 }
 
+/// 0 where there is none.
 double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0.0 : UpperMedian(std::move(values));
 }
 
 double Azimuth(const Eigen::Vector3d& direction) {

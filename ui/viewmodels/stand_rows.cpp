@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 namespace {
 
@@ -72,10 +74,9 @@ void MarkThoseThatStandOut(std::vector<StandPlaceRow>* rows) {
     for (const StopLamp& lamp : row.stops)
       if (std::isfinite(lamp.rms_px)) all_rms.push_back(lamp.rms_px);
   if (all_rms.empty()) return;
-  const auto middle = all_rms.begin() + static_cast<std::ptrdiff_t>(all_rms.size() / 2);
-  std::nth_element(all_rms.begin(), middle, all_rms.end());
+  const double median = UpperMedian(std::move(all_rms));
   for (StandPlaceRow& row : *rows)
-    for (StopLamp& lamp : row.stops) lamp.stands_out = lamp.rms_px > kStandsOut * *middle;
+    for (StopLamp& lamp : row.stops) lamp.stands_out = lamp.rms_px > kStandsOut * median;
 }
 
 }  // namespace

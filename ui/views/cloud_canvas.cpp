@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "ui/render/vtk_data.h"
 #include "ui/views/overlay_style.h"
 
@@ -61,9 +62,7 @@ Eigen::Vector3d MiddleOf(const PointSet& set) {
   for (int axis = 0; axis < 3; ++axis) {
     auto& values = chosen[static_cast<std::size_t>(axis)];
     if (values.empty()) return middle;
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    middle[axis] = *half;
+    middle[axis] = UpperMedian(std::move(values));
   }
   return middle;
 }
