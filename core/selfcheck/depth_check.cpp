@@ -183,15 +183,16 @@ Result<DepthCheck> CheckDepth(const RegisteredScan& cloud, const SensorRig& rig,
   HoldOutPlan plan;
   plan.one_in = options.one_in;
   plan.turn = options.one_in / 2;
+  plan.together = 2;
+  plan.pattern = HoldOutPlan::Pattern::kBoth;
   FORESIGHT_TRY(const DepthResult nearly_all,
-                MapWithout(beams, frame.image, depth, plan, context.Part(0.2, 0.4)));
+                MapWithout(beams, frame.image, depth, plan, context.Part(0.2, 0.5)));
+  plan.pattern = HoldOutPlan::Pattern::kScattered;
   FORESIGHT_TRY(const std::vector<HeldOutBeam> scattered, CompareWithMap(beams, nearly_all, plan));
   plan.pattern = HoldOutPlan::Pattern::kLines;
-  plan.together = 2;
-  FORESIGHT_TRY(const std::vector<HeldOutBeam> lines,
-                HoldOut(beams, frame.image, depth, plan, context.Part(0.4, 0.6)));
+  FORESIGHT_TRY(const std::vector<HeldOutBeam> lines, CompareWithMap(beams, nearly_all, plan));
   FORESIGHT_TRY(const std::vector<double> noise_m,
-                NoiseOfMap(beams, frame.image, depth, nearly_all.mask, context.Part(0.6, 1.0)));
+                NoiseOfMap(beams, frame.image, depth, nearly_all.mask, context.Part(0.5, 1.0)));
   DepthCheck check = SummariseHeldOut(scattered, lines, noise_m, depth.method, options);
   check.image_rad = frame.motor_angle_rad;
   check.not_counted =

@@ -90,8 +90,8 @@ DepthCheck SummariseHeldOut(const std::vector<HeldOutBeam>& scattered,
                             const std::vector<double>& noise_m, DepthMethod method,
                             const DepthCheckOptions& options);
 
-/// Makes four depth maps of an image, one without scattered beams, one without pairs of whole lines
-/// and two of half the lines, and compares. Held-out beams do not see a wrong calibration of camera
+/// Makes three depth maps of an image, one without scattered beams and pairs of whole lines, and
+/// two of half the lines, and compares. Held-out beams do not see a wrong calibration of camera
 /// against lidar: those that stay in and those that stay out shift together. Fails as HoldOut does,
 /// and with kTooFewPoints where no beam lies in the image.
 Result<DepthCheck> CheckDepth(const RegisteredScan& cloud, const SensorRig& rig,

@@ -71,8 +71,7 @@ AlignedSamples RestOf(const AlignedSamples& all, const HoldOutPlan& plan) {
   // Lines on both sides of one that stays out are neighbours, as if it had never been measured.
   std::vector<int> line_in_rest(static_cast<std::size_t>(all.lines), -1);
   for (int line = 0; line < all.lines; ++line)
-    if (plan.pattern == HoldOutPlan::Pattern::kScattered || !plan.LeavesOut(line, 0))
-      line_in_rest[static_cast<std::size_t>(line)] = rest.lines++;
+    if (!plan.LeavesOutLine(line)) line_in_rest[static_cast<std::size_t>(line)] = rest.lines++;
   for (std::size_t i = 0; i < all.samples.size(); ++i) {
     AlignedSample sample = all.samples[i];
     if (plan.LeavesOut(sample.line, sample.beam)) continue;
@@ -118,8 +117,20 @@ double RightWithin_m(double depth_m) {
 
 bool HoldOutPlan::LeavesOut(int line, int beam) const {
   // A step of three beams a line keeps those that stay out from being neighbours.
-  const int place = pattern == Pattern::kLines ? line / together : beam + 3 * line;
-  return (place % one_in == turn) != others;
+  const bool is_one = (beam + 3 * line) % one_in == turn;
+  switch (pattern) {
+    case Pattern::kScattered:
+      return is_one != others;
+    case Pattern::kLines:
+      return LeavesOutLine(line);
+    case Pattern::kBoth:
+      break;
+  }
+  return LeavesOutLine(line) || is_one != others;
+}
+
+bool HoldOutPlan::LeavesOutLine(int line) const {
+  return pattern != Pattern::kScattered && (line / together % one_in == turn) != others;
 }
 
 Status HoldOutPlan::Check() const {

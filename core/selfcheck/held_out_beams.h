@@ -16,15 +16,17 @@ struct HoldOutPlan {
   enum class Pattern {
     kScattered,  ///< single beams; no two of them are neighbours on the grid
     kLines,      ///< whole lines
+    kBoth,       ///< what both of them leave out: one map serves both
   };
 
   Pattern pattern = Pattern::kScattered;
   int one_in = 10;      ///< every so manieth beam or line, or group of lines
-  int together = 1;     ///< so many neighbouring lines stay out together; of lines only
   int turn = 0;         ///< which of them, in [0, one_in)
   bool others = false;  ///< all the others stay out instead: a map made of a quarter of the rings
+  int together = 1;     ///< so many neighbouring lines stay out together; of lines only
 
   bool LeavesOut(int line, int beam) const;
+  bool LeavesOutLine(int line) const;  ///< as a whole
   /// Fails with kInvalidOptions.
   Status Check() const;
 };
