@@ -112,13 +112,21 @@ class ScanJudge {
     if (light == CheckLight::kNotSeen) {
       sentence = OperatorText("camera against lidar: this scan does not show it");
     } else if (light == CheckLight::kGood) {
-      const Eigen::Vector2d off_px = EdgesOff_px(rig_, check_.rig);
+      Eigen::Vector2d off_px = EdgesOff_px(rig_, check_.rig);
+      // A direction that this scan does not show says nothing.
+      if (!Seen("camera turn y")) off_px.x() = 0.0;
+      if (!Seen("camera turn x")) off_px.y() = 0.0;
       sentence = OperatorText("image edges lie on the lidar's within {:.1f} px",
                               std::max(0.1, off_px.norm()));
     } else {
       sentence = OperatorText("{}: check the calibration of camera and lidar", WhereEdgesLie());
     }
     Add("camera against lidar", light, std::move(sentence));
+  }
+
+  bool Seen(const char* name) const {
+    const auto found = Findings(check_.rig, name);
+    return !found.empty() && found.front()->state != State::kNotSeen;
   }
 
   /// "image edges lie 4.1 px left of the lidar's".

@@ -82,6 +82,17 @@ TEST(JudgeScan, PixelsAsideAreThoseOfTheTurn) {
   EXPECT_LT((EdgesOff_px(rig, check) - (after - before)).norm(), 0.3);
 }
 
+TEST(JudgeScan, ADirectionThatIsNotSeenIsNotCalledGood) {
+  CameraCheck camera = Camera(0.03, 0.02);
+  camera.turn_rad.x() = RadiansFromDegrees(0.8);  // 8 px, but it may be anything
+  camera.covariance(0, 0) = std::pow(RadiansFromDegrees(0.5), 2);
+  const ScanCheck check = Judged(Depth(0.95, 0.98), Rig(camera));
+  EXPECT_EQ(check.points.at(0).light, CheckLight::kGood);
+  const double px = DefaultSensorRig().camera.fx * RadiansFromDegrees(0.03);
+  EXPECT_EQ(check.points.at(0).sentence,
+            fmt::format("image edges lie on the lidar's within {:.1f} px", px));
+}
+
 TEST(JudgeScan, AGraveDriftIsRed) {
   EXPECT_EQ(Judged(Depth(0.95, 0.98), Rig(Camera(0.7, 0.02))).light, CheckLight::kRed);
 }
