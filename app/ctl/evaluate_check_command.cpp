@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "app/common/seed_option.h"
@@ -95,6 +96,30 @@ void Print(const std::vector<CheckOutcome>& outcomes, const std::vector<RigDamag
     PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>8}{:>10}{:>8.1f}", damage.name, t.scans, t.alarms,
                           t.named, t.not_seen, t.seconds / std::max(1, t.scans)));
   }
+}
+
+/// The smallest drift that is called amber, of each direction, with rigs that are good: the limit,
+/// or so many deviations where that is more.
+void PrintSmallest(const std::vector<CheckOutcome>& outcomes) {
+  std::map<std::string, std::vector<double>> smallest;
+  std::map<std::string, int> seen;
+  int scans = 0;
+  for (const CheckOutcome& outcome : outcomes) {
+    if (outcome.damage != "none") continue;
+    ++scans;
+    for (const RigFinding& finding : outcome.check.findings) {
+      const double in_unit = finding.unit == "rad" ? DegreesFromRadians(1.0) : 1e3;
+      const double least = std::max(finding.limit, RigCheckLimits().sigmas * finding.sigma);
+      if (std::isfinite(finding.sigma) && std::isfinite(least))
+        smallest[finding.name].push_back(in_unit * least);
+      seen[finding.name] += finding.state != RigFinding::State::kNotSeen ? 1 : 0;
+    }
+  }
+  PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>24}{:>12}", "smallest drift", "scans", "seen",
+                        "amber from, deg or ms", "90 % below"));
+  for (const auto& [name, values] : smallest)
+    PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>24.2f}{:>12.2f}", name, scans, seen[name],
+                          Quantile(values, 0.5), Quantile(values, 0.9)));
 }
 
 double Ratio(double measured, double truth) {
@@ -206,7 +231,10 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
       all.push_back(std::move(outcome));
   }
   if (!arguments.json) {
-    if (arguments.rig) Print(all, damages);
+    if (arguments.rig) {
+      Print(all, damages);
+      PrintSmallest(all);
+    }
     if (arguments.depth) Print(depths);
     return ExitCode::kDone;
   }

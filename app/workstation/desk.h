@@ -8,6 +8,7 @@
 #include "ui/viewmodels/layers_view_model.h"
 #include "ui/viewmodels/map_view_model.h"
 #include "ui/viewmodels/measure_view_model.h"
+#include "ui/viewmodels/scan_check_model.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/source_gallery_model.h"
 
@@ -24,7 +25,8 @@ struct Desk {
         measure(&session),
         map(&session),
         gallery(&session, &fit),
-        exporter(&session) {}
+        exporter(&session),
+        check(&session) {}
 
   SessionModel session;
   DepthViewModel depth;
@@ -36,6 +38,7 @@ struct Desk {
   ClipBoxModel clip;
   SourceGalleryModel gallery;
   ExportViewModel exporter;
+  ScanCheckModel check;
 };
 
 }  // namespace foresight

@@ -27,6 +27,7 @@
 #include "core/base/log_file.h"
 #include "ui/panels/camera_calibration_panel.h"
 #include "ui/panels/chain_calibration_panel.h"
+#include "ui/panels/check_lamp.h"
 #include "ui/panels/dock_style.h"
 #include "ui/panels/head_panel.h"
 #include "ui/panels/head_strip.h"
@@ -39,6 +40,7 @@
 #include "ui/panels/notes_panel.h"
 #include "ui/panels/objects_panel.h"
 #include "ui/panels/options_panel.h"
+#include "ui/panels/scan_check_panel.h"
 #include "ui/panels/side_results_panel.h"
 #include "ui/panels/source_gallery.h"
 #include "ui/panels/task_strip.h"
@@ -54,7 +56,7 @@ namespace foresight {
 namespace {
 
 /// Counts up when docks come or go, so that an old layout is not forced on new docks.
-constexpr int kLayoutVersion = 7;
+constexpr int kLayoutVersion = 8;
 const QString kLayoutKey = QStringLiteral("layout/docks");
 const QString kGeometryKey = QStringLiteral("layout/window");
 constexpr QSize kUsualSize(1600, 1000);
@@ -249,6 +251,13 @@ void MainWindow::AddWindowCommands() {
                 .tip = tr("Several scans in one map, what changed between two, and the clip box"),
                 .keys = QStringLiteral("Ctrl+M"),
                 .run = [this] { Open(map_dock_); }});
+  commands.Add({.id = "view.check",
+                .menu = "view",
+                .text = tr("Self-check"),
+                .tip = tr("What the scan on the screen says about its depth, the calibration and "
+                          "accepted objects"),
+                .keys = QStringLiteral("Shift+K"),
+                .run = [this] { Open(check_dock_); }});
   commands.Add({.id = "view.calibrate_camera",
                 .menu = "view",
                 .text = tr("Calibrate camera"),
@@ -343,6 +352,8 @@ void MainWindow::BuildMenus() {
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->addActions(actions_->OfToolBar());
 
+  statusBar()->addPermanentWidget(
+      Stack(MakeCheckLamp(&bench_->live), [this](Desk* desk) { return MakeCheckLamp(desk); }), 2);
   statusBar()->addPermanentWidget(new TaskStrip(&bench_->tasks), 1);
   statusBar()->setSizeGripEnabled(false);
 }
@@ -380,6 +391,12 @@ DocumentStack* MainWindow::Stack(QWidget* live, std::function<QWidget*(Desk*)> m
   return stack;
 }
 
+QWidget* MainWindow::MakeCheckLamp(Desk* desk) {
+  auto* lamp = new CheckLamp(&desk->check);
+  connect(lamp, &CheckLamp::clicked, this, [this] { bench_->commands.Run("view.check"); });
+  return lamp;
+}
+
 void MainWindow::BuildDocks() {
   CommandTable* commands = &bench_->commands;
   const auto objects = [commands](Desk* desk) {
@@ -413,6 +430,9 @@ void MainWindow::BuildDocks() {
   };
   map_dock_ = Dock("map", tr("Map"), Stack(map(&bench_->live), map));
   docks_->addDockWidgetTabToArea(map_dock_, right);
+  const auto check = [](Desk* desk) { return new ScanCheckPanel(&desk->check); };
+  check_dock_ = Dock("check", tr("Self-check"), Stack(check(&bench_->live), check));
+  docks_->addDockWidgetTabToArea(check_dock_, right);
   side_results_ = new SideResultsPanel(&bench_->side_results, commands);
   results_dock_ = Dock("side_results", tr("Side results"), side_results_);
   docks_->addDockWidgetTabToArea(results_dock_, right);
@@ -465,6 +485,7 @@ void MainWindow::BuildDocks() {
   results_dock_->toggleView(false);
   notes_dock_->toggleView(false);
   map_dock_->toggleView(false);
+  check_dock_->toggleView(false);
   log->toggleView(false);
   gallery_dock_->toggleView(false);
   search_dock_->toggleView(false);

@@ -73,6 +73,7 @@ class MainWindow : public QMainWindow {
   void BuildDocks();
   ads::CDockWidget* Dock(const char* name, const QString& title, QWidget* content);
   DocumentStack* Stack(QWidget* live, std::function<QWidget*(Desk*)> make);
+  QWidget* MakeCheckLamp(Desk* desk);
   static void Open(ads::CDockWidget* dock);
   void ShowDocument();
   void ShowTimeline(bool review);
@@ -111,6 +112,7 @@ class MainWindow : public QMainWindow {
   ads::CDockWidget* options_dock_ = nullptr;
   ads::CDockWidget* notes_dock_ = nullptr;
   ads::CDockWidget* map_dock_ = nullptr;
+  ads::CDockWidget* check_dock_ = nullptr;
   ads::CDockWidget* calibration_dock_ = nullptr;
   ads::CDockWidget* head_calibration_dock_ = nullptr;
   ads::CDockWidget* search_dock_ = nullptr;

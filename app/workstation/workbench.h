@@ -15,6 +15,7 @@
 #include "ui/viewmodels/mission_search_model.h"
 #include "ui/viewmodels/recording_view_model.h"
 #include "ui/viewmodels/replay_model.h"
+#include "ui/viewmodels/review_check_flow.h"
 #include "ui/viewmodels/review_view_model.h"
 #include "ui/viewmodels/robot_fit_model.h"
 #include "ui/viewmodels/scan_flow.h"
@@ -48,6 +49,7 @@ class Workbench : public QObject {
   LiveDepthViewModel replay_depth;
   MissionSearchModel search;
   SideResultsModel side_results;
+  ReviewCheckFlow review_check;
   ScanFlow flow;
   LiveDepthViewModel live_depth;
   CameraCalibrationModel camera_calibration;

@@ -10,6 +10,7 @@
 #include "core/io/json_reader.h"
 #include "core/mission/new_records.h"
 #include "core/mission/provenance.h"
+#include "core/mission/record_events.h"
 #include "core/sensor/rig_id.h"
 
 namespace foresight {
@@ -108,14 +109,33 @@ Json ObjectJson(const HalfFits& object) {
           {"differences", differences}};
 }
 
+CheckLight LightFrom(const std::string& name) {
+  for (const CheckLight light :
+       {CheckLight::kNotSeen, CheckLight::kGood, CheckLight::kAmber, CheckLight::kRed})
+    if (name == ToString(light)) return light;
+  throw std::invalid_argument(fmt::format("'{}' is no light of a check", name));
+}
+
+/// Takes out of the answer what a lamp shows.
+void ReadAnswer(KeptCheck& check) {
+  const nlohmann::json answer = ParseJson(check.answer_json);
+  check.light = LightFrom(answer.at("light").get<std::string>());
+  answer.at("advice").get_to(check.advice);
+  answer.at("cannot_see").get_to(check.cannot_see);
+  for (const nlohmann::json& point : answer.at("points"))
+    check.points.push_back({point.at("name").get<std::string>(),
+                            LightFrom(point.at("light").get<std::string>()),
+                            point.at("sentence").get<std::string>()});
+}
+
 KeptCheck KeptCheckFrom(const EventRecord& event) {
   const nlohmann::json value = ParseJson(event.json);
   KeptCheck check;
   check.utc_ns = event.utc_ns;
-  check.advice = event.text;
   value.at("scan_uuid").get_to(check.scan_uuid);
   value.at("author").get_to(check.author);
   value.at("answer").get_to(check.answer_json);
+  ReadAnswer(check);
   return check;
 }
 
@@ -152,55 +172,72 @@ std::string ScanCheckToJson(const ScanCheck& check, const Scan& scan,
         {{"name", point.name}, {"light", ToString(point.light)}, {"sentence", point.sentence}});
   Json objects = Json::array();
   for (const HalfFits& object : check.objects) objects.push_back(ObjectJson(object));
-  return Json{{"format", 1},
-              {"program_version", ProgramVersion()},
-              {"scan_uuid", scan.uuid},
-              {"rig_id", RigId(scan.rig)},
-              {"light", ToString(check.light)},
-              {"advice", check.advice},
-              {"points", points},
-              {"cannot_see", check.cannot_see},
-              {"depth_options", Json::parse(DepthOptionsToJson(options.depth))},
-              {"depth", check.depth ? DepthJson(*check.depth) : Json(nullptr)},
-              {"rig", RigJson(check.rig)},
-              {"objects", objects}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return RecordEventJson({{"format", 1},
+                          {"program_version", ProgramVersion()},
+                          {"scan_uuid", scan.uuid},
+                          {"rig_id", RigId(scan.rig)},
+                          {"light", ToString(check.light)},
+                          {"advice", check.advice},
+                          {"points", points},
+                          {"cannot_see", check.cannot_see},
+                          {"depth_options", Json::parse(DepthOptionsToJson(options.depth))},
+                          {"depth", check.depth ? DepthJson(*check.depth) : Json(nullptr)},
+                          {"rig", RigJson(check.rig)},
+                          {"objects", objects}});
+}
+
+KeptCheck NewKeptCheck(const Scan& scan, const ScanCheck& check, const ScanCheckOptions& options) {
+  KeptCheck kept;
+  kept.scan_uuid = scan.uuid;
+  kept.author = OperatorName();
+  kept.utc_ns = NowUtc_ns();
+  kept.answer_json = ScanCheckToJson(check, scan, options);
+  ReadAnswer(kept);
+  return kept;
+}
+
+Status AddScanCheck(MissionFile& file, const KeptCheck& check) {
+  const bool grave = check.light >= CheckLight::kAmber;
+  const std::string json = RecordEventJson({{"format", 1},
+                                            {"scan_uuid", check.scan_uuid},
+                                            {"author", check.author},
+                                            {"light", ToString(check.light)},
+                                            {"answer", check.answer_json}});
+  FORESIGHT_CHECK(file.AddEvent(
+      {0, check.utc_ns, kEventSource, grave ? "warning" : "info", check.advice, json}));
+  return {};
 }
 
 Result<KeptCheck> KeepScanCheck(MissionFile& file, const Scan& scan, const ScanCheck& check,
                                 const ScanCheckOptions& options) {
-  KeptCheck kept{scan.uuid, OperatorName(), NowUtc_ns(), check.advice,
-                 ScanCheckToJson(check, scan, options)};
-  const bool grave = check.light >= CheckLight::kAmber;
-  const std::string json = Json{
-      {"format", 1},
-      {"scan_uuid", kept.scan_uuid},
-      {"author", kept.author},
-      {"light", ToString(check.light)},
-      {"answer",
-       kept.answer_json}}.dump(-1, ' ', false, Json::error_handler_t::replace);
-  FORESIGHT_CHECK(
-      file.AddEvent({0, kept.utc_ns, kEventSource, grave ? "warning" : "info", kept.advice, json}));
+  const KeptCheck kept = NewKeptCheck(scan, check, options);
+  FORESIGHT_CHECK(AddScanCheck(file, kept));
   return kept;
 }
 
 Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file,
                                               const std::string& scan_uuid) {
-  FORESIGHT_TRY(const std::vector<EventRecord> events, file.ListEvents());
   std::vector<KeptCheck> checks;
-  for (const EventRecord& event : events) {
-    if (event.source != kEventSource) continue;
-    try {
-      KeptCheck check = KeptCheckFrom(event);
-      if (scan_uuid.empty() || check.scan_uuid == scan_uuid) checks.push_back(std::move(check));
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& fault) {
-      return Fail(ErrorCode::kBadData, "{}: event {}: self-check: {}", file.path().string(),
-                  event.id, fault.what());
-    }
-  }
+  FORESIGHT_CHECK(ReadRecordEvents(
+      file, "self-check", [](const EventRecord& event) { return event.source == kEventSource; },
+      [&](const EventRecord& event) {
+        KeptCheck check = KeptCheckFrom(event);
+        if (scan_uuid.empty() || check.scan_uuid == scan_uuid) checks.push_back(std::move(check));
+      }));
   return checks;
+}
+
+Result<std::optional<KeptCheck>> LastScanCheck(const MissionFile& mission,
+                                               const MissionFile* review,
+                                               const std::string& scan_uuid) {
+  std::optional<KeptCheck> last;
+  for (const MissionFile* file : {&mission, review}) {
+    if (file == nullptr) continue;
+    FORESIGHT_TRY(std::vector<KeptCheck> checks, ListScanChecks(*file, scan_uuid));
+    for (KeptCheck& check : checks)
+      if (!last || check.utc_ns >= last->utc_ns) last = std::move(check);
+  }
+  return last;
 }
 
 std::vector<KeptObject> AcceptedObjects(const Scan& scan,

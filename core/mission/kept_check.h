@@ -15,22 +15,39 @@ struct KeptCheck {
   std::string scan_uuid;
   std::string author;
   std::int64_t utc_ns = 0;
-  std::string advice;
   std::string answer_json;  ///< ScanCheckToJson, bit for bit
+
+  // Of the answer: what a lamp shows.
+  CheckLight light = CheckLight::kNotSeen;
+  std::string advice;
+  std::vector<CheckPoint> points;
+  std::vector<std::string> cannot_see;
 };
 
 /// All that a check found and what it was made with, as one JSON object.
 std::string ScanCheckToJson(const ScanCheck& check, const Scan& scan,
                             const ScanCheckOptions& options);
 
+/// A check as it is kept: now, by this operator.
+KeptCheck NewKeptCheck(const Scan& scan, const ScanCheck& check, const ScanCheckOptions& options);
+
 /// Adds a check to `file`: the scan's mission, or the review beside it. Fails as
 /// MissionFile::AddEvent.
+Status AddScanCheck(MissionFile& file, const KeptCheck& check);
+
+/// NewKeptCheck, then AddScanCheck.
 Result<KeptCheck> KeepScanCheck(MissionFile& file, const Scan& scan, const ScanCheck& check,
                                 const ScanCheckOptions& options);
 
 /// Of one scan, or of all, the oldest first. Fails with kBadData, naming the event at fault.
 Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file,
                                               const std::string& scan_uuid = {});
+
+/// The newest check of a scan in its mission and the review beside it, which may be nullptr; none
+/// where it was not checked. Fails as ListScanChecks does.
+Result<std::optional<KeptCheck>> LastScanCheck(const MissionFile& mission,
+                                               const MissionFile* review,
+                                               const std::string& scan_uuid);
 
 /// What was accepted in a scan, ready to be made again: detections that are not deleted, with a
 /// provenance that names this scan's rig. `left_out` gets a sentence for each that cannot be made

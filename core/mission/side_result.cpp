@@ -10,6 +10,7 @@
 #include "core/io/json_reader.h"
 #include "core/mission/new_records.h"
 #include "core/mission/provenance.h"
+#include "core/mission/record_events.h"
 #include "core/options/option_json.h"
 #include "core/options/option_text.h"
 #include "core/sensor/rig_id.h"
@@ -27,14 +28,13 @@ constexpr const char* kRestored = "restored";
 
 std::string ToJson(const SideResult& result) {
   // The answer stays a text: what is read back is what was written, to the last bit.
-  return Json{{"format", 1},
-              {"uuid", result.uuid},
-              {"scan_uuid", result.scan_uuid},
-              {"author", result.author},
-              {"depth_maps", result.depth_uuids},
-              {"detections", result.detection_uuids},
-              {"answer", result.answer_json}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return RecordEventJson({{"format", 1},
+                          {"uuid", result.uuid},
+                          {"scan_uuid", result.scan_uuid},
+                          {"author", result.author},
+                          {"depth_maps", result.depth_uuids},
+                          {"detections", result.detection_uuids},
+                          {"answer", result.answer_json}});
 }
 
 SideResult SideResultFrom(const EventRecord& event) {
@@ -77,30 +77,21 @@ Result<std::vector<SideResult>> AllSideResults(std::initializer_list<const Missi
   std::vector<SideResult> results;
   for (const MissionFile* file : files) {
     if (file == nullptr) continue;
-    FORESIGHT_TRY(const std::vector<EventRecord> events, file->ListEvents());
-    for (const EventRecord& event : events) {
-      if (!IsSideResult(event)) continue;
-      try {
-        if (event.source == kEventSource)
-          results.push_back(SideResultFrom(event));
-        else
-          ApplyChange(event, results);
-      } catch (const std::bad_alloc&) {
-        throw;
-      } catch (const std::exception& fault) {
-        return Fail(ErrorCode::kBadData, "{}: event {}: side result: {}", file->path().string(),
-                    event.id, fault.what());
-      }
-    }
+    FORESIGHT_CHECK(
+        ReadRecordEvents(*file, "side result", IsSideResult, [&](const EventRecord& event) {
+          if (event.source == kEventSource)
+            results.push_back(SideResultFrom(event));
+          else
+            ApplyChange(event, results);
+        }));
   }
   return results;
 }
 
 Status Change(MissionFile& review, const std::string& uuid, const char* action,
               const std::string& name) {
-  const std::string json =
-      Json{{"format", 1}, {"uuid", uuid}, {"author", OperatorName()}, {"action", action}}.dump(
-          -1, ' ', false, Json::error_handler_t::replace);
+  const std::string json = RecordEventJson(
+      {{"format", 1}, {"uuid", uuid}, {"author", OperatorName()}, {"action", action}});
   FORESIGHT_CHECK(review.AddEvent({0, NowUtc_ns(), kChangeSource, "info", name, json}));
   return {};
 }

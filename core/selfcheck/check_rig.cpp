@@ -212,10 +212,17 @@ Result<RigCheck> CheckRig(const Scan& scan, const RegisteredScan& cloud,
   Result<PlateCheck> plate = Fail(ErrorCode::kTooFewPoints,
                                   "the scan was imported: its points were placed elsewhere, and no "
                                   "motor's angle is known of them");
-  if (scan.given.empty()) plate = CheckPlate(scan, cloud, options.plate);
-  const auto camera = CheckCamera(scan, cloud, options.camera, context.Part(0.2, 1.0));
+  CameraCheckOptions camera_options = options.camera;
+  RigCheckLimits limits = options.limits;
+  if (scan.given.empty()) {
+    plate = CheckPlate(scan, cloud, options.plate);
+  } else {
+    camera_options.edges = DepthEdgeOptions::OfImported();
+    limits.camera_turn_along_motor_rad = limits.camera_turn_rad;  // no motor of ours turned it
+  }
+  const auto camera = CheckCamera(scan, cloud, camera_options, context.Part(0.2, 1.0));
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the check was cancelled");
-  return JudgeRig(scan.rig, plate, camera, options.limits);
+  return JudgeRig(scan.rig, plate, camera, limits);
 }
 
 }  // namespace foresight

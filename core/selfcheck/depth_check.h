@@ -60,7 +60,7 @@ struct DepthCheck {
   HeldOutErrors all;        ///< where the mask keeps the map
   HeldOutErrors scattered;  ///< by single beams
   HeldOutErrors lines;      ///< by whole lines: pixels as far from a measurement as any
-  /// The map's own error, without the noise of the beams that check it. From the lines.
+  /// The map's own error, without the noise of the beams that check it: half_maps.h, map_errors.h.
   double map_q50_m = 0.0;
   double map_q80_m = 0.0;
   double map_q95_m = 0.0;
@@ -82,15 +82,18 @@ struct DepthCheck {
 /// "good", "less than promised", "far less than promised", "not seen".
 const char* ToString(DepthCheck::State state);
 
-/// Summarises beams that stayed out. @pre both are HoldOut's of one image
+/// Summarises beams that stayed out, single ones and pairs of neighbouring lines.
+/// @param noise_m NoiseOfMap's; empty = the map's own error is told by the lines alone
+/// @pre all are of one image
 DepthCheck SummariseHeldOut(const std::vector<HeldOutBeam>& scattered,
-                            const std::vector<HeldOutBeam>& lines, DepthMethod method,
+                            const std::vector<HeldOutBeam>& lines,
+                            const std::vector<double>& noise_m, DepthMethod method,
                             const DepthCheckOptions& options);
 
-/// Makes two depth maps of an image, one without scattered beams and one without whole lines, and
-/// compares. Held-out beams do not see a wrong calibration of camera against lidar: those that stay
-/// in and those that stay out shift together. Fails as HoldOut does, and with kTooFewPoints where
-/// no beam lies in the image.
+/// Makes three depth maps of an image, one without scattered beams and pairs of whole lines, and
+/// two of half the lines, and compares. Held-out beams do not see a wrong calibration of camera
+/// against lidar: those that stay in and those that stay out shift together. Fails as HoldOut does,
+/// and with kTooFewPoints where no beam lies in the image.
 Result<DepthCheck> CheckDepth(const RegisteredScan& cloud, const SensorRig& rig,
                               const CameraFrame& frame, const DepthOptions& depth,
                               const DepthCheckOptions& options, const RunContext& context);

@@ -29,8 +29,11 @@ class EdgeFinder {
           jump >= options_.least_jump_of_range * std::min(range, next) &&
           jump <= options_.most_jump_m))
       return;
-    const double slopes =
-        std::max(std::abs(range - Range(line, beam - 1)), std::abs(next - Range(line, beam + 2)));
+    const double before = std::abs(range - Range(line, beam - 1));
+    const double after = std::abs(next - Range(line, beam + 2));
+    const double slopes = !options_.near_alone ? std::max(before, after)
+                          : range < next       ? before
+                                               : after;
     if (!(slopes * options_.least_jump_of_slope < jump)) return;
     range < next ? Add(line, beam, beam + 1) : Add(line, beam + 1, beam);
   }
@@ -50,6 +53,14 @@ class EdgeFinder {
 };
 
 }  // namespace
+
+DepthEdgeOptions DepthEdgeOptions::OfImported() {
+  DepthEdgeOptions options;
+  options.least_jump_of_range = 0.02;
+  options.least_jump_of_slope = 2.0;
+  options.near_alone = true;
+  return options;
+}
 
 std::vector<DepthEdge> FindDepthEdges(const RegisteredScan& cloud,
                                       const DepthEdgeOptions& options) {

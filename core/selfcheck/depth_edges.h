@@ -20,6 +20,10 @@ struct DepthEdgeOptions {
   double most_jump_m = 5.0;  ///< more is a beam that met nothing for long, or a spike
   /// Both sides must be smooth: their own step is less than the jump by this factor.
   double least_jump_of_slope = 4.0;
+  bool near_alone = false;  ///< only the near side must be smooth: ground and bushes lie behind
+
+  /// For other lidars, whose beams are narrow and reach far.
+  static DepthEdgeOptions OfImported();
 };
 
 /// The depth edges between neighbouring beams of a line. Those between neighbouring lines are left

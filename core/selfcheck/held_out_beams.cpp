@@ -71,8 +71,7 @@ AlignedSamples RestOf(const AlignedSamples& all, const HoldOutPlan& plan) {
   // Lines on both sides of one that stays out are neighbours, as if it had never been measured.
   std::vector<int> line_in_rest(static_cast<std::size_t>(all.lines), -1);
   for (int line = 0; line < all.lines; ++line)
-    if (plan.pattern == HoldOutPlan::Pattern::kScattered || !plan.LeavesOut(line, 0))
-      line_in_rest[static_cast<std::size_t>(line)] = rest.lines++;
+    if (!plan.LeavesOutLine(line)) line_in_rest[static_cast<std::size_t>(line)] = rest.lines++;
   for (std::size_t i = 0; i < all.samples.size(); ++i) {
     AlignedSample sample = all.samples[i];
     if (plan.LeavesOut(sample.line, sample.beam)) continue;
@@ -118,14 +117,29 @@ double RightWithin_m(double depth_m) {
 
 bool HoldOutPlan::LeavesOut(int line, int beam) const {
   // A step of three beams a line keeps those that stay out from being neighbours.
-  const int place = pattern == Pattern::kLines ? line : beam + 3 * line;
-  return (place % one_in == turn) != others;
+  const bool is_one = (beam + 3 * line) % one_in == turn;
+  switch (pattern) {
+    case Pattern::kScattered:
+      return is_one != others;
+    case Pattern::kLines:
+      return LeavesOutLine(line);
+    case Pattern::kBoth:
+      break;
+  }
+  return LeavesOutLine(line) || is_one != others;
+}
+
+bool HoldOutPlan::LeavesOutLine(int line) const {
+  return pattern != Pattern::kScattered && (line / together % one_in == turn) != others;
 }
 
 Status HoldOutPlan::Check() const {
   if (one_in < 2 || one_in > 1000)
     return Fail(ErrorCode::kInvalidOptions, "beams held out: one in {} is not in [2, 1000]",
                 one_in);
+  if (together < 1 || together > 100)
+    return Fail(ErrorCode::kInvalidOptions, "beams held out: {} lines together are not in [1, 100]",
+                together);
   if (turn < 0 || turn >= one_in)
     return Fail(ErrorCode::kInvalidOptions, "beams held out: turn {} is not in [0, {})", turn,
                 one_in);
@@ -155,27 +169,36 @@ Result<JudgedBeams> JudgeBeams(AlignedSamples aligned, const DepthOptions& optio
   return beams;
 }
 
-Result<std::vector<HeldOutBeam>> HoldOut(const JudgedBeams& beams, const ColorImage& guide,
-                                         const DepthOptions& options, const HoldOutPlan& plan,
-                                         const RunContext& context) {
+Result<DepthResult> MapWithout(const JudgedBeams& beams, const ColorImage& guide,
+                               const DepthOptions& options, const HoldOutPlan& plan,
+                               const RunContext& context) {
   FORESIGHT_CHECK(plan.Check());
+  return ComputeDepth(RestOf(beams.samples, plan), guide,
+                      plan.others ? options : WithoutRejection(options), context);
+}
+
+Result<std::vector<HeldOutBeam>> CompareWithMap(const JudgedBeams& beams, const DepthResult& map,
+                                                const HoldOutPlan& plan) {
   const AlignedSamples& all = beams.samples;
-  FORESIGHT_TRY(const DepthResult result,
-                ComputeDepth(RestOf(all, plan), guide,
-                             plan.others ? options : WithoutRejection(options), context));
   std::vector<HeldOutBeam> held_out;
   for (std::size_t i = 0; i < all.samples.size(); ++i) {
     const AlignedSample& s = all.samples[i];
     if (beams.counts[i] == 0 || !plan.LeavesOut(s.line, s.beam)) continue;
-    const auto [x, y] = PixelOf(result.dense.depth_m, s.u, s.v);
-    held_out.push_back({s.line, s.beam, s.depth_m, DepthAt(result.dense.depth_m, s.u, s.v),
-                        result.dense.confidence(x, y), result.mask(x, y) != 0,
-                        beams.at_edge[i] != 0});
+    const auto [x, y] = PixelOf(map.dense.depth_m, s.u, s.v);
+    held_out.push_back({s.line, s.beam, s.depth_m, DepthAt(map.dense.depth_m, s.u, s.v),
+                        map.dense.confidence(x, y), map.mask(x, y) != 0, beams.at_edge[i] != 0});
   }
   if (held_out.empty())
     return Fail(ErrorCode::kTooFewPoints,
                 "none of the beams that stayed out of the depth map can be compared with it");
   return held_out;
+}
+
+Result<std::vector<HeldOutBeam>> HoldOut(const JudgedBeams& beams, const ColorImage& guide,
+                                         const DepthOptions& options, const HoldOutPlan& plan,
+                                         const RunContext& context) {
+  FORESIGHT_TRY(const DepthResult map, MapWithout(beams, guide, options, plan, context));
+  return CompareWithMap(beams, map, plan);
 }
 
 }  // namespace foresight

@@ -16,14 +16,17 @@ struct HoldOutPlan {
   enum class Pattern {
     kScattered,  ///< single beams; no two of them are neighbours on the grid
     kLines,      ///< whole lines
+    kBoth,       ///< what both of them leave out: one map serves both
   };
 
   Pattern pattern = Pattern::kScattered;
-  int one_in = 10;      ///< every so manieth beam or line
+  int one_in = 10;      ///< every so manieth beam or line, or group of lines
   int turn = 0;         ///< which of them, in [0, one_in)
   bool others = false;  ///< all the others stay out instead: a map made of a quarter of the rings
+  int together = 1;     ///< so many neighbouring lines stay out together; of lines only
 
   bool LeavesOut(int line, int beam) const;
+  bool LeavesOutLine(int line) const;  ///< as a whole
   /// Fails with kInvalidOptions.
   Status Check() const;
 };
@@ -56,11 +59,20 @@ struct JudgedBeams {
 Result<JudgedBeams> JudgeBeams(AlignedSamples aligned, const DepthOptions& options,
                                const RunContext& context);
 
-/// Makes the depth map without some beams, by the same method and options, and compares. Beams that
-/// do not count are not compared. The others keep the rejections that all beams led to: a cell of
-/// Fig. 4 needs its corners. With `plan.others` they are rejected anew, and lines that stay become
-/// neighbours. Fails as ComputeDepth does, and with kTooFewPoints where no beam is left to compare.
-/// Costs a depth map.
+/// The depth map without some beams, by the same method and options. The others keep the
+/// rejections that all beams led to: a cell of Fig. 4 needs its corners. With `plan.others` they
+/// are rejected anew, and lines that stay become neighbours. Fails as ComputeDepth does. Costs a
+/// depth map.
+Result<DepthResult> MapWithout(const JudgedBeams& beams, const ColorImage& guide,
+                               const DepthOptions& options, const HoldOutPlan& plan,
+                               const RunContext& context);
+
+/// The beams that stayed out, against the map that was made without them. Beams that do not count
+/// are not compared. Fails with kTooFewPoints where no beam is left to compare.
+Result<std::vector<HeldOutBeam>> CompareWithMap(const JudgedBeams& beams, const DepthResult& map,
+                                                const HoldOutPlan& plan);
+
+/// MapWithout, then CompareWithMap.
 Result<std::vector<HeldOutBeam>> HoldOut(const JudgedBeams& beams, const ColorImage& guide,
                                          const DepthOptions& options, const HoldOutPlan& plan,
                                          const RunContext& context);

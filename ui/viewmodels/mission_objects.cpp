@@ -70,6 +70,14 @@ Status KeepNote(MissionFile* file, NoteRecord note) {
   return {};
 }
 
+Status KeepCheck(MissionFile* file, const KeptCheck& check) {
+  FORESIGHT_TRY(const auto scan_id, file->FindScan(check.scan_uuid));
+  if (!scan_id)
+    return Fail(ErrorCode::kInvalidInput, "mission file {}: no scan {}", file->path().string(),
+                check.scan_uuid);
+  return AddScanCheck(*file, check);
+}
+
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth) {
   FORESIGHT_TRY(DepthRecord record, NewDepthRecord(scan, depth, depth.mask, depth.options.mask));
   FORESIGHT_TRY(const auto scan_id, file->FindScan(scan.uuid));

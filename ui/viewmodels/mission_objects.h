@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/mission/kept_check.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/new_records.h"
 #include "ui/viewmodels/session_model.h"
@@ -23,6 +24,9 @@ Status KeepObjectEvent(MissionFile* file, const ObjectEvent& event, const std::s
 
 /// Adds the state of a note or a measurement. Its scan is found by its uuid.
 Status KeepNote(MissionFile* file, NoteRecord note);
+
+/// Adds what a scan said about itself. kInvalidInput: the file does not have the scan.
+Status KeepCheck(MissionFile* file, const KeptCheck& check);
 
 /// Notes how a depth map of the scan is made again, with its checksum.
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth);

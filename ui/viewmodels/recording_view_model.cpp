@@ -289,6 +289,10 @@ void RecordingViewModel::keepNote(const NoteRecord& note) {
   Keep(note);
 }
 
+void RecordingViewModel::keepCheck(const KeptCheck& check) {
+  Keep(check);
+}
+
 void RecordingViewModel::keepNotice(const Notice& notice) {
   if (notice.topic == kRecordingTopic) return;  // it could not be written
   Keep(EventRecord{0,
@@ -345,6 +349,9 @@ void RecordingViewModel::WriteNext() {
       if (!note->scan_uuid.empty()) (void)recorder->WaitUntilWritten();
       FORESIGHT_CHECK(
           InTheFileThatKnowsIt(files, [&](MissionFile* one) { return KeepNote(one, *note); }));
+    } else if (const auto* check = std::get_if<KeptCheck>(&change)) {
+      FORESIGHT_CHECK(
+          InTheFileThatKnowsIt(files, [&](MissionFile* one) { return KeepCheck(one, *check); }));
     } else {
       FORESIGHT_CHECK(file->AddEvent(std::get<EventRecord>(change)));
     }

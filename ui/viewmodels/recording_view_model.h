@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/mission/kept_check.h"
 #include "core/mission/mission_file.h"
 #include "hardware/head/scan_recorder.h"
 #include "ui/viewmodels/session_model.h"
@@ -77,6 +78,8 @@ class RecordingViewModel : public QObject {
   /// Notes how the session's depth map is made again.
   void keepDepth();
   void keepNote(const foresight::NoteRecord& note);
+  /// What a scan of this session said about itself.
+  void keepCheck(const foresight::KeptCheck& check);
   /// For the mission's log.
   void keepNotice(const foresight::Notice& notice);
   void keepCommand(const QString& id);
@@ -95,7 +98,7 @@ class RecordingViewModel : public QObject {
     std::shared_ptr<const DepthResult> depth;
   };
   using Change = std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, MadeDepth,
-                              NoteRecord, EventRecord>;
+                              NoteRecord, KeptCheck, EventRecord>;
 
   void Keep(Change change);
   void WriteNext();

@@ -47,7 +47,7 @@ std::vector<HeldOutBeam> Beams(double confidence, double right) {
 }
 
 DepthCheck Depth(double confidence, double right) {
-  return SummariseHeldOut(Beams(confidence, right), Beams(confidence, right),
+  return SummariseHeldOut(Beams(confidence, right), Beams(confidence, right), {},
                           DepthMethod::kForesight, {});
 }
 
@@ -82,6 +82,17 @@ TEST(JudgeScan, PixelsAsideAreThoseOfTheTurn) {
   EXPECT_LT((EdgesOff_px(rig, check) - (after - before)).norm(), 0.3);
 }
 
+TEST(JudgeScan, ADirectionThatIsNotSeenIsNotCalledGood) {
+  CameraCheck camera = Camera(0.03, 0.02);
+  camera.turn_rad.x() = RadiansFromDegrees(0.8);  // 8 px, but it may be anything
+  camera.covariance(0, 0) = std::pow(RadiansFromDegrees(0.5), 2);
+  const ScanCheck check = Judged(Depth(0.95, 0.98), Rig(camera));
+  EXPECT_EQ(check.points.at(0).light, CheckLight::kGood);
+  const double px = DefaultSensorRig().camera.fx * RadiansFromDegrees(0.03);
+  EXPECT_EQ(check.points.at(0).sentence,
+            fmt::format("image edges lie on the lidar's within {:.1f} px", px));
+}
+
 TEST(JudgeScan, AGraveDriftIsRed) {
   EXPECT_EQ(Judged(Depth(0.95, 0.98), Rig(Camera(0.7, 0.02))).light, CheckLight::kRed);
 }
@@ -93,33 +104,56 @@ TEST(JudgeScan, DepthThatPromisesTooMuchIsTold) {
   EXPECT_EQ(Judged(Depth(0.95, 0.6), Rig(Camera(0.03, 0.02))).light, CheckLight::kRed);
 }
 
-TEST(SummariseHeldOut, TheMapsOwnErrorIsWithoutTheBeamsNoise) {
+/// Pairs of neighbouring lines that stayed out. The map's error is the same all along a pair.
+std::vector<HeldOutBeam> LinePairs(double map_m, double line_m, double beam_m) {
   Random random(7);
   std::vector<HeldOutBeam> beams;
-  for (int line = 0; line < 600; ++line) {
-    const double map_error_m = 0.003 * random.Normal();  // the same all along a line
-    for (int beam = 0; beam < 30; ++beam) {
-      HeldOutBeam held_out;
-      held_out.line = line;
-      held_out.beam = beam;
-      held_out.depth_m = static_cast<float>(3.0 + 0.006 * random.Normal());
-      held_out.map_m = static_cast<float>(3.0 + map_error_m);
-      held_out.confidence = 0.95f;
-      held_out.kept = true;
-      beams.push_back(held_out);
+  for (int pair = 0; pair < 600; ++pair) {
+    const double map_error_m = map_m * random.Normal();
+    for (const int line : {20 * pair + 10, 20 * pair + 11}) {
+      const double line_error_m = line_m * random.Normal();
+      for (int beam = 0; beam < 30; ++beam) {
+        HeldOutBeam held_out;
+        held_out.line = line;
+        held_out.beam = beam;
+        held_out.depth_m = static_cast<float>(3.0 + line_error_m + beam_m * random.Normal());
+        held_out.map_m = static_cast<float>(3.0 + map_error_m);
+        held_out.confidence = 0.95f;
+        held_out.kept = true;
+        beams.push_back(held_out);
+      }
     }
   }
-  const DepthCheck check = SummariseHeldOut(beams, beams, DepthMethod::kForesight, {});
-  // Quantiles of |z|: 1.282 and 1.960. 600 lines tell them to 5 %.
+  return beams;
+}
+
+// Quantiles of |z|: 1.282 and 1.960. 600 pairs of lines tell them to 5 %.
+TEST(SummariseHeldOut, TheMapsOwnErrorIsWithoutTheBeamsNoise) {
+  const auto beams = LinePairs(0.003, 0.0, 0.006);
+  const DepthCheck check = SummariseHeldOut(beams, beams, {}, DepthMethod::kForesight, {});
   EXPECT_NEAR(check.all.q80_m, 1.282 * std::hypot(0.003, 0.006), 0.0003);
   EXPECT_NEAR(check.map_q80_m, 1.282 * 0.003, 0.15 * 1.282 * 0.003);
   EXPECT_NEAR(check.map_q95_m, 1.960 * 0.003, 0.15 * 1.960 * 0.003);
 }
 
+TEST(SummariseHeldOut, WhatAWholeLineIsOffByIsNoErrorOfTheMap) {
+  const auto beams = LinePairs(0.003, 0.003, 0.006);
+  const DepthCheck check = SummariseHeldOut(beams, beams, {}, DepthMethod::kForesight, {});
+  EXPECT_NEAR(check.map_q80_m, 1.282 * 0.003, 0.15 * 1.282 * 0.003);
+  EXPECT_NEAR(check.map_q95_m, 1.960 * 0.003, 0.15 * 1.960 * 0.003);
+}
+
+TEST(SummariseHeldOut, LargeNoiseIsNoErrorOfTheMap) {
+  const auto beams = LinePairs(0.006, 0.0, 0.025);  // four beams differ by 50 mm and more
+  const DepthCheck check = SummariseHeldOut(beams, beams, {}, DepthMethod::kForesight, {});
+  EXPECT_NEAR(check.map_q80_m, 1.282 * 0.006, 0.25 * 1.282 * 0.006);
+  EXPECT_NEAR(check.map_q95_m, 1.960 * 0.006, 0.25 * 1.960 * 0.006);
+}
+
 TEST(JudgeScan, AFewBeamsSayNothingOfTheDepth) {
   auto beams = Beams(0.95, 0.5);
   beams.resize(90);
-  const DepthCheck depth = SummariseHeldOut(beams, beams, DepthMethod::kForesight, {});
+  const DepthCheck depth = SummariseHeldOut(beams, beams, {}, DepthMethod::kForesight, {});
   EXPECT_EQ(depth.state, DepthCheck::State::kNotSeen);
   EXPECT_THAT(
       Judged(depth, Rig(Camera(0.03, 0.02))).points.at(3).sentence,

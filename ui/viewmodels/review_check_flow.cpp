@@ -1,0 +1,40 @@
+#include "ui/viewmodels/review_check_flow.h"
+
+namespace foresight {
+
+ReviewCheckFlow::ReviewCheckFlow(ReviewViewModel* review, SessionModel* session,
+                                 ScanCheckModel* check, QObject* parent)
+    : QObject(parent), review_(review), session_(session), check_(check) {
+  // The model has heard of the scan first: it was there before this object.
+  connect(session_, &SessionModel::scanChanged, this, &ReviewCheckFlow::FindKept);
+  connect(review_, &ReviewViewModel::changed, this, &ReviewCheckFlow::FindKept);
+  connect(check_, &ScanCheckModel::checked, this, &ReviewCheckFlow::Keep);
+}
+
+void ReviewCheckFlow::FindKept() {
+  const auto scan = session_->CurrentScan();
+  const auto mission = review_->File();
+  if (!scan || !mission || check_->Now() != ScanCheckModel::State::kNotChecked) return;
+  using Found = std::optional<KeptCheck>;
+  reader_.Run<Found>(
+      tr("Reading the self-check"),
+      [uuid = scan->uuid, mission, folder = ReviewFolder()](const RunContext&) -> Result<Found> {
+        FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission->path(), folder));
+        return LastScanCheck(*mission, review.get(), uuid);
+      },
+      [this](const Result<Found>& found) {
+        if (!found)
+          session_->Report(NoticeOf(tr("Reading the self-check"), found.error()));
+        else if (*found)
+          check_->ShowKept(**found);
+      });
+}
+
+void ReviewCheckFlow::Keep(const KeptCheck& check) {
+  review_->Keep([check](MissionFile* review) { return AddScanCheck(*review, check); },
+                [this](const Status& kept) {
+                  if (!kept) session_->Report(NoticeOf(tr("Keeping the self-check"), kept.error()));
+                });
+}
+
+}  // namespace foresight

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <QObject>
+
+#include "ui/viewmodels/review_view_model.h"
+#include "ui/viewmodels/scan_check_model.h"
+
+namespace foresight {
+
+/// Brings the check that was kept with a scan to the review's lamp, the newest of the mission and
+/// of its review, and keeps a check that is made meanwhile beside the mission.
+class ReviewCheckFlow : public QObject {
+  Q_OBJECT
+
+ public:
+  ReviewCheckFlow(ReviewViewModel* review, SessionModel* session, ScanCheckModel* check,
+                  QObject* parent = nullptr);
+
+ private:
+  void FindKept();
+  void Keep(const KeptCheck& check);
+
+  ReviewViewModel* review_;
+  SessionModel* session_;
+  ScanCheckModel* check_;
+  TaskRunner reader_{session_->Tasks()};
+};
+
+}  // namespace foresight
