@@ -25,7 +25,7 @@ constexpr double kMinYawMargin_nats = 10.0;
 // than 10 nats, 1 of them by more than 30.
 constexpr double kMinYawMarginDense_nats = 30.0;
 constexpr double kMinHead_nats = 10.0;
-// No drill is its template: of 249 drawn drills 10 pointed the wrong way, by up to 18 nats against
+// No drill is its template: of 249 drawn drills 9 pointed the wrong way, by up to 18 nats against
 // the turned drill of any proportions, and 1.4 deviations when lines are independent.
 constexpr double kMinAnyFlipMargin_nats = 20.0;
 constexpr double kMinFlipLines_sigmas = 1.0;
