@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "core/evaluation/drill_distractors.h"
+#include "core/evaluation/table_tools.h"
+#include "core/evaluation/varied_drill.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/scene_objects.h"
 #include "core/simulation/shapes.h"
@@ -15,7 +17,10 @@ namespace {
 using Pose = Rigid<frame::Robot, frame::Object>;
 
 constexpr std::uint64_t kSceneStream = 4343;
-constexpr double kHeadHeight_m = 1.4;  // of DefaultSensorRig, and 0.1 m in front of robot
+constexpr std::uint64_t kVariedStream = 4344;  // of what was added later: the rest stays as it was
+constexpr double kVaried = 0.35;               // of the drills
+constexpr double kTools = 0.5;                 // of the negatives that are no half drills
+constexpr double kHeadHeight_m = 1.4;          // of DefaultSensorRig, and 0.1 m in front of robot
 constexpr double kHeadForward_m = 0.1;
 constexpr double kFullTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kFocusHeight_m = 0.12;  // the middle of a drill over its table
@@ -211,6 +216,17 @@ Pose AddRandomDrill(const Place& place, const DrillShape& shape, Random& random,
   return drill.robot_from_object;
 }
 
+/// A drill of other proportions; returns where it stands.
+Pose AddRandomVariedDrill(const Place& place, Random& random, Scene& scene) {
+  const VariedDrill shape = RandomVariedDrill(random);
+  DrillMaterials materials = {RandomMaterial(random), RandomMaterial(random),
+                              RandomMaterial(random)};
+  materials.metal.specular = random.Uniform(0.1, 0.4);
+  const Pose pose = Upright(place.foot, random.Uniform(0.0, kFullTurn_rad));
+  AddVariedDrill(shape, materials, pose, scene);
+  return pose;
+}
+
 /// Lines 0.25 to 1 deg apart over the thing and some degrees around it.
 ScanPlan PlanFor(const Place& place, double radius_m, Random& random) {
   constexpr double kLineRate_hz = 40.0;
@@ -260,16 +276,30 @@ FitTrialScene RandomDrillScene(std::uint64_t seed) {
     AddWall(place, bare ? random.Uniform(-0.05, 0.1) : random.Uniform(0.18, 0.8), random, *scene);
   if (!bare && !edge && Chance(random, 0.6)) AddClutter(place, random, *scene);
 
-  const NamedShape shape = RandomShape(random);
+  NamedShape shape = RandomShape(random);
   const double yaw = random.Uniform(0.0, kFullTurn_rad);
   Pose pose = Upright(place.foot, yaw);
-  if (drill)
+  Random later(seed, kVariedStream);
+  const bool varied = drill && !half && Chance(later, kVaried);
+  const auto tools = TableTools();
+  const TableTool tool =
+      tools[static_cast<std::size_t>(later.Index(static_cast<int>(tools.size())))];
+  const bool is_tool = !drill && !bare && !edge && Chance(later, kTools);
+  if (varied) {
+    pose = AddRandomVariedDrill(place, later, *scene);
+    shape = {{}, "drill of other proportions"};
+  } else if (drill) {
     pose = AddRandomDrill(place, shape.shape, random, *scene);
-  else
+  } else if (is_tool) {
+    AddTableTool(tool, pose, RandomMaterial(random), later, *scene);
+  } else {
     AddDrillDistractor(thing, pose, RandomMaterial(random), random, *scene);
+  }
   const double forward =
       drill && shape.shape.kind != DrillShape::Kind::kCutOut ? kFocusForward_m : 0.0;
-  trial.what = drill ? shape.name + (far ? ", beyond 2 m" : "") : NameOf(thing);
+  trial.what = drill     ? shape.name + (far ? ", beyond 2 m" : "")
+               : is_tool ? NameOf(tool)
+                         : NameOf(thing);
   trial.focus_m = pose * Eigen::Vector3d(forward, 0.0, kFocusHeight_m);
   trial.focus_radius_m = kFocusRadius_m;
   if (half) CutInHalf(pose, random, trial);

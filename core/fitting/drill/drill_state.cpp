@@ -53,6 +53,13 @@ double DrillPrior::operator()(const DrillState& state) const {
           Squared(v[kDrillFoot] / foot_sigma));
 }
 
+DrillPrior AnyProportions(DrillPrior prior) {
+  prior.head_up_sigma_m *= 1.5;
+  prior.head_forward_sigma_m *= 2.5;  // +-45 mm
+  prior.foot_sigma *= 1.5;
+  return prior;
+}
+
 DrillState Flipped(const DrillState& state) {
   DrillState flipped = state;
   flipped.values[kDrillYaw] += std::numbers::pi;

@@ -58,6 +58,9 @@ struct DrillPrior {
   double operator()(const DrillState& state) const;
 };
 
+/// A prior that hardly knows how drills are built: head and foot may be what fits best.
+DrillPrior AnyProportions(DrillPrior prior);
+
 /// The same drill turned by 180 deg about its origin, leaning the same way in space.
 DrillState Flipped(const DrillState& state);
 

@@ -12,24 +12,31 @@ namespace foresight {
 /// Counts what the rays of a region say about a drill; the likelihoods are left at 0.
 DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill);
 
-/// What the rays know of a drill's parameters: the inverse of their covariance, the prior included.
-DrillInformation InformationOf(const RaySet& rays, const DrillState& drill,
-                               const TableFrame& base_from_table, const DrillPrior& prior);
-
-/// Standard deviations and covariance of the detection.
-void SetSigmas(const DrillInformation& information, const DrillState& drill,
-               DrillDetection& detection);
-
 /// What Verdict::features holds, in its order.
 std::vector<std::string> DrillFeatureNames();
+
+/// What else is asked before a drill is confirmed.
+struct DrillSupport {
+  /// Of the yaw as independent beams would have it (SetSigmas): the weights were fitted to that.
+  double beam_sigma_yaw_rad = 0.0;
+  /// Log likelihood, without priors, ahead of the drill turned by 180 deg with any proportions.
+  double any_flip_margin_nats = 0.0;
+  /// Ahead of that drill in deviations, when scan lines and not beams are independent.
+  double flip_line_sigmas = 0.0;
+  /// Ahead of a head that stays as wide to its end, and of the drill without its chuck; 0 for a
+  /// kind without chuck.
+  double blunt_margin_nats = 0.0;
+  double chuck_nats = 0.0;
+};
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
 /// The probability is the shipped model's (resources/verdicts/drill_raw and _dense); hard gates
 /// keep what no probability should: a confirmed drill stands on a table near the region's centre,
-/// has enough measurements on it, is not seen through, shows its head, explains the rays better
-/// than a box and a cylinder, lies within the region, has no second direction close behind and no
-/// parameter at a bound. `rays` are those of the `region` that it was fitted to.
+/// has enough measurements on it, is not seen through, shows its head and a chuck that is narrower,
+/// explains the rays better than a box and a cylinder, lies within the region, has no second
+/// direction close behind and no parameter at a bound. `rays` are those of the `region` that it was
+/// fitted to.
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,
-                    const DrillState& drill, const DrillPrior& prior);
+                    const DrillState& drill, const DrillPrior& prior, const DrillSupport& support);
 
 }  // namespace foresight

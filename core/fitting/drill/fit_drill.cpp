@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/fitting/drill/alternative_shapes.h"
+#include "core/fitting/drill/drill_covariance.h"
 #include "core/fitting/drill/drill_search.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/drill_verdict.h"
@@ -131,11 +132,15 @@ class DrillFit {
     detection.table = around_.table;
     for (std::size_t i = 1; i < modes.size() && detection.alternatives.size() < kAlternatives; ++i)
       detection.alternatives.push_back(CandidateOf(modes[i], base_from_table_));
-    SetSigmas(InformationOf(likelihood_.rays(), best, base_from_table_, prior_), best, detection);
+    DrillSupport support;
+    support.beam_sigma_yaw_rad =
+        SetSigmas(likelihood_.rays(), best, base_from_table_, prior_, detection);
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
+    SetFlipOfAnyProportions(best, flipped, detection, support);
+    SetChuckMargins(best, detection, support);
     SetAlternativeMargin(best, detection);
-    detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_);
+    detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);
     return detection;
   }
 
@@ -189,6 +194,45 @@ class DrillFit {
     });
     evidence.head_nats =
         best.log_likelihood - prior_(best) - likelihood_(headless, detection.best.base_from_object);
+  }
+
+  /// No drill is its template, and a head that is longer behind than the template's is a drill that
+  /// points the other way: the flipped one may take any proportions, at no cost.
+  void SetFlipOfAnyProportions(const DrillState& best, DrillState flipped,
+                               const DrillDetection& detection, DrillSupport& support) const {
+    constexpr double kWorthIt_nats =
+        20.0;  // the gate on it; a nearer one is met by the template's own
+    if (detection.evidence.flip_margin_nats >= kWorthIt_nats)
+      flipped = LocalSearch(likelihood_, Flipped(best), base_from_table_, AnyProportions(prior_),
+                            LocalSearchEffort::kFine);
+    const DrillModel model = flipped.Model();
+    const auto pose = flipped.Pose(base_from_table_);
+    const double margin = best.log_likelihood - prior_(best) - likelihood_(model.parts, pose);
+    support.any_flip_margin_nats = std::min(margin, detection.evidence.flip_margin_nats);
+    support.flip_line_sigmas = likelihood_.DeviationsAhead(
+        detection.best.model.parts, detection.best.base_from_object, model.parts, pose);
+  }
+
+  /// Whether it ends as drills do, in a chuck that is narrower than the head: lamps and blowers on
+  /// a grip end as wide as they are.
+  void SetChuckMargins(const DrillState& best, const DrillDetection& detection,
+                       DrillSupport& support) const {
+    const auto& pose = detection.best.base_from_object;
+    const double own = best.log_likelihood - prior_(best);
+    std::vector<SolidPart> blunt = detection.best.model.parts;
+    const auto head = std::find_if(blunt.begin(), blunt.end(),
+                                   [](const SolidPart& part) { return part.name == "head"; });
+    const auto chuck = std::find_if(blunt.begin(), blunt.end(),
+                                    [](const SolidPart& part) { return part.name == "chuck"; });
+    if (head != blunt.end() && chuck != blunt.end()) {
+      chuck->size_m.head<2>().setConstant(head->size_m.y());
+      support.blunt_margin_nats = own - likelihood_(blunt, pose);
+      std::erase_if(blunt, [](const SolidPart& part) { return part.name == "bit"; });
+      support.blunt_margin_nats =
+          std::min(support.blunt_margin_nats, own - likelihood_(blunt, pose));
+      std::erase_if(blunt, [](const SolidPart& part) { return part.name == "chuck"; });
+      support.chuck_nats = own - likelihood_(blunt, pose);
+    }
   }
 
   /// The foreground that a drill may account for, without the clutter beside it.

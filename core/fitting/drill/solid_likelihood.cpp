@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/fitting/beam_model.h"
-#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/line_covariance.h"
 
 namespace foresight {
 namespace {
@@ -42,23 +42,42 @@ double SolidLikelihood::OfRays(std::span<const SolidPart> parts,
                                const Rigid<frame::Base, frame::Object>& base_from_object) const {
   const SolidTracer tracer(parts, base_from_object);
   double sum = 0.0;
-  for (std::size_t i = 0; i < noise_.size(); ++i) {
-    const RangeRay& ray = rays_.rays[i];
-    const RayNoise& noise = noise_[i];
-    const SolidIntersection intersection = tracer.Intersect(ray, kReachWidths * noise.width_m);
-    if (intersection.part < 0) {
-      sum += noise.log_background;
-      continue;
-    }
-    const double ratio = intersection.clearance_m / noise.width_m;
-    const double hit =
-        intersection.Hits() ? BeamModel::kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
-    const double on_solid =
-        BeamModel::kGoodReturn * NormalDensity(ray.range_m - intersection.range_m, noise.sigma_m) +
-        (1.0 - BeamModel::kGoodReturn) * BeamModel::kUniform;
-    sum += std::log(hit * on_solid + (1.0 - hit) * noise.background);
-  }
+  for (std::size_t i = 0; i < noise_.size(); ++i)
+    sum += OfRay(i, tracer.Intersect(rays_.rays[i], kReachWidths * noise_[i].width_m));
   return rays_.samples_per_ray * sum;
+}
+
+double SolidLikelihood::OfRay(std::size_t i, const SolidIntersection& intersection) const {
+  const RayNoise& noise = noise_[i];
+  if (intersection.part < 0) return noise.log_background;
+  const double ratio = intersection.clearance_m / noise.width_m;
+  const double hit =
+      intersection.Hits() ? BeamModel::kHit : kGrazing * std::exp(-0.5 * ratio * ratio);
+  const double on_solid =
+      BeamModel::kGoodReturn *
+          NormalDensity(rays_.rays[i].range_m - intersection.range_m, noise.sigma_m) +
+      (1.0 - BeamModel::kGoodReturn) * BeamModel::kUniform;
+  return std::log(hit * on_solid + (1.0 - hit) * noise.background);
+}
+
+Eigen::VectorXd SolidLikelihood::LogOfRays(
+    std::span<const SolidPart> parts,
+    const Rigid<frame::Base, frame::Object>& base_from_object) const {
+  const SolidTracer tracer(parts, base_from_object);
+  Eigen::VectorXd logs(std::ssize(noise_));
+  for (std::size_t i = 0; i < noise_.size(); ++i)
+    logs[static_cast<Eigen::Index>(i)] =
+        OfRay(i, tracer.Intersect(rays_.rays[i], kReachWidths * noise_[i].width_m));
+  return rays_.samples_per_ray * logs;
+}
+
+double SolidLikelihood::DeviationsAhead(
+    std::span<const SolidPart> first, const Rigid<frame::Base, frame::Object>& base_from_first,
+    std::span<const SolidPart> second,
+    const Rigid<frame::Base, frame::Object>& base_from_second) const {
+  if (beams_) return beams_->DeviationsAhead(first, base_from_first, second, base_from_second);
+  return DeviationsOverLines(
+      rays_.rays, LogOfRays(first, base_from_first) - LogOfRays(second, base_from_second));
 }
 
 double SolidLikelihood::Nothing() const {

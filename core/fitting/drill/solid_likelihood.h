@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/ray_set.h"
 #include "core/geometry/plane.h"
 #include "core/objects/solid_part.h"
@@ -27,6 +28,16 @@ class SolidLikelihood {
   /// Log likelihood of all rays in nats, counted as independent measurements.
   double operator()(std::span<const SolidPart> parts,
                     const Rigid<frame::Base, frame::Object>& base_from_object) const;
+  /// Of each ray, weighted as in the sum; not of the beams behind a dense map.
+  Eigen::VectorXd LogOfRays(std::span<const SolidPart> parts,
+                            const Rigid<frame::Base, frame::Object>& base_from_object) const;
+  /// By how many deviations the first solids at their place explain the rays better than the second
+  /// at theirs, when scan lines and not beams are independent (DeviationsOverLines). Of the beams
+  /// alone where they stand behind a dense map: its rows are no lines.
+  double DeviationsAhead(std::span<const SolidPart> first,
+                         const Rigid<frame::Base, frame::Object>& base_from_first,
+                         std::span<const SolidPart> second,
+                         const Rigid<frame::Base, frame::Object>& base_from_second) const;
   /// The same with nothing there but the planes.
   double Nothing() const;
 
@@ -46,6 +57,7 @@ class SolidLikelihood {
   SolidLikelihood() = default;
   double OfRays(std::span<const SolidPart> parts,
                 const Rigid<frame::Base, frame::Object>& base_from_object) const;
+  double OfRay(std::size_t i, const SolidIntersection& intersection) const;
   double OfNothing() const;
 
   RaySet rays_;

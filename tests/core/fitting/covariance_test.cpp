@@ -78,24 +78,21 @@ PoseSpread DrillsAt(double yaw_rad, int fits) {
   return spread;
 }
 
+/// A drill's covariance holds what its template and its table are off by, which scans of one drill
+/// all share: their spread is what the noise adds, and is less.
 void ExpectOfADrill(const PoseSpread& spread) {
   Print("drill", spread);
-  EXPECT_GT(spread.Ratio(), kLeast);
-  EXPECT_LT(spread.Ratio(), kMost);
-  const PoseSpread::PoseError each = spread.Ratios();
-  for (const int i : {0, 1, 5}) {
-    EXPECT_GT(each[i], 0.15) << i;  // one degree of freedom of eight fits: within 0.53, one sigma
-    EXPECT_LT(each[i], 4.0) << i;
-  }
-  // A table is taken to be level within 10 mrad; those of this scene are, exactly.
-  EXPECT_LT(each.segment<2>(3).maxCoeff(), 0.1);
+  EXPECT_GT(spread.Ratio(), 0.03);
+  EXPECT_LT(spread.Ratio(), 1.0);
+  EXPECT_LT(spread.RatioToTruth(), 1.0);
+  EXPECT_LT(spread.Ratios().maxCoeff(), 2.0);  // eight fits know one of them to 0.53, one sigma
 }
 
-TEST(Covariance, OfADrillIsTheSpreadOfItsPlaceAndYaw) {
+TEST(Covariance, OfADrillIsMoreThanTheSpreadOfItsScans) {
   ExpectOfADrill(DrillsAt(1.7, 8));
 }
 
-TEST(CovarianceOfManyFits, OfADrillIsTheSpreadOfItsPlaceAndYaw) {
+TEST(CovarianceOfManyFits, OfADrillIsMoreThanTheSpreadOfItsScans) {
   for (const double yaw_rad : {0.6, 1.7, 2.9}) ExpectOfADrill(DrillsAt(yaw_rad, 16));
 }
 

@@ -203,7 +203,12 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
                       .gain_nats = 500.0,
                       .alternative_margin_nats = random.Uniform(-50.0, 400.0),
                       .best_alternative = "box and cylinder"};
-    ExpectStatedGatesFail(AssessDrill(rays, rays, found, state, {}), &stated);
+    const DrillSupport support = {.beam_sigma_yaw_rad = found.sigma_yaw_rad,
+                                  .any_flip_margin_nats = random.Uniform(-20.0, 100.0),
+                                  .flip_line_sigmas = random.Uniform(-1.0, 4.0),
+                                  .blunt_margin_nats = random.Uniform(-20.0, 100.0),
+                                  .chuck_nats = random.Uniform(-20.0, 100.0)};
+    ExpectStatedGatesFail(AssessDrill(rays, rays, found, state, {}, support), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
 }
@@ -221,7 +226,7 @@ TEST(Reasons, ABetterAlternativeIsNotCalledAsGood) {
                     .inlier_ratio = 0.9,
                     .alternative_margin_nats = -41.0,
                     .best_alternative = "box and cylinder"};
-  const Verdict verdict = AssessDrill(rays, rays, found, state, {});
+  const Verdict verdict = AssessDrill(rays, rays, found, state, {}, {});
   ASSERT_FALSE(verdict.failed_gates.empty());
   EXPECT_EQ(verdict.reason,
             "the odds against a box and cylinder in its place are 1 : 10^18 (at least 1 : 1)");
