@@ -35,8 +35,7 @@ std::vector<Eigen::Vector3d> OutlineOf(const HandleModel& model) {
     const double at = i <= kCorners ? model.length_m : 0.0;
     outline.emplace_back(at + model.radius_m * std::cos(angle), model.radius_m * std::sin(angle),
                          0.0);
-    if (i == kCorners)
-      outline.emplace_back(0.0, model.radius_m, 0.0);
+    if (i == kCorners) outline.emplace_back(0.0, model.radius_m, 0.0);
   }
   outline.push_back(outline.front());
   return outline;

@@ -11,8 +11,8 @@ namespace foresight {
 struct FitHandleOptions {
   double min_length_m = 0.080;  ///< from the pivot's axis to the end
   double max_length_m = 0.180;
-  int pair_trials = 600;  ///< bars through two points tried
-  int max_rays = 900;     ///< a denser region is thinned to this many
+  int pair_trials = 300;  ///< bars through two points tried
+  int max_rays = 4000;    ///< a denser region is thinned to this many
   std::uint64_t seed = 1;
 
   Status Check() const;

@@ -16,13 +16,13 @@ namespace foresight {
 
 /// How well the measurements support a door handle.
 struct HandleEvidence {
-  int rays = 0;                ///< looked at
-  int hits = 0;                ///< rays with at least half of their footprint on it
-  double inlier_ratio = 0.0;   ///< of the hits, those with a range that agrees
-  double see_through = 0.0;    ///< of the hits, those whose beam went on behind the handle
-  double rms_m = 0.0;          ///< of the agreeing ranges
-  double covered = 0.0;        ///< of the lever's length, the fraction with agreeing hits
-  double beside = 0.0;         ///< fraction of the rays round it that end before the door
+  int rays = 0;                     ///< looked at
+  int hits = 0;                     ///< rays with at least half of their footprint on it
+  double inlier_ratio = 0.0;        ///< of the hits, those with a range that agrees
+  double see_through = 0.0;         ///< of the hits, those whose beam went on behind the handle
+  double rms_m = 0.0;               ///< of the agreeing ranges
+  double covered = 0.0;             ///< of the lever's length, the fraction with agreeing hits
+  double beside = 0.0;              ///< fraction of the rays round it that end before the door
   double mirror_margin_nats = 0.0;  ///< ahead of the best lever that points the other way
   double gain_nats = 0.0;           ///< ahead of the bare door
   double alternative_margin_nats = 0.0;  ///< ahead of the best knob, pull bar or box
