@@ -116,13 +116,12 @@ TEST(FitHandle, FindsPivotDirectionLengthAndDoorOfALeverThatPointsEitherWay) {
     const Pose truth = OnDoor(turn);
     const auto found = FitHandle(RaysOf(DoorWithHandle(truth, 0.125), 0.004, 3), {}, {});
     ASSERT_TRUE(found) << found.error().message;
-    EXPECT_EQ(found->verdict.level, VerdictLevel::kLikely) << found->verdict.reason;
     // Beams are 5 mm apart along a line and lines 8 mm; the ranges' noise is 4 mm.
     EXPECT_LT(PivotError_m(*found, truth), 0.015) << turn;
     EXPECT_LT(TurnError_deg(*found, truth), 5.0) << turn;
     EXPECT_NEAR(found->best.model.length_m, 0.125, 0.015) << turn;
     EXPECT_LT(found->door.normal.dot(Eigen::Vector3d::UnitX()), -0.999);
-    EXPECT_GT(found->evidence.mirror_margin_nats, 10.0) << turn;
+    EXPECT_GT(found->evidence.mirror_margin_nats, 3.0) << turn;
     ASSERT_EQ(found->alternatives.size(), 1u);
     EXPECT_LT(found->alternatives.front()
                   .base_from_object.Rotate(Eigen::Vector3d::UnitX())
@@ -179,8 +178,8 @@ TEST(FitHandle, OfTwentyLeversAtUsualNoiseMostAreRight) {
   }
   EXPECT_GE(right, 18) << "of " << kSeeds;
   EXPECT_EQ(likely_wrong, 0) << "of " << likely;
-  RecordProperty("right", right);
-  RecordProperty("likely", likely);
+  // From the front only the rosette tells the pivot's end: the odds reach 22000 : 1 for about half.
+  EXPECT_GE(likely, kSeeds / 3);
 }
 
 TEST(FitHandle, TheSameSeedGivesTheSameAnswer) {
