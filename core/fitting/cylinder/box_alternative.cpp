@@ -55,7 +55,7 @@ PatternSearchOptions StepsFor(const CylinderState& cylinder, double turn_rad) {
 
 }  // namespace
 
-double BestBoxScore(const CylinderState& cylinder, const OutlineLikelihood& likelihood) {
+double BestBoxScore(const CylinderState& cylinder, const BeamLikelihood& likelihood) {
   double best = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTurns; ++i) {
     const double turn_rad = 0.5 * std::numbers::pi * i / kTurns;
@@ -67,8 +67,9 @@ double BestBoxScore(const CylinderState& cylinder, const OutlineLikelihood& like
     const auto found = ClimbByPatternSearch(
         start,
         [&](const Eigen::VectorXd& v) {
-          return v.tail<3>().minCoeff() < kLeastSide_m ? -std::numeric_limits<double>::infinity()
-                                                       : likelihood(BoxOf(cylinder, v));
+          return v.tail<3>().minCoeff() < kLeastSide_m
+                     ? -std::numeric_limits<double>::infinity()
+                     : LogLikelihoodOf(BoxOf(cylinder, v), likelihood);
         },
         StepsFor(cylinder, turn_rad));
     best = std::max(best, found.score);

@@ -7,6 +7,6 @@ namespace foresight {
 inline constexpr int kBoxAlternativeParameters = 9;
 
 /// Log likelihood of the best box that stands where a cylinder does: a post may be square.
-double BestBoxScore(const CylinderState& cylinder, const OutlineLikelihood& likelihood);
+double BestBoxScore(const CylinderState& cylinder, const BeamLikelihood& likelihood);
 
 }  // namespace foresight

@@ -141,7 +141,7 @@ std::vector<CylinderState> BestOf(std::vector<CylinderState> cylinders) {
 
 }  // namespace
 
-std::vector<CylinderState> FindCylinders(const OutlineLikelihood& likelihood, const Points& points,
+std::vector<CylinderState> FindCylinders(const BeamLikelihood& likelihood, const Points& points,
                                          const Eigen::Vector3d& up, const CylinderBounds& bounds,
                                          Random& random) {
   std::vector<CylinderState> found;

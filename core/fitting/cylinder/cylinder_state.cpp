@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/fitting/drill/pattern_search.h"
+#include "core/fitting/drill/solid_tracer.h"
 #include "core/geometry/rotation_between.h"
 
 namespace foresight {
@@ -19,6 +20,16 @@ SolidPart CylinderState::Part() const {
   return part;
 }
 
+double LogLikelihoodOf(const SolidPart& solid_in_base, const BeamLikelihood& likelihood) {
+  const SolidTracer tracer({&solid_in_base, 1}, {});
+  return likelihood(
+      [&tracer](const RangeRay& ray, double reach_m) -> std::optional<BeamIntersection> {
+        const SolidIntersection intersection = tracer.IntersectWithDepth(ray, reach_m);
+        if (intersection.part < 0) return std::nullopt;
+        return BeamIntersection{intersection.clearance_m, intersection.range_m};
+      });
+}
+
 CylinderState Retract(const CylinderState& cylinder, const CylinderStep& step) {
   const Eigen::Vector3d x = cylinder.axis.unitOrthogonal();
   const Eigen::Vector3d y = cylinder.axis.cross(x);
@@ -30,15 +41,15 @@ CylinderState Retract(const CylinderState& cylinder, const CylinderStep& step) {
   return retracted;
 }
 
-double ScoreOf(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+double ScoreOf(const CylinderState& cylinder, const BeamLikelihood& likelihood,
                const CylinderBounds& bounds) {
   if (cylinder.radius_m < bounds.min_radius_m || cylinder.radius_m > bounds.max_radius_m ||
       cylinder.length_m < 0.5 * cylinder.radius_m)
     return -std::numeric_limits<double>::infinity();
-  return likelihood(cylinder.Part());
+  return LogLikelihoodOf(cylinder.Part(), likelihood);
 }
 
-CylinderState AfterLocalSearch(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+CylinderState AfterLocalSearch(const CylinderState& cylinder, const BeamLikelihood& likelihood,
                                const CylinderBounds& bounds, double first_step_m, int rounds) {
   const double lever_m = std::max(0.5 * cylinder.length_m, cylinder.radius_m);
   CylinderStep lengths;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/fitting/cylinder/outline_likelihood.h"
+#include "core/fitting/beam_likelihood.h"
 #include "core/objects/solid_part.h"
 
 namespace foresight {
@@ -34,13 +34,16 @@ struct CylinderBounds {
   double max_radius_m = 0.600;
 };
 
+/// Log likelihood of all rays of one solid, whose frame is base.
+double LogLikelihoodOf(const SolidPart& solid_in_base, const BeamLikelihood& likelihood);
+
 /// Log likelihood of all rays; minus infinity outside the bounds or for a length below a radius'
 /// half.
-double ScoreOf(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+double ScoreOf(const CylinderState& cylinder, const BeamLikelihood& likelihood,
                const CylinderBounds& bounds);
 
 /// Climbs the likelihood by steps that shrink from `first_step_m`, over as many rounds.
-CylinderState AfterLocalSearch(const CylinderState& cylinder, const OutlineLikelihood& likelihood,
+CylinderState AfterLocalSearch(const CylinderState& cylinder, const BeamLikelihood& likelihood,
                                const CylinderBounds& bounds, double first_step_m, int rounds);
 
 }  // namespace foresight

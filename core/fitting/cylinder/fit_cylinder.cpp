@@ -45,7 +45,7 @@ class CylinderFit {
     for (const std::vector<Eigen::Vector3d>& points : {PointsOffPlanes(), AllPoints()}) {
       context.Report(found.empty() ? 0.1 : 0.3, "looking for circles");
       const auto more =
-          FindCylinders(OutlineLikelihood(few, {}), points, options_.up, bounds_, random);
+          FindCylinders(BeamLikelihood(few, {}), points, options_.up, bounds_, random);
       found.insert(found.end(), more.begin(), more.end());
       if (context.Cancelled()) return Cancelled();
     }
@@ -70,7 +70,7 @@ class CylinderFit {
     detection.base_from_object = {RotationBetween(Eigen::Vector3d::UnitZ(), z), cylinder.middle};
     detection.model = {cylinder.radius_m, cylinder.length_m};
     detection.evidence = GatherEvidence(rays_, cylinder);
-    const OutlineLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_));
+    const BeamLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_));
     // Half of Schwarz's penalty for each parameter that a box has more.
     const double measurements =
         std::max(2.0, static_cast<double>(rays_.rays.size()) * rays_.samples_per_ray);
@@ -111,7 +111,7 @@ class CylinderFit {
   /// Before the flat surfaces that are not slabs through it.
   CylinderState AfterLocalSearchBeforePlanes(const RaySet& rays, const CylinderState& cylinder,
                                              double first_step_m, int rounds) const {
-    const OutlineLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays));
+    const BeamLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays));
     return AfterLocalSearch(cylinder, likelihood, bounds_, first_step_m, rounds);
   }
 
@@ -151,7 +151,8 @@ Result<CylinderDetection> FitCylinder(const RaySet& all_rays, const FitCylinderO
                                       const RunContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   FORESIGHT_CHECK(options.Check());
-  FORESIGHT_TRY(const RaySet usable, UsableRays(all_rays, kMinRays, "a cylinder"));
+  FORESIGHT_TRY(RaySet usable, UsableRays(all_rays, kMinRays, "a cylinder"));
+  usable.beams = nullptr;  // a map is taken for what it is
   Random thinning(options.seed, kThinning);
   CylinderFit fit(Thinned(usable, options.max_rays, thinning), options);
   FORESIGHT_TRY(const CylinderState cylinder, fit.Search(context));

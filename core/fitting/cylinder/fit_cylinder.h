@@ -20,7 +20,7 @@ struct FitCylinderOptions {
 };
 
 /// Finds one cylinder of any direction, radius and length in a region: circles in many directions,
-/// then the likelihood of every ray (OutlineLikelihood), before the flat surfaces that are there.
+/// then the likelihood of every ray (BeamLikelihood), before the flat surfaces that are there.
 /// Only the half that faces the sensor is seen, which leaves a least-squares circle's radius open;
 /// the beams that went past on both sides close it, so give BoxRays::kPassThrough for a box. The
 /// ranges' deviation is found with the cylinder, from 3 to 60 mm: what a scanner says it is rarely

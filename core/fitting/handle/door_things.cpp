@@ -1,0 +1,100 @@
+#include "core/fitting/handle/door_things.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace foresight {
+namespace {
+
+constexpr double kLeastSine = 0.3;  // a ray along a bar enters it no earlier than this says
+
+double PlateReach(const DoorThing::Plate& plate) {
+  return std::hypot(plate.front_m, std::max(plate.radius_m, plate.half_m.norm()));
+}
+
+}  // namespace
+
+DoorThing::DoorThing(std::vector<HandleBar> bars, const std::optional<Plate>& plate,
+                     const Rigid<frame::Base, frame::Object>& base_from_object)
+    : bars_(std::move(bars)),
+      plate_(plate),
+      object_from_base_(base_from_object.RotationMatrix().transpose()),
+      position_(base_from_object.translation()) {
+  for (const HandleBar& bar : bars_)
+    middle_ += (bar.from + bar.to) / (2.0 * static_cast<double>(bars_.size()));
+  for (const HandleBar& bar : bars_)
+    bound_m_ = std::max({bound_m_, (bar.from - middle_).norm() + bar.radius_m,
+                         (bar.to - middle_).norm() + bar.radius_m});
+  if (plate_) bound_m_ = std::max(bound_m_, middle_.norm() + PlateReach(*plate_));
+}
+
+BeamIntersection DoorThing::IntersectBar(const LocalRay& ray, const HandleBar& bar) {
+  const Eigen::Vector3d from = ray.origin - bar.from;
+  const double length_m = (bar.to - bar.from).norm();
+  const Eigen::Vector3d along =
+      length_m > 0.0 ? Eigen::Vector3d((bar.to - bar.from) / length_m) : Eigen::Vector3d::Zero();
+  const double cosine = ray.direction.dot(along), closing = ray.direction.dot(from);
+  const double sine2 = 1.0 - cosine * cosine;
+  double s = sine2 > 1e-9 ? (along.dot(from) - cosine * closing) / sine2 : 0.0;
+  const bool beyond_end = !(s > 0.0 && s < length_m);
+  s = std::clamp(s, 0.0, length_m);
+  const double middle_m = cosine * s - closing;
+  const double offset2 = (from + middle_m * ray.direction - s * along).squaredNorm();
+  const double depth2 = bar.radius_m * bar.radius_m - offset2;
+  BeamIntersection intersection{std::sqrt(offset2) - bar.radius_m, middle_m};
+  if (depth2 > 0.0)
+    intersection.range_m -=
+        std::sqrt(depth2) / (beyond_end ? 1.0 : std::max(kLeastSine, std::sqrt(sine2)));
+  return intersection;
+}
+
+std::optional<BeamIntersection> DoorThing::IntersectPlate(const LocalRay& ray, const Plate& plate) {
+  if (ray.direction.z() > -1e-3) return std::nullopt;
+  const double range_m = (plate.front_m - ray.origin.z()) / ray.direction.z();
+  const Eigen::Vector2d at = (ray.origin + range_m * ray.direction).head<2>();
+  const double beyond_m =
+      plate.radius_m > 0.0 ? at.norm() - plate.radius_m : (at.cwiseAbs() - plate.half_m).maxCoeff();
+  // A plate that is seen from the side is narrower across the ray.
+  return BeamIntersection{-ray.direction.z() * beyond_m, range_m};
+}
+
+std::optional<BeamIntersection> DoorThing::Intersect(const RangeRay& ray, double reach_m) const {
+  const LocalRay local{object_from_base_ * (ray.origin - position_),
+                       object_from_base_ * ray.direction};
+  const Eigen::Vector3d to_middle = middle_ - local.origin;
+  const double along_m = to_middle.dot(local.direction);
+  const double bound_m = bound_m_ + reach_m;
+  if (to_middle.squaredNorm() - along_m * along_m > bound_m * bound_m) return std::nullopt;
+  std::optional<BeamIntersection> best;
+  const auto consider = [&](const BeamIntersection& passed) {
+    if (passed.clearance_m > reach_m) return;
+    const bool hits = passed.clearance_m < 0.0;
+    const bool first = !best || (hits && !(best->clearance_m < 0.0)) ||
+                       (hits && passed.range_m < best->range_m) ||
+                       (!hits && passed.clearance_m < best->clearance_m);
+    if (first) best = passed;
+  };
+  for (const HandleBar& bar : bars_) consider(IntersectBar(local, bar));
+  if (plate_)
+    if (const auto passed = IntersectPlate(local, *plate_)) consider(*passed);
+  return best;
+}
+
+DoorThing ThingOf(const HandleModel& model,
+                  const Rigid<frame::Base, frame::Object>& base_from_object) {
+  DoorThing::Plate plate;
+  plate.front_m = HandleModel::kPlateThickness_m - model.standoff_m;
+  if (model.plate == HandleModel::Plate::kRosette)
+    plate.radius_m = HandleModel::kRosetteRadius_m;
+  else
+    plate.half_m = {0.5 * HandleModel::kPlateWidth_m, 0.5 * HandleModel::kPlateLength_m};
+  return DoorThing(BarsOf(model), plate, base_from_object);
+}
+
+double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood) {
+  return likelihood(
+      [&thing](const RangeRay& ray, double reach_m) { return thing.Intersect(ray, reach_m); });
+}
+
+}  // namespace foresight

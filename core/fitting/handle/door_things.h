@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/fitting/beam_likelihood.h"
+#include "core/objects/handle_model.h"
+
+namespace foresight {
+
+/// What may sit on a door: round bars, balls (bars without a length) and a thin plate on the door,
+/// made ready for many rays by closed forms. All a beam's likelihood has to know of a door handle
+/// and of its alternatives.
+class DoorThing {
+ public:
+  /// A plate in the object's frame, facing z.
+  struct Plate {
+    double front_m = 0.0;                              ///< z of its front
+    double radius_m = 0.0;                             ///< of a round one; 0 = a rectangle
+    Eigen::Vector2d half_m = Eigen::Vector2d::Zero();  ///< of a rectangle
+  };
+
+  DoorThing(std::vector<HandleBar> bars, const std::optional<Plate>& plate,
+            const Rigid<frame::Base, frame::Object>& base_from_object);
+
+  /// What the ray enters first, else what it passes by least.
+  std::optional<BeamIntersection> Intersect(const RangeRay& ray, double reach_m) const;
+
+ private:
+  struct LocalRay {
+    Eigen::Vector3d origin, direction;
+  };
+
+  static BeamIntersection IntersectBar(const LocalRay& ray, const HandleBar& bar);
+  static std::optional<BeamIntersection> IntersectPlate(const LocalRay& ray, const Plate& plate);
+
+  std::vector<HandleBar> bars_;
+  std::optional<Plate> plate_;
+  Eigen::Matrix3d object_from_base_;
+  Eigen::Vector3d position_;
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< in the object's frame
+  double bound_m_ = 0.0;                              ///< of a sphere round all
+};
+
+/// A handle at a place.
+DoorThing ThingOf(const HandleModel& model,
+                  const Rigid<frame::Base, frame::Object>& base_from_object);
+
+/// Log likelihood of all rays with that thing on the door.
+double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood);
+
+}  // namespace foresight

@@ -1,0 +1,196 @@
+#include "core/fitting/handle/fit_handle.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/fitting/handle/handle_search.h"
+#include "core/fitting/handle/handle_verdict.h"
+#include "core/fitting/ray_selection.h"
+#include "core/fitting/wall.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kMinRays = 60;
+constexpr std::size_t kMinBefore = 6;
+constexpr int kCoarseRays = 350;
+constexpr std::size_t kFine = 3;
+constexpr double kLeastBefore_m = 0.020, kMostBefore_m = 0.110;
+constexpr double kBeforeSigmas = 1.5;
+constexpr int kFootprintSamples = 3;
+
+/// Streams of the seed: each stage draws its own numbers.
+enum Stream : std::uint64_t { kThinning, kDoor, kSearch };
+
+tl::unexpected<Error> Cancelled() {
+  return Fail(ErrorCode::kCancelled, "fitting the door handle was cancelled");
+}
+
+BeamLikelihoodOptions HandleBeams() {
+  BeamLikelihoodOptions options;
+  options.early_return = 0.0;
+  options.samples = kFootprintSamples;
+  options.mixed_ranges = true;
+  return options;
+}
+
+void SortBest(std::vector<HandleState>& states) {
+  std::stable_sort(states.begin(), states.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+}
+
+Eigen::Vector3d MeanOf(const RaySet& rays) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const RangeRay& ray : rays.rays) mean += ray.Point() / static_cast<double>(rays.rays.size());
+  return mean;
+}
+
+/// One handle's fit while it lasts.
+class HandleFit {
+ public:
+  HandleFit(const RaySet& region, const RaySet& rays, const RaySet& few_rays, const Plane& door,
+            const FitHandleOptions& options)
+      : region_(region),
+        options_(options),
+        door_(door),
+        base_from_door_(DoorFrameOf(door, MeanOf(rays))),
+        likelihood_(rays, {&door, 1}, HandleBeams()),
+        coarse_(few_rays, {&door, 1}, HandleBeams()) {
+    const auto door_from_base = base_from_door_.Inverse();
+    const double least_m = std::max(kLeastBefore_m, kBeforeSigmas * region.sigma_m);
+    for (const RangeRay& ray : region.rays) {
+      const Eigen::Vector3d at = door_from_base * ray.Point();
+      if (at.z() > least_m && at.z() < kMostBefore_m) before_door_.push_back(at);
+    }
+  }
+
+  Result<HandleDetection> Fit(Random& random, const RunContext& context) const {
+    if (before_door_.size() < kMinBefore)
+      return Fail(ErrorCode::kNoConvergence,
+                  "only {} measurements lie 20 to 110 mm before the door: draw the region around "
+                  "the handle, or scan slower",
+                  before_door_.size());
+    const HandleScorer fine{likelihood_, base_from_door_, options_};
+    const HandleScorer coarse{coarse_, base_from_door_, options_};
+    context.Report(0.1, "looking for bars");
+    std::vector<HandleState> levers = FindLevers(coarse, before_door_, random);
+    if (levers.empty())
+      return Fail(ErrorCode::kNoConvergence,
+                  "no lever of {:.0f} to {:.0f} mm stands before the door: draw the region around "
+                  "the handle",
+                  1000.0 * options_.min_length_m, 1000.0 * options_.max_length_m);
+    context.Report(0.3, "improving the pose");
+    FORESIGHT_CHECK(SearchAll(coarse, HandleEffort::kCoarse, levers, context));
+    if (levers.size() > kFine) levers.resize(kFine);
+    FORESIGHT_CHECK(SearchAll(fine, HandleEffort::kFine, levers, context));
+    // The dangerous error is a lever that points the other way: that one is tried with equal care.
+    HandleState mirrored = LocalSearch(fine, Mirrored(levers.front()), HandleEffort::kFine);
+    for (const HandleState& lever : levers)
+      if (PointsTheOtherWay(lever, levers.front()) && lever.score > mirrored.score)
+        mirrored = lever;
+    HandleState best = levers.front();
+    if (mirrored.score > best.score) std::swap(best, mirrored);
+    if (!(best.score > likelihood_.Nothing()))
+      return Fail(ErrorCode::kNoConvergence,
+                  "nothing before the door looks like a handle: draw the region around one, or "
+                  "scan slower");
+    if (context.Cancelled()) return Cancelled();
+    context.Report(0.7, "trying other shapes");
+    return DetectionOf(best, mirrored);
+  }
+
+ private:
+  static bool PointsTheOtherWay(const HandleState& a, const HandleState& b) {
+    return std::cos(a.values[kHandleTurn] - b.values[kHandleTurn]) < 0.0;
+  }
+
+  static Status SearchAll(const HandleScorer& scorer, HandleEffort effort,
+                          std::vector<HandleState>& states, const RunContext& context) {
+    for (HandleState& state : states) {
+      if (context.Cancelled()) return Cancelled();
+      state = LocalSearch(scorer, state, effort);
+    }
+    SortBest(states);
+    return {};
+  }
+
+  HandleDetection DetectionOf(const HandleState& best, const HandleState& mirrored) const {
+    HandleDetection detection;
+    detection.best = CandidateOf(best, base_from_door_);
+    detection.alternatives = {CandidateOf(mirrored, base_from_door_)};
+    detection.door = door_;
+    SetSigmas({likelihood_, base_from_door_, options_}, best, detection);
+    HandleEvidence& evidence = detection.evidence;
+    evidence = GatherEvidence(likelihood_, door_, detection.best);
+    const double own = LogLikelihoodOf(
+        ThingOf(detection.best.model, detection.best.base_from_object), likelihood_);
+    evidence.mirror_margin_nats = best.score - mirrored.score;
+    evidence.gain_nats = own - likelihood_.Nothing();
+    evidence.alternative_margin_nats = std::numeric_limits<double>::infinity();
+    // Half of Schwarz's penalty for each parameter that an alternative has more.
+    const double measurements = std::max(2.0, evidence.hits * region_.samples_per_ray);
+    for (const HandleAlternative& alternative :
+         FitHandleAlternatives(likelihood_, base_from_door_, best, before_door_)) {
+      const double margin =
+          own - alternative.log_likelihood +
+          0.5 * (alternative.parameters - kHandleParameters) * std::log(measurements);
+      if (!(margin < evidence.alternative_margin_nats)) continue;
+      evidence.alternative_margin_nats = margin;
+      evidence.best_alternative = alternative.name;
+    }
+    detection.verdict = AssessHandle(likelihood_.rays(), detection, options_);
+    return detection;
+  }
+
+  const RaySet& region_;
+  const FitHandleOptions& options_;
+  Plane door_;
+  DoorFrame base_from_door_;
+  BeamLikelihood likelihood_, coarse_;
+  std::vector<Eigen::Vector3d> before_door_;  ///< in the door's frame
+};
+
+}  // namespace
+
+Status FitHandleOptions::Check() const {
+  if (!(min_length_m >= 0.02 && min_length_m < max_length_m && max_length_m < 1.0))
+    return Fail(ErrorCode::kInvalidOptions,
+                "door handle fit: lengths of {} to {} m; 0.02 to 1, the least first", min_length_m,
+                max_length_m);
+  if (pair_trials < 1)
+    return Fail(ErrorCode::kInvalidOptions, "door handle fit: pair_trials {} is below 1",
+                pair_trials);
+  if (max_rays < kMinRays)
+    return Fail(ErrorCode::kInvalidOptions, "door handle fit: max_rays {} is below {}", max_rays,
+                kMinRays);
+  return {};
+}
+
+Result<HandleDetection> FitHandle(const RaySet& all_rays, const FitHandleOptions& options,
+                                  const RunContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  FORESIGHT_CHECK(options.Check());
+  FORESIGHT_TRY(const RaySet region, UsableRays(all_rays, kMinRays, "a door handle"));
+  context.Report(0.0, "looking for the door");
+  Random thinning(options.seed, kThinning), door_random(options.seed, kDoor),
+      random(options.seed, kSearch);
+  RaySet rays = Thinned(region, options.max_rays, thinning);
+  const WallSplit split = SplitWall(rays, door_random);
+  if (!split.wall)
+    return Fail(ErrorCode::kNoConvergence,
+                "no door is seen in the region: draw it a little larger around the handle");
+  RaySet few_rays = Thinned(rays, kCoarseRays, thinning);
+  few_rays.beams = nullptr;
+  rays.beams = ThinnedBeams(region, options.max_rays, kMinRays, thinning);
+  const HandleFit fit(region, rays, few_rays, *split.wall, options);
+  FORESIGHT_TRY(HandleDetection detection, fit.Fit(random, context));
+  detection.origin.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  context.Report(1.0, "door handle fitted");
+  return detection;
+}
+
+}  // namespace foresight

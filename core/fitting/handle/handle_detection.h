@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fitting/fit_origin.h"
+#include "core/fitting/verdict.h"
+#include "core/geometry/plane.h"
+#include "core/geometry/rigid.h"
+#include "core/objects/handle_model.h"
+
+namespace foresight {
+
+/// How well the measurements support a door handle.
+struct HandleEvidence {
+  int rays = 0;                     ///< looked at
+  int hits = 0;                     ///< rays with at least half of their footprint on it
+  double inlier_ratio = 0.0;        ///< of the hits, those with a range that agrees
+  double see_through = 0.0;         ///< of the hits, those whose beam went on behind the handle
+  double rms_m = 0.0;               ///< of the agreeing ranges
+  double covered = 0.0;             ///< of the lever's length, the fraction with agreeing hits
+  double beside = 0.0;              ///< fraction of the rays round it that end before the door
+  double mirror_margin_nats = 0.0;  ///< ahead of the best lever that points the other way
+  double gain_nats = 0.0;           ///< ahead of the bare door
+  double alternative_margin_nats = 0.0;  ///< ahead of the best knob, pull bar or box
+  std::string best_alternative;          ///< "knob", "pull bar", "box"
+};
+
+/// One answer to "where is the handle".
+struct HandleCandidate {
+  Rigid<frame::Base, frame::Object> base_from_object;
+  HandleModel model;
+  double log_likelihood = 0.0;
+};
+
+/// A fitted door handle.
+struct HandleDetection {
+  HandleCandidate best;
+  Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();  ///< along the object's axes
+  double sigma_turn_rad = 0.0;                                 ///< of x about the door's normal
+  double sigma_normal_rad = 0.0;                               ///< of the door's normal
+  double sigma_length_m = 0.0;
+  PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
+  Plane door;  ///< in base, its normal towards the viewer
+  HandleEvidence evidence;
+  Verdict verdict;
+  std::vector<HandleCandidate> alternatives;  ///< best first; the lever that points the other way
+  FitOrigin origin;
+};
+
+}  // namespace foresight

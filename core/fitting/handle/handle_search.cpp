@@ -1,0 +1,277 @@
+#include "core/fitting/handle/handle_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "core/fitting/drill/pattern_search.h"
+#include "core/fitting/drill/solid_tracer.h"
+
+namespace foresight {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr std::size_t kKept = 6;
+constexpr double kLeastApart_m = 0.035, kMostApart_m = 0.30;
+constexpr double kBesideBar_m = 0.018;
+constexpr std::size_t kLeastOnBar = 4;
+constexpr double kEndFraction = 0.04;  // of a bar's points that lie beyond what counts as its end
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+double Quantile(std::vector<double> values, double fraction) {
+  const auto place = values.begin() +
+                     static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// A bar seen on the door: where it begins and ends, how far it stands off.
+struct SeenBar {
+  Eigen::Vector2d from, to;
+  double front_m = 0.0;
+};
+
+std::optional<SeenBar> BarThrough(const Points& points, const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b) {
+  const Eigen::Vector2d first = a.head<2>(), way = b.head<2>() - first;
+  const double apart_m = way.norm();
+  if (apart_m < kLeastApart_m || apart_m > kMostApart_m) return std::nullopt;
+  const Eigen::Vector2d along = way / apart_m;
+  std::vector<double> places, heights;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector2d from = point.head<2>() - first;
+    if (std::abs(along.x() * from.y() - along.y() * from.x()) > kBesideBar_m) continue;
+    places.push_back(along.dot(from));
+    heights.push_back(point.z());
+  }
+  if (places.size() < kLeastOnBar) return std::nullopt;
+  return SeenBar{first + Quantile(places, kEndFraction) * along,
+                 first + Quantile(places, 1.0 - kEndFraction) * along, Quantile(heights, 0.5)};
+}
+
+HandleState LeverOn(const SeenBar& bar, const FitHandleOptions& options) {
+  const Eigen::Vector2d way = bar.to - bar.from;
+  HandleState state;
+  state.values[kHandleRadius] = HandlePrior::kRadius_m;
+  state.values[kHandleTurn] = std::atan2(way.y(), way.x());
+  // The rays that end on a round bar end before its middle.
+  state.values[kHandleStandoff] =
+      std::clamp(bar.front_m - 0.5 * HandlePrior::kRadius_m, 0.030, 0.090);
+  state.values[kHandleLength] =
+      std::clamp(way.norm() - HandlePrior::kRadius_m, options.min_length_m, options.max_length_m);
+  state.values.head<2>() = bar.from + 0.5 * HandlePrior::kRadius_m * way.normalized();
+  return state;
+}
+
+bool Alike(const HandleState& a, const HandleState& b) {
+  return (a.values.head<2>() - b.values.head<2>()).norm() < 0.02 &&
+         std::abs(std::remainder(a.values[kHandleTurn] - b.values[kHandleTurn],
+                                 2.0 * std::numbers::pi)) < 0.25;
+}
+
+/// The variant of ends and plates that explains the rays best, the sizes as they are.
+HandleState BestVariant(const HandleScorer& scorer, const HandleState& state) {
+  HandleState best = state;
+  best.score = scorer(state);
+  for (const bool returned : {false, true})
+    for (const auto plate : {HandleModel::Plate::kRosette, HandleModel::Plate::kLong}) {
+      HandleState variant = state;
+      variant.returned = returned;
+      variant.plate = plate;
+      variant.score = scorer(variant);
+      if (variant.score > best.score) best = variant;
+    }
+  return best;
+}
+
+HandleState Climbed(const HandleScorer& scorer, const HandleState& start, double first_step_m,
+                    int rounds) {
+  constexpr double kLever_m = 0.06;
+  HandleStep lengths;
+  lengths << first_step_m, first_step_m, first_step_m / kLever_m, first_step_m, first_step_m,
+      0.3 * first_step_m;
+  PatternSearchOptions options;
+  options.rounds = rounds;
+  for (int i = 0; i < kHandleParameters; ++i)
+    options.steps.push_back(lengths[i] * Eigen::VectorXd::Unit(kHandleParameters, i));
+  // The pivot's end by itself, while the other end stays; and a turn about the lever's middle.
+  const double turn = start.values[kHandleTurn];
+  Eigen::VectorXd pivot = Eigen::VectorXd::Zero(kHandleParameters);
+  pivot[kHandleX] = -first_step_m * std::cos(turn);
+  pivot[kHandleY] = -first_step_m * std::sin(turn);
+  pivot[kHandleLength] = first_step_m;
+  options.steps.push_back(pivot);
+  Eigen::VectorXd about = Eigen::VectorXd::Zero(kHandleParameters);
+  about[kHandleTurn] = first_step_m / kLever_m;
+  about[kHandleX] = first_step_m * std::sin(turn);
+  about[kHandleY] = -first_step_m * std::cos(turn);
+  options.steps.push_back(about);
+  const auto at = [&](const Eigen::VectorXd& values) {
+    HandleState state = start;
+    state.values = values;
+    return state;
+  };
+  const PatternSearchResult found = ClimbByPatternSearch(
+      start.values, [&](const Eigen::VectorXd& values) { return scorer(at(values)); }, options);
+  HandleState climbed = at(found.values);
+  climbed.score = found.score;
+  return climbed;
+}
+
+using MakeThing = std::function<double(const Eigen::VectorXd&)>;
+
+double BestOf(const std::vector<Eigen::VectorXd>& starts, const Eigen::VectorXd& steps,
+              const MakeThing& score) {
+  PatternSearchOptions options;
+  options.rounds = 4;
+  for (int i = 0; i < steps.size(); ++i)
+    options.steps.push_back(steps[i] * Eigen::VectorXd::Unit(steps.size(), i));
+  double best = kNever;
+  for (const Eigen::VectorXd& start : starts)
+    best = std::max(best, ClimbByPatternSearch(start, score, options).score);
+  return best;
+}
+
+Rigid<frame::Base, frame::Object> PlacedAt(const DoorFrame& base_from_door, double x, double y,
+                                           double z, double turn_rad) {
+  return base_from_door *
+         Rigid<frame::Object, frame::Object>(
+             Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ())), {x, y, z});
+}
+
+/// A ball on a neck and a rosette: x, y, height of its middle, radius.
+double BestKnob(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
+                const std::vector<Eigen::Vector2d>& places) {
+  const auto score = [&](const Eigen::VectorXd& v) {
+    if (v[2] < 0.015 || v[2] > 0.10 || v[3] < 0.012 || v[3] > 0.05) return kNever;
+    const std::vector<HandleBar> bars = {{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), v[3]},
+                                         {Eigen::Vector3d::Zero(), {0.0, 0.0, -v[2]}, 0.4 * v[3]}};
+    const DoorThing::Plate plate{
+        HandleModel::kPlateThickness_m - v[2], HandleModel::kRosetteRadius_m, {}};
+    return LogLikelihoodOf(DoorThing(bars, plate, PlacedAt(base_from_door, v[0], v[1], v[2], 0.0)),
+                           likelihood);
+  };
+  std::vector<Eigen::VectorXd> starts;
+  for (const Eigen::Vector2d& place : places)
+    starts.push_back(Eigen::Vector4d(place.x(), place.y(), 0.045, 0.026));
+  return BestOf(starts, Eigen::Vector4d(0.012, 0.012, 0.010, 0.008), score);
+}
+
+/// A bar on a post at each end: middle, turn, height, length, radius.
+double BestPullBar(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
+                   const HandleState& handle, const Eigen::Vector2d& middle, double largest_m) {
+  const auto score = [&](const Eigen::VectorXd& v) {
+    if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > 0.6 || v[5] < 0.004 || v[5] > 0.022)
+      return kNever;
+    const Eigen::Vector3d end(0.5 * v[4], 0.0, 0.0), down(0.0, 0.0, -v[3]);
+    const std::vector<HandleBar> bars = {
+        {-end, end, v[5]}, {-end, -end + down, v[5]}, {end, end + down, v[5]}};
+    return LogLikelihoodOf(
+        DoorThing(bars, std::nullopt, PlacedAt(base_from_door, v[0], v[1], v[3], v[2])),
+        likelihood);
+  };
+  const HandleStep& h = handle.values;
+  std::vector<Eigen::VectorXd> starts;
+  for (const double length_m : {h[kHandleLength], std::max(h[kHandleLength], largest_m)}) {
+    Eigen::VectorXd start(6);
+    start << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], length_m, h[kHandleRadius];
+    starts.push_back(start);
+  }
+  Eigen::VectorXd steps(6);
+  steps << 0.010, 0.010, 0.12, 0.008, 0.016, 0.003;
+  return BestOf(starts, steps, score);
+}
+
+/// A box on the door: middle, turn, length, height, how far it stands out.
+double BestBox(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
+               const HandleState& handle, const Eigen::Vector2d& middle, double largest_m) {
+  const auto score = [&](const Eigen::VectorXd& v) {
+    if (v.tail<3>().minCoeff() < 0.006 || v.tail<3>().maxCoeff() > 0.6 || v[5] > 0.15)
+      return kNever;
+    SolidPart box;
+    box.shape = SolidPart::Shape::kBox;
+    box.size_m = v.tail<3>();
+    const SolidTracer tracer({&box, 1}, PlacedAt(base_from_door, v[0], v[1], 0.5 * v[5], v[2]));
+    return likelihood(
+        [&tracer](const RangeRay& ray, double reach_m) -> std::optional<BeamIntersection> {
+          const SolidIntersection passed = tracer.IntersectWithDepth(ray, reach_m);
+          if (passed.part < 0) return std::nullopt;
+          return BeamIntersection{passed.clearance_m, passed.range_m};
+        });
+  };
+  const HandleStep& h = handle.values;
+  std::vector<Eigen::VectorXd> starts;
+  for (const double width_m : {0.03, 0.5 * largest_m}) {
+    Eigen::VectorXd start(6);
+    start << middle.x(), middle.y(), h[kHandleTurn], std::max(largest_m, 0.02),
+        std::clamp(width_m, 0.02, 0.3), h[kHandleStandoff];
+    starts.push_back(start);
+  }
+  Eigen::VectorXd steps(6);
+  steps << 0.010, 0.010, 0.12, 0.016, 0.012, 0.010;
+  return BestOf(starts, steps, score);
+}
+
+}  // namespace
+
+std::vector<HandleState> FindLevers(const HandleScorer& scorer, const Points& before_door,
+                                    Random& random) {
+  std::vector<HandleState> found;
+  const int count = static_cast<int>(before_door.size());
+  for (int trial = 0; count > 1 && trial < scorer.options.pair_trials; ++trial) {
+    const auto& a = before_door[static_cast<std::size_t>(random.Index(count))];
+    const auto& b = before_door[static_cast<std::size_t>(random.Index(count))];
+    const auto bar = BarThrough(before_door, a, b);
+    if (!bar || !((bar->to - bar->from).norm() > 0.02)) continue;
+    HandleState state = LeverOn(*bar, scorer.options);
+    state.score = scorer(state);
+    if (std::isfinite(state.score)) found.push_back(state);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::vector<HandleState> kept;
+  for (const HandleState& state : found) {
+    if (kept.size() == kKept) break;
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const HandleState& other) { return Alike(state, other); }))
+      kept.push_back(state);
+  }
+  return kept;
+}
+
+HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEffort effort) {
+  if (effort == HandleEffort::kCoarse) return Climbed(scorer, start, 0.012, 3);
+  start = Climbed(scorer, start, 0.008, 3);
+  return Climbed(scorer, BestVariant(scorer, start), 0.006, 4);
+}
+
+std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likelihood,
+                                                     const DoorFrame& base_from_door,
+                                                     const HandleState& handle,
+                                                     const Points& before_door) {
+  const HandleStep& h = handle.values;
+  const Eigen::Vector2d way(std::cos(h[kHandleTurn]), std::sin(h[kHandleTurn]));
+  const Eigen::Vector2d pivot = h.head<2>();
+  const Eigen::Vector2d middle = pivot + 0.5 * h[kHandleLength] * way;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  double low = 1e9, high = -1e9;
+  for (const Eigen::Vector3d& point : before_door) {
+    mean += point.head<2>() / static_cast<double>(before_door.size());
+    low = std::min(low, way.dot(point.head<2>()));
+    high = std::max(high, way.dot(point.head<2>()));
+  }
+  const Eigen::Vector2d seen = mean + (0.5 * (low + high) - way.dot(mean)) * way;
+  const double largest_m = high - low;
+  return {{"knob", 4, BestKnob(likelihood, base_from_door, {pivot, middle, mean})},
+          {"pull bar", 6,
+           std::max(BestPullBar(likelihood, base_from_door, handle, middle, 0.0),
+                    BestPullBar(likelihood, base_from_door, handle, seen, largest_m))},
+          {"box", 6,
+           std::max(BestBox(likelihood, base_from_door, handle, middle, h[kHandleLength]),
+                    BestBox(likelihood, base_from_door, handle, seen, largest_m))}};
+}
+
+}  // namespace foresight

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/fitting/handle/handle_state.h"
+
+namespace foresight {
+
+/// Levers worth a local search, the best first and no two alike: bars through two of the points,
+/// which are in the door's frame, with the pivot at either end.
+std::vector<HandleState> FindLevers(const HandleScorer& scorer,
+                                    const std::vector<Eigen::Vector3d>& before_door,
+                                    Random& random);
+
+enum class HandleEffort { kCoarse, kFine };
+
+/// Climbs the score over all parameters; with kFine also over straight and returned ends and both
+/// plates. The result's score is never below the start's.
+HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEffort effort);
+
+/// Something else that may sit there.
+struct HandleAlternative {
+  std::string name;  ///< "knob", "pull bar", "box"
+  int parameters = 0;
+  double log_likelihood = 0.0;
+};
+
+/// The best of each kind in the handle's place, or where the points are.
+std::vector<HandleAlternative> FitHandleAlternatives(
+    const BeamLikelihood& likelihood, const DoorFrame& base_from_door, const HandleState& handle,
+    const std::vector<Eigen::Vector3d>& before_door);
+
+}  // namespace foresight

@@ -1,0 +1,71 @@
+#include "core/fitting/handle/handle_state.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/geometry/rotation_between.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kLeastStandoff_m = 0.025, kLargestStandoff_m = 0.100;
+constexpr double kLeastRadius_m = 0.005, kLargestRadius_m = 0.018;
+
+double Squared(double value) {
+  return value * value;
+}
+
+}  // namespace
+
+DoorFrame DoorFrameOf(const Plane& door, const Eigen::Vector3d& near_point) {
+  return {RotationBetween(Eigen::Vector3d::UnitZ(), door.normal),
+          near_point - door.Distance(near_point) * door.normal};
+}
+
+HandleModel HandleState::Model() const {
+  HandleModel model;
+  model.length_m = values[kHandleLength];
+  model.radius_m = values[kHandleRadius];
+  model.standoff_m = values[kHandleStandoff];
+  model.returned = returned;
+  model.plate = plate;
+  return model;
+}
+
+Rigid<frame::Base, frame::Object> HandleState::Pose(const DoorFrame& base_from_door) const {
+  const Rigid<frame::Object, frame::Object> door_from_handle(
+      Eigen::Quaterniond(Eigen::AngleAxisd(values[kHandleTurn], Eigen::Vector3d::UnitZ())),
+      {values[kHandleX], values[kHandleY], values[kHandleStandoff]});
+  return base_from_door * door_from_handle;
+}
+
+double HandleScorer::operator()(const HandleState& state) const {
+  const HandleStep& v = state.values;
+  const bool built =
+      v[kHandleLength] >= options.min_length_m && v[kHandleLength] <= options.max_length_m &&
+      v[kHandleStandoff] >= kLeastStandoff_m && v[kHandleStandoff] <= kLargestStandoff_m &&
+      v[kHandleRadius] >= kLeastRadius_m && v[kHandleRadius] <= kLargestRadius_m;
+  if (!built) return -std::numeric_limits<double>::infinity();
+  using Prior = HandlePrior;
+  const double prior =
+      -0.5 * (Squared((v[kHandleStandoff] - Prior::kStandoff_m) / Prior::kStandoffSigma_m) +
+              Squared((v[kHandleRadius] - Prior::kRadius_m) / Prior::kRadiusSigma_m) +
+              Squared((v[kHandleLength] - Prior::kLength_m) / Prior::kLengthSigma_m));
+  return prior + LogLikelihoodOf(ThingOf(state.Model(), state.Pose(base_from_door)), likelihood);
+}
+
+HandleState Mirrored(const HandleState& state) {
+  HandleState mirrored = state;
+  const double turn = state.values[kHandleTurn];
+  mirrored.values[kHandleX] += state.values[kHandleLength] * std::cos(turn);
+  mirrored.values[kHandleY] += state.values[kHandleLength] * std::sin(turn);
+  mirrored.values[kHandleTurn] = std::remainder(turn + std::numbers::pi, 2.0 * std::numbers::pi);
+  return mirrored;
+}
+
+HandleCandidate CandidateOf(const HandleState& state, const DoorFrame& base_from_door) {
+  return {state.Pose(base_from_door), state.Model(), state.score};
+}
+
+}  // namespace foresight

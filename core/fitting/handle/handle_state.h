@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/fitting/handle/door_things.h"
+#include "core/fitting/handle/fit_handle.h"
+
+namespace foresight {
+
+/// What a fit may change of a handle; all but the door's plane.
+enum HandleParameter {
+  kHandleX,  ///< of the pivot, in the door's frame
+  kHandleY,
+  kHandleTurn,  ///< of the lever about the door's normal
+  kHandleStandoff,
+  kHandleLength,
+  kHandleRadius,
+  kHandleParameters
+};
+using HandleStep = Eigen::Matrix<double, kHandleParameters, 1>;
+using HandleInformation = Eigen::Matrix<double, kHandleParameters, kHandleParameters>;
+
+/// A door's frame: z = its normal towards the viewer, the origin on it.
+using DoorFrame = Rigid<frame::Base, frame::Object>;
+DoorFrame DoorFrameOf(const Plane& door, const Eigen::Vector3d& near_point);
+
+/// A handle on a door while it is looked for.
+struct HandleState {
+  HandleStep values = HandleStep::Zero();
+  bool returned = false;
+  HandleModel::Plate plate = HandleModel::Plate::kRosette;
+  double score = 0.0;  ///< log likelihood with the prior
+
+  HandleModel Model() const;
+  Rigid<frame::Base, frame::Object> Pose(const DoorFrame& base_from_door) const;
+};
+
+/// How door handles are built.
+struct HandlePrior {
+  static constexpr double kStandoff_m = 0.052;
+  static constexpr double kStandoffSigma_m = 0.012;
+  static constexpr double kRadius_m = 0.010;
+  static constexpr double kRadiusSigma_m = 0.0025;
+  static constexpr double kLength_m = 0.120;
+  static constexpr double kLengthSigma_m = 0.025;
+};
+
+/// What a handle is scored against.
+struct HandleScorer {
+  const BeamLikelihood& likelihood;
+  const DoorFrame& base_from_door;
+  const FitHandleOptions& options;
+
+  /// With the prior; minus infinity outside of what is built.
+  double operator()(const HandleState& state) const;
+};
+
+/// The lever that covers the same place and points the other way.
+HandleState Mirrored(const HandleState& state);
+
+HandleCandidate CandidateOf(const HandleState& state, const DoorFrame& base_from_door);
+
+}  // namespace foresight

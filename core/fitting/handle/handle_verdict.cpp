@@ -1,0 +1,272 @@
+#include "core/fitting/handle/handle_verdict.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/fitting/gate.h"
+#include "core/fitting/region_place.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kAgreeSigmas = 3.0;
+constexpr double kOnHandle = 0.5;  // fraction of a footprint
+constexpr int kCoverBins = 8;      // along the lever
+constexpr double kRound_m = 0.03;  // beside the handle
+
+constexpr double kMinHits = 12.0;  // independent measurements on the handle
+constexpr double kMaxSeeThrough = 0.15;
+constexpr double kMinMirror_nats = 10.0;
+
+double Compressed(double nats) {
+  return std::copysign(std::log1p(std::abs(nats)), nats);
+}
+
+double Squared(double value) {
+  return value * value;
+}
+
+IntersectBeam IntersectionWith(const DoorThing& thing) {
+  return [&thing](const RangeRay& ray, double reach_m) { return thing.Intersect(ray, reach_m); };
+}
+
+double Hits(const RaySet& rays, const HandleEvidence& evidence) {
+  return evidence.hits * std::min(1.0, rays.samples_per_ray);
+}
+
+std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detection) {
+  const HandleEvidence& evidence = detection.evidence;
+  const double hits = std::max(1.0, Hits(rays, evidence));
+  return {Compressed(evidence.mirror_margin_nats),
+          Compressed(evidence.alternative_margin_nats),
+          evidence.gain_nats / hits,
+          evidence.inlier_ratio,
+          evidence.see_through,
+          evidence.covered,
+          evidence.beside,
+          std::log(hits),
+          std::log(std::max(1e-3, detection.sigma_turn_rad)),
+          std::abs(std::log(detection.best.model.length_m / HandlePrior::kLength_m))};
+}
+
+Gate SeeThroughGate(const HandleEvidence& evidence, double limit) {
+  return {.what = "{} of the beams went through the handle",
+          .unit = Gate::Unit::kFraction,
+          .number = evidence.see_through,
+          .side = Gate::Side::kAtMost,
+          .limit = limit};
+}
+
+Gate MirrorGate(const HandleEvidence& evidence, double limit_nats) {
+  return {.what = "the odds against a lever that points the other way are {}",
+          .unit = Gate::Unit::kOdds,
+          .number = evidence.mirror_margin_nats,
+          .limit = limit_nats};
+}
+
+Gate AlternativeGate(const HandleEvidence& evidence, double limit_nats) {
+  return {
+      .what = fmt::format("the odds against a {} in its place are {{}}", evidence.best_alternative),
+      .unit = Gate::Unit::kOdds,
+      .number = evidence.alternative_margin_nats,
+      .limit = limit_nats};
+}
+
+Eigen::Vector3d MiddleOf(const HandleCandidate& handle) {
+  return handle.base_from_object * Eigen::Vector3d(0.5 * handle.model.length_m, 0.0, 0.0);
+}
+
+/// Why the handle is not LIKELY.
+std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection& detection,
+                                     const FitHandleOptions& options) {
+  constexpr double kBound_m = 0.002;
+  const HandleEvidence& evidence = detection.evidence;
+  std::vector<std::string> failed;
+  AddIfFailed({.what = "{} measurements lie on the handle",
+               .number = Hits(region, evidence),
+               .limit = kMinHits,
+               .advice = "scan slower or move closer"},
+              failed);
+  AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
+  // As likely as the handle is not behind: the limit is just above 0.
+  AddIfFailed(AlternativeGate(evidence, std::numeric_limits<double>::min()), failed);
+  AddIfFailed(MirrorGate(evidence, kMinMirror_nats), failed);
+  AddIfFailed({.what = "the handle lies {} from the region's centre",
+               .unit = Gate::Unit::kLength,
+               .number = DistanceFromRegionCenter(region, MiddleOf(detection.best)),
+               .side = Gate::Side::kAtMost,
+               .limit = kMaxOffCenter_m,
+               .advice = "draw the region around it"},
+              failed);
+  Gate length{.what = "its lever is {} long",
+              .unit = Gate::Unit::kLength,
+              .number = detection.best.model.length_m,
+              .limit = options.min_length_m + kBound_m,
+              .advice = "at the end of the range of lengths nothing is confirmed"};
+  AddIfFailed(length, failed);
+  length.side = Gate::Side::kAtMost;
+  length.limit = options.max_length_m - kBound_m;
+  AddIfFailed(length, failed);
+  return failed;
+}
+
+/// What a beam should read in which no handle is: the door.
+double DoorRange(const RangeRay& ray, const Plane& door) {
+  return -door.Distance(ray.origin) / door.normal.dot(ray.direction);
+}
+
+/// Of the normal about the door's x and y, in the frame of the handle.
+Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door,
+                             const Rigid<frame::Object, frame::Base>& object_from_base) {
+  constexpr double kFlatness_rad = 0.004;  // no door is a plane
+  std::vector<Eigen::Vector2d> on_door;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const RangeRay& ray : likelihood.rays().rays) {
+    if (std::abs(door.Distance(ray.Point())) > kAgreeSigmas * likelihood.Sigma()) continue;
+    on_door.push_back((object_from_base * ray.Point()).head<2>());
+    mean += on_door.back();
+  }
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& at : on_door)
+    squares += (at - mean / static_cast<double>(on_door.size())).cwiseAbs2();
+  squares *= std::min(1.0, likelihood.rays().samples_per_ray);
+  const auto sigma = [&](double spread2) {
+    return std::hypot(kFlatness_rad, likelihood.Sigma() / std::sqrt(std::max(spread2, 1e-4)));
+  };
+  return {sigma(squares.y()), sigma(squares.x())};
+}
+
+HandleInformation InformationOf(const HandleScorer& scorer, const HandleState& handle,
+                                const Plane& door) {
+  const std::array<double, kHandleParameters> steps = {0.002, 0.002, 0.02, 0.002, 0.004, 0.001};
+  std::vector<DoorThing> moved;
+  for (int p = 0; p < kHandleParameters; ++p) {
+    HandleState state = handle;
+    state.values[p] += steps[static_cast<std::size_t>(p)];
+    moved.push_back(ThingOf(state.Model(), state.Pose(scorer.base_from_door)));
+  }
+  const DoorThing here = ThingOf(handle.Model(), handle.Pose(scorer.base_from_door));
+  const RaySet& rays = scorer.likelihood.rays();
+  HandleInformation information = HandleInformation::Zero();
+  for (std::size_t i = 0; i < rays.rays.size(); ++i) {
+    const double door_m = DoorRange(rays.rays[i], door);
+    const auto reading = [&](const DoorThing& thing) {
+      const auto expected = scorer.likelihood.Expect(i, IntersectionWith(thing));
+      if (!expected) return ExpectedBeam{0.0, door_m, door_m, scorer.likelihood.Sigma(), false};
+      return *expected;
+    };
+    const ExpectedBeam at = reading(here);
+    if (std::abs(rays.rays[i].range_m - at.range_m) > kAgreeSigmas * at.sigma_m) continue;
+    HandleStep slope;
+    for (int p = 0; p < kHandleParameters; ++p)
+      slope[p] = (reading(moved[static_cast<std::size_t>(p)]).range_m - at.range_m) /
+                 (steps[static_cast<std::size_t>(p)] * at.sigma_m);
+    information += slope * slope.transpose();
+  }
+  information *= std::min(1.0, rays.samples_per_ray);
+  information.diagonal().array() += 1.0;
+  information(kHandleStandoff, kHandleStandoff) += 1.0 / Squared(HandlePrior::kStandoffSigma_m);
+  information(kHandleRadius, kHandleRadius) += 1.0 / Squared(HandlePrior::kRadiusSigma_m);
+  information(kHandleLength, kHandleLength) += 1.0 / Squared(HandlePrior::kLengthSigma_m);
+  return information;
+}
+
+}  // namespace
+
+HandleEvidence GatherEvidence(const BeamLikelihood& likelihood, const Plane& door,
+                              const HandleCandidate& handle) {
+  const DoorThing thing = ThingOf(handle.model, handle.base_from_object);
+  const auto object_from_base = handle.base_from_object.Inverse();
+  const RaySet& rays = likelihood.rays();
+  HandleEvidence evidence;
+  int agreeing = 0, behind = 0, round = 0, round_before = 0;
+  double square_sum = 0.0;
+  std::array<bool, kCoverBins> covered{};
+  for (std::size_t i = 0; i < rays.rays.size(); ++i) {
+    const RangeRay& ray = rays.rays[i];
+    ++evidence.rays;
+    const auto expected = likelihood.Expect(i, IntersectionWith(thing));
+    if (!expected || expected->fraction < 0.02) {
+      if (!thing.Intersect(ray, kRound_m)) continue;
+      ++round;
+      round_before += ray.range_m < DoorRange(ray, door) - kAgreeSigmas * likelihood.Sigma();
+      continue;
+    }
+    if (expected->fraction < kOnHandle) continue;
+    ++evidence.hits;
+    const double error = ray.range_m - expected->range_m;
+    const double agree_m = kAgreeSigmas * expected->sigma_m;
+    behind += error > agree_m;
+    if (std::abs(error) > agree_m) continue;
+    ++agreeing;
+    square_sum += error * error;
+    const Eigen::Vector3d at = object_from_base * (ray.origin + expected->object_m * ray.direction);
+    const double place = at.x() / handle.model.length_m;
+    if (std::abs(at.y()) < 2.0 * handle.model.radius_m && place >= 0.0 && place < 1.0)
+      covered[static_cast<std::size_t>(place * kCoverBins)] = true;
+  }
+  const double hits = std::max(1, evidence.hits);
+  evidence.inlier_ratio = agreeing / hits;
+  evidence.see_through = behind / hits;
+  evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
+  evidence.covered =
+      static_cast<double>(std::count(covered.begin(), covered.end(), true)) / kCoverBins;
+  evidence.beside = round_before / static_cast<double>(std::max(1, round));
+  return evidence;
+}
+
+void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDetection& detection) {
+  const HandleInformation covariance =
+      InformationOf(scorer, handle, detection.door).ldlt().solve(HandleInformation::Identity());
+  // From the door's frame to the handle's own axes.
+  Eigen::Matrix<double, 6, kHandleParameters> to_pose =
+      Eigen::Matrix<double, 6, kHandleParameters>::Zero();
+  const double turn = handle.values[kHandleTurn];
+  to_pose.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-turn).toRotationMatrix();
+  to_pose(2, kHandleStandoff) = 1.0;
+  to_pose(5, kHandleTurn) = 1.0;
+  detection.covariance = to_pose * covariance * to_pose.transpose();
+  const Eigen::Vector2d normal =
+      NormalSigmas(scorer.likelihood, detection.door, detection.best.base_from_object.Inverse());
+  detection.covariance(3, 3) += Squared(normal.x());
+  detection.covariance(4, 4) += Squared(normal.y());
+  detection.sigma_position_m = detection.covariance.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
+  detection.sigma_turn_rad = std::sqrt(std::max(0.0, covariance(kHandleTurn, kHandleTurn)));
+  detection.sigma_normal_rad = normal.maxCoeff();
+  detection.sigma_length_m = std::sqrt(std::max(0.0, covariance(kHandleLength, kHandleLength)));
+}
+
+std::vector<std::string> HandleFeatureNames() {
+  return {"log_mirror_margin",
+          "log_alternative_margin",
+          "gain_per_hit",
+          "inlier_ratio",
+          "see_through",
+          "covered",
+          "beside",
+          "log_hits",
+          "log_sigma_turn",
+          "abs_log_length"};
+}
+
+Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
+                     const FitHandleOptions& options) {
+  Verdict verdict;
+  verdict.probability = std::nan("");
+  verdict.features = FeaturesOf(region, detection);
+  verdict.failed_gates = FailedGates(region, detection, options);
+  verdict.level = verdict.failed_gates.empty() ? VerdictLevel::kLikely : VerdictLevel::kUnsure;
+  verdict.reason =
+      verdict.failed_gates.empty()
+          ? fmt::format(
+                "{} beams on the handle, {:.0f} % of them agree; never confirmed, as no "
+                "probability was calibrated for door handles",
+                detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio)
+          : verdict.failed_gates.front();
+  return verdict;
+}
+
+}  // namespace foresight

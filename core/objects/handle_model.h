@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/base/result.h"
+#include "core/objects/solid_part.h"
+
+namespace foresight {
+
+/// A door handle in the object's frame. The origin is where the pivot's axis crosses the middle of
+/// the lever; x runs along the lever to its free end, z is the door's normal, towards the viewer.
+/// The door is the plane z = -standoff_m. A neck leads back to it, through a round rosette or a
+/// long plate (along y) that lies on the door.
+struct HandleModel {
+  enum class Plate { kRosette, kLong };
+
+  double length_m = 0.12;    ///< from the pivot's axis to the middle of the lever's round end
+  double radius_m = 0.010;   ///< half the lever's thickness
+  double standoff_m = 0.05;  ///< of the lever's middle from the door
+  bool returned = false;     ///< its end is bent back to the door
+  Plate plate = Plate::kRosette;
+
+  static constexpr double kPlateThickness_m = 0.009;
+  static constexpr double kRosetteRadius_m = 0.026;
+  static constexpr double kPlateWidth_m = 0.042;   ///< of a long one
+  static constexpr double kPlateLength_m = 0.230;  ///< the pivot lies in its middle
+  static constexpr double kReturnGap_m = 0.012;    ///< between a returned end and the door
+
+  /// Fails with kInvalidOptions: a size that is not above 0 or not below a metre.
+  Status Check() const;
+  /// Signed distance of a point in the object's frame to the handle's surface, metres.
+  double Distance(const Eigen::Vector3d& point) const;
+};
+
+/// "rosette", "long": the plate in files.
+const char* ToString(HandleModel::Plate plate);
+
+/// Lever, neck, a returned end: round bars, from one end's middle to the other's.
+struct HandleBar {
+  Eigen::Vector3d from, to;
+  double radius_m = 0.0;
+};
+std::vector<HandleBar> BarsOf(const HandleModel& model);
+
+Wireframe WireframeOf(const HandleModel& model);
+
+}  // namespace foresight
