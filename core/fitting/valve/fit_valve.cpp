@@ -12,6 +12,7 @@
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/rim_search.h"
 #include "core/fitting/valve/spoke_search.h"
+#include "core/fitting/valve/valve_covariance.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/valve/valve_state.h"
 #include "core/fitting/valve/valve_verdict.h"
@@ -205,6 +206,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
       valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
   detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
   detection.verdict = AssessValve(rays, region, detection, options);
+  WidenSigmas(rays, at_end, detection);
   return detection;
 }
 

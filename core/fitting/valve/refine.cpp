@@ -103,8 +103,35 @@ class Problem {
   /// Gauss-Newton's normal equations with Cauchy's weights.
   void Linearise(const ValveCandidate& valve, const Eigen::VectorXd& residuals,
                  ValveInformation& information, ValveStep& gradient) const {
-    Eigen::Matrix<double, Eigen::Dynamic, kValveParameters> jacobian(residuals.size(),
-                                                                     int{kValveParameters});
+    const Jacobian jacobian = JacobianAt(valve, residuals);
+    const Eigen::VectorXd weights = WeightsOf(residuals);
+    information = jacobian.transpose() * weights.asDiagonal() * jacobian;
+    gradient = jacobian.transpose() * weights.cwiseProduct(residuals);
+  }
+
+  ValveScores Scores(const ValveCandidate& valve) const {
+    const Eigen::VectorXd residuals = Residuals(valve);
+    Jacobian jacobian = JacobianAt(valve, residuals);
+    DropSteps(jacobian);
+    const Eigen::VectorXd weights = WeightsOf(residuals);
+    const Eigen::VectorXd pull = -weights.cwiseProduct(residuals);
+    const Jacobian pulls = pull.asDiagonal() * jacobian;
+    ValveScores scores;
+    scores.information = jacobian.transpose() * weights.asDiagonal() * jacobian;
+    scores.prior = jacobian.bottomRows<kPriors>().transpose() * jacobian.bottomRows<kPriors>();
+    scores.scores.resize(std::ssize(roled_), int{kValveParameters});
+    for (Eigen::Index i = 0; i < std::ssize(roled_); ++i) {
+      scores.rays.push_back(rays_.rays[roled_[static_cast<std::size_t>(i)].index]);
+      scores.scores.row(i) = pulls.row(2 * i) + pulls.row(2 * i + 1);
+    }
+    return scores;
+  }
+
+ private:
+  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, kValveParameters>;
+
+  Jacobian JacobianAt(const ValveCandidate& valve, const Eigen::VectorXd& residuals) const {
+    Jacobian jacobian(residuals.size(), int{kValveParameters});
     for (int p = 0; p < kValveParameters; ++p) {
       if (options_.parts == ValveParts::kRim && (p == kPhase || p == kTubeRadius || p == kDish)) {
         // Alone, a rim would thicken to reach the returns of its spokes.
@@ -114,15 +141,25 @@ class Problem {
       const double step = StepTowardsUsual(valve.model, p);
       jacobian.col(p) = (Residuals(Retract(valve, step * ValveStep::Unit(p))) - residuals) / step;
     }
+    return jacobian;
+  }
+
+  /// A ray that goes from one part to another within a derivative's step seems to know the pose to
+  /// a micrometre: it says nothing.
+  static void DropSteps(Jacobian& jacobian) {
+    constexpr double kMostSlope = 2000.0;  // deviations a metre: ten times those of 5 mm of noise
+    for (Eigen::Index row = 0; row < jacobian.rows() - kPriors; ++row)
+      if (!(jacobian.row(row).cwiseAbs().maxCoeff() < kMostSlope)) jacobian.row(row).setZero();
+  }
+
+  Eigen::VectorXd WeightsOf(const Eigen::VectorXd& residuals) const {
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(residuals.size());
     for (Eigen::Index i = 0; i < std::ssize(roled_); ++i)
       weights.segment<2>(2 * i).setConstant(
           weight_ / (1.0 + residuals.segment<2>(2 * i).squaredNorm() / kCauchyScale2));
-    information = jacobian.transpose() * weights.asDiagonal() * jacobian;
-    gradient = jacobian.transpose() * weights.cwiseProduct(residuals);
+    return weights;
   }
 
- private:
   const RaySet& rays_;
   const RefineOptions& options_;
   BeamFootprints footprints_;
@@ -162,6 +199,13 @@ RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const Refin
     }
   }
   return best;
+}
+
+ValveScores ScoresOf(const RaySet& rays, const ValveCandidate& valve,
+                     const RefineOptions& options) {
+  Problem problem(rays, options);
+  problem.AssignRoles(valve);
+  return problem.Scores(valve);
 }
 
 }  // namespace foresight

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "core/fitting/ray_set.h"
 #include "core/fitting/valve/valve_state.h"
@@ -26,5 +28,16 @@ struct RefinedValve {
 /// surface along the ray and towards it across; a ray that ended behind the template pushes it
 /// aside. The result depends on a start within a few centimetres.
 RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const RefineOptions& options);
+
+/// What each ray says of the parameters at an answer, for its covariance.
+struct ValveScores {
+  std::vector<RangeRay> rays;  ///< those looked at
+  /// (rays x parameters): minus the slopes of a ray's cost, robust weight included.
+  Eigen::MatrixXd scores;
+  ValveInformation information;  ///< J^T J, the prior's included
+  ValveInformation prior;        ///< the prior's alone
+};
+
+ValveScores ScoresOf(const RaySet& rays, const ValveCandidate& valve, const RefineOptions& options);
 
 }  // namespace foresight

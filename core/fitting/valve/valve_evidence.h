@@ -16,7 +16,8 @@ ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wal
                              const ValveCandidate& valve);
 
 /// Fills the covariance and the deviations of a detection from the information of its best
-/// candidate. A direction that no ray sees has a deviation of about a turn or a metre; the phase of
+/// candidate, as if each beam were an independent measurement: for the verdict. WidenSigmas
+/// follows. A direction that no ray sees has a deviation of about a turn or a metre; the phase of
 /// a disc is NaN in the covariance.
 void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/fitting/valve/refine.h"
+
+namespace foresight {
+
+/// Replaces the covariance and the deviations of a detection, along and about the object's own
+/// axes, by those that hold for the pose: the beams of a scan line err together
+/// (CovarianceClusteredByLine), and what no ray tells, that wheels are no template, is a factor for
+/// each direction, chosen on training scenes (docs/evaluation.md, "Two worlds").
+/// @param rays those of the fit; @param options its wall is looked at.
+/// The verdict is assessed before: its weights were fitted to SetSigmas, which takes every beam for
+/// an independent one.
+void WidenSigmas(const RaySet& rays, const RefineOptions& options, ValveDetection& detection);
+
+}  // namespace foresight
