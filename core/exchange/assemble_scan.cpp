@@ -1,5 +1,7 @@
 #include "core/exchange/assemble_scan.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -460,6 +462,11 @@ Status ImportOptions::Check() const {
   if (rig) FORESIGHT_CHECK(rig->Check());
   if (view) FORESIGHT_CHECK(view->Check());
   return {};
+}
+
+std::string ImportedPose::Text() const {
+  return fmt::format("{}: a pose in '{}', position ({}) m, quaternion (w, x, y, z) ({})", name,
+                     frame, fmt::join(position_m, ", "), fmt::join(rotation_wxyz, ", "));
 }
 
 Result<ImportedScan> AssembleScan(ScanParts parts, const ImportOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,12 +63,27 @@ struct ScanParts {
   std::optional<std::int64_t> start_utc_ns;
 };
 
+/// A pose that another program told beside a cloud: of what it found, or of the robot. What it is
+/// and how certain is not known, so it is kept as a note and is no detection.
+struct ImportedPose {
+  std::string name;   ///< of its topic
+  std::string frame;  ///< as its program calls it
+  std::int64_t utc_ns = 0;
+  std::array<double, 3> position_m = {};                       ///< in `frame`, finite
+  std::array<double, 4> rotation_wxyz = {1.0, 0.0, 0.0, 0.0};  ///< likewise
+
+  /// One line with every digit: "/goal: a pose in 'map', position (1, 2, 0) m, quaternion
+  /// (w, x, y, z) (1, 0, 0, 0)".
+  std::string Text() const;
+};
+
 struct ImportedScan {
   Scan scan;                 ///< with a given cloud, complete
   std::string of_scan_uuid;  ///< the exported scan that it is a copy of; empty = not known
   std::size_t points = 0;
   std::string grid;                ///< in words, how its grid was found
   std::vector<std::string> notes;  ///< what was assumed, lost, or does not work, a sentence each
+  std::vector<ImportedPose> poses;
 };
 
 /// Puts a scan together. Fails with kInvalidInput where parts do not fit each other (an image of

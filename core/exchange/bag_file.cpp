@@ -341,4 +341,20 @@ std::string BagReader::ReadTransforms(const std::string& topic,
   });
 }
 
+std::string BagReader::ReadPoses(const std::string& topic, std::size_t most,
+                                 std::vector<std::pair<BagTime_ns, BagPose>>* poses) {
+  return Guard([&] {
+    rosbag::View view(impl_->bag, rosbag::TopicQuery(topic));
+    for (const rosbag::MessageInstance& instance : view) {
+      if (poses->size() >= most) break;
+      const auto message = Decoded<geometry_msgs::PoseStamped>(instance);
+      const auto& p = message->pose.position;
+      const auto& q = message->pose.orientation;
+      poses->emplace_back(
+          StampOf(message->header, instance.getTime()),
+          BagPose{message->header.frame_id, {}, {p.x, p.y, p.z}, {q.w, q.x, q.y, q.z}});
+    }
+  });
+}
+
 }  // namespace foresight

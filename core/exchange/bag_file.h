@@ -117,6 +117,9 @@ class BagReader {
   /// tf2_msgs/TFMessage and tf/tfMessage: all transforms with their times.
   std::string ReadTransforms(const std::string& topic,
                              std::vector<std::pair<BagTime_ns, BagPose>>* poses);
+  /// geometry_msgs/PoseStamped: the first `most` of the topic with their times, without a child.
+  std::string ReadPoses(const std::string& topic, std::size_t most,
+                        std::vector<std::pair<BagTime_ns, BagPose>>* poses);
 
  private:
   struct Impl;

@@ -20,6 +20,9 @@ namespace {
 using Pose = Rigid<frame::Robot, frame::Robot>;  // frames of a bag have names of their own
 
 constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
+constexpr const char* kPoseType = "geometry_msgs/PoseStamped";
+/// A topic of a robot's way has thousands.
+constexpr std::size_t kMostPosesOfATopic = 100;
 constexpr const char* kRecordTopic = "/foresight/scan";
 
 bool IsImageType(const std::string& type) {
@@ -208,6 +211,7 @@ class BagImport {
     }
     for (std::size_t i = 0; options_.clouds.empty() && i < cloud_->times.size(); ++i)
       wanted.push_back(i);
+    FORESIGHT_CHECK(ReadPoses(wanted));
     double done = 0.0;
     for (const std::size_t number : wanted) {
       if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the import was cancelled");
@@ -286,6 +290,39 @@ class BagImport {
     return {};
   }
 
+  /// Each pose belongs to the last cloud before it, or else to the first one.
+  Status ReadPoses(const std::vector<std::size_t>& wanted) {
+    if (wanted.empty()) return {};
+    const auto time = [&](std::size_t number) { return cloud_->times[number]; };
+    const std::size_t first =
+        *std::min_element(wanted.begin(), wanted.end(),
+                          [&](std::size_t a, std::size_t b) { return time(a) < time(b); });
+    for (const BagTopic& topic : topics_) {
+      if (topic.type != kPoseType) continue;
+      std::vector<std::pair<BagTime_ns, BagPose>> poses;
+      FORESIGHT_CHECK(Done(bag_.ReadPoses(topic.name, kMostPosesOfATopic, &poses)));
+      const std::string name = Printable(topic.name);
+      if (topic.times.size() > poses.size())
+        poses_[first].notes.push_back(fmt::format("of {} poses of {} the first {} are kept",
+                                                  topic.times.size(), name, poses.size()));
+      for (const auto& [stamp, pose] : poses) {
+        std::size_t owner = first;
+        for (const std::size_t number : wanted)
+          if (time(number) <= stamp && time(number) > time(owner)) owner = number;
+        const auto finite = [](double value) { return std::isfinite(value); };
+        if (!std::all_of(pose.position_m.begin(), pose.position_m.end(), finite) ||
+            !std::all_of(pose.rotation_wxyz.begin(), pose.rotation_wxyz.end(), finite)) {
+          poses_[owner].notes.push_back(
+              fmt::format("a pose of {} that is not finite is left out", name));
+          continue;
+        }
+        poses_[owner].poses.push_back(
+            {name, Printable(pose.frame), stamp, pose.position_m, pose.rotation_wxyz});
+      }
+    }
+    return {};
+  }
+
   Result<ImportedScan> ImportOne(std::size_t number) {
     BagCloudMessage message;
     FORESIGHT_CHECK(Done(bag_.ReadCloud(cloud_->name, number, &message)));
@@ -305,6 +342,9 @@ class BagImport {
     }
     FORESIGHT_TRY(ImportedScan scan, AssembleScan(std::move(parts), options_));
     scan.notes.insert(scan.notes.begin(), notes_.begin(), notes_.end());
+    const PosesOfCloud& told = poses_[number];
+    scan.notes.insert(scan.notes.end(), told.notes.begin(), told.notes.end());
+    scan.poses = told.poses;
     return scan;
   }
 
@@ -436,6 +476,11 @@ class BagImport {
     return count == 1 ? only : nullptr;
   }
 
+  struct PosesOfCloud {
+    std::vector<ImportedPose> poses;
+    std::vector<std::string> notes;
+  };
+
   const std::string source_;
   const std::string name_;
   const ImportOptions& options_;
@@ -445,6 +490,7 @@ class BagImport {
   const BagTopic* image_ = nullptr;
   const BagTopic* record_ = nullptr;
   TransformTree tree_;
+  std::map<std::size_t, PosesOfCloud> poses_;  ///< by the number of their cloud
   std::vector<std::string> notes_;
 };
 

@@ -268,6 +268,7 @@ class Importer {
     FORESIGHT_CHECK(mission_.SetGivenCloud(id, scan.given));
     for (const CameraFrame& frame : scan.frames) FORESIGHT_CHECK(mission_.AppendFrame(id, frame));
     FORESIGHT_CHECK(mission_.EndScan(id, ScanState::kComplete, ""));
+    for (const ImportedPose& pose : imported.poses) FORESIGHT_CHECK(KeepPose(pose, id, scan.uuid));
     ImportReport::Entry entry{id,
                               scan.uuid,
                               imported.of_scan_uuid,
@@ -280,6 +281,20 @@ class Importer {
                               imported.notes};
     FORESIGHT_CHECK(Tell(entry, file));
     report_.scans.push_back(std::move(entry));
+    return {};
+  }
+
+  /// As a note: a robot is never sent what another program found.
+  Status KeepPose(const ImportedPose& pose, std::int64_t scan_id, const std::string& scan_uuid) {
+    NoteRecord note;
+    note.scan_id = scan_id;
+    note.scan_uuid = scan_uuid;
+    note.kind = kNoteKind;
+    note.utc_ns = pose.utc_ns;
+    note.author = "import";
+    note.text = pose.Text();
+    note.tags = "pose imported";
+    FORESIGHT_CHECK(mission_.AddNote(note));
     return {};
   }
 

@@ -27,6 +27,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/publish_file.h"
+#include "core/exchange/gltf_colors.h"
 
 namespace foresight {
 namespace {
@@ -132,7 +133,8 @@ bool WriteObj(vtkPolyData* data, const std::filesystem::path& part) {
   return faces == data->GetNumberOfPolys();
 }
 
-bool WriteGltf(vtkPolyData* data, const std::filesystem::path& part) {
+bool WriteGltf(vtkPolyData* data, std::span<const CloudPoint> points,
+               const std::filesystem::path& part) {
   // The writer wants a scene of buildings, each of meshes.
   vtkNew<vtkMultiBlockDataSet> building, scene;
   building->SetBlock(0, data);
@@ -142,8 +144,13 @@ bool WriteGltf(vtkPolyData* data, const std::filesystem::path& part) {
   writer->InlineDataOn();
   writer->SaveTexturesOff();
   if (!Write(*writer, part)) return false;
-  std::ifstream file(part);
-  return nlohmann::json::accept(file);  // as with an OBJ file
+  std::ifstream written(part);
+  nlohmann::json gltf = nlohmann::json::parse(written, nullptr, false);
+  written.close();
+  if (gltf.is_discarded() || !AddGltfColors(points, gltf)) return false;  // as with an OBJ file
+  std::ofstream file(part, std::ios::trunc);
+  file << gltf.dump() << '\n' << std::flush;
+  return file.good();
 }
 
 }  // namespace
@@ -223,7 +230,7 @@ Status WriteSurface(const std::filesystem::path& path, std::span<const CloudPoin
       return Write(*writer, part);
     }
     if (ending == ".obj") return WriteObj(data.Get(), part);
-    if (ending == ".gltf") return WriteGltf(data.Get(), part);
+    if (ending == ".gltf") return WriteGltf(data.Get(), points, part);
     return WritePolyData(data.Get(), part);
   });
 }

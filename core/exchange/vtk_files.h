@@ -19,6 +19,7 @@ Status WriteVti(const std::filesystem::path& path, const DepthResult& depth,
                 const ColorImage& image);
 
 /// A triangulated surface: PLY, OBJ, glTF (one file, data inline) or VTP, as the file's name ends.
+/// The points' colours are with it, but for OBJ, whose form has none.
 /// Fails with kInvalidInput for any other name, and with kIo.
 Status WriteSurface(const std::filesystem::path& path, std::span<const CloudPoint> points,
                     std::span<const std::array<std::int32_t, 3>> triangles);

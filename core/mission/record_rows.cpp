@@ -91,6 +91,25 @@ void BindScan(SqliteStatement& statement, std::int64_t scan_id) {
     statement.Bind(scan_id);
 }
 
+/// What stands first in every record of a scan: id, uuid, scan_id, scan_uuid.
+template <class Record>
+void BindIdentity(SqliteStatement& insert, const Record& record) {
+  insert.Bind(record.id).BindText(record.uuid);
+  BindScan(insert, record.scan_id);
+  insert.BindText(record.scan_uuid);
+}
+
+/// The reverse, of a row that begins with these four.
+template <class Record>
+Record WithIdentity(const SqliteStatement& row) {
+  Record record;
+  record.id = row.Integer(0);
+  record.uuid = row.Text(1);
+  record.scan_id = row.Integer(2);
+  record.scan_uuid = row.Text(3);
+  return record;
+}
+
 /// What `read` makes of each row of a statement.
 template <class Read>
 auto ReadRows(SqliteStatement& select, const Read& read)
@@ -201,10 +220,8 @@ Result<std::int64_t> InsertDetection(SqliteDatabase& database, DetectionRecord d
       database.Prepare("INSERT INTO detection(id, uuid, scan_id, scan_uuid, kind, utc_ns, "
                        "author, json, provenance_json, crc32) "
                        "VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
-  insert.Bind(detection.id).BindText(detection.uuid);
-  BindScan(insert, detection.scan_id);
-  FORESIGHT_CHECK(insert.BindText(detection.scan_uuid)
-                      .BindText(detection.kind)
+  BindIdentity(insert, detection);
+  FORESIGHT_CHECK(insert.BindText(detection.kind)
                       .Bind(detection.utc_ns)
                       .BindText(detection.author)
                       .BindText(detection.json)
@@ -225,11 +242,7 @@ Result<std::vector<DetectionRecord>> ReadDetections(const SqliteDatabase& databa
                                  "ORDER BY id"));
   select.Bind(scan_id.value_or(-1)).Bind(scan_id.value_or(-1));
   return ReadRows(select, [&]() -> Result<DetectionRecord> {
-    DetectionRecord detection;
-    detection.id = select.Integer(0);
-    detection.uuid = select.Text(1);
-    detection.scan_id = select.Integer(2);
-    detection.scan_uuid = select.Text(3);
+    auto detection = WithIdentity<DetectionRecord>(select);
     detection.kind = select.Text(4);
     detection.utc_ns = select.Integer(5);
     detection.author = select.Text(6);
@@ -316,10 +329,8 @@ Result<std::int64_t> InsertDepth(SqliteDatabase& database, DepthRecord depth) {
                 database.Prepare("INSERT INTO depth(id, uuid, scan_id, scan_uuid, image_position, "
                                  "utc_ns, author, provenance_json, digest, statistics_json, crc32) "
                                  "VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
-  insert.Bind(depth.id).BindText(depth.uuid);
-  BindScan(insert, depth.scan_id);
-  FORESIGHT_CHECK(insert.BindText(depth.scan_uuid)
-                      .Bind(depth.image_position)
+  BindIdentity(insert, depth);
+  FORESIGHT_CHECK(insert.Bind(depth.image_position)
                       .Bind(depth.utc_ns)
                       .BindText(depth.author)
                       .BindText(depth.provenance_json)
@@ -339,11 +350,7 @@ Result<std::vector<DepthRecord>> ReadDepths(const SqliteDatabase& database,
                                  "depth WHERE ? < 0 OR scan_id = ? ORDER BY id"));
   select.Bind(scan_id.value_or(-1)).Bind(scan_id.value_or(-1));
   return ReadRows(select, [&]() -> Result<DepthRecord> {
-    DepthRecord depth;
-    depth.id = select.Integer(0);
-    depth.uuid = select.Text(1);
-    depth.scan_id = select.Integer(2);
-    depth.scan_uuid = select.Text(3);
+    auto depth = WithIdentity<DepthRecord>(select);
     depth.image_position = select.Integer(4);
     depth.utc_ns = select.Integer(5);
     depth.author = select.Text(6);
@@ -364,10 +371,8 @@ Result<std::int64_t> InsertNote(SqliteDatabase& database, NoteRecord note) {
                 database.Prepare("INSERT INTO note(id, uuid, scan_id, scan_uuid, object_uuid, "
                                  "kind, utc_ns, author, text, tags, json, deleted, crc32) "
                                  "VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
-  insert.Bind(note.id).BindText(note.uuid);
-  BindScan(insert, note.scan_id);
-  FORESIGHT_CHECK(insert.BindText(note.scan_uuid)
-                      .BindText(note.object_uuid)
+  BindIdentity(insert, note);
+  FORESIGHT_CHECK(insert.BindText(note.object_uuid)
                       .BindText(note.kind)
                       .Bind(note.utc_ns)
                       .BindText(note.author)
@@ -385,11 +390,7 @@ Result<std::vector<NoteRecord>> ReadNotes(const SqliteDatabase& database, const 
                 database.Prepare("SELECT id, uuid, scan_id, scan_uuid, object_uuid, kind, utc_ns, "
                                  "author, text, tags, json, deleted, crc32 FROM note ORDER BY id"));
   FORESIGHT_TRY(const std::vector<NoteRecord> states, ReadRows(select, [&]() -> Result<NoteRecord> {
-                  NoteRecord note;
-                  note.id = select.Integer(0);
-                  note.uuid = select.Text(1);
-                  note.scan_id = select.Integer(2);
-                  note.scan_uuid = select.Text(3);
+                  auto note = WithIdentity<NoteRecord>(select);
                   note.object_uuid = select.Text(4);
                   note.kind = select.Text(5);
                   note.utc_ns = select.Integer(6);

@@ -6,13 +6,17 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
+#include <vtkCompositeDataIterator.h>
 #include <vtkDataArray.h>
+#include <vtkGLTFReader.h>
 #include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -20,7 +24,10 @@
 
 #include "core/base/atomic_file.h"
 #include "core/depth/depth_method.h"
+#include "core/detection/candidates.h"
 #include "core/detection/detection_json.h"
+#include "core/exchange/import_mission.h"
+#include "core/exchange/paint_cloud.h"
 #include "core/io/pfm.h"
 #include "core/io/png.h"
 #include "core/mission/new_records.h"
@@ -202,6 +209,60 @@ TEST_F(ExportMissionTest, TheGltfIsOneFileWithItsData) {
   EXPECT_FALSE(gltf.at("meshes").empty());
   for (const auto& buffer : gltf.at("buffers"))
     EXPECT_THAT(buffer.at("uri").get<std::string>(), testing::StartsWith("data:"));
+}
+
+TEST_F(ExportMissionTest, TheGltfHasTheColoursOfTheImage) {
+  vtkNew<vtkGLTFReader> reader;
+  reader->SetFileName(OfScan("surface.gltf").c_str());
+  reader->Update();
+  vtkSmartPointer<vtkCompositeDataIterator> leaf;
+  leaf.TakeReference(reader->GetOutput()->NewIterator());
+  auto* surface = vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject());
+  ASSERT_NE(surface, nullptr);
+  vtkDataArray* colors = surface->GetPointData()->GetArray("COLOR_0");
+  ASSERT_NE(colors, nullptr);
+  std::vector<CloudPoint> points = PointsInRobot(cloud_, scan_);
+  ASSERT_EQ(colors->GetNumberOfTuples(), static_cast<vtkIdType>(points.size()));
+  PaintCloud(points, scan_.frames[0], depth_);
+  // The reader gives what is kept in 16 bits as 0 to 1. IEC 61966-2-1 takes it back to sRGB.
+  const auto srgb = [](double c) {
+    return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
+  };
+  int painted = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool seen = !std::isnan(points[i].confidence);
+    painted += seen ? 1 : 0;
+    const Rgb8 expected = seen ? points[i].color : Rgb8{128, 128, 128};
+    const double* linear = colors->GetTuple(static_cast<vtkIdType>(i));
+    ASSERT_NEAR(srgb(linear[0]), expected.r, 0.1) << i;
+    ASSERT_NEAR(srgb(linear[1]), expected.g, 0.1) << i;
+    ASSERT_NEAR(srgb(linear[2]), expected.b, 0.1) << i;
+  }
+  EXPECT_GT(painted, 10'000);
+}
+
+TEST_F(ExportMissionTest, AnImportKeepsItsPosesAsNotesAndNothingThatCouldBeSent) {
+  const std::vector<std::filesystem::path> bag = {Out("mission.bag")};
+  const auto report = ImportMission(bag, *folder_ / "back.foresight", {}, {});
+  ASSERT_TRUE(report) << report.error().message;
+  const auto back = MissionFile::OpenReadOnly(*folder_ / "back.foresight").value();
+  EXPECT_THAT(back->ListDetections().value(), testing::IsEmpty());
+  const std::vector<NoteRecord> notes = back->ListNotes().value();
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].kind, kNoteKind);
+  EXPECT_EQ(notes[0].scan_uuid, report->scans[0].uuid);
+  EXPECT_EQ(notes[0].author, "import");
+  EXPECT_EQ(notes[0].utc_ns, 1795352793250000000);
+  const std::string kept = mission_->ListDetections().value()[0].json;
+  const Detection valve = DetectionFromJson(kept).value();
+  const auto pose = scan_.rig.robot_from_base * CandidatePose(valve, 0);
+  const Eigen::Vector3d& t = pose.translation();
+  const Eigen::Quaterniond& q = pose.rotation();
+  EXPECT_EQ(notes[0].text,
+            fmt::format("/foresight/objects/valve: a pose in 'robot', position ({}, {}, {}) m, "
+                        "quaternion (w, x, y, z) ({}, {}, {}, {})",
+                        t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()))
+      << "to the last digit";
 }
 
 TEST_F(ExportMissionTest, DepthIsInMillimetres) {

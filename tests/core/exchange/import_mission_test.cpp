@@ -283,6 +283,43 @@ TEST_F(ImportOfAnExport, ItsBagWithoutOurRecordIsPlacedByTf) {
   EXPECT_NEAR(in_camera.x(), 0.0, 1e-3);
 }
 
+TEST_F(ImportOfAnExport, PosesOfAnotherProgramsBagAreNotesWithTheirDigits) {
+  const fs::path seed = *folder_ / "seed.bag", bag = *folder_ / "poses.bag";
+  {
+    BagFile out;
+    ASSERT_EQ(out.Open(seed.string()), "");
+    constexpr BagTime_ns kTime = 1795352793250000000;
+    BagCloud cloud{"map", {}, 0, {}};
+    for (const char* axis : {"x", "y", "z"})
+      cloud.fields.push_back({axis, BagField::Type::kFloat32});
+    for (int i = 0; i < 100; ++i) {
+      const float xyz[3] = {2.0f, 0.01f * static_cast<float>(i % 10), 0.1f * static_cast<float>(i)};
+      const auto* bytes = reinterpret_cast<const std::uint8_t*>(xyz);
+      cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof(xyz));
+      ++cloud.points;
+    }
+    ASSERT_EQ(out.WritePose("/seed", kTime, {"map", "", {}, {}}), "");
+    ASSERT_EQ(out.WriteCloud("/cloud", kTime, cloud), "");
+    ASSERT_EQ(out.Close(), "");
+  }
+  const ProgramResult wrote = RunProgram(
+      "/usr/bin/python3",
+      {FORESIGHT_SOURCE_DIR "/tests/core/exchange/write_bag.py", seed.string(), bag.string()});
+  ASSERT_EQ(wrote.exit_code, 0) << wrote.errors;
+  const auto report = Import({bag}, *folder_ / "poses.foresight");
+  ASSERT_TRUE(report) << report.error().message;
+  const auto mission = MissionFile::OpenReadOnly(*folder_ / "poses.foresight").value();
+  EXPECT_THAT(mission->ListDetections().value(), IsEmpty());
+  const std::vector<NoteRecord> notes = mission->ListNotes().value();
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[1].text,
+            "/goal: a pose in 'map', position (0.3333333333333333, -2, 1e-09) m, quaternion "
+            "(w, x, y, z) (0.8, 0, 0.6, 0)");
+  EXPECT_EQ(notes[1].utc_ns, 1795352794250000000);
+  EXPECT_EQ(notes[1].scan_uuid, report->scans[0].uuid);
+  EXPECT_THAT(report->scans[0].notes, Contains(HasSubstr("/goal that is not finite is left out")));
+}
+
 /// KITTI's form: a pinhole, beside the reference camera, turned by a rectification.
 const char* const kKitti =
     "P0: 700 0 60 0 0 700 20 0 0 0 1 0\n"
