@@ -11,8 +11,8 @@ namespace foresight {
 /// A score and what it was measured with.
 struct EvaluationRow {
   MethodScore score;
-  /// The method's own depth, whatever it masks, where Foresight's mask keeps Foresight's: methods at
-  /// one coverage. None where Foresight was not among the methods.
+  /// The method's own depth, whatever it masks, where Foresight's mask keeps Foresight's: methods
+  /// at one coverage. None where Foresight was not among the methods.
   std::optional<DepthAccuracy> in_foresight_mask;
   std::optional<CalibrationError> calibration_error;  ///< of simulated scenes
 };
