@@ -119,7 +119,8 @@ class BagCheck {
     const std::string magic = "#ROSBAG V";
     std::string line(13, '\0');
     file_.read(&line[0], static_cast<std::streamsize>(line.size()));
-    if (line.compare(0, magic.size(), magic) != 0) throw std::runtime_error("is no ROS bag");
+    if (line.compare(0, magic.size(), magic) != 0)
+      throw std::runtime_error("is no ROS bag of format 2.0");
     if (line != magic + rosbag::VERSION + "\n")
       throw std::runtime_error("is not of version 2.0: convert it with 'rosbag migrate'");
     at_ = line.size();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 
@@ -197,7 +196,9 @@ class BagImport {
       : source_(path.string()), name_(path.filename().string()), options_(options) {}
 
   Status Run(const std::function<Status(ImportedScan)>& take, const RunContext& context) {
-    FORESIGHT_CHECK(CheckBegin());
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(source_, error))
+      return Fail(ErrorCode::kIo, "{}: is no file that can be read", source_);
     FORESIGHT_CHECK(Done(bag_.Open(source_)));
     FORESIGHT_CHECK(Done(bag_.ReadTopics(&topics_)));
     FORESIGHT_CHECK(ChooseTopics());
@@ -226,19 +227,6 @@ class BagImport {
   Status Done(const std::string& failure) const {
     if (failure.empty()) return {};
     return Fail(ErrorCode::kBadData, "{}: {}", source_, Printable(failure));
-  }
-
-  /// What is no bag at all is said in words; the library's are not for people.
-  Status CheckBegin() const {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(source_, error))
-      return Fail(ErrorCode::kIo, "{}: is no file that can be read", source_);
-    constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-    std::string begin(kMagic.size(), '\0');
-    std::ifstream file(source_, std::ios::binary);
-    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (file && begin == kMagic) return {};
-    return Fail(ErrorCode::kBadData, "{}: is no ROS bag of format 2.0", source_);
   }
 
   const BagTopic* Topic(const std::string& name) const {

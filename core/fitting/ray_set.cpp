@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/quantile.h"
 #include "core/geometry/angles.h"
 #include "core/registration/recover_grid.h"
 
@@ -103,9 +104,7 @@ double MedianNeighbourAngle(const std::vector<RangeRay>& rays) {
     if (std::isfinite(least)) nearest2.push_back(least);
   }
   if (nearest2.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = nearest2.begin() + static_cast<std::ptrdiff_t>(nearest2.size() / 2);
-  std::nth_element(nearest2.begin(), middle, nearest2.end());
-  return 2.0 * std::asin(0.5 * std::sqrt(*middle));
+  return 2.0 * std::asin(0.5 * std::sqrt(UpperMedian(std::move(nearest2))));
 }
 
 }  // namespace

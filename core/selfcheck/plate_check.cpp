@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 namespace {
 
@@ -114,10 +116,8 @@ class PlaneAdjustment {
   void UpdateScale() {
     std::vector<double> offs;
     for (const Distance& d : distances_) offs.push_back(std::abs(Residual(d)) / d.sigma_m);
-    const auto middle = offs.begin() + static_cast<std::ptrdiff_t>(offs.size() / 2);
-    std::nth_element(offs.begin(), middle, offs.end());
     constexpr double kMadToSigma = 1.4826;
-    scale_ = std::max(1.0, kMadToSigma * *middle);
+    scale_ = std::max(1.0, kMadToSigma * UpperMedian(std::move(offs)));
   }
   Eigen::MatrixXd PriorMatrix() const {
     // Weak ones keep the matrix regular where a scan does not say an unknown.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/quantile.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/gate.h"
 #include "core/geometry/angles.h"
@@ -28,12 +29,6 @@ constexpr double kLikelySeeThrough = 0.10;
 constexpr double kLikelyArc_rad = 1.2;
 constexpr double kLikelyMargin_nats = 5.0;
 constexpr double kLikelyRadiusSigma = 0.15;  // of the radius
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 SolidTracer TracerOf(const CylinderState& cylinder) {
   const SolidPart part = cylinder.Part();
@@ -71,7 +66,7 @@ double ArcOf(std::vector<double> angles) {
 double RangeSigmaFrom(const RaySet& rays, const CylinderState& cylinder) {
   const std::vector<double> differences = Differences(rays, cylinder);
   if (std::ssize(differences) < kLeastHits) return std::nan("");
-  return std::clamp(kMadToSigma * Median(differences), kLeastSigma_m, kLargestSigma_m);
+  return std::clamp(kMadToSigma * UpperMedian(differences), kLeastSigma_m, kLargestSigma_m);
 }
 
 CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinder) {
@@ -99,7 +94,7 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
   evidence.see_through = static_cast<double>(through) / evidence.hits;
   evidence.seen_arc_rad = ArcOf(std::move(angles));
   if (auto differences = Differences(rays, cylinder); !differences.empty())
-    evidence.residual_mad_m = Median(std::move(differences));
+    evidence.residual_mad_m = UpperMedian(std::move(differences));
   return evidence;
 }
 

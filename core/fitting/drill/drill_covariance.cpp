@@ -104,11 +104,8 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
   };
   const SolidTracer here = tracer_at(drill);
   std::vector<SolidTracer> moved;
-  std::array<double, kDrillParameters> steps;
   for (int p = 0; p < kDrillParameters; ++p) {
     DrillState state = drill;
-    // A bit cannot be shorter than none.
-    steps[static_cast<std::size_t>(p)] = kStep;
     state.values[p] += kStep;
     moved.push_back(tracer_at(state));
   }
@@ -131,9 +128,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
       const double change = outline ? (there.clearance_m - intersection.clearance_m) / width
                                     : (there.range_m - intersection.range_m) / sigma;
       const bool same = there.part == intersection.part && there.Hits() == inside;
-      slope[p] = same || (outline && there.part == intersection.part)
-                     ? change / steps[static_cast<std::size_t>(p)]
-                     : 0.0;
+      slope[p] = same || (outline && there.part == intersection.part) ? change / kStep : 0.0;
     }
     slopes.information += slope * slope.transpose();
     slopes.scores.row(static_cast<Eigen::Index>(i)) =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/quantile.h"
 #include "core/geometry/rotation_between.h"
 
 namespace foresight {
@@ -20,12 +21,6 @@ bool Usable(const RangeRay& ray) {
 
 GridPoint PointOf(const RangeRay& ray, int index, const Eigen::Vector2i& cell) {
   return {ray.origin, ray.direction, ray.Point(), ray.range_m, cell, 0.0, index};
-}
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Cells of all usable rays, or nothing when one has none or they do not make a grid.
@@ -138,9 +133,9 @@ void SurfaceGrid::MeasureSteps() {
     here.solid_angle_sr = dx.cross(dy).norm();
     area.push_back(here.solid_angle_sr);
   }
-  if (!across.empty()) step_rad_.x() = std::max(kLeastStep_rad, Median(across));
-  if (!down.empty()) step_rad_.y() = std::max(kLeastStep_rad, Median(down));
-  const double usual = area.empty() ? step_rad_.prod() : Median(area);
+  if (!across.empty()) step_rad_.x() = std::max(kLeastStep_rad, UpperMedian(across));
+  if (!down.empty()) step_rad_.y() = std::max(kLeastStep_rad, UpperMedian(down));
+  const double usual = area.empty() ? step_rad_.prod() : UpperMedian(area);
   // A line measured twice, or a gap of the encoder, must not make a point count for many.
   for (GridPoint& point : points_) {
     double& angle = point.solid_angle_sr;

@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <vector>
 
+#include "core/fitting/line_normals.h"
 #include "core/fitting/wall.h"
 
 namespace foresight {
@@ -20,22 +21,6 @@ constexpr double kNeighbourhood_rad = 0.015;
 constexpr double kFarFraction = 0.8;
 constexpr double kWallSigmas = 4.0;
 
-/// Normals of the planes that scan lines lie in: two beams of a line span it.
-std::map<int, Eigen::Vector3d> LineNormals(const RaySet& set) {
-  std::map<int, const RangeRay*> first;
-  std::map<int, Eigen::Vector3d> widest;
-  for (const RangeRay& ray : set.rays) {
-    const auto [entry, is_first] = first.emplace(ray.cell.y(), &ray);
-    if (is_first) continue;
-    const RangeRay& other = *entry->second;
-    const double side = ray.cell.x() > other.cell.x() ? 1.0 : -1.0;
-    const Eigen::Vector3d normal = side * other.direction.cross(ray.direction);
-    Eigen::Vector3d& best = widest.try_emplace(ray.cell.y(), Eigen::Vector3d::Zero()).first->second;
-    if (normal.squaredNorm() > best.squaredNorm()) best = normal;
-  }
-  return widest;
-}
-
 /// Integral of sqrt(1 - x^2) from 0 to x.
 double CircleArea(double x) {
   x = std::clamp(x, -1.0, 1.0);
@@ -46,20 +31,12 @@ double CircleArea(double x) {
 
 BeamFootprints::BeamFootprints(const RaySet& rays, const std::optional<Plane>& wall)
     : rays_(rays), sigma_m_(std::hypot(rays.sigma_m, kTemplateError_m)) {
-  const bool on_lines =
-      rays.footprint_height_rad > 0.0 && !rays.rays.empty() && rays.rays.front().cell.x() >= 0;
-  const std::map<int, Eigen::Vector3d> normals =
-      on_lines ? LineNormals(rays) : std::map<int, Eigen::Vector3d>();
-  Eigen::Vector3d usual = Eigen::Vector3d::Zero();
-  for (const auto& [line, normal] : normals) usual += normal;
+  const std::vector<Eigen::Vector3d> normals = LineNormalsOf(rays);
   footprints_.resize(rays.rays.size());
   for (std::size_t i = 0; i < footprints_.size(); ++i) {
     const RangeRay& ray = rays.rays[i];
     if (wall) footprints_[i].wall_m = RangeToPlane(ray, *wall);
-    Eigen::Vector3d normal = usual;
-    if (const auto own = normals.find(ray.cell.y()); own != normals.end()) normal = own->second;
-    if (!(normal.norm() > 0.0)) continue;
-    normal.normalize();
+    const Eigen::Vector3d& normal = normals[i];
     footprints_[i].across_line = 0.5 * rays.footprint_height_rad * normal;
     footprints_[i].along_line = 0.5 * rays.footprint_rad * normal.cross(ray.direction);
   }

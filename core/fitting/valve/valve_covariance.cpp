@@ -1,8 +1,6 @@
 #include "core/fitting/valve/valve_covariance.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "core/fitting/line_covariance.h"
@@ -28,21 +26,12 @@ void WidenSigmas(const RaySet& rays, const RefineOptions& options, ValveDetectio
   const ValveInformation ridge = ValveInformation::Identity();
   const Eigen::MatrixXd covariance = CovarianceClusteredByLine(
       found.rays, found.scores, found.information + ridge, found.prior + ridge);
-  const bool has_phase = detection.best.model.IsLever() || detection.best.model.spokes > 0;
   PoseCovariance widened = covariance.topLeftCorner<6, 6>();
   for (int i = 0; i < 6; ++i) {
     widened.row(i) *= kFactors[static_cast<std::size_t>(i)];
     widened.col(i) *= kFactors[static_cast<std::size_t>(i)];
   }
-  detection.sigma_position_m = widened.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
-  detection.sigma_axis_rad =
-      std::sqrt(std::max({0.0, widened(kTiltX, kTiltX), widened(kTiltY, kTiltY)}));
-  detection.sigma_phase_rad = std::sqrt(std::max(0.0, widened(kPhase, kPhase)));
-  if (!has_phase) {
-    widened.row(kPhase).setConstant(std::nan(""));
-    widened.col(kPhase).setConstant(std::nan(""));
-  }
-  detection.covariance = widened;
+  SetCovariance(widened, detection);
 }
 
 }  // namespace foresight

@@ -63,6 +63,10 @@ int BinOf(const ValveIntersection& intersection, const ValveModel& model) {
   return std::clamp(static_cast<int>(fraction * kBins), 0, kBins - 1);
 }
 
+bool HasPhase(const ValveModel& model) {
+  return model.IsLever() || model.spokes > 0;
+}
+
 }  // namespace
 
 ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wall,
@@ -114,22 +118,24 @@ ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wal
   return evidence;
 }
 
+void SetCovariance(const PoseCovariance& covariance, ValveDetection& detection) {
+  const Eigen::Matrix<double, 6, 1> sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  detection.sigma_position_m = sigmas.segment<3>(kMoveX);
+  detection.sigma_axis_rad = std::max(sigmas[kTiltX], sigmas[kTiltY]);
+  detection.sigma_phase_rad = sigmas[kPhase];
+  detection.covariance = covariance;
+  if (HasPhase(detection.best.model)) return;
+  detection.covariance.row(kPhase).setConstant(std::nan(""));
+  detection.covariance.col(kPhase).setConstant(std::nan(""));
+}
+
 void SetSigmas(const ValveInformation& information, ValveDetection& detection) {
   // The ridge bounds what no ray sees: a phase to a turn, a length to a metre.
   const ValveInformation covariance =
       (information + ValveInformation::Identity()).ldlt().solve(ValveInformation::Identity());
-  const ValveStep sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  const ValveModel& model = detection.best.model;
-  const bool has_phase = model.IsLever() || model.spokes > 0;
-  detection.covariance = covariance.topLeftCorner<6, 6>();
-  if (!has_phase) {
-    detection.covariance.row(kPhase).setConstant(std::nan(""));
-    detection.covariance.col(kPhase).setConstant(std::nan(""));
-  }
-  detection.sigma_position_m = sigmas.segment<3>(kMoveX);
-  detection.sigma_axis_rad = std::max(sigmas[kTiltX], sigmas[kTiltY]);
-  detection.sigma_phase_rad = sigmas[kPhase];
-  detection.phase_observable = has_phase && detection.sigma_phase_rad < kMaxPhaseSigma_rad;
+  SetCovariance(covariance.topLeftCorner<6, 6>(), detection);
+  detection.phase_observable =
+      HasPhase(detection.best.model) && detection.sigma_phase_rad < kMaxPhaseSigma_rad;
 }
 
 double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence) {

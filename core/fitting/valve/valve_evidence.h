@@ -21,6 +21,10 @@ ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wal
 /// a disc is NaN in the covariance.
 void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 
+/// Fills in a covariance about the object's axes and the deviations that it says; the phase of a
+/// disc is NaN.
+void SetCovariance(const PoseCovariance& covariance, ValveDetection& detection);
+
 /// Independent measurements on the valve: a dense map has fewer than rays.
 double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
 
