@@ -110,6 +110,9 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
   ShowDocument();
   const QRect room = screen()->availableGeometry();
   resize(kUsualSize.boundedTo(room.size()));
+  // The title and the frame need room too: else the lowest line would lie below the screen.
+  if (room.width() <= kUsualSize.width() || room.height() <= kUsualSize.height())
+    setWindowState(windowState() | Qt::WindowMaximized);
 }
 
 void MainWindow::showEvent(QShowEvent* event) {

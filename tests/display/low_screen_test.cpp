@@ -29,6 +29,7 @@ TEST(LowScreen, TheWindowFitsAndNeitherStopNorScanIsCut) {
   RunningWindow running;
   ASSERT_TRUE(running.ScanWithTheMouse());  // the panes need more room then
   MainWindow& window = running.window();
+  EXPECT_TRUE(window.isMaximized()) << "its title would push the lowest line off the screen";
   EXPECT_TRUE(screen.contains(window.geometry()))
       << window.width() << " x " << window.height() << "; docks ask for " << SizesOfDocks(window);
   for (const char* name : {"stopButton", "scanButton"}) {
