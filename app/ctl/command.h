@@ -36,6 +36,7 @@ void AddFetchCommand(CLI::App& app, Invocation& invocation);
 void AddImageCommand(CLI::App& app, Invocation& invocation);
 void AddStopCommand(CLI::App& app, Invocation& invocation);
 void AddHeadsCommand(CLI::App& app, Invocation& invocation);
+void AddBundleCommand(CLI::App& app, Invocation& invocation);
 void AddMapCommand(CLI::App& app, Invocation& invocation);
 void AddMissionCommand(CLI::App& app, Invocation& invocation);
 /// `mission` is the command of that name.

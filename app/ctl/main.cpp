@@ -7,8 +7,6 @@
 
 namespace foresight {
 
-void AddBundleCommand(CLI::App& app, Invocation& invocation);
-
 namespace {
 
 int Main(int argc, char** argv) {

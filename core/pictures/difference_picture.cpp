@@ -7,8 +7,8 @@
 
 namespace foresight {
 
-const Rgb8 kOnlyInFirst = {150, 84, 184};
-const Rgb8 kOnlyInSecond = {46, 150, 84};
+const Rgb8 kColorOnlyInA = {150, 84, 184};
+const Rgb8 kColorOnlyInB = {46, 150, 84};
 
 namespace {
 
@@ -34,9 +34,9 @@ ColorImage PaintDifference(const DepthComparison& comparison, const DepthImage& 
     if (std::isfinite(difference))
       pixel = ColorOf(ColorMap::kBalance, 0.5 + 0.5 * difference / DepthComparison::kFullScale_m);
     else if (Keeps(first_m, first_mask, i))
-      pixel = kOnlyInFirst;
+      pixel = kColorOnlyInA;
     else if (Keeps(second_m, second_mask, i))
-      pixel = kOnlyInSecond;
+      pixel = kColorOnlyInB;
   }
   return picture;
 }
@@ -46,7 +46,7 @@ PictureLegend LegendOfDifference(const std::string& first, const std::string& se
   legend.lines = {second + " minus " + first};
   legend.bar = {ColorMap::kBalance, {-kFullScale_mm, kFullScale_mm}, "mm", false};
   legend.swatches = {
-      {kOnlyInFirst, "only in A"}, {kOnlyInSecond, "only in B"}, {kNeither, "in neither"}};
+      {kColorOnlyInA, "only in A"}, {kColorOnlyInB, "only in B"}, {kNeither, "in neither"}};
   return legend;
 }
 

@@ -18,8 +18,8 @@ ColorImage PaintDifference(const DepthComparison& comparison, const DepthImage& 
 PictureLegend LegendOfDifference(const std::string& first, const std::string& second);
 
 /// The colours of pixels that one of the two keeps.
-extern const Rgb8 kOnlyInFirst;
-extern const Rgb8 kOnlyInSecond;
+extern const Rgb8 kColorOnlyInA;
+extern const Rgb8 kColorOnlyInB;
 
 /// Pixels by their difference, in percent of those that both keep.
 LineChart ChartOfDifference(const DepthComparison& comparison);

@@ -178,8 +178,8 @@ TEST_F(SideResultsWindow, TheDifferenceMapShowsBlueOrangeAndWhatOnlyOneOfThemHas
             1e-4);
   EXPECT_GT(fraction([](const QColor& c) { return c.red() > c.blue() + 40 && c.red() > 150; }),
             1e-4);
-  const bool a_alone = fraction([](const QColor& c) { return IsNear(c, kOnlyInFirst); }) > 1e-4;
-  const bool b_alone = fraction([](const QColor& c) { return IsNear(c, kOnlyInSecond); }) > 1e-4;
+  const bool a_alone = fraction([](const QColor& c) { return IsNear(c, kColorOnlyInA); }) > 1e-4;
+  const bool b_alone = fraction([](const QColor& c) { return IsNear(c, kColorOnlyInB); }) > 1e-4;
   EXPECT_TRUE(a_alone || b_alone);
   EXPECT_EQ(Comparison()->DifferenceColors()->Labels().first(), QStringLiteral("-30"));
   EXPECT_EQ(Comparison()->DifferenceColors()->Labels().last(), QStringLiteral("30"));

@@ -35,13 +35,13 @@ TEST(DifferencePicture, PixelsOfOneMapAloneHaveColoursThatNoDifferenceHas) {
   maps.first(1, 0) = std::nanf("");
   maps.first_mask(2, 0) = maps.second_mask(2, 0) = 0;
   const ColorImage picture = maps.Painted();
-  EXPECT_EQ(picture(0, 0), kOnlyInFirst);
-  EXPECT_EQ(picture(1, 0), kOnlyInSecond);
+  EXPECT_EQ(picture(0, 0), kColorOnlyInA);
+  EXPECT_EQ(picture(1, 0), kColorOnlyInB);
   EXPECT_LT(picture(2, 0).r + picture(2, 0).g + picture(2, 0).b, 100);
   for (int i = 0; i <= 100; ++i) {
     const Rgb8 color = ColorOf(ColorMap::kBalance, 0.01 * i);
-    EXPECT_NE(color, kOnlyInFirst);
-    EXPECT_NE(color, kOnlyInSecond);
+    EXPECT_NE(color, kColorOnlyInA);
+    EXPECT_NE(color, kColorOnlyInB);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/ctl/command.h"
+#include "app/ctl/late/late_command.h"
 #include "core/geometry/angles.h"
 #include "core/io/point_cloud_file.h"
 #include "core/mapping/mission_map.h"
@@ -116,10 +117,8 @@ Result<ExitCode> Map(const MapArguments& arguments, const RunContext& context) {
 
 }  // namespace
 
-void AddMapCommand(CLI::App& app, Invocation& invocation) {
+extern "C" void AddMapOptions(CLI::App* command, Invocation* invocation) {
   const auto arguments = std::make_shared<MapArguments>();
-  CLI::App* command = app.add_subcommand(
-      "map", "Bring the scans of a mission together, and find what changed between two");
   command->add_option("mission", arguments->mission, "Mission file")->required();
   command
       ->add_option("--scan", arguments->scans,
@@ -135,8 +134,8 @@ void AddMapCommand(CLI::App& app, Invocation& invocation) {
       ->delimiter(',')
       ->expected(2);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
-  command->callback([&invocation, arguments] {
-    invocation = [arguments](const RunContext& context) { return Map(*arguments, context); };
+  command->callback([invocation, arguments] {
+    *invocation = [arguments](const RunContext& context) { return Map(*arguments, context); };
   });
 }
 

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "app/ctl/late/late_command.h"
 #include "core/exchange/import_mission.h"
 #include "core/geometry/angles.h"
 
@@ -103,10 +104,8 @@ Result<ExitCode> Import(const ImportArguments& arguments, const RunContext& cont
 
 }  // namespace
 
-void AddMissionImportCommand(CLI::App& mission, Invocation& invocation) {
+extern "C" void AddMissionImportOptions(CLI::App* command, Invocation* invocation) {
   const auto arguments = std::make_shared<ImportArguments>();
-  CLI::App* command =
-      mission.add_subcommand("import", "Make a mission of other programs' clouds, images and bags");
   command
       ->add_option("files", arguments->files,
                    "Clouds (.ply, .pcd, KITTI's .bin, .xyz, .txt, .csv, .3d), ROS 1 bags, folders "
@@ -142,8 +141,8 @@ void AddMissionImportCommand(CLI::App& mission, Invocation& invocation) {
   command->add_option("--clouds", arguments->clouds, "Only these clouds of a bag, from 1")
       ->delimiter(',');
   command->add_flag("--json", arguments->json, "Print the result as JSON");
-  command->callback([&invocation, arguments] {
-    invocation = [arguments](const RunContext& context) { return Import(*arguments, context); };
+  command->callback([invocation, arguments] {
+    *invocation = [arguments](const RunContext& context) { return Import(*arguments, context); };
   });
 }
 

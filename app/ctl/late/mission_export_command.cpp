@@ -2,6 +2,7 @@
 
 #include "app/ctl/command.h"
 #include "app/ctl/depth_files.h"
+#include "app/ctl/late/late_command.h"
 #include "core/exchange/export_mission.h"
 
 namespace foresight {
@@ -59,10 +60,8 @@ Result<ExitCode> Export(const ExportArguments& arguments, const RunContext& cont
 
 }  // namespace
 
-void AddMissionExportCommand(CLI::App& mission, Invocation& invocation) {
+extern "C" void AddMissionExportOptions(CLI::App* command, Invocation* invocation) {
   const auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command = mission.add_subcommand(
-      "export", "Write a mission for other programs: clouds, surfaces, depth maps, tables, a bag");
   command->add_option("file", arguments->file, "Mission file")->required();
   command->add_option("-o,--out", arguments->out, "Folder for the files")->required();
   AddOption(*command, "--what", arguments->what, ("all, or some of " + AllParts()).c_str())
@@ -70,8 +69,8 @@ void AddMissionExportCommand(CLI::App& mission, Invocation& invocation) {
   command->add_option("--scan", arguments->scans, "Only these scans")->delimiter(',');
   AddDepthArguments(*command, arguments->depth);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
-  command->callback([&invocation, arguments] {
-    invocation = [arguments](const RunContext& context) { return Export(*arguments, context); };
+  command->callback([invocation, arguments] {
+    *invocation = [arguments](const RunContext& context) { return Export(*arguments, context); };
   });
 }
 

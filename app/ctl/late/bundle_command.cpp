@@ -1,12 +1,11 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "app/ctl/late/late_command.h"
 #include "core/base/log_file.h"
 #include "core/exchange/support_bundle.h"
 
 namespace foresight {
-
-void AddBundleCommand(CLI::App& app, Invocation& invocation);
 
 namespace {
 
@@ -34,18 +33,16 @@ Result<ExitCode> WriteBundle(const BundleArguments& arguments, const RunContext&
 
 }  // namespace
 
-void AddBundleCommand(CLI::App& app, Invocation& invocation) {
+extern "C" void AddBundleOptions(CLI::App* command, Invocation* invocation) {
   const auto arguments = std::make_shared<BundleArguments>();
-  CLI::App* command = app.add_subcommand(
-      "bundle", "Pack what somebody needs to find out what went wrong; nothing secret gets in");
   command->add_option("-o,--out", arguments->out, "ZIP archive to write")->required();
   command->add_option("--mission", arguments->mission,
                       "Mission file: its last scan, its rig, its tables and its log");
   command->add_option("texts", arguments->texts,
                       "Other texts: configurations of a head, logs (journalctl -u foresight-head)");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
-  command->callback([&invocation, arguments] {
-    invocation = [arguments](const RunContext& context) {
+  command->callback([invocation, arguments] {
+    *invocation = [arguments](const RunContext& context) {
       return WriteBundle(*arguments, context);
     };
   });
