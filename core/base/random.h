@@ -19,6 +19,8 @@ class Random {
   double Uniform();
   /// Uniform in [low, high).
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+  /// True in `fraction` of the draws.
+  bool Chance(double fraction) { return Uniform() < fraction; }
   /// Uniform integer in [0, count); count > 0.
   int Index(int count);
   /// Normal with mean 0 and standard deviation 1.
