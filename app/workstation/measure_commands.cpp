@@ -45,10 +45,6 @@ const char* IdOf(MeasureKind kind) {
   return "measure.height";
 }
 
-QString MissionOf(Workbench* bench) {
-  return bench->ShowsReview() ? bench->reviewer.Path() : bench->recording.Path();
-}
-
 QString WhyNoMap(Workbench* bench) {
   const bool none =
       bench->ShowsReview() ? bench->reviewer.Scans().empty() : bench->recording.Scans().empty();
@@ -70,7 +66,7 @@ void AddMapFileCommands(Workbench* bench, const AskForFile& ask) {
              ask(MeasureCommands::tr("Make the map with the robot's odometry"),
                  MeasureCommands::tr("Odometry (*.csv)"),
                  // The mission is the one that was shown when the file was asked for.
-                 [map = &bench->Shown().map, mission = MissionOf(bench)](const QString& file) {
+                 [map = &bench->Shown().map, mission = bench->ShownMission()](const QString& file) {
                    map->Make(mission, file);
                  });
            },
@@ -114,7 +110,7 @@ void AddMeasureCommands(Workbench* bench) {
        .menu = "measure",
        .text = MeasureCommands::tr("Make map"),
        .tip = MeasureCommands::tr("Bring the scans of the mission that is shown together"),
-       .run = [bench] { bench->Shown().map.Make(MissionOf(bench)); },
+       .run = [bench] { bench->Shown().map.Make(bench->ShownMission()); },
        .why_not = [bench] { return WhyNoMap(bench); }});
   bench->commands.Add({.id = "map.cancel",
                        .menu = "measure",

@@ -12,10 +12,6 @@ struct ResultCommands {
   Q_DECLARE_TR_FUNCTIONS(ResultCommands)
 };
 
-QString MissionOf(Workbench* bench) {
-  return bench->ShowsReview() ? bench->reviewer.Path() : bench->recording.Path();
-}
-
 void AddSideResultCommands(Workbench* bench, const ResultWindow& window) {
   SideResultsModel* results = &bench->side_results;
   const auto why_no_run = [bench, results]() -> QString {
@@ -83,7 +79,7 @@ void AddSideResultCommands(Workbench* bench, const ResultWindow& window) {
 
 void AddReportCommands(Workbench* bench, const ResultWindow& window) {
   const auto write = [bench, window](const std::string& scan_uuid) {
-    const QString mission = MissionOf(bench);
+    const QString mission = bench->ShownMission();
     ExportViewModel* exporter = &bench->Shown().exporter;
     window.choose_folder(ResultCommands::tr("Write the report into"),
                          [exporter, mission, scan_uuid](const QString& folder) {
@@ -100,7 +96,7 @@ void AddReportCommands(Workbench* bench, const ResultWindow& window) {
        .run = [write] { write({}); },
        .why_not =
            [bench] {
-             return MissionOf(bench).isEmpty() ? ResultCommands::tr("There is no mission file.")
+             return bench->ShownMission().isEmpty() ? ResultCommands::tr("There is no mission file.")
                                                : QString();
            }});
   bench->commands.Add({.id = "file.report_scan",
@@ -112,7 +108,7 @@ void AddReportCommands(Workbench* bench, const ResultWindow& window) {
                        .why_not =
                            [bench] {
                              return bench->Shown().session.CurrentScan() &&
-                                            !MissionOf(bench).isEmpty()
+                                            !bench->ShownMission().isEmpty()
                                         ? QString()
                                         : ResultCommands::tr("No scan is shown.");
                            }});

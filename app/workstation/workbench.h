@@ -63,6 +63,8 @@ class Workbench : public QObject {
   /// Whether the window shows the document for review.
   bool ShowsReview() const { return shows_review_; }
   Desk& Shown() { return shows_review_ ? review : live; }
+  /// The file of the mission that is shown; empty when there is none.
+  QString ShownMission() const { return shows_review_ ? reviewer.Path() : recording.Path(); }
   /// Nothing runs and the last scan has its depth.
   bool Idle();
 

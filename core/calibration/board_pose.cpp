@@ -11,7 +11,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::size_t kFewestCorners = 4;
+constexpr std::size_t kFewestPoseCorners = 4;
 constexpr double kNotShown_px = 200.0;
 
 /// Corners moved and scaled so that the linear equations are well conditioned.
@@ -33,7 +33,7 @@ std::optional<CenteredCorners> CornersWithRays(const CalibrationBoard& board, co
     result.rays.push_back(*ray);
     result.center += corners.back();
   }
-  if (corners.size() < kFewestCorners) return std::nullopt;
+  if (corners.size() < kFewestPoseCorners) return std::nullopt;
   result.center /= static_cast<double>(corners.size());
   double spread = 0.0;
   for (const Eigen::Vector3d& corner : corners) spread += (corner - result.center).squaredNorm();
@@ -156,7 +156,7 @@ std::optional<BoardPose> RefineBoardPose(const CalibrationBoard& board, const Bo
     here = Linearize(corners, camera, pose, true);
     if (settled) break;
   }
-  if (here.shown < kFewestCorners || !std::isfinite(here.cost)) return std::nullopt;
+  if (here.shown < kFewestPoseCorners || !std::isfinite(here.cost)) return std::nullopt;
   return BoardPose{pose, std::sqrt(here.cost / static_cast<double>(view.pixels.size()))};
 }
 

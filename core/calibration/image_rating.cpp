@@ -14,7 +14,7 @@ namespace foresight {
 namespace {
 
 constexpr double kSaturated = 250.0;
-constexpr double kLeastContrast = 15.0;
+constexpr double kLeastBoardContrast = 15.0;
 /// Black squares lighter than this beside saturated white ones: the scale of greys is cut off.
 constexpr double kLightestBlack = 110.0;
 /// Beyond this fraction of a square, edges run into each other.
@@ -69,7 +69,7 @@ std::optional<Edge> MeasureEdge(const GrayImage& image, const Eigen::Vector2d& d
     greys.push_back(*grey);
   }
   const double low = greys.front(), high = greys.back();
-  if (high - low < kLeastContrast) return std::nullopt;
+  if (high - low < kLeastBoardContrast) return std::nullopt;
   const auto last_below = [&](double fraction) {
     const double level = low + fraction * (high - low);
     for (int i = steps; i > 0; --i) {
@@ -219,7 +219,7 @@ ImageRating RateView(const GrayImage& image, const CalibrationBoard& board, cons
 }
 
 std::string RatingFault(const ImageRating& rating) {
-  if (rating.light_level - rating.dark_level < kLeastContrast)
+  if (rating.light_level - rating.dark_level < kLeastBoardContrast)
     return fmt::format("black and white squares differ by {:.0f} grey levels of 255 only",
                        rating.light_level - rating.dark_level);
   if (rating.saturated > 0.8 && rating.dark_level > kLightestBlack)
@@ -249,7 +249,7 @@ std::string ImageFault(const GrayImage& image) {
   if (light < 40.0)
     return fmt::format("underexposed: 98 % of the image lies below the grey level {:.0f} of 255",
                        light);
-  if (light - dark < 2.0 * kLeastContrast) return "the image has no contrast";
+  if (light - dark < 2.0 * kLeastBoardContrast) return "the image has no contrast";
   // Sharp edges step by most of the contrast within two or three pixels.
   std::vector<double> steps;
   for (int y = 0; y < image.height(); ++y)

@@ -54,8 +54,8 @@ BoardFromBoard MedianOf(const std::vector<BoardFromBoard>& all) {
   return best;
 }
 
-constexpr double kMostTurn_rad = 0.14;  // 8 deg; boards are located to a fraction of a degree
-constexpr double kMostShift_m = 0.060;
+constexpr double kMostStandTurn_rad = 0.14;  // 8 deg; boards are located to a fraction of a degree
+constexpr double kMostStandShift_m = 0.060;
 
 /// @pre the image shows both boards
 BoardFromBoard BetweenBoards(const LocatedView& view) {
@@ -80,7 +80,7 @@ std::string MisfitOf(const LocatedView& view, double most_rms_px,
                          rms_px);
   if (!usual || !view.a || !view.b) return {};
   const Difference difference = DifferenceOf(*usual, BetweenBoards(view));
-  if (difference.Within(kMostTurn_rad, kMostShift_m)) return {};
+  if (difference.Within(kMostStandTurn_rad, kMostStandShift_m)) return {};
   return fmt::format(
       "board B is {:.1f} deg and {:.0f} mm from where the other images have it: the "
       "boards are exchanged, or one grid was found across both",
@@ -174,9 +174,9 @@ Result<BoardFromBoard> LocateBoardB(const CalibrationSession& session,
   }
   const BoardFromBoard median = MedianOf(all);
   const Difference from_drawing = DifferenceOf(drawn, median);
-  if (!from_drawing.Within(kMostTurn_rad, kMostShift_m)) {
+  if (!from_drawing.Within(kMostStandTurn_rad, kMostStandShift_m)) {
     const bool exchanged =
-        DifferenceOf(drawn, median.Inverse()).Within(kMostTurn_rad, kMostShift_m);
+        DifferenceOf(drawn, median.Inverse()).Within(kMostStandTurn_rad, kMostStandShift_m);
     return Fail(ErrorCode::kInvalidInput,
                 "board B of the stand is {:.1f} deg and {:.0f} mm from where the session says: {}",
                 DegreesFromRadians(from_drawing.turn_rad), 1000.0 * from_drawing.shift_m,
@@ -186,7 +186,7 @@ Result<BoardFromBoard> LocateBoardB(const CalibrationSession& session,
   for (const LocatedView& view : views) {
     if (!view.a || !view.b) continue;
     const Difference difference = DifferenceOf(median, BetweenBoards(view));
-    if (!difference.Within(kMostTurn_rad, kMostShift_m))
+    if (!difference.Within(kMostStandTurn_rad, kMostStandShift_m))
       return Fail(ErrorCode::kInvalidInput,
                   "{}: board B is {:.1f} deg and {:.0f} mm from where the other images have it: "
                   "boards A and B are exchanged in this image, or a board moved",

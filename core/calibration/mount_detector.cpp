@@ -15,7 +15,7 @@ namespace {
 using Kind = CalibrationBoard::Kind;
 
 /// A grid of the image that can be a board.
-struct Candidate {
+struct MountCandidate {
   std::size_t grid = 0;
   BoardView view;
   bool has_margin = false;
@@ -31,12 +31,12 @@ BoardView UpsideDown(BoardView view, const CalibrationBoard& board) {
 }
 
 /// A board that looks the same upside down is there both ways up.
-std::vector<Candidate> CandidatesFor(const CalibrationBoard& board, const GrayImage& image,
-                                     const std::vector<CornerGrid>& grids,
-                                     const CameraModel& camera, std::string* fault) {
-  std::vector<Candidate> candidates;
+std::vector<MountCandidate> CandidatesFor(const CalibrationBoard& board, const GrayImage& image,
+                                          const std::vector<CornerGrid>& grids,
+                                          const CameraModel& camera, std::string* fault) {
+  std::vector<MountCandidate> candidates;
   const auto add = [&](std::size_t grid, BoardView view, bool has_margin) {
-    Candidate candidate{grid, std::move(view), has_margin, {}};
+    MountCandidate candidate{grid, std::move(view), has_margin, {}};
     if (const auto pose = FindBoardPose(board, candidate.view, camera))
       candidate.pose = pose->camera_from_pattern;
     candidates.push_back(std::move(candidate));
@@ -63,7 +63,7 @@ bool Contains(const CalibrationBoard& large, const CalibrationBoard& small) {
 
 /// How far two grids are from standing to each other as drawn, in parts of what a roughly known
 /// camera makes of it: above 1 they do not.
-double MisfitOf(const Candidate& a, const Candidate& b, const BoardMount& mount) {
+double MisfitOf(const MountCandidate& a, const MountCandidate& b, const BoardMount& mount) {
   // Wide on purpose: two grids one square apart differ by 50 mm, but BestPair asks for the best one
   // clearly. A rough camera whose focal length is a third off tells distances a third wrong.
   constexpr double kMostTurn_rad = 0.6, kMostShift_m = 0.05, kMostShiftRatio = 0.35;
@@ -76,17 +76,17 @@ double MisfitOf(const Candidate& a, const Candidate& b, const BoardMount& mount)
 
 /// The two that stand to each other best, as drawn; `second` is the misfit of the next best two.
 struct Pair {
-  const Candidate* a = nullptr;
-  const Candidate* b = nullptr;
+  const MountCandidate* a = nullptr;
+  const MountCandidate* b = nullptr;
   double misfit = std::numeric_limits<double>::infinity();
   double second = std::numeric_limits<double>::infinity();
 };
 
-Pair BestPair(const std::vector<Candidate>& all_a, const std::vector<Candidate>& all_b,
+Pair BestPair(const std::vector<MountCandidate>& all_a, const std::vector<MountCandidate>& all_b,
               const BoardMount& mount) {
   Pair best;
-  for (const Candidate& a : all_a)
-    for (const Candidate& b : all_b) {
+  for (const MountCandidate& a : all_a)
+    for (const MountCandidate& b : all_b) {
       if (a.grid == b.grid) continue;
       const double misfit = MisfitOf(a, b, mount);
       best.second = std::min(best.second, std::max(misfit, best.misfit));
@@ -128,8 +128,8 @@ struct Side {
 /// Whether a grid can be the board without the other board being found. Only the other board tells
 /// which way up a board is that looks the same upside down. Where the grid could be a part of the
 /// other board, the margin must be seen, and other grids must lie where the other board is then.
-bool CanBeAlone(const Candidate& candidate, const Side& side, const std::vector<CornerGrid>& grids,
-                const CameraModel& camera) {
+bool CanBeAlone(const MountCandidate& candidate, const Side& side,
+                const std::vector<CornerGrid>& grids, const CameraModel& camera) {
   if (side.board.LooksSameUpsideDown()) return false;
   if (!Contains(side.other, side.board)) return true;
   if (!candidate.has_margin || !candidate.pose) return false;
@@ -141,10 +141,10 @@ bool CanBeAlone(const Candidate& candidate, const Side& side, const std::vector<
 }
 
 /// The only one that can be; empty where there are more.
-std::optional<BoardView> AloneIn(const std::vector<Candidate>& candidates, const Side& side,
+std::optional<BoardView> AloneIn(const std::vector<MountCandidate>& candidates, const Side& side,
                                  const std::vector<CornerGrid>& grids, const CameraModel& camera) {
   std::optional<BoardView> only;
-  for (const Candidate& candidate : candidates) {
+  for (const MountCandidate& candidate : candidates) {
     if (!CanBeAlone(candidate, side, grids, camera)) continue;
     if (only) return std::nullopt;
     only = candidate.view;

@@ -11,7 +11,7 @@ namespace {
 constexpr int kRingSamples = 16;
 constexpr double kRingRadius_px = 3.5;  // within the squares of the smallest boards
 /// Grey levels; what is fainter is noise.
-constexpr double kLeastContrast = 10.0;
+constexpr double kLeastSaddleContrast = 10.0;
 /// Fifteen times the corners of boards of 9x6 and 7x6; of a room's clutter the weakest are left
 /// out.
 constexpr std::size_t kMostPoints = 1500;
@@ -76,7 +76,7 @@ std::optional<SaddlePoint> Inspect(const cv::Mat& image, int x, int y) {
     grey[k] = At(image, x + kRing[k].x(), y + kRing[k].y());
   const auto [least, most] = std::minmax_element(grey.begin(), grey.end());
   const double contrast = *most - *least;
-  if (contrast < kLeastContrast) return std::nullopt;
+  if (contrast < kLeastSaddleContrast) return std::nullopt;
   const double middle = 0.5 * (*most + *least);
   std::array<double, 4> crossings{};
   std::size_t count = 0, first_rising = 0;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormatVersion = 1;
+constexpr int kIndexFormatVersion = 1;
 constexpr const char* kFile = "session.yaml";
 
 // ---- writing
@@ -91,7 +91,7 @@ std::string PoseYaml(const SessionPoseFiles& pose) {
 
 std::string IndexYaml(const SessionIndex& index) {
   std::string yaml =
-      fmt::format("foresight_calibration_session: {}\nname: {}\nrig: {}\n{}", kFormatVersion,
+      fmt::format("foresight_calibration_session: {}\nname: {}\nrig: {}\n{}", kIndexFormatVersion,
                   Quoted(index.name), FileYaml(index.rig), MountYaml(index.mount));
   if (index.intrinsic_board)
     yaml += fmt::format("intrinsic_board: {}\n", ToText(*index.intrinsic_board));
@@ -160,9 +160,9 @@ SessionPoseFiles PoseFromYaml(YamlMap& map, std::size_t number) {
 
 SessionIndex IndexFromYaml(YamlMap& map) {
   const int version = map.Integer("foresight_calibration_session");
-  if (version != kFormatVersion)
+  if (version != kIndexFormatVersion)
     map.Fault(fmt::format("version {} of the format is not known, this program reads {}", version,
-                          kFormatVersion));
+                          kIndexFormatVersion));
   SessionIndex index;
   index.name = map.Text("name", "unnamed");
   index.rig = FileNameFromYaml(map, "rig");

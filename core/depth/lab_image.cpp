@@ -8,10 +8,10 @@
 namespace foresight {
 namespace {
 
-constexpr int kBlockRows = 8;
+constexpr int kLabBlockRows = 8;
 
 void ConvertRows(const ColorImage& image, int top, LabImage& lab_image) {
-  const int rows = std::min(kBlockRows, image.height() - top);
+  const int rows = std::min(kLabBlockRows, image.height() - top);
   const cv::Mat rgb(rows, image.width(), CV_8UC3, const_cast<Rgb8*>(image.row(top)));
   cv::Mat scaled, lab;
   rgb.convertTo(scaled, CV_32F, 1.0 / 255.0);
@@ -27,9 +27,9 @@ void ConvertRows(const ColorImage& image, int top, LabImage& lab_image) {
 Result<LabImage> ToLab(const ColorImage& image, const RunContext& context) {
   LabImage lab;
   for (auto& channel : lab.channels) channel = FloatImage(image.width(), image.height());
-  const int blocks = (image.height() + kBlockRows - 1) / kBlockRows;
-  const bool finished =
-      ParallelFor(blocks, context, [&](int block) { ConvertRows(image, block * kBlockRows, lab); });
+  const int blocks = (image.height() + kLabBlockRows - 1) / kLabBlockRows;
+  const bool finished = ParallelFor(
+      blocks, context, [&](int block) { ConvertRows(image, block * kLabBlockRows, lab); });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
   return lab;
 }

@@ -49,7 +49,7 @@ DrillCandidate CandidateFrom(const Json& value) {
           NumberFrom(value.at("log_likelihood"))};
 }
 
-DrillEvidence EvidenceFrom(const Json& value) {
+DrillEvidence DrillEvidenceFrom(const Json& value) {
   DrillEvidence evidence;
   evidence.rays = CountIn(value, "rays");
   evidence.hits = CountIn(value, "hits");
@@ -149,7 +149,7 @@ DrillDetection DrillFrom(const Json& value) {
   detection.covariance = CovarianceFrom(value);
   if (const Json& table = value.at("table"); !table.is_null())
     detection.table = Plane{Vector3From(table.at("normal")), NumberFrom(table.at("offset_m"))};
-  detection.evidence = EvidenceFrom(value.at("evidence"));
+  detection.evidence = DrillEvidenceFrom(value.at("evidence"));
   for (const Json& alternative : AlternativesIn(value))
     detection.alternatives.push_back(CandidateFrom(alternative));
   return detection;

@@ -20,7 +20,7 @@ Json EvidenceJson(const BlockEvidence& evidence) {
           {"rms_m", evidence.rms_m}};
 }
 
-BlockEvidence EvidenceFrom(const Json& value) {
+BlockEvidence BlockEvidenceFrom(const Json& value) {
   BlockEvidence evidence;
   evidence.points = CountIn(value, "points");
   evidence.cover = NumberFrom(value.at("cover"));
@@ -72,7 +72,7 @@ TerrainSurface SurfaceFrom(const Json& value) {
   if (!(surface.size_m.array().abs() <= kLargestSurface_m).all())
     throw std::invalid_argument("'size_m' of a surface is beyond a kilometre");
   surface.covariance = CovarianceFrom(value);
-  surface.evidence = EvidenceFrom(value.at("evidence"));
+  surface.evidence = BlockEvidenceFrom(value.at("evidence"));
   surface.toehold = ToeholdFrom(value.at("toehold"));
   surface.verdict = VerdictFrom(value);
   surface.shift_m = NumberFrom(value.at("shift_m"));

@@ -43,7 +43,7 @@ ValveCandidate CandidateFrom(const Json& value) {
   return valve;
 }
 
-ValveEvidence EvidenceFrom(const Json& value) {
+ValveEvidence ValveEvidenceFrom(const Json& value) {
   ValveEvidence evidence;
   evidence.rays = CountIn(value, "rays");
   evidence.hits = CountIn(value, "hits");
@@ -112,7 +112,7 @@ ValveDetection ValveFrom(const Json& value) {
   detection.sigma_axis_rad = NumberFrom(value.at("sigma_axis_rad"));
   detection.sigma_phase_rad = NumberFrom(value.at("sigma_phase_rad"));
   detection.covariance = CovarianceFrom(value);
-  detection.evidence = EvidenceFrom(value.at("evidence"));
+  detection.evidence = ValveEvidenceFrom(value.at("evidence"));
   for (const Json& alternative : AlternativesIn(value))
     detection.alternatives.push_back(CandidateFrom(alternative));
   return detection;

@@ -16,7 +16,7 @@ namespace {
 
 using Pose = Rigid<frame::Robot, frame::Object>;
 
-constexpr std::uint64_t kSceneStream = 4343;
+constexpr std::uint64_t kDrillStream = 4343;
 constexpr std::uint64_t kVariedStream = 4344;  // of what was added later: the rest stays as it was
 constexpr double kVaried = 0.35;               // of the drills
 constexpr double kTools = 0.5;                 // of the negatives that are no half drills
@@ -27,17 +27,13 @@ constexpr double kFocusHeight_m = 0.12;  // the middle of a drill over its table
 constexpr double kFocusForward_m = 0.025;
 constexpr double kFocusRadius_m = 0.17;
 
-bool Chance(Random& random, double fraction) {
-  return random.Uniform() < fraction;
-}
-
 Material RandomMaterial(Random& random) {
   Material material;
   for (int i = 0; i < 3; ++i) material.color[i] = random.Uniform(0.05, 0.8);
   for (int i = 0; i < 3; ++i)
     material.color2[i] = std::clamp(material.color[i] + random.Uniform(-0.3, 0.3), 0.02, 0.9);
   // Half of all things are plain.
-  material.pattern = Chance(random, 0.5) ? Material::Pattern::kPlain : Material::Pattern::kNoise;
+  material.pattern = random.Chance(0.5) ? Material::Pattern::kPlain : Material::Pattern::kNoise;
   material.pattern_size_m = random.Uniform(0.01, 0.10);
   material.lidar_reflectance = random.Uniform(0.15, 0.7);
   material.specular = random.Uniform(0.0, 0.08);
@@ -72,15 +68,15 @@ NamedShape RandomShape(Random& random) {
   shape.foot_m = {Varied(0.115, random), Varied(0.073, random), random.Uniform(0.045, 0.075)};
   shape.foot_forward_m = random.Uniform(-0.006, 0.016);
   shape.grip_radius_m = Varied(0.0265, random);
-  shape.grip_depth_m = Chance(random, 0.5) ? random.Uniform(0.004, 0.014) : 0.0;
+  shape.grip_depth_m = random.Chance(0.5) ? random.Uniform(0.004, 0.014) : 0.0;
   shape.head_height_m = Varied(0.208, random);
   shape.head_radius_m = Varied(0.033, random);
   shape.head_back_m = random.Uniform(0.050, 0.080);
   shape.head_front_m = random.Uniform(0.070, 0.095);
   shape.chuck_radius_m = Varied(0.020, random);
   shape.chuck_length_m = random.Uniform(0.028, 0.045);
-  shape.bit_length_m = Chance(random, 0.3) ? 0.0 : random.Uniform(0.03, 0.12);
-  shape.trigger = Chance(random, 0.8);
+  shape.bit_length_m = random.Chance(0.3) ? 0.0 : random.Uniform(0.03, 0.12);
+  shape.trigger = random.Chance(0.8);
   std::string name = "barrel drill";
   switch (random.Index(8)) {
     case 0:
@@ -106,7 +102,7 @@ NamedShape RandomShape(Random& random) {
       name = "drill with a side handle";
       break;
     case 6:
-      if (Chance(random, 0.6)) return {CutOutTool(random), "cut-out tool"};
+      if (random.Chance(0.6)) return {CutOutTool(random), "cut-out tool"};
       break;
     default:
       break;
@@ -166,7 +162,7 @@ void AddTable(const Place& place, double front_m, double depth_m, Random& random
 
 void AddWall(const Place& place, double behind_m, Random& random, Scene& scene) {
   constexpr double kThickness_m = 0.05;
-  const double turn = Chance(random, 0.3) ? random.Uniform(-0.3, 0.3) : 0.0;
+  const double turn = random.Chance(0.3) ? random.Uniform(-0.3, 0.3) : 0.0;
   AddBox("wall",
          Upright(Beside(place, behind_m + 0.5 * kThickness_m, 0.0), place.azimuth_rad + turn),
          {kThickness_m, 6.0, 6.0}, RandomMaterial(random), scene);
@@ -182,7 +178,7 @@ void AddRoom(const Place& place, Random& random, Scene& scene) {
 void AddClutter(const Place& place, Random& random, Scene& scene) {
   const int count = 1 + random.Index(3);
   for (int i = 0; i < count; ++i) {
-    const double side = Chance(random, 0.5) ? 1.0 : -1.0;
+    const double side = random.Chance(0.5) ? 1.0 : -1.0;
     const Eigen::Vector3d at =
         Beside(place, random.Uniform(-0.05, 0.25), side * random.Uniform(0.17, 0.36));
     SceneMesh mesh;
@@ -193,7 +189,7 @@ void AddClutter(const Place& place, Random& random, Scene& scene) {
     const Rigid<frame::Object, frame::Object> up(Eigen::Quaterniond::Identity(),
                                                  {0.0, 0.0, 0.5 * height});
     const double radius = random.Uniform(0.02, 0.045);
-    if (Chance(random, 0.5))
+    if (random.Chance(0.5))
       AppendShape(CylinderShape(radius, height), mesh.robot_from_object * up, mesh);
     else
       AppendShape(BoxShape({2.0 * radius, random.Uniform(0.03, 0.12), height}),
@@ -243,7 +239,7 @@ ScanPlan PlanFor(const Place& place, double radius_m, Random& random) {
 
 /// A region that shows a drill's foot, or its end, alone.
 void CutInHalf(const Pose& drill, Random& random, FitTrialScene& trial) {
-  const bool foot = Chance(random, 0.5);
+  const bool foot = random.Chance(0.5);
   trial.focus_m =
       drill * (foot ? Eigen::Vector3d(0.0, 0.0, 0.02) : Eigen::Vector3d(0.19, 0.0, 0.21));
   trial.focus_radius_m = foot ? 0.075 : 0.09;
@@ -253,11 +249,11 @@ void CutInHalf(const Pose& drill, Random& random, FitTrialScene& trial) {
 }  // namespace
 
 FitTrialScene RandomDrillScene(std::uint64_t seed) {
-  Random random(seed, kSceneStream);
+  Random random(seed, kDrillStream);
   FitTrialScene trial;
-  trial.positive = !Chance(random, 1.0 / 6.0);
-  const bool half = !trial.positive && Chance(random, 0.15);
-  const bool far = trial.positive && Chance(random, 0.2);
+  trial.positive = !random.Chance(1.0 / 6.0);
+  const bool half = !trial.positive && random.Chance(0.15);
+  const bool far = trial.positive && random.Chance(0.2);
   const auto all = DrillDistractors();
   const DrillDistractor thing =
       all[static_cast<std::size_t>(random.Index(static_cast<int>(all.size())))];
@@ -272,19 +268,19 @@ FitTrialScene RandomDrillScene(std::uint64_t seed) {
   const double front_m = edge ? random.Uniform(-0.05, 0.05) : random.Uniform(0.10, 0.30);
   const double depth_m = front_m + random.Uniform(0.35, 0.7);
   if (!bare) AddTable(place, front_m, depth_m, random, *scene);
-  if (bare || Chance(random, 0.6))
+  if (bare || random.Chance(0.6))
     AddWall(place, bare ? random.Uniform(-0.05, 0.1) : random.Uniform(0.18, 0.8), random, *scene);
-  if (!bare && !edge && Chance(random, 0.6)) AddClutter(place, random, *scene);
+  if (!bare && !edge && random.Chance(0.6)) AddClutter(place, random, *scene);
 
   NamedShape shape = RandomShape(random);
   const double yaw = random.Uniform(0.0, kFullTurn_rad);
   Pose pose = Upright(place.foot, yaw);
   Random later(seed, kVariedStream);
-  const bool varied = drill && !half && Chance(later, kVaried);
+  const bool varied = drill && !half && later.Chance(kVaried);
   const auto tools = TableTools();
   const TableTool tool =
       tools[static_cast<std::size_t>(later.Index(static_cast<int>(tools.size())))];
-  const bool is_tool = !drill && !bare && !edge && Chance(later, kTools);
+  const bool is_tool = !drill && !bare && !edge && later.Chance(kTools);
   if (varied) {
     pose = AddRandomVariedDrill(place, later, *scene);
     shape = {{}, "drill of other proportions"};

@@ -13,8 +13,7 @@ namespace {
 
 using Pose = Rigid<frame::Robot, frame::Object>;
 
-constexpr std::uint64_t kSceneStream = 91002;
-constexpr double kPi = std::numbers::pi;
+constexpr std::uint64_t kOtherDrillStream = 91002;
 
 Pose Upright(const Eigen::Vector3d& position, double yaw_rad) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), position};
@@ -43,13 +42,13 @@ void AddBench(const Eigen::Vector3d& foot, double azimuth_rad, Random& random, S
   AddSolid("floor", BoxShape({14.0, 14.0, 0.1}), Upright({0.0, 0.0, -0.05}, 0.0), random, scene);
   const int count = random.Index(5);
   for (int i = 0; i < count; ++i) {
-    const double side = Chance(random, 0.5) ? 1.0 : -1.0;
+    const double side = random.Chance(0.5) ? 1.0 : -1.0;
     const Eigen::Vector3d at =
         foot + random.Uniform(-0.10, 0.35) * away + side * random.Uniform(0.18, 0.45) * left;
     const double high = random.Uniform(0.01, 0.30), radius = random.Uniform(0.01, 0.06);
-    const Pose pose =
-        Upright(at + 0.5 * high * Eigen::Vector3d::UnitZ(), random.Uniform(-kPi, kPi));
-    if (Chance(random, 0.5))
+    const Pose pose = Upright(at + 0.5 * high * Eigen::Vector3d::UnitZ(),
+                              random.Uniform(-std::numbers::pi, std::numbers::pi));
+    if (random.Chance(0.5))
       AddSolid("clutter", CylinderShape(radius, high), pose, random, scene);
     else
       AddSolid("clutter", BoxShape({2.0 * radius, random.Uniform(0.02, 0.25), high}), pose, random,
@@ -83,9 +82,9 @@ DrillTruth Stand(const OtherTool& tool, const Eigen::Vector3d& foot, double yaw_
 
 FitTrialScene OtherDrillScene(std::uint64_t seed) {
   constexpr double kMiddle_m = 0.12;
-  Random random(seed, kSceneStream);
+  Random random(seed, kOtherDrillStream);
   FitTrialScene trial;
-  const bool meant = Chance(random, 0.78);
+  const bool meant = random.Chance(0.78);
   const OtherTool tool = meant ? DrawDrill(random) : DrawOtherTool(random);
   trial.positive = MeasureTool(tool).IsDrill();
   trial.what = tool.name;
@@ -104,12 +103,13 @@ FitTrialScene OtherDrillScene(std::uint64_t seed) {
   scene->ambient = random.Uniform(0.15, 0.6);
   AddBench(foot, azimuth, random, *scene);
   const Eigen::Vector3d away(std::cos(azimuth), std::sin(azimuth), 0.0);
-  const double behind = Chance(random, 0.6) ? random.Uniform(0.2, 0.9) : random.Uniform(2.0, 4.0);
+  const double behind = random.Chance(0.6) ? random.Uniform(0.2, 0.9) : random.Uniform(2.0, 4.0);
   AddOtherWall(middle + behind * away,
                Eigen::AngleAxisd(random.Uniform(-0.5, 0.5), Eigen::Vector3d::UnitZ()) * -away, 0.25,
                random, *scene);
   const std::size_t first = scene->meshes.size();
-  const DrillTruth truth = Stand(tool, foot, random.Uniform(-kPi, kPi), *scene);
+  const DrillTruth truth =
+      Stand(tool, foot, random.Uniform(-std::numbers::pi, std::numbers::pi), *scene);
   if (trial.positive) scene->drills.push_back(truth);
   AddObjectPoints(*scene, first, trial);
   trial.focus_m = middle;

@@ -16,8 +16,7 @@ namespace {
 using Pose = Rigid<frame::Robot, frame::Object>;
 using LocalPose = Rigid<frame::Object, frame::Object>;
 
-constexpr std::uint64_t kSceneStream = 91003;
-constexpr double kPi = std::numbers::pi;
+constexpr std::uint64_t kOtherTerrainStream = 91003;
 constexpr double kSizeOk_m = 0.015;
 constexpr double kMostOff_m = 0.012;
 
@@ -29,22 +28,14 @@ Material Stone(Random& random) {
   return material;
 }
 
-SceneMesh MeshAt(const char* name, const Pose& pose, const Material& material) {
-  SceneMesh mesh;
-  mesh.name = name;
-  mesh.material = material;
-  mesh.robot_from_object = pose;
-  return mesh;
-}
-
 /// Ground with a slope and bumps.
 void AddGround(double ground_m, Random& random, Scene& scene) {
   constexpr int kAlong = 60, kAcross = 60;
   constexpr double kPitch_m = 0.13;
   const double rough_m = random.Uniform(0.0, 0.006), wave_m = random.Uniform(0.0, 0.015);
-  const double phase = random.Uniform(-kPi, kPi);
+  const double phase = random.Uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::Vector2d slope(0.02 * random.Normal(), 0.02 * random.Normal());
-  SceneMesh mesh = MeshAt("ground", Pose(), Stone(random));
+  SceneMesh mesh = OtherMeshAt("ground", Pose(), Stone(random));
   for (int i = 0; i <= kAlong; ++i)
     for (int j = 0; j <= kAcross; ++j) {
       const Eigen::Vector2d at(-1.0 + kPitch_m * i, kPitch_m * (j - kAcross / 2));
@@ -65,7 +56,7 @@ void AddGround(double ground_m, Random& random, Scene& scene) {
 /// A box with a corner knocked off its top: its outline is an octagon with uneven cuts.
 Shape ChippedBox(const Eigen::Vector3d& size, Random& random) {
   const double x = 0.5 * size.x(), y = 0.5 * size.y();
-  const auto cut = [&] { return Chance(random, 0.3) ? random.Uniform(0.005, 0.03) : 0.002; };
+  const auto cut = [&] { return random.Chance(0.3) ? random.Uniform(0.005, 0.03) : 0.002; };
   const double a = cut(), b = cut(), c = cut(), d = cut();
   const std::vector<Eigen::Vector2d> outline = {{x - a, -y},  {x, -y + a}, {x, y - b},
                                                 {x - b, y},   {-x + c, y}, {-x, y - c},
@@ -77,8 +68,8 @@ Shape ChippedBox(const Eigen::Vector3d& size, Random& random) {
 /// Two halves with a gap, its top's middle at the pose.
 void AddStone(const Eigen::Vector3d& size, const Pose& pose, const Material& material,
               Random& random, Scene& scene) {
-  SceneMesh mesh = MeshAt("stone", pose, material);
-  const double gap = Chance(random, 0.6) ? random.Uniform(0.001, 0.010) : 0.0;
+  SceneMesh mesh = OtherMeshAt("stone", pose, material);
+  const double gap = random.Chance(0.6) ? random.Uniform(0.001, 0.010) : 0.0;
   const Eigen::Vector3d half(size.x(), 0.5 * (size.y() - gap), size.z());
   for (const double side : {-1.0, 1.0})
     AppendShape(ChippedBox(half, random),
@@ -128,7 +119,8 @@ void AddOne(const Ground& ground, const Eigen::Vector2d& at, double yaw_rad, dou
             const Eigen::Vector3d& size, const Material& material, Random& random, Scene& scene) {
   const Eigen::Quaterniond tilt(
       Eigen::AngleAxisd(RadiansFromDegrees(random.Uniform(0.0, 20.0)),
-                        Eigen::AngleAxisd(random.Uniform(-kPi, kPi), Eigen::Vector3d::UnitZ()) *
+                        Eigen::AngleAxisd(random.Uniform(-std::numbers::pi, std::numbers::pi),
+                                          Eigen::Vector3d::UnitZ()) *
                             Eigen::Vector3d::UnitX()));
   const Eigen::Quaterniond turn(
       Eigen::AngleAxisd(ground.yaw_rad + yaw_rad, Eigen::Vector3d::UnitZ()));
@@ -136,7 +128,7 @@ void AddOne(const Ground& ground, const Eigen::Vector2d& at, double yaw_rad, dou
   const double z = ground.height_m + base_m;
   if (base_m > 0.0) {
     const Pose base(turn, {place.x(), place.y(), z - 0.5 * base_m});
-    SceneMesh mesh = MeshAt("base", base, material);
+    SceneMesh mesh = OtherMeshAt("base", base, material);
     AppendShape(BoxShape({0.9 * size.x(), 0.9 * size.y(), base_m}), base, mesh);
     scene.meshes.push_back(std::move(mesh));
   }
@@ -146,22 +138,23 @@ void AddOne(const Ground& ground, const Eigen::Vector2d& at, double yaw_rad, dou
 
 /// A hose or a cable that lies across.
 void AddHose(const Ground& ground, Random& random, Scene& scene) {
-  const double radius = random.Uniform(0.004, 0.02), turn = random.Uniform(-kPi, kPi);
+  const double radius = random.Uniform(0.004, 0.02),
+               turn = random.Uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::Vector3d along(std::cos(turn), std::sin(turn), 0.0);
   const Eigen::Vector3d beside(-along.y(), along.x(), 0.0);
   const Eigen::Vector3d middle(ground.middle_m.x(), ground.middle_m.y(),
                                ground.height_m + random.Uniform(0.15, 0.5));
   std::vector<Eigen::Vector2d> section;
   for (int i = 0; i < 14; ++i)
-    section.emplace_back(radius * std::cos(2.0 * kPi * i / 14),
-                         radius * std::sin(2.0 * kPi * i / 14));
+    section.emplace_back(radius * std::cos(2.0 * std::numbers::pi * i / 14),
+                         radius * std::sin(2.0 * std::numbers::pi * i / 14));
   const double off = random.Uniform(-0.4, 0.4);
   std::vector<Eigen::Vector3d> path;
   for (int i = 0; i <= 30; ++i) {
     const double t = i / 15.0 - 1.0;
     path.push_back(middle + 1.2 * t * along + (off + 0.12 * std::sin(4.0 * t)) * beside);
   }
-  SceneMesh mesh = MeshAt("hose", Pose(), OtherMaterial(random));
+  SceneMesh mesh = OtherMeshAt("hose", Pose(), OtherMaterial(random));
   AppendShape(SweptShape(section, path, Eigen::Vector3d::UnitZ()), Pose(), mesh);
   scene.meshes.push_back(std::move(mesh));
 }
@@ -183,11 +176,11 @@ bool HasBlockSize(const Eigen::Vector3d& size_m) {
 }
 
 FitTrialScene OtherTerrainScene(std::uint64_t seed) {
-  Random random(seed, kSceneStream);
+  Random random(seed, kOtherTerrainStream);
   FitTrialScene trial;
   const double kind = random.Uniform();
   const bool of_blocks = kind > 1.0 / 5.0, heap = kind < 0.45;
-  const double mixed = Chance(random, 0.5) ? random.Uniform(0.1, 0.4) : 0.0;
+  const double mixed = random.Chance(0.5) ? random.Uniform(0.1, 0.4) : 0.0;
   const int rows = 2 + random.Index(4), columns = 2 + random.Index(3);
   Ground ground;
   ground.height_m = random.Uniform(-0.30, 0.35);
@@ -206,18 +199,18 @@ FitTrialScene OtherTerrainScene(std::uint64_t seed) {
   const double layer = random.Uniform(0.10, 0.26);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      const bool block = of_blocks && !Chance(random, mixed);
+      const bool block = of_blocks && !random.Chance(mixed);
       const Eigen::Vector3d size = block ? OffSize(random) : OtherSize(random);
       const double step = heap ? 0.80 : pitch + (of_blocks ? 0.0 : 0.3);
       Eigen::Vector2d at((row - 0.5 * (rows - 1)) * step, (column - 0.5 * (columns - 1)) * step);
       at += Eigen::Vector2d(random.Uniform(-0.015, 0.015), random.Uniform(-0.015, 0.015));
-      const double yaw =
-          heap ? random.Uniform(-kPi, kPi) : RadiansFromDegrees(3.0 * random.Normal());
-      AddOne(ground, at, yaw, layer * random.Index(3), size, Chance(random, 0.5) ? one : two,
-             random, *scene);
+      const double yaw = heap ? random.Uniform(-std::numbers::pi, std::numbers::pi)
+                              : RadiansFromDegrees(3.0 * random.Normal());
+      AddOne(ground, at, yaw, layer * random.Index(3), size, random.Chance(0.5) ? one : two, random,
+             *scene);
     }
   AddObjectPoints(*scene, first, trial);
-  if (Chance(random, 0.4)) AddHose(ground, random, *scene);
+  if (random.Chance(0.4)) AddHose(ground, random, *scene);
   trial.positive = !scene->blocks.empty();
   trial.what = fmt::format("{} of {}", heap ? "heap" : "rows",
                            !trial.positive ? "other boxes"

@@ -15,8 +15,6 @@ namespace {
 using LocalPose = Rigid<frame::Object, frame::Object>;
 using Outline = std::vector<Eigen::Vector2d>;
 
-constexpr double kPi = std::numbers::pi;
-
 /// Collects the parts of a tool that share a material.
 class Part {
  public:
@@ -41,14 +39,15 @@ LocalPose At(double x, double y, double z) {
 
 /// Takes z to x: a revolved outline points forward, at a height.
 LocalPose Forward(double x, double z) {
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitY())), {x, 0.0, z}};
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY())),
+          {x, 0.0, z}};
 }
 
 Outline Oval(double depth, double width) {
   Outline section;
   for (int i = 0; i < 20; ++i)
-    section.emplace_back(0.5 * depth * std::cos(2.0 * kPi * i / 20),
-                         0.5 * width * std::sin(2.0 * kPi * i / 20));
+    section.emplace_back(0.5 * depth * std::cos(2.0 * std::numbers::pi * i / 20),
+                         0.5 * width * std::sin(2.0 * std::numbers::pi * i / 20));
   return section;
 }
 
@@ -129,10 +128,10 @@ OtherTool DrawDrill(Random& random) {
                            {belly * radius, 0.0}, {radius, 0.5 * gears}, {0.8 * radius, gears},
                            {0.0, gears}};
   body.Add(RevolvedShape(outline, false), Forward(head_x, head_z));
-  if (Chance(random, 0.3))  // a boxy motor housing
+  if (random.Chance(0.3))  // a boxy motor housing
     body.Add(BoxShape({back + 0.4 * gears, 1.9 * radius, 1.9 * radius}),
              At(head_x - 0.5 * back + 0.2 * gears, 0.0, head_z));
-  if (Chance(random, 0.3))  // a hook
+  if (random.Chance(0.3))  // a hook
     body.Add(BoxShape({0.02, 0.006, 0.05}), At(head_x * 0.5, -0.5 * width - 0.006, 0.5 * head_z));
   body.MoveTo(tool);
 
@@ -153,7 +152,7 @@ OtherTool DrawDrill(Random& random) {
   Part trigger("trigger", OtherMaterial(random));
   trigger.Add(BoxShape({0.018, 0.014, random.Uniform(0.025, 0.045)}),
               At(head_x + 0.5 * depth + 0.004, 0.0, head_z - radius - 0.022));
-  if (Chance(random, 0.25)) {  // a guard before the fingers
+  if (random.Chance(0.25)) {  // a guard before the fingers
     const Outline bar = Chamfered(0.014, 0.022, 0.003);
     const std::vector<Eigen::Vector3d> guard = {{0.055, 0.0, foot},
                                                 {0.075, 0.0, 0.5 * (foot + head_z)},
@@ -161,9 +160,9 @@ OtherTool DrawDrill(Random& random) {
     trigger.Add(Upright(bar, guard));
   }
   trigger.MoveTo(tool);
-  if (Chance(random, 0.2)) {
+  if (random.Chance(0.2)) {
     Part handle("side handle", OtherMaterial(random));
-    const double side = Chance(random, 0.5) ? 1.0 : -1.0;
+    const double side = random.Chance(0.5) ? 1.0 : -1.0;
     const Eigen::Vector3d root(head_x + gears - 0.015, side * 0.7 * radius, head_z);
     handle.Add(CapsuleShape(0.014, 0.11),
                PoseAlong(root, root + side * Eigen::Vector3d(0.0, 0.12, 0.0)));
@@ -214,7 +213,7 @@ OtherTool DrawOtherTool(Random& random) {
     }
     case 3: {
       tool.name = "heat gun";
-      if (Chance(random, 0.5)) AddBattery(0.05, 0.11, 0.07, 0.01, random, tool);
+      if (random.Chance(0.5)) AddBattery(0.05, 0.11, 0.07, 0.01, random, tool);
       AddGrip(GripPath(0.0, head_z, random.Uniform(0.0, 0.2), 0.0), depth, width, random, tool);
       const double nozzle = random.Uniform(0.4, 1.0), radius = random.Uniform(0.03, 0.042);
       const Outline body = {{0.0, -0.07},
@@ -231,7 +230,8 @@ OtherTool DrawOtherTool(Random& random) {
       AddBattery(0.06, 0.09, 0.075, 0.0, random, tool);
       AddGrip(GripPath(0.05, 0.24, 0.0, 0.0), 0.058, 0.058, random, tool);
       part.Add(CylinderShape(random.Uniform(0.055, 0.065), 0.006),
-               LocalPose(Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitY())),
+               LocalPose(Eigen::Quaterniond(
+                             Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY())),
                          {0.045, 0.0, 0.26}));
       part.Add(BoxShape({0.07, 0.05, 0.05}), At(0.01, 0.0, 0.26));
       break;

@@ -16,16 +16,7 @@ namespace {
 using Pose = Rigid<frame::Robot, frame::Object>;
 using LocalPose = Rigid<frame::Object, frame::Object>;
 
-constexpr std::uint64_t kSceneStream = 91001;
-constexpr double kPi = std::numbers::pi;
-
-SceneMesh MeshAt(const char* name, const Pose& pose, const Material& material) {
-  SceneMesh mesh;
-  mesh.name = name;
-  mesh.material = material;
-  mesh.robot_from_object = pose;
-  return mesh;
-}
+constexpr std::uint64_t kOtherValveStream = 91001;
 
 /// A bent strip of sheet with a rounded boss on its pivot.
 ValveTruth AddFlatLever(const Pose& pose, Random& random, Scene& scene) {
@@ -43,7 +34,7 @@ ValveTruth AddFlatLever(const Pose& pose, Random& random, Scene& scene) {
   std::vector<Eigen::Vector3d> path;
   for (const double t : {-0.04, 0.0, 0.25, 0.4, 0.7, 1.0})
     path.emplace_back(t * truth.model.lever_length_m, 0.0, t > 0.3 ? bend : 0.0);
-  SceneMesh mesh = MeshAt("lever", pose, OtherMaterial(random));
+  SceneMesh mesh = OtherMeshAt("lever", pose, OtherMaterial(random));
   AppendShape(SweptShape(section, path, Eigen::Vector3d::UnitZ()), pose, mesh);
   AppendShape(CylinderShape(truth.model.hub_radius_m, 0.02), pose, mesh);
   scene.meshes.push_back(std::move(mesh));
@@ -53,21 +44,22 @@ ValveTruth AddFlatLever(const Pose& pose, Random& random, Scene& scene) {
 /// Stem, yoke and flanges between a wheel's hub and the pipe that the valve sits in.
 void AddBody(const Pose& pose, double hub_z, double wall_m, double radius_m, Random& random,
              Scene& scene) {
-  SceneMesh body = MeshAt("valve body", pose, OtherMaterial(random));
+  SceneMesh body = OtherMeshAt("valve body", pose, OtherMaterial(random));
   const auto bar = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
     AppendShape(CylinderShape(radius, (to - from).norm()), pose * PoseAlong(from, to), body);
   };
   const double back = -wall_m, bonnet = hub_z + 0.45 * (back - hub_z);
   bar({0.0, 0.0, back}, {0.0, 0.0, hub_z}, random.Uniform(0.006, 0.016));
   bar({0.0, 0.0, back}, {0.0, 0.0, bonnet}, random.Uniform(0.02, 0.05));
-  if (Chance(random, 0.4))
+  if (random.Chance(0.4))
     for (const double side : {-1.0, 1.0})
       bar({side * 0.4 * radius_m, 0.0, back},
           {side * 0.03, 0.0, std::min(hub_z - 0.01, 0.5 * hub_z + 0.5 * bonnet)}, 0.008);
-  const double turn = random.Uniform(-kPi, kPi), pipe = random.Uniform(0.02, 0.06);
+  const double turn = random.Uniform(-std::numbers::pi, std::numbers::pi),
+               pipe = random.Uniform(0.02, 0.06);
   const Eigen::Vector3d along(std::cos(turn), std::sin(turn), 0.0);
   const Eigen::Vector3d middle(0.0, 0.0, back + 0.5 * pipe);
-  if (Chance(random, 0.6)) {
+  if (random.Chance(0.6)) {
     bar(middle - 1.5 * along, middle + 1.5 * along, pipe);
     for (const double side : {-1.0, 1.0})
       bar(middle + side * 0.10 * along, middle + side * 0.12 * along, 1.7 * pipe);
@@ -76,7 +68,7 @@ void AddBody(const Pose& pose, double hub_z, double wall_m, double radius_m, Ran
 }
 
 Eigen::Vector3d TiltedFrom(const Eigen::Vector3d& direction, double angle, Random& random) {
-  const Eigen::AngleAxisd side(random.Uniform(-kPi, kPi), direction);
+  const Eigen::AngleAxisd side(random.Uniform(-std::numbers::pi, std::numbers::pi), direction);
   return Eigen::AngleAxisd(angle, side * direction.unitOrthogonal()) * direction;
 }
 
@@ -85,7 +77,7 @@ void AddWheel(const OtherWheel& drawn, const Pose& pose, Random& random, FitTria
               Scene& scene) {
   const Shape shape = ShapeOf(drawn);
   const WheelMeasures measures = MeasureWheel(shape);
-  SceneMesh mesh = MeshAt("wheel", pose, OtherMaterial(random));
+  SceneMesh mesh = OtherMeshAt("wheel", pose, OtherMaterial(random));
   AppendShape(shape, pose, mesh);
   scene.meshes.push_back(std::move(mesh));
   trial.positive = measures.IsHandwheel();
@@ -112,7 +104,7 @@ void AddWheel(const OtherWheel& drawn, const Pose& pose, Random& random, FitTria
 }  // namespace
 
 FitTrialScene OtherValveScene(std::uint64_t seed) {
-  Random random(seed, kSceneStream);
+  Random random(seed, kOtherValveStream);
   FitTrialScene trial;
   const double kind = random.Uniform();
   const OtherWheel drawn = kind < 0.25 ? DrawRoundThing(random) : DrawWheel(random);
@@ -125,7 +117,7 @@ FitTrialScene OtherValveScene(std::uint64_t seed) {
   const Eigen::Vector3d place = OtherHead() + distance * sight;
   const Eigen::Vector3d axis =
       TiltedFrom(-sight, RadiansFromDegrees(random.Uniform(0.0, 45.0)), random);
-  const Pose pose = ValvePose(place, axis, random.Uniform(-kPi, kPi));
+  const Pose pose = ValvePose(place, axis, random.Uniform(-std::numbers::pi, std::numbers::pi));
   const double hub_z = lever ? 0.0 : -drawn.dish_m;
   const double wall_m = std::max(0.03 - hub_z, random.Uniform(0.05, 0.40));
 
@@ -135,7 +127,7 @@ FitTrialScene OtherValveScene(std::uint64_t seed) {
   scene->ambient = random.Uniform(0.15, 0.6);
   const double radius = lever ? 0.2 : drawn.radius_m;
   AddOtherWall(place + 3.5 * sight, -sight, 0.0, random, *scene);
-  if (Chance(random, 0.8))
+  if (random.Chance(0.8))
     AddOtherWall(place - wall_m * axis,
                  TiltedFrom(axis, RadiansFromDegrees(std::abs(8.0 * random.Normal())), random),
                  radius, random, *scene);

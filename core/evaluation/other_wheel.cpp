@@ -12,7 +12,6 @@
 namespace foresight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kDirections = 360;
 
 using Section = OtherWheel::Section;
@@ -31,7 +30,7 @@ Outline SectionOf(Section kind, const Eigen::Vector2d& size) {
   }
   constexpr int kCorners = 20;
   for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * kPi * i / kCorners;
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
     Eigen::Vector2d corner(half.x() * std::cos(angle), half.y() * std::sin(angle));
     // Flat below, and its middle stays at the origin.
     if (kind == Section::kHalfRound)
@@ -78,7 +77,7 @@ Eigen::Vector3d OnCircle(double radius, double angle, double z) {
 Shape RimOf(const OtherWheel& wheel) {
   constexpr int kSteps = 160;
   std::vector<Eigen::Vector3d> path;
-  const bool whole = wheel.rim_arc_rad >= 2.0 * kPi - 1e-9;
+  const bool whole = wheel.rim_arc_rad >= 2.0 * std::numbers::pi - 1e-9;
   // A whole rim runs a step beyond its beginning: its caps lie inside of it.
   for (int i = 0; i <= kSteps + (whole ? 1 : 0); ++i) {
     const double angle = wheel.rim_begin_rad + wheel.rim_arc_rad * i / kSteps;
@@ -103,7 +102,7 @@ Shape SpokeOf(const OtherWheel& wheel, double angle) {
 
 std::vector<double> Evenly(int count, double first) {
   std::vector<double> angles;
-  for (int i = 0; i < count; ++i) angles.push_back(first + 2.0 * kPi * i / count);
+  for (int i = 0; i < count; ++i) angles.push_back(first + 2.0 * std::numbers::pi * i / count);
   return angles;
 }
 
@@ -124,9 +123,9 @@ class AxialView {
     std::vector<SceneRay> rays;
     for (int r = 0; r < kRadii; ++r)
       for (int a = 0; a < kDirections; ++a)
-        rays.push_back(
-            {OnCircle(RadiusOf(r), (a + 0.5) * 2.0 * kPi / kDirections, 2.0).cast<float>(),
-             -Eigen::Vector3f::UnitZ()});
+        rays.push_back({OnCircle(RadiusOf(r), (a + 0.5) * 2.0 * std::numbers::pi / kDirections, 2.0)
+                            .cast<float>(),
+                        -Eigen::Vector3f::UnitZ()});
     std::vector<SceneHit> hits(rays.size());
     caster.Cast(rays, hits);
     for (const SceneHit& hit : hits) filled_.push_back(hit.mesh >= 0);
@@ -162,7 +161,8 @@ std::vector<double> RunsAt(const AxialView& view, int r) {
     const int begin = k;
     while (k < kDirections && view.Filled(r, start + k)) ++k;
     middles.push_back(
-        std::remainder((start + 0.5 * (begin + k)) * 2.0 * kPi / kDirections, 2.0 * kPi));
+        std::remainder((start + 0.5 * (begin + k)) * 2.0 * std::numbers::pi / kDirections,
+                       2.0 * std::numbers::pi));
   }
   return middles;
 }
@@ -176,19 +176,20 @@ OtherWheel DrawWheel(Random& random) {
   wheel.rim = RandomSection(random);
   wheel.rim_m = SizeOf(wheel.rim, tube, random);
   wheel.rim_m.x() = std::min(wheel.rim_m.x(), 0.45 * wheel.radius_m);
-  if (Chance(random, 0.25)) {
+  if (random.Chance(0.25)) {
     wheel.waves = 6 + random.Index(10);
     wheel.waves_m = random.Uniform(0.02, 0.05) * wheel.radius_m;
   }
-  wheel.spokes_rad = Evenly(2 + random.Index(5), random.Uniform(-kPi, kPi));
+  wheel.spokes_rad =
+      Evenly(2 + random.Index(5), random.Uniform(-std::numbers::pi, std::numbers::pi));
   wheel.spoke = RandomSection(random);
   wheel.spoke_m = SizeOf(wheel.spoke, tube * random.Uniform(0.5, 1.1), random);
   wheel.spoke_taper = random.Uniform(0.6, 1.2);
-  wheel.spoke_bow_m = Chance(random, 0.3) ? random.Uniform(-0.15, 0.15) * wheel.radius_m : 0.0;
+  wheel.spoke_bow_m = random.Chance(0.3) ? random.Uniform(-0.15, 0.15) * wheel.radius_m : 0.0;
   wheel.dish_m = random.Uniform(-0.1, 0.45) * wheel.radius_m;
   wheel.hub_radius_m = std::max(0.012, random.Uniform(0.12, 0.32) * wheel.radius_m);
   wheel.hub_length_m = random.Uniform(0.012, 0.06);
-  wheel.knob_m = Chance(random, 0.15) ? random.Uniform(0.03, 0.08) : 0.0;
+  wheel.knob_m = random.Chance(0.15) ? random.Uniform(0.03, 0.08) : 0.0;
   wheel.name = "wheel";
   return wheel;
 }
@@ -196,12 +197,12 @@ OtherWheel DrawWheel(Random& random) {
 OtherWheel DrawRoundThing(Random& random) {
   OtherWheel thing = DrawWheel(random);
   thing.knob_m = 0.0;
-  const double first = random.Uniform(-kPi, kPi);
+  const double first = random.Uniform(-std::numbers::pi, std::numbers::pi);
   switch (random.Index(7)) {
     case 0:
       thing.name = "broken wheel";
       thing.rim_begin_rad = first;
-      thing.rim_arc_rad = random.Uniform(0.45, 0.85) * 2.0 * kPi;
+      thing.rim_arc_rad = random.Uniform(0.45, 0.85) * 2.0 * std::numbers::pi;
       break;
     case 1:
       thing.name = "fan's guard";
@@ -212,7 +213,7 @@ OtherWheel DrawRoundThing(Random& random) {
       break;
     case 2:
       thing.name = "steering wheel";
-      thing.spokes_rad = {first, first + random.Uniform(1.2, 1.7), first + kPi};
+      thing.spokes_rad = {first, first + random.Uniform(1.2, 1.7), first + std::numbers::pi};
       break;
     case 3:
       thing.name = "pulley";
@@ -286,7 +287,7 @@ WheelMeasures MeasureWheel(const Shape& shape) {
   const std::vector<double> middles = RunsAt(view, radius);
   if (middles.empty()) return measures;
   measures.first_spoke_rad = middles.front();
-  const double sector = 2.0 * kPi / static_cast<double>(middles.size());
+  const double sector = 2.0 * std::numbers::pi / static_cast<double>(middles.size());
   for (const double middle : middles)
     measures.unevenness_rad = std::max(measures.unevenness_rad,
                                        std::abs(std::remainder(middle - middles.front(), sector)));

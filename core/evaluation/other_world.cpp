@@ -13,8 +13,6 @@ namespace {
 
 using Pose = Rigid<frame::Robot, frame::Object>;
 
-constexpr double kPi = std::numbers::pi;
-
 /// Shapes of one material, placed in robot.
 SceneMesh MeshOf(const char* name, const Material& material) {
   SceneMesh mesh;
@@ -35,8 +33,8 @@ void AddBar(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radiu
 std::vector<Eigen::Vector2d> Round(double radius, int corners) {
   std::vector<Eigen::Vector2d> section;
   for (int i = 0; i < corners; ++i)
-    section.emplace_back(radius * std::cos(2.0 * kPi * i / corners),
-                         radius * std::sin(2.0 * kPi * i / corners));
+    section.emplace_back(radius * std::cos(2.0 * std::numbers::pi * i / corners),
+                         radius * std::sin(2.0 * std::numbers::pi * i / corners));
   return section;
 }
 
@@ -53,7 +51,7 @@ struct Across {
 void AddCable(const Eigen::Vector3d& place, double radius_m, Random& random, Scene& scene) {
   constexpr int kPoints = 24;
   const Across across(place);
-  const double turn = random.Uniform(-kPi, kPi);
+  const double turn = random.Uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::Vector3d along = std::cos(turn) * across.right + std::sin(turn) * across.up;
   const Eigen::Vector3d beside = -std::sin(turn) * across.right + std::cos(turn) * across.up;
   const double reach = random.Uniform(0.4, 0.8);
@@ -75,7 +73,7 @@ void AddCable(const Eigen::Vector3d& place, double radius_m, Random& random, Sce
 /// Palm, thumb, four bent fingers and a forearm, at the edge of the thing.
 void AddHand(const Eigen::Vector3d& place, double radius_m, Random& random, Scene& scene) {
   const Across across(place);
-  const double turn = random.Uniform(-kPi, kPi);
+  const double turn = random.Uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::Vector3d out = std::cos(turn) * across.right + std::sin(turn) * across.up;
   const Eigen::Vector3d side = -std::sin(turn) * across.right + std::cos(turn) * across.up;
   const Eigen::Vector3d wrist = place + (random.Uniform(0.9, 1.2) * radius_m + 0.09) * out +
@@ -101,8 +99,13 @@ void AddHand(const Eigen::Vector3d& place, double radius_m, Random& random, Scen
 
 }  // namespace
 
-bool Chance(Random& random, double fraction) {
-  return random.Uniform() < fraction;
+SceneMesh OtherMeshAt(const char* name, const Rigid<frame::Robot, frame::Object>& robot_from_object,
+                      const Material& material) {
+  SceneMesh mesh;
+  mesh.name = name;
+  mesh.material = material;
+  mesh.robot_from_object = robot_from_object;
+  return mesh;
 }
 
 ScanPlan OtherPlan(double elevation_rad, double half_rad, double least_margin_deg, Random& random) {
@@ -155,7 +158,7 @@ void SetOtherConditions(Random& random, FitTrialScene& trial) {
   lidar.footprint_vertical_rad = random.Uniform(0.004, 0.020);
   lidar.footprint_side = 4;
   lidar.footprint =
-      Chance(random, 0.5) ? LidarNoise::Footprint::kGaussian : LidarNoise::Footprint::kEven;
+      random.Chance(0.5) ? LidarNoise::Footprint::kGaussian : LidarNoise::Footprint::kEven;
   lidar.pulse_length_m = 0.08 * std::pow(1.5 / 0.08, random.Uniform());
   lidar.leading_edge = random.Uniform(0.0, 0.5);
   lidar.spurious_fraction = random.Uniform(0.0, 0.004);
@@ -168,9 +171,9 @@ void SetOtherConditions(Random& random, FitTrialScene& trial) {
   motor.backlash_rad *= random.Uniform(0.0, 2.0);
   trial.rig_error =
       CalibrationError{RadiansFromDegrees(random.Uniform(0.0, 0.2)), random.Uniform(0.0, 0.005)};
-  if (Chance(random, 0.125)) trial.scanned = random.Uniform(0.55, 0.90);
-  trial.region = Chance(random, 2.0 / 3.0) ? FitTrialScene::Region::kRectangle
-                                           : FitTrialScene::Region::kTightBox;
+  if (random.Chance(0.125)) trial.scanned = random.Uniform(0.55, 0.90);
+  trial.region = random.Chance(2.0 / 3.0) ? FitTrialScene::Region::kRectangle
+                                          : FitTrialScene::Region::kTightBox;
 }
 
 void AddObjectPoints(const Scene& scene, std::size_t first_mesh, FitTrialScene& trial) {
@@ -180,8 +183,8 @@ void AddObjectPoints(const Scene& scene, std::size_t first_mesh, FitTrialScene& 
 }
 
 void AddOccluders(const Eigen::Vector3d& place, double radius_m, Random& random, Scene& scene) {
-  if (Chance(random, 0.4)) AddCable(place, radius_m, random, scene);
-  if (Chance(random, 0.2)) AddHand(place, radius_m, random, scene);
+  if (random.Chance(0.4)) AddCable(place, radius_m, random, scene);
+  if (random.Chance(0.2)) AddHand(place, radius_m, random, scene);
 }
 
 void AddOtherWall(const Eigen::Vector3d& foot, const Eigen::Vector3d& normal, double clear_m,
@@ -193,18 +196,21 @@ void AddOtherWall(const Eigen::Vector3d& foot, const Eigen::Vector3d& normal, do
   const int count = random.Index(5);
   for (int i = 0; i < count; ++i) {
     SceneMesh thing = MeshOf("fitting on the wall", OtherMaterial(random));
-    const double angle = random.Uniform(-kPi, kPi), away = clear_m + random.Uniform(0.03, 0.4);
+    const double angle = random.Uniform(-std::numbers::pi, std::numbers::pi),
+                 away = clear_m + random.Uniform(0.03, 0.4);
     const double high = random.Uniform(0.02, 0.12);
     const Eigen::Vector3d at(away * std::cos(angle), away * std::sin(angle), 0.5 * high);
     const Rigid<frame::Object, frame::Object> place(
-        Eigen::Quaterniond(Eigen::AngleAxisd(random.Uniform(-kPi, kPi), Eigen::Vector3d::UnitZ())),
+        Eigen::Quaterniond(Eigen::AngleAxisd(random.Uniform(-std::numbers::pi, std::numbers::pi),
+                                             Eigen::Vector3d::UnitZ())),
         at);
-    if (Chance(random, 0.5)) {
+    if (random.Chance(0.5)) {
       AppendShape(BoxShape({random.Uniform(0.02, 0.25), random.Uniform(0.02, 0.25), high}),
                   pose * place, thing);
     } else {
       const double radius = 0.5 * high;
-      const Eigen::Vector3d along(std::cos(angle + 0.5 * kPi), std::sin(angle + 0.5 * kPi), 0.0);
+      const Eigen::Vector3d along(std::cos(angle + 0.5 * std::numbers::pi),
+                                  std::sin(angle + 0.5 * std::numbers::pi), 0.0);
       AppendShape(CylinderShape(radius, 4.0), pose * PoseAlong(at - 2.0 * along, at + 2.0 * along),
                   thing);
     }

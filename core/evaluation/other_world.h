@@ -12,8 +12,6 @@ namespace foresight {
 // share none of these. THEY JUDGE ONLY: nothing, no weight, no gate, no constant and no choice
 // between two ways of fitting, may ever be fitted to them or chosen by them.
 
-bool Chance(Random& random, double fraction);
-
 /// One paint in eight is nearly black to the laser, one in eight shines, one in twelve is
 /// translucent and reads up to 8 mm too long.
 Material OtherMaterial(Random& random);
@@ -28,6 +26,10 @@ void SetOtherConditions(Random& random, FitTrialScene& trial);
 /// A sweep past a thing at this elevation and of this half angle, both in radians, with a margin of
 /// `least_margin_deg` to 14 degrees on both sides, at a fifth to nine tenths of a degree a line.
 ScanPlan OtherPlan(double elevation_rad, double half_rad, double least_margin_deg, Random& random);
+
+/// A mesh without vertices yet, at a pose in robot.
+SceneMesh OtherMeshAt(const char* name, const Rigid<frame::Robot, frame::Object>& robot_from_object,
+                      const Material& material);
 
 /// From where the head of DefaultSensorRig looks, in robot.
 Eigen::Vector3d OtherHead();

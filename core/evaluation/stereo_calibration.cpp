@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "core/base/atomic_file.h"
+#include "core/io/image_limits.h"
 
 namespace foresight {
 namespace {
 
 constexpr std::size_t kLimit_bytes = 1 << 16;
-constexpr double kMaxSide = 20000.0;
 
 using Keys = std::map<std::string, std::string>;
 
@@ -55,9 +55,9 @@ Result<std::vector<double>> Numbers(const Keys& keys, const std::string& key, st
 Result<int> Side(const Keys& keys, const std::string& key, const std::string& file) {
   if (!keys.contains(key)) return 0;
   FORESIGHT_TRY(const std::vector<double> side, Numbers(keys, key, 1, file));
-  if (!(side[0] >= 1.0 && side[0] <= kMaxSide) || side[0] != std::floor(side[0]))
+  if (!(side[0] >= 1.0 && side[0] <= kMaxImageSide) || side[0] != std::floor(side[0]))
     return Fail(ErrorCode::kBadData, "{}: '{}' is {}, not a whole number from 1 to {}", file, key,
-                side[0], kMaxSide);
+                side[0], kMaxImageSide);
   return static_cast<int>(side[0]);
 }
 

@@ -14,10 +14,6 @@ const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 const Eigen::Vector3d kForward = Eigen::Vector3d::UnitX();
 
-bool Chance(Random& random, double fraction) {
-  return random.Uniform() < fraction;
-}
-
 void AddTriggerSprayer(TableThing& thing, Random& random) {
   const double radius = random.Uniform(0.028, 0.050), shoulder = random.Uniform(0.11, 0.18);
   const double neck = random.Uniform(0.012, 0.018),
@@ -43,9 +39,9 @@ void AddTriggerSprayer(TableThing& thing, Random& random) {
 void AddFlashlight(TableThing& thing, Random& random) {
   const double grip = random.Uniform(0.013, 0.024), lamp = grip * random.Uniform(1.3, 2.2);
   const double height = random.Uniform(0.14, 0.28);
-  if (Chance(random, 0.5)) {  // straight, on its lamp or on its end
+  if (random.Chance(0.5)) {  // straight, on its lamp or on its end
     const double flare = random.Uniform(0.03, 0.06);
-    if (Chance(random, 0.5))
+    if (random.Chance(0.5))
       thing.AddRevolved({{0.0, 0.0},
                          {lamp, 0.0},
                          {lamp, 0.025},
@@ -116,16 +112,16 @@ void AddJug(TableThing& thing, Random& random) {
   for (std::size_t i = 0; i + 1 < handle.size(); ++i)
     thing.AddCylinder(0.008, handle[i], handle[i + 1]);
   const Eigen::Vector3d lip(0.8 * neck, 0.0, random.Uniform(0.75, 0.93) * height);
-  if (Chance(random, 0.7))
+  if (random.Chance(0.7))
     thing.AddCylinder(random.Uniform(0.010, 0.018), lip,
                       lip + Eigen::Vector3d(random.Uniform(0.03, 0.06), 0.0, 0.03));
 }
 
 void AddHotAirTool(TableThing& thing, Random& random) {
-  const bool dryer = Chance(random, 0.5);
+  const bool dryer = random.Chance(0.5);
   const double height = random.Uniform(0.17, 0.23);
   const double radius = dryer ? random.Uniform(0.035, 0.048) : random.Uniform(0.026, 0.036);
-  const double foot = Chance(random, 0.5) ? random.Uniform(0.03, 0.07) : 0.0;
+  const double foot = random.Chance(0.5) ? random.Uniform(0.03, 0.07) : 0.0;
   if (foot > 0.0)
     thing.AddBox({random.Uniform(0.08, 0.12), random.Uniform(0.05, 0.075), foot},
                  {0.0, 0.0, 0.5 * foot});
@@ -147,7 +143,7 @@ void AddHotAirTool(TableThing& thing, Random& random) {
 void AddGrinder(TableThing& thing, Random& random) {
   const double body = random.Uniform(0.026, 0.036), length = random.Uniform(0.20, 0.28);
   const double disc = random.Uniform(0.055, 0.065), gear = random.Uniform(0.045, 0.06);
-  if (Chance(random, 0.5)) {  // on its disc
+  if (random.Chance(0.5)) {  // on its disc
     const double axis_height = gear - 0.3 * body;
     thing.AddCylinder(disc, {0.0, 0.0, 0.002}, {0.0, 0.0, 0.008});
     thing.AddCylinder(0.9 * body, {0.0, 0.0, 0.006}, {0.0, 0.0, gear});

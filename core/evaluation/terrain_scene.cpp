@@ -14,7 +14,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint64_t kSceneStream = 4343;
+constexpr std::uint64_t kTerrainStream = 4343;
 constexpr int kColumns = 3;
 constexpr double kLayer_m = 0.19;
 constexpr int kLayers = 3;
@@ -106,7 +106,7 @@ ScanPlan RandomPlan(Random& random) {
 }  // namespace
 
 FitTrialScene RandomTerrainScene(std::uint64_t seed) {
-  Random random(seed, kSceneStream);
+  Random random(seed, kTerrainStream);
   const int rows = 3 + random.Index(3);
   TerrainLayout layout;
   layout.ground_m = random.Uniform(-0.20, 0.30);  // 1.6 to 1.1 m below the head

@@ -13,14 +13,10 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint64_t kSceneStream = 4242;
+constexpr std::uint64_t kValveStream = 4242;
 constexpr double kHeadHeight_m = 1.4;  // of DefaultSensorRig, and 0.1 m in front of robot
 constexpr double kHeadForward_m = 0.1;
 constexpr double kFarRoom_m = 4.0;
-
-bool Chance(Random& random, double fraction) {
-  return random.Uniform() < fraction;
-}
 
 Material RandomMaterial(Random& random) {
   using Pattern = Material::Pattern;
@@ -31,7 +27,7 @@ Material RandomMaterial(Random& random) {
   for (int i = 0; i < 3; ++i)
     material.color2[i] = std::clamp(material.color[i] + random.Uniform(-0.3, 0.3), 0.02, 0.9);
   // Half of all things are plain.
-  material.pattern = Chance(random, 0.5) ? Pattern::kPlain : kPatterns[random.Index(5)];
+  material.pattern = random.Chance(0.5) ? Pattern::kPlain : kPatterns[random.Index(5)];
   material.pattern_size_m = random.Uniform(0.01, 0.15);
   material.lidar_reflectance = random.Uniform(0.2, 0.7);
   material.specular = random.Uniform(0.0, 0.08);
@@ -40,13 +36,13 @@ Material RandomMaterial(Random& random) {
 
 ValveModel RandomWheel(Random& random) {
   ValveModel model;
-  const bool small = Chance(random, 0.08);
+  const bool small = random.Chance(0.08);
   model.rim_radius_m = small ? random.Uniform(0.045, 0.095) : random.Uniform(0.095, 0.240);
   model.tube_radius_m = small ? random.Uniform(0.006, 0.009) : random.Uniform(0.009, 0.016);
   model.spoke_radius_m = small ? random.Uniform(0.005, 0.007) : random.Uniform(0.006, 0.011);
   model.hub_radius_m = std::max(0.018, random.Uniform(0.15, 0.30) * model.rim_radius_m);
   model.dish_m = std::min(random.Uniform(0.0, 0.050), 0.35 * model.rim_radius_m);
-  model.spokes = Chance(random, 0.06) ? 0 : 2 + random.Index(5);
+  model.spokes = random.Chance(0.06) ? 0 : 2 + random.Index(5);
   return model;
 }
 
@@ -60,7 +56,7 @@ ValveModel RandomLever(Random& random) {
 }
 
 double DistanceFor(const ValveModel& model, bool& far, Random& random) {
-  far = Chance(random, 0.15) && model.rim_radius_m >= 0.095;
+  far = random.Chance(0.15) && model.rim_radius_m >= 0.095;
   if (far) return random.Uniform(2.0, 3.0);
   return random.Uniform(0.7, model.rim_radius_m < 0.095 ? 1.2 : 2.0);
 }
@@ -111,10 +107,10 @@ void AddRoom(const Place& place, bool with_wall, Random& random, Scene& scene) {
   if (!with_wall) return;
   const Eigen::Vector3d foot = place.center - place.wall_m * place.axis;
   // In a quarter of the scenes the wheel was not built parallel to the wall.
-  const bool skewed = Chance(random, 0.25);
+  const bool skewed = random.Chance(0.25);
   const double angle = skewed ? RadiansFromDegrees(random.Uniform(5.0, 20.0)) : 0.0;
   AddRectangle("wall", foot, Tilted(place.axis, angle, random), 4.0, RandomMaterial(random), scene);
-  if (!Chance(random, 0.7)) return;
+  if (!random.Chance(0.7)) return;
   const double pipe_radius = random.Uniform(0.015, 0.03);
   const double off = random.Uniform(0.10, 0.25);
   SceneMesh pipe;
@@ -133,7 +129,7 @@ void AddRoom(const Place& place, bool with_wall, Random& random, Scene& scene) {
 
 /// What sits on the hub of many wheels.
 void AddNut(const ValveObject& valve, Random& random, Scene& scene) {
-  if (valve.model.IsLever() || Chance(random, 0.5)) return;
+  if (valve.model.IsLever() || random.Chance(0.5)) return;
   SceneMesh nut;
   nut.name = "nut";
   nut.material = valve.body_material;
@@ -187,10 +183,10 @@ ScanPlan PlanFor(const Place& place, double angular_radius_rad, Random& random) 
 }  // namespace
 
 FitTrialScene RandomValveScene(std::uint64_t seed) {
-  Random random(seed, kSceneStream);
+  Random random(seed, kValveStream);
   FitTrialScene trial;
-  trial.positive = !Chance(random, 1.0 / 6.0);
-  const ValveModel model = Chance(random, 0.1) ? RandomLever(random) : RandomWheel(random);
+  trial.positive = !random.Chance(1.0 / 6.0);
+  const ValveModel model = random.Chance(0.1) ? RandomLever(random) : RandomWheel(random);
   bool far = false;
   const double distance_m = DistanceFor(model, far, random);
   Place place = RandomPlace(distance_m, random);
@@ -200,7 +196,7 @@ FitTrialScene RandomValveScene(std::uint64_t seed) {
       Distractors()[static_cast<std::size_t>(random.Index(static_cast<int>(Distractors().size())))];
   const bool empty = !trial.positive && thing == Distractor::kEmptyRegion;
   // A tenth hang free, the room's far wall behind them.
-  AddRoom(place, !empty && !Chance(random, 0.1), random, *scene);
+  AddRoom(place, !empty && !random.Chance(0.1), random, *scene);
   if (trial.positive) {
     trial.what = NameOf(model) + (far ? ", beyond 2 m" : "");
     trial.focus_radius_m = AddRandomValve(model, place, random, *scene);

@@ -9,23 +9,19 @@
 namespace foresight {
 namespace {
 
-bool Chance(Random& random, double fraction) {
-  return random.Uniform() < fraction;
-}
-
 void DrawFoot(Random& random, VariedDrill& drill) {
   switch (random.Index(3)) {
     case 0:  // a slide pack
       drill.foot_length_m = random.Uniform(0.105, 0.145);
       drill.foot_width_m = random.Uniform(0.064, 0.084);
       drill.foot_height_m = random.Uniform(0.045, 0.085);
-      drill.neck_m = Chance(random, 0.5) ? random.Uniform(0.008, 0.020) : 0.0;
+      drill.neck_m = random.Chance(0.5) ? random.Uniform(0.008, 0.020) : 0.0;
       break;
     case 1:  // a flat one
       drill.foot_length_m = random.Uniform(0.100, 0.130);
       drill.foot_width_m = random.Uniform(0.060, 0.078);
       drill.foot_height_m = random.Uniform(0.030, 0.048);
-      drill.neck_m = Chance(random, 0.7) ? random.Uniform(0.010, 0.025) : 0.0;
+      drill.neck_m = random.Chance(0.7) ? random.Uniform(0.010, 0.025) : 0.0;
       break;
     default:  // of a 12 V driver, whose cells are in the grip
       drill.foot_length_m = random.Uniform(0.076, 0.098);
@@ -104,17 +100,17 @@ VariedDrill RandomVariedDrill(Random& random) {
   drill.head_height_m = random.Uniform(0.150, 0.235);
   drill.head_flattened = random.Uniform(0.8, 1.05);
   drill.gear_radius_m = drill.head_radius_m * random.Uniform(0.68, 1.0);
-  drill.chamfer_m = Chance(random, 0.5) ? random.Uniform(0.008, 0.022) : 0.002;
-  const bool driver = Chance(random, 0.3);  // short, with a socket for hexagonal bits
+  drill.chamfer_m = random.Chance(0.5) ? random.Uniform(0.008, 0.022) : 0.002;
+  const bool driver = random.Chance(0.3);  // short, with a socket for hexagonal bits
   drill.head_back_m = driver ? random.Uniform(0.040, 0.075) : random.Uniform(0.045, 0.105);
   drill.head_front_m = driver ? random.Uniform(0.060, 0.085) : random.Uniform(0.055, 0.105);
   drill.chuck_radius_m = driver ? random.Uniform(0.010, 0.014) : random.Uniform(0.016, 0.023);
   drill.chuck_length_m = driver ? random.Uniform(0.016, 0.028) : random.Uniform(0.030, 0.050);
   drill.chuck_taper = random.Uniform(0.6, 1.0);
-  drill.bit_length_m = Chance(random, 0.35) ? 0.0 : random.Uniform(0.02, 0.13);
-  drill.trigger = Chance(random, 0.9);
-  drill.hook = Chance(random, 0.25);
-  drill.side_handle = !driver && Chance(random, 0.1);
+  drill.bit_length_m = random.Chance(0.35) ? 0.0 : random.Uniform(0.02, 0.13);
+  drill.trigger = random.Chance(0.9);
+  drill.hook = random.Chance(0.25);
+  drill.side_handle = !driver && random.Chance(0.1);
   return drill;
 }
 

@@ -6,12 +6,11 @@
 #include <optional>
 
 #include "core/base/atomic_file.h"
+#include "core/io/image_limits.h"
 #include "core/io/png.h"
 
 namespace foresight {
 namespace {
-
-constexpr int kMaxSide = 20000;
 
 bool IsSpace(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
@@ -34,8 +33,8 @@ std::optional<int> NextNumber(std::string_view& text) {
 Result<GrayImage> DecodePgm(std::string_view bytes, const std::string& source) {
   std::string_view rest = bytes.substr(2);
   const auto width = NextNumber(rest), height = NextNumber(rest), largest = NextNumber(rest);
-  if (!width || !height || !largest || *width < 1 || *height < 1 || *width > kMaxSide ||
-      *height > kMaxSide || rest.empty())
+  if (!width || !height || !largest || *width < 1 || *height < 1 || *width > kMaxImageSide ||
+      *height > kMaxImageSide || rest.empty())
     return Fail(ErrorCode::kBadData, "{}: damaged PGM: its header has no size of an image", source);
   if (*largest != 255)
     return Fail(ErrorCode::kBadData, "{}: PGM with values up to {}; expected 255", source,

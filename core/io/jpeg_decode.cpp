@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/io/image_file.h"
+#include "core/io/image_limits.h"
 #include "core/io/jpeg.h"
 
 namespace foresight {
 namespace {
 
-constexpr JDIMENSION kMaxSide = 20000;
 constexpr std::uint64_t kMostPixels = 200'000'000;
 // A block of 8 x 8 pixels needs at least a few bits; progressive files may leave whole scans out,
 // so the guard is generous. It keeps a small file from asking for a huge image.
@@ -86,9 +86,10 @@ Result<Image<Pixel>> Decode(std::string_view bytes, const std::string& source,
   if (!Start(decoder, bytes, color_space)) return fail();
   const JDIMENSION width = decoder.jpeg.output_width, height = decoder.jpeg.output_height;
   const std::uint64_t pixels = std::uint64_t{width} * height;
-  if (width > kMaxSide || height > kMaxSide || pixels > most_pixels)
+  if (width > JDIMENSION{kMaxImageSide} || height > JDIMENSION{kMaxImageSide} ||
+      pixels > most_pixels)
     return Fail(ErrorCode::kBadData, "{}: {} x {} pixels are more than {} a side or {} in all",
-                source, width, height, kMaxSide, most_pixels);
+                source, width, height, kMaxImageSide, most_pixels);
   if (pixels > bytes.size() * kMostPixelsPerByte)
     return Fail(ErrorCode::kBadData, "{}: {} bytes cannot hold an image of {} x {}", source,
                 bytes.size(), width, height);

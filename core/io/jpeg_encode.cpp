@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "core/base/gray_image.h"
+#include "core/io/image_limits.h"
 #include "core/io/jpeg.h"
 
 namespace foresight {
 namespace {
-
-constexpr int kMaxSide = 20000;
 
 /// See Decoder in jpeg_decode.cpp: libjpeg leaves by longjmp.
 struct Encoder {
@@ -91,7 +90,7 @@ Result<std::string> Encode(const Image<Pixel>& image, int quality, const Layout&
 Result<std::string> EncodeJpeg(const ColorImage& image, int quality) {
   if (quality < 1 || quality > 100)
     return Fail(ErrorCode::kInvalidOptions, "quality {} of a JPEG is not from 1 to 100", quality);
-  if (image.empty() || image.width() > kMaxSide || image.height() > kMaxSide)
+  if (image.empty() || image.width() > kMaxImageSide || image.height() > kMaxImageSide)
     return Fail(ErrorCode::kInvalidInput, "an image of {} x {} cannot become a JPEG", image.width(),
                 image.height());
   if (!IsGray(image)) return Encode(image, quality, {3, JCS_RGB});

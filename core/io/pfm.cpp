@@ -6,11 +6,10 @@
 #include <cstring>
 
 #include "core/base/atomic_file.h"
+#include "core/io/image_limits.h"
 
 namespace foresight {
 namespace {
-
-constexpr int kMaxSide = 20000;
 
 bool IsSpace(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -60,9 +59,9 @@ Result<FloatImage> ReadPfm(const std::filesystem::path& path) {
   const std::string_view width_word = TakeWord(rest);
   const std::string_view height_word = TakeWord(rest);
   if (!Parse(width_word, width) || !Parse(height_word, height) || width < 1 || height < 1 ||
-      width > kMaxSide || height > kMaxSide)
+      width > kMaxImageSide || height > kMaxImageSide)
     return Fail(ErrorCode::kBadData, "{}: size '{}' x '{}' is not between 1 and {}", path.string(),
-                width_word, height_word, kMaxSide);
+                width_word, height_word, kMaxImageSide);
   const std::string_view scale_word = TakeWord(rest);
   if (!Parse(scale_word, scale) || !std::isfinite(scale) || scale == 0.0)
     return Fail(ErrorCode::kBadData, "{}: scale '{}' is not a number other than 0", path.string(),
@@ -82,7 +81,7 @@ Result<FloatImage> ReadPfm(const std::filesystem::path& path) {
 
 Status WritePfm(const std::filesystem::path& path, const FloatImage& image) {
   static_assert(std::endian::native == std::endian::little, "rows are written as they lie");
-  if (image.empty() || image.width() > kMaxSide || image.height() > kMaxSide)
+  if (image.empty() || image.width() > kMaxImageSide || image.height() > kMaxImageSide)
     return Fail(ErrorCode::kInvalidInput, "{}: an image of {} x {} cannot become a float map",
                 path.string(), image.width(), image.height());
   std::string bytes = fmt::format("Pf\n{} {}\n-1.0\n", image.width(), image.height());

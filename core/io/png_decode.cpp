@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "core/base/atomic_file.h"
+#include "core/io/image_limits.h"
 #include "core/io/png.h"
 
 namespace foresight {
 namespace {
 
-constexpr png_uint_32 kMaxSide = 20000;
 // No camera of ours, and 600 MB as colours: a small file can hold that many equal pixels.
 constexpr std::uint64_t kMostPixels = 200'000'000;
 // deflate cannot expand more than 1032 times: a small file that claims a huge image is damaged,
@@ -61,7 +61,7 @@ bool Start(Decoder& decoder, Layout layout) {
   decoder.info = png_create_info_struct(decoder.png);
   if (decoder.info == nullptr) return false;
   png_set_read_fn(decoder.png, &decoder, OnRead);
-  png_set_user_limits(decoder.png, kMaxSide, kMaxSide);
+  png_set_user_limits(decoder.png, kMaxImageSide, kMaxImageSide);
   png_read_info(decoder.png, decoder.info);
 
   if (layout == Layout::kGray16) {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "core/base/atomic_file.h"
+#include "core/io/image_limits.h"
 #include "core/io/png.h"
 
 namespace foresight {
 namespace {
 
-constexpr int kMaxSide = 20000;
 // A 1288 x 964 image takes a third of the time of zlib's default level for a few per cent more
 // bytes, and the recorder must keep up with the camera.
 constexpr int kCompressionLevel = 3;
@@ -89,7 +89,7 @@ bool WriteRows(Encoder& encoder, int width, int height, Layout layout, png_bytep
 
 template <class Pixel>
 Result<std::string> Encode(const Image<Pixel>& image, Layout layout) {
-  if (image.empty() || image.width() > kMaxSide || image.height() > kMaxSide)
+  if (image.empty() || image.width() > kMaxImageSide || image.height() > kMaxImageSide)
     return Fail(ErrorCode::kInvalidInput, "an image of {} x {} cannot become a PNG file",
                 image.width(), image.height());
   Encoder encoder;

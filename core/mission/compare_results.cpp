@@ -14,7 +14,7 @@
 namespace foresight {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 Result<SideResult> FindSideResult(const MissionFile& mission, const MissionFile* review,
                                   const std::string& scan_uuid, const std::string& wanted) {
@@ -125,11 +125,11 @@ Status Take(Result<CloudDistances> distances, const char* what,
   return {};
 }
 
-Json Number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+OrderedJson Number(double value) {
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
 }
 
-Json ToJson(const DepthComparison& depth) {
+OrderedJson ToJson(const DepthComparison& depth) {
   return {{"in_both", depth.in_both},
           {"only_in_first", depth.only_in_first},
           {"only_in_second", depth.only_in_second},
@@ -146,20 +146,20 @@ Json ToJson(const DepthComparison& depth) {
             {"pixels", depth.histogram}}}};
 }
 
-Json ToJson(const CloudDistance& distance) {
+OrderedJson ToJson(const CloudDistance& distance) {
   return {{"points", distance.points},
           {"median_m", Number(distance.median_m)},
           {"p95_m", Number(distance.p95_m)},
           {"max_m", Number(distance.max_m)}};
 }
 
-Json ToJson(const std::optional<CloudDistances>& distances) {
+OrderedJson ToJson(const std::optional<CloudDistances>& distances) {
   if (!distances) return nullptr;
   return {{"from_first", ToJson(distances->from_first)},
           {"from_second", ToJson(distances->from_second)}};
 }
 
-Json ToJson(const std::optional<PlacedObject>& object) {
+OrderedJson ToJson(const std::optional<PlacedObject>& object) {
   if (!object) return nullptr;
   const Eigen::Vector3d& at = object->robot_from_object.translation();
   return {{"detection", object->uuid},
@@ -168,11 +168,11 @@ Json ToJson(const std::optional<PlacedObject>& object) {
           {"robot_position_m", {at.x(), at.y(), at.z()}}};
 }
 
-Json ToJson(const ObjectPair& pair) {
-  Json json = {{"kind", pair.first ? pair.first->kind : pair.second->kind},
-               {"first", ToJson(pair.first)},
-               {"second", ToJson(pair.second)},
-               {"difference", nullptr}};
+OrderedJson ToJson(const ObjectPair& pair) {
+  OrderedJson json = {{"kind", pair.first ? pair.first->kind : pair.second->kind},
+                      {"first", ToJson(pair.first)},
+                      {"second", ToJson(pair.second)},
+                      {"difference", nullptr}};
   if (!pair.difference) return json;
   const PoseDifference& d = *pair.difference;
   json["difference"] = {{"distance_m", d.distance_m},
@@ -301,20 +301,21 @@ Result<ResultComparison> CompareResults(const ComparedResult& first, const Compa
 }
 
 std::string ComparisonToJson(const ResultComparison& comparison) {
-  Json objects = Json::array();
+  OrderedJson objects = OrderedJson::array();
   for (const ObjectPair& pair : comparison.objects) objects.push_back(ToJson(pair));
-  const Json json = {{"format", 1},
-                     {"first", comparison.first},
-                     {"second", comparison.second},
-                     {"first_scan", comparison.first_scan},
-                     {"second_scan", comparison.second_scan},
-                     {"image", comparison.image},
-                     {"depth", comparison.depth ? ToJson(*comparison.depth) : Json(nullptr)},
-                     {"lidar", ToJson(comparison.lidar)},
-                     {"masked_depth", ToJson(comparison.masked)},
-                     {"objects", objects},
-                     {"notes", comparison.notes}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const OrderedJson json = {
+      {"format", 1},
+      {"first", comparison.first},
+      {"second", comparison.second},
+      {"first_scan", comparison.first_scan},
+      {"second_scan", comparison.second_scan},
+      {"image", comparison.image},
+      {"depth", comparison.depth ? ToJson(*comparison.depth) : OrderedJson(nullptr)},
+      {"lidar", ToJson(comparison.lidar)},
+      {"masked_depth", ToJson(comparison.masked)},
+      {"objects", objects},
+      {"notes", comparison.notes}};
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::vector<std::string> ComparisonInWords(const ResultComparison& comparison) {

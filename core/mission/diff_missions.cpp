@@ -121,20 +121,20 @@ Status CompareNotes(const NoteRecord& was, const NoteRecord& is, const Tell& tel
 }
 
 Status CompareLogs(const MissionFile& first, const MissionFile& second, Differences& differences) {
-  using Key = std::tuple<std::int64_t, std::string, std::string, std::string, std::string>;
+  using SettingKey = std::tuple<std::int64_t, std::string, std::string, std::string, std::string>;
   const auto keys = [](const std::vector<EventRecord>& events) {
-    std::multiset<Key> set;
+    std::multiset<SettingKey> set;
     for (const EventRecord& event : events)
       set.insert({event.utc_ns, event.source, event.severity, event.text, event.json});
     return set;
   };
   FORESIGHT_TRY(const std::vector<EventRecord> was, first.ListEvents());
   FORESIGHT_TRY(const std::vector<EventRecord> is, second.ListEvents());
-  const std::multiset<Key> old_keys = keys(was), new_keys = keys(is);
-  for (const Key& key : old_keys)
+  const std::multiset<SettingKey> old_keys = keys(was), new_keys = keys(is);
+  for (const SettingKey& key : old_keys)
     if (!new_keys.contains(key))
       differences.push_back({Kind::kOnlyInFirst, "log", "", std::get<3>(key)});
-  for (const Key& key : new_keys)
+  for (const SettingKey& key : new_keys)
     if (!old_keys.contains(key))
       differences.push_back({Kind::kOnlyInSecond, "log", "", std::get<3>(key)});
   return {};

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are stored as they lie");
 
-constexpr int kZlibLevel = 1;
+constexpr int kGivenZlibLevel = 1;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 template <class T>
@@ -60,7 +60,7 @@ Result<PackedGivenLine> PackGivenLine(const GivenCloud& cloud, int line) {
   packed.bytes.resize(size);
   const int status =
       compress2(reinterpret_cast<Bytef*>(packed.bytes.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), kZlibLevel);
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), kGivenZlibLevel);
   if (status != Z_OK)
     return Fail(ErrorCode::kInvalidInput, "line {} of a cloud: zlib error {}", line, status);
   packed.bytes.resize(size);

@@ -16,15 +16,15 @@
 namespace foresight {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* kEventSource = "self-check";
 
-Json Finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+OrderedJson Finite(double value) {
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
 }
 
-Json ErrorsJson(const HeldOutErrors& errors) {
+OrderedJson ErrorsJson(const HeldOutErrors& errors) {
   return {{"beams", errors.beams},
           {"q50_m", Finite(errors.q50_m)},
           {"q80_m", Finite(errors.q80_m)},
@@ -32,45 +32,46 @@ Json ErrorsJson(const HeldOutErrors& errors) {
           {"right", Finite(errors.right)}};
 }
 
-Json ClassesJson(const std::vector<HeldOutClass>& classes) {
-  Json list = Json::array();
+OrderedJson ClassesJson(const std::vector<HeldOutClass>& classes) {
+  OrderedJson list = OrderedJson::array();
   for (const HeldOutClass& one : classes) {
-    Json entry = {{"class", one.name}};
+    OrderedJson entry = {{"class", one.name}};
     entry.update(ErrorsJson(one.errors));
     list.push_back(std::move(entry));
   }
   return list;
 }
 
-Json ConfidenceJson(const ConfidenceClass& one) {
+OrderedJson ConfidenceJson(const ConfidenceClass& one) {
   return {{"from", one.from},         {"to", one.to},       {"beams", one.beams},
           {"promised", one.promised}, {"right", one.right}, {"sigma", one.sigma}};
 }
 
-Json DepthJson(const DepthCheck& depth) {
-  Json confidence = Json::array();
+OrderedJson DepthJson(const DepthCheck& depth) {
+  OrderedJson confidence = OrderedJson::array();
   for (const ConfidenceClass& one : depth.by_confidence) confidence.push_back(ConfidenceJson(one));
-  return {{"state", ToString(depth.state)},
-          {"method", depth.method},
-          {"image_deg", DegreesFromRadians(depth.image_rad)},
-          {"map",
-           {{"q50_m", Finite(depth.map_q50_m)},
-            {"q80_m", Finite(depth.map_q80_m)},
-            {"q95_m", Finite(depth.map_q95_m)}}},
-          {"against_beams", ErrorsJson(depth.all)},
-          {"against_scattered_beams", ErrorsJson(depth.scattered)},
-          {"against_lines", ErrorsJson(depth.lines)},
-          {"by_distance", ClassesJson(depth.by_distance)},
-          {"by_edge", ClassesJson(depth.by_edge)},
-          {"by_confidence", confidence},
-          {"promise", depth.promise.beams > 0 ? ConfidenceJson(depth.promise) : Json(nullptr)},
-          {"kept", depth.kept},
-          {"held_out", depth.left_out},
-          {"not_counted", depth.not_counted}};
+  return {
+      {"state", ToString(depth.state)},
+      {"method", depth.method},
+      {"image_deg", DegreesFromRadians(depth.image_rad)},
+      {"map",
+       {{"q50_m", Finite(depth.map_q50_m)},
+        {"q80_m", Finite(depth.map_q80_m)},
+        {"q95_m", Finite(depth.map_q95_m)}}},
+      {"against_beams", ErrorsJson(depth.all)},
+      {"against_scattered_beams", ErrorsJson(depth.scattered)},
+      {"against_lines", ErrorsJson(depth.lines)},
+      {"by_distance", ClassesJson(depth.by_distance)},
+      {"by_edge", ClassesJson(depth.by_edge)},
+      {"by_confidence", confidence},
+      {"promise", depth.promise.beams > 0 ? ConfidenceJson(depth.promise) : OrderedJson(nullptr)},
+      {"kept", depth.kept},
+      {"held_out", depth.left_out},
+      {"not_counted", depth.not_counted}};
 }
 
-Json RigJson(const RigCheck& rig) {
-  Json findings = Json::array();
+OrderedJson RigJson(const RigCheck& rig) {
+  OrderedJson findings = OrderedJson::array();
   for (const RigFinding& finding : rig.findings)
     findings.push_back({{"name", finding.name},
                         {"state", ToString(finding.state)},
@@ -78,7 +79,7 @@ Json RigJson(const RigCheck& rig) {
                         {"sigma", Finite(finding.sigma)},
                         {"limit", Finite(finding.limit)},
                         {"unit", finding.unit}});
-  Json json = {{"findings", findings}, {"drifted", rig.drifted}};
+  OrderedJson json = {{"findings", findings}, {"drifted", rig.drifted}};
   if (rig.camera)
     json["camera"] = {{"depth_edges", rig.camera->edges},
                       {"images", rig.camera->images},
@@ -94,8 +95,8 @@ Json RigJson(const RigCheck& rig) {
   return json;
 }
 
-Json ObjectJson(const HalfFits& object) {
-  Json differences = Json::array();
+OrderedJson ObjectJson(const HalfFits& object) {
+  OrderedJson differences = OrderedJson::array();
   for (const HalvesDifference& difference : object.differences)
     differences.push_back({{"axis", difference.axis},
                            {"value", difference.value},
@@ -166,11 +167,11 @@ Result<KeptObject> ObjectFrom(const Scan& scan, const DetectionRecord& record) {
 
 std::string ScanCheckToJson(const ScanCheck& check, const Scan& scan,
                             const ScanCheckOptions& options) {
-  Json points = Json::array();
+  OrderedJson points = OrderedJson::array();
   for (const CheckPoint& point : check.points)
     points.push_back(
         {{"name", point.name}, {"light", ToString(point.light)}, {"sentence", point.sentence}});
-  Json objects = Json::array();
+  OrderedJson objects = OrderedJson::array();
   for (const HalfFits& object : check.objects) objects.push_back(ObjectJson(object));
   return RecordEventJson({{"format", 1},
                           {"program_version", ProgramVersion()},
@@ -180,8 +181,8 @@ std::string ScanCheckToJson(const ScanCheck& check, const Scan& scan,
                           {"advice", check.advice},
                           {"points", points},
                           {"cannot_see", check.cannot_see},
-                          {"depth_options", Json::parse(DepthOptionsToJson(options.depth))},
-                          {"depth", check.depth ? DepthJson(*check.depth) : Json(nullptr)},
+                          {"depth_options", OrderedJson::parse(DepthOptionsToJson(options.depth))},
+                          {"depth", check.depth ? DepthJson(*check.depth) : OrderedJson(nullptr)},
                           {"rig", RigJson(check.rig)},
                           {"objects", objects}});
 }

@@ -10,7 +10,7 @@ namespace foresight {
 namespace {
 
 using Row = std::vector<StoredValue>;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string Text(const StoredTable& table, const Row& row, std::string_view column) {
   const auto* value = std::get_if<std::string>(&row[table.ColumnOf(column)]);
@@ -300,7 +300,7 @@ class Mend {
         Set(table, row, column.name, NewPosition(scan_id, before));
       }
       if (column.name != "provenance_json") continue;
-      Json json = Json::parse(Text(table, row, column.name), nullptr, false);
+      OrderedJson json = OrderedJson::parse(Text(table, row, column.name), nullptr, false);
       if (!json.is_object() || !json.contains("image_position") ||
           !json["image_position"].is_number_integer())
         continue;
@@ -308,7 +308,8 @@ class Mend {
       const std::int64_t now = before < 0 ? before : NewPosition(scan_id, before);
       if (now == before) continue;
       json["image_position"] = now;
-      Set(table, row, column.name, json.dump(-1, ' ', false, Json::error_handler_t::replace));
+      Set(table, row, column.name,
+          json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
     }
   }
 

@@ -9,12 +9,12 @@
 namespace foresight {
 namespace {
 
-using Action = DetectionEvent::Action;
-constexpr std::pair<Action, const char*> kActions[] = {
-    {Action::kAccepted, "accepted"}, {Action::kRejected, "rejected"},
-    {Action::kReopened, "reopened"}, {Action::kRenamed, "renamed"},
-    {Action::kDeleted, "deleted"},   {Action::kRestored, "restored"},
-    {Action::kSent, "sent"}};
+using EventAction = DetectionEvent::Action;
+constexpr std::pair<EventAction, const char*> kActions[] = {
+    {EventAction::kAccepted, "accepted"}, {EventAction::kRejected, "rejected"},
+    {EventAction::kReopened, "reopened"}, {EventAction::kRenamed, "renamed"},
+    {EventAction::kDeleted, "deleted"},   {EventAction::kRestored, "restored"},
+    {EventAction::kSent, "sent"}};
 
 }  // namespace
 
@@ -29,7 +29,7 @@ const char* ToString(Decision decision) {
   }
 }
 
-const char* ToString(Action action) {
+const char* ToString(EventAction action) {
   for (const auto& [known, name] : kActions)
     if (known == action) return name;
   return "unknown";
@@ -85,7 +85,7 @@ Result<std::string> TagsFrom(const std::string& text) {
   return joined;
 }
 
-Result<Action> DetectionActionFromString(const std::string& text) {
+Result<EventAction> DetectionActionFromString(const std::string& text) {
   for (const auto& [action, name] : kActions)
     if (text == name) return action;
   return Fail(ErrorCode::kBadData, "'{}' is no action on a detection", text);

@@ -14,7 +14,7 @@
 namespace foresight {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 Result<std::int64_t> PositionOf(const Scan& scan, const DepthResult& depth) {
   const auto at =
@@ -41,7 +41,7 @@ Status AddDepth(const Scan& scan, const DepthResult& depth, const ConfidenceMask
   return {};
 }
 
-Json ToJson(const ScanPart& part) {
+OrderedJson ToJson(const ScanPart& part) {
   return {{"lines", part.lines}, {"of_lines", part.of_lines}, {"seqs", part.seqs}};
 }
 
@@ -118,22 +118,23 @@ Result<Provenance> ProvenanceOfDepth(const Scan& scan, const DepthResult& depth,
 }
 
 std::string ProvenanceToJson(const Provenance& provenance) {
-  Json json = {{"program_version", provenance.program_version},
-               {"rig_id", provenance.rig_id},
-               {"image_position", provenance.image_position},
-               {"source", provenance.source},
-               {"depth_options", nullptr},
-               {"object", nullptr},
-               {"fit_options", nullptr},
-               {"roi", nullptr}};
-  if (provenance.depth) json["depth_options"] = Json::parse(DepthOptionsToJson(*provenance.depth));
+  OrderedJson json = {{"program_version", provenance.program_version},
+                      {"rig_id", provenance.rig_id},
+                      {"image_position", provenance.image_position},
+                      {"source", provenance.source},
+                      {"depth_options", nullptr},
+                      {"object", nullptr},
+                      {"fit_options", nullptr},
+                      {"roi", nullptr}};
+  if (provenance.depth)
+    json["depth_options"] = OrderedJson::parse(DepthOptionsToJson(*provenance.depth));
   if (provenance.fit) {
     json["object"] = ToString(ObjectKindOf(*provenance.fit));
-    json["fit_options"] = Json::parse(FitOptionsToJson(*provenance.fit));
+    json["fit_options"] = OrderedJson::parse(FitOptionsToJson(*provenance.fit));
   }
-  if (provenance.roi) json["roi"] = Json::parse(RoiToJson(*provenance.roi));
+  if (provenance.roi) json["roi"] = OrderedJson::parse(RoiToJson(*provenance.roi));
   if (provenance.part) json["part"] = ToJson(*provenance.part);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 Result<Provenance> ProvenanceFromJson(const std::string& json, const std::string& source) {

@@ -19,12 +19,12 @@
 namespace foresight {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json ToJson(const DepthStatistics& statistics) {
-  Json quantiles = Json::array();
+OrderedJson ToJson(const DepthStatistics& statistics) {
+  OrderedJson quantiles = OrderedJson::array();
   for (const double depth_m : statistics.depth_quantiles_m)
-    quantiles.push_back(std::isfinite(depth_m) ? Json(depth_m) : Json(nullptr));
+    quantiles.push_back(std::isfinite(depth_m) ? OrderedJson(depth_m) : OrderedJson(nullptr));
   return {{"valid_pixels", statistics.valid_pixels},
           {"masked_pixels", statistics.masked_pixels},
           {"depth_quantiles_m", quantiles},
@@ -40,7 +40,8 @@ class Worker {
 
   Status DepthOfImage(std::size_t position, const RunContext& context) {
     const CameraFrame& frame = scan_.frames[position];
-    Json entry = {{"image", position}, {"image_deg", DegreesFromRadians(frame.motor_angle_rad)}};
+    OrderedJson entry = {{"image", position},
+                         {"image_deg", DegreesFromRadians(frame.motor_angle_rad)}};
     FORESIGHT_TRY(const DepthResult* depth, Depth(position, entry, context));
     if (depth != nullptr) {
       ++answer_.depth_maps;
@@ -57,11 +58,11 @@ class Worker {
   }
 
   Status Fit(const DetectionRecord& record, const RunContext& context) {
-    Json entry = {{"detection", record.uuid}, {"kind", record.kind}};
+    OrderedJson entry = {{"detection", record.uuid}, {"kind", record.kind}};
     const auto found = FitAgain(record, entry, context);
     if (found) {
       ++answer_.fits;
-      Json answer = Json::parse(DetectionToJson(*found, rig_.robot_from_base));
+      OrderedJson answer = OrderedJson::parse(DetectionToJson(*found, rig_.robot_from_base));
       answer.erase("seconds");
       entry["answer"] = std::move(answer);
     } else if (found.error().code == ErrorCode::kCancelled) {
@@ -78,26 +79,27 @@ class Worker {
   }
 
   RunAgainAnswer Finish() {
-    Json json = {{"format", 1},
-                 {"program_version", ProgramVersion()},
-                 {"scan_uuid", scan_.uuid},
-                 {"rig_id", RigId(rig_)},
-                 {"other_rig", settings_.rig.has_value()},
-                 {"depth_options", Json::parse(DepthOptionsToJson(settings_.depth))}};
+    OrderedJson json = {{"format", 1},
+                        {"program_version", ProgramVersion()},
+                        {"scan_uuid", scan_.uuid},
+                        {"rig_id", RigId(rig_)},
+                        {"other_rig", settings_.rig.has_value()},
+                        {"depth_options", OrderedJson::parse(DepthOptionsToJson(settings_.depth))}};
     if (settings_.source) json["source"] = NameOf(*settings_.source);
     for (const auto& [kind, options] : settings_.fit)
       if (!options.empty())
-        json["fit_options"][ToString(kind)] =
-            Json::parse(foresight::ToJson(std::vector<KeyedValue>(options.begin(), options.end())));
+        json["fit_options"][ToString(kind)] = OrderedJson::parse(
+            foresight::ToJson(std::vector<KeyedValue>(options.begin(), options.end())));
     json["depth_maps"] = depths_;
     json["fits"] = fits_;
-    answer_.json = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    answer_.json = json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
     return answer_;
   }
 
  private:
   /// nullptr where it cannot be made, which `entry` says then.
-  Result<const DepthResult*> Depth(std::size_t position, Json& entry, const RunContext& context) {
+  Result<const DepthResult*> Depth(std::size_t position, OrderedJson& entry,
+                                   const RunContext& context) {
     if (depth_of_ == position) return &depth_;
     depth_of_.reset();
     auto depth =
@@ -113,7 +115,7 @@ class Worker {
     return &depth_;
   }
 
-  Result<Detection> FitAgain(const DetectionRecord& record, Json& entry,
+  Result<Detection> FitAgain(const DetectionRecord& record, OrderedJson& entry,
                              const RunContext& context) {
     FORESIGHT_TRY(const Provenance provenance,
                   ProvenanceFromJson(record.provenance_json, "detection " + record.uuid));
@@ -179,8 +181,8 @@ class Worker {
   const RunAgainSettings& settings_;
   std::optional<std::size_t> depth_of_;
   DepthResult depth_;
-  Json depths_ = Json::array();
-  Json fits_ = Json::array();
+  OrderedJson depths_ = OrderedJson::array();
+  OrderedJson fits_ = OrderedJson::array();
   RunAgainAnswer answer_;
 };
 

@@ -18,7 +18,7 @@
 namespace foresight {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* kEventSource = "side result";
 constexpr const char* kChangeSource = "side result change";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/contract.h"
+#include "core/base/quantile.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -18,14 +19,6 @@ constexpr double kLeastTangent = 0.05;
 constexpr double kMargin = 1.03;
 /// In half diagonals of the points' box.
 constexpr double kLeastDistance = 1.5;
-
-/// The value below which `fraction` of the values lie.
-double Quantile(std::vector<double> values, double fraction) {
-  const auto at = values.begin() +
-                  static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// The points' outermost coordinates, outliers left out.
 Eigen::AlignedBox3d BoxOf(const std::vector<ColoredPoint>& points) {

@@ -18,7 +18,7 @@ constexpr double kLeft_px = 74.0;
 constexpr double kRight_px = 20.0;
 constexpr double kTop_px = 44.0;
 constexpr double kBottom_px = 58.0;
-constexpr double kTickDistance_px = 70.0;  ///< about so far apart
+constexpr double kChartTickDistance_px = 70.0;  ///< about so far apart
 constexpr double kLegendRow_px = 20.0;
 constexpr double kLetter_px = 7.5;  ///< width of a letter at 13 px, generous
 
@@ -31,7 +31,8 @@ class Scale {
  public:
   Scale(const ChartAxis& axis, double low, double high, double from_px, double to_px)
       : logarithmic_(axis.logarithmic), from_px_(from_px), to_px_(to_px) {
-    const int count = std::max(2, static_cast<int>(std::abs(to_px - from_px) / kTickDistance_px));
+    const int count =
+        std::max(2, static_cast<int>(std::abs(to_px - from_px) / kChartTickDistance_px));
     const double least_step = axis.whole_numbers ? 1.0 : 0.0;
     if (!logarithmic_) {
       // The axis ends on round numbers, so that no point touches its end by chance.

@@ -5,7 +5,7 @@
 namespace foresight {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -13,7 +13,7 @@ std::vector<CloudPoint> PointsInRobot(const RegisteredScan& cloud, const Scan& s
   std::vector<CloudPoint> points;
   for (int line = 0; line < cloud.lines; ++line) {
     const auto row = static_cast<std::size_t>(line);
-    const double line_s = row < scan.lines.size() ? scan.lines[row].time_s : kNaN;
+    const double line_s = row < scan.lines.size() ? scan.lines[row].time_s : kNoValue;
     for (int beam = 0; beam < cloud.beams; ++beam) {
       if (!cloud.Valid(line, beam)) continue;
       const std::size_t index = cloud.Index(line, beam);

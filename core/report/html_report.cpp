@@ -7,7 +7,7 @@
 namespace foresight {
 namespace {
 
-constexpr const char* kStyle = R"(
+constexpr const char* kReportStyle = R"(
   body { font: 15px/1.5 "DejaVu Sans", sans-serif; color: #1c1f24; background: #f6f7f8; margin: 2em auto; max-width: 84em; padding: 0 1.5em; }
   h1 { font-size: 1.6em; } h2 { font-size: 1.15em; margin-top: 2em; }
   table { border-collapse: collapse; background: #fff; } td, th { border: 1px solid #d5d9de; padding: .3em .8em; }
@@ -68,7 +68,7 @@ Status WriteHtmlReport(const HtmlReport& report, const std::filesystem::path& fo
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
       "charset=\"utf-8\"><title>{0}</title><style>{1}</style></head>\n"
       "<body><h1>{0}</h1>\n<p>{2}</p>\n",
-      EscapeMarkup(report.title), kStyle, EscapeMarkup(report.summary));
+      EscapeMarkup(report.title), kReportStyle, EscapeMarkup(report.summary));
   for (const auto& table : report.tables) html += TableHtml(table);
   const bool has_figures = !report.charts.empty() || !report.pictures.empty();
   if (has_figures) html += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";

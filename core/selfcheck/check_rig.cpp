@@ -151,8 +151,9 @@ class Judge {
       SayNotSeen("lidar turn", "walls at several angles, floor and ceiling show it");
     if (check_.plate && !check_.plate->up_and_down)
       list.emplace_back(
-          "the lidar's stamps against the encoder's: the scan sweeps one way; sweep up and down "
-          "(scan --passes 2)");
+          "the lidar's stamps against the encoder's: the scan sweeps one way; a scan there and "
+          "back shows "
+          "it");
     else if (check_.plate)
       SayNotSeen("stamps", "a faster sweep before floor, ceiling or sloping surfaces shows it");
     list.emplace_back(

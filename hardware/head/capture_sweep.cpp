@@ -10,7 +10,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::microseconds kPoll{5000};
+constexpr std::chrono::microseconds kSweepPoll{5000};
 /// The last lines still arrive after the motor has come to rest.
 constexpr double kLateLines_s = 0.3;
 /// A GigE camera that does not answer is given up after five tries of half a second, twice.
@@ -160,7 +160,7 @@ CaptureSweep::Step CaptureSweep::WaitForTurn() {
       return DeviceFailed(fmt::format("{}: did not come to rest within {:.0f} s",
                                       devices_.motor->Describe(),
                                       MotorMoves::kStandstillTimeout_s));
-    if (Step end = ReceiveLine(std::chrono::duration<double>(kPoll).count())) return end;
+    if (Step end = ReceiveLine(std::chrono::duration<double>(kSweepPoll).count())) return end;
     if (Step failed = PumpTrack()) return failed;
     HandOnLines();
     HandOnImages(false);
@@ -301,7 +301,7 @@ void CaptureSweep::DrainLines() {
   gate_.DropAfter(end_s);
   // The track must reach beyond the last beam before a line can be placed.
   const double track_end_s = end_s + lidar.BeamTime(lidar.beams) + 2.0 * MotorTrack::kWindow_s;
-  while (Now() < track_end_s) devices_.clock->Sleep(kPoll);
+  while (Now() < track_end_s) devices_.clock->Sleep(kSweepPoll);
   PumpTrack();
   HandOnLines();
 }

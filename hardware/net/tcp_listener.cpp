@@ -16,10 +16,6 @@ namespace {
 
 constexpr int kBacklog = 4;
 
-std::string Words(int error) {
-  return std::generic_category().message(error);
-}
-
 /// A socket bound to `address`, whose port is filled in; errno says why not.
 int Bind(sockaddr_in& address) {
   const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
@@ -62,7 +58,8 @@ Result<TcpListener> TcpListener::Listen(const TcpAddress& address) {
     if (const int chosen = Bind(bound); chosen >= 0) ::close(chosen);
   TcpListener listener(Bind(bound));
   if (listener.fd_ < 0)
-    return Fail(ErrorCode::kDevice, "{}: cannot listen: {}", address.ToText(), Words(errno));
+    return Fail(ErrorCode::kDevice, "{}: cannot listen: {}", address.ToText(),
+                std::generic_category().message(errno));
   listener.address_ = {address.host, ntohs(bound.sin_port)};
   FORESIGHT_CHECK(listener.Resume());
   return listener;
@@ -70,7 +67,8 @@ Result<TcpListener> TcpListener::Listen(const TcpAddress& address) {
 
 Status TcpListener::Resume() {
   if (::listen(fd_, kBacklog) == 0) return {};
-  return Fail(ErrorCode::kDevice, "{}: cannot listen: {}", address_.ToText(), Words(errno));
+  return Fail(ErrorCode::kDevice, "{}: cannot listen: {}", address_.ToText(),
+              std::generic_category().message(errno));
 }
 
 void TcpListener::Refuse() {
@@ -92,7 +90,8 @@ Result<std::optional<TcpSocket>> TcpListener::Accept(TcpSocket::Duration timeout
   }
   // A client may have gone again while it waited.
   if (errno == EAGAIN || errno == EINTR || errno == ECONNABORTED) return std::nullopt;
-  return Fail(ErrorCode::kDevice, "{}: cannot accept: {}", address_.ToText(), Words(errno));
+  return Fail(ErrorCode::kDevice, "{}: cannot accept: {}", address_.ToText(),
+              std::generic_category().message(errno));
 }
 
 }  // namespace foresight

@@ -18,10 +18,6 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-std::string Words(int error) {
-  return std::generic_category().message(error);
-}
-
 void SetOption(int fd, int level, int name, int value) {
   // An option that the system does not know costs promptness, not correctness.
   ::setsockopt(fd, level, name, &value, sizeof value);
@@ -69,11 +65,14 @@ Result<TcpSocket> TcpSocket::Connect(const TcpAddress& peer, Duration timeout, c
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, &::freeaddrinfo);
 
   const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0) return Fail(ErrorCode::kDevice, "{}: no socket: {}", peer.ToText(), Words(errno));
+  if (fd < 0)
+    return Fail(ErrorCode::kDevice, "{}: no socket: {}", peer.ToText(),
+                std::generic_category().message(errno));
   TcpSocket socket(fd, peer);
   if (::connect(fd, addresses->ai_addr, addresses->ai_addrlen) == 0) return socket;
   if (errno != EINPROGRESS)
-    return Fail(ErrorCode::kDevice, "{}: cannot connect: {}", peer.ToText(), Words(errno));
+    return Fail(ErrorCode::kDevice, "{}: cannot connect: {}", peer.ToText(),
+                std::generic_category().message(errno));
   if (!PollFd(fd, POLLOUT, timeout, wake)) {
     if (wake && PollFd(wake->fd(), POLLIN, Duration(0), nullptr))
       return Fail(ErrorCode::kCancelled, "{}: connecting was cancelled", peer.ToText());
@@ -84,7 +83,8 @@ Result<TcpSocket> TcpSocket::Connect(const TcpAddress& peer, Duration timeout, c
   socklen_t size = sizeof error;
   ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size);
   if (error != 0)
-    return Fail(ErrorCode::kDevice, "{}: cannot connect: {}", peer.ToText(), Words(error));
+    return Fail(ErrorCode::kDevice, "{}: cannot connect: {}", peer.ToText(),
+                std::generic_category().message(error));
   return socket;
 }
 
@@ -104,7 +104,8 @@ Status TcpSocket::Send(std::string_view bytes, Duration timeout) {
     }
     if (errno == EINTR) continue;
     if (errno != EAGAIN)
-      return Fail(ErrorCode::kDevice, "{}: cannot send: {}", peer_.ToText(), Words(errno));
+      return Fail(ErrorCode::kDevice, "{}: cannot send: {}", peer_.ToText(),
+                  std::generic_category().message(errno));
     if (Left(deadline) <= Duration(0))
       return Fail(ErrorCode::kDevice, "{}: took {} of {} bytes within {} ms", peer_.ToText(), sent,
                   bytes.size(), timeout.count() / 1000);
@@ -121,7 +122,8 @@ Result<std::size_t> TcpSocket::Receive(std::span<char> buffer, Duration timeout,
   if (n > 0) return static_cast<std::size_t>(n);
   if (n == 0) return Fail(ErrorCode::kDevice, "{}: closed the connection", peer_.ToText());
   if (errno == EAGAIN || errno == EINTR) return 0;
-  return Fail(ErrorCode::kDevice, "{}: cannot receive: {}", peer_.ToText(), Words(errno));
+  return Fail(ErrorCode::kDevice, "{}: cannot receive: {}", peer_.ToText(),
+              std::generic_category().message(errno));
 }
 
 void TcpSocket::Close() {

@@ -15,10 +15,6 @@
 namespace foresight {
 namespace {
 
-std::string Words(int error) {
-  return std::generic_category().message(error);
-}
-
 sockaddr_in ToSystem(const UdpPeer& peer) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -34,11 +30,14 @@ Result<UdpSocket> UdpSocket::Bind(const TcpAddress& address) {
   if (::inet_pton(AF_INET, address.host.c_str(), &ip) != 1)
     return Fail(ErrorCode::kDevice, "{}: is no IPv4 address", address.ToText());
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0) return Fail(ErrorCode::kDevice, "{}: no socket: {}", address.ToText(), Words(errno));
+  if (fd < 0)
+    return Fail(ErrorCode::kDevice, "{}: no socket: {}", address.ToText(),
+                std::generic_category().message(errno));
   UdpSocket bound(fd, address, ntohl(ip.s_addr));
   sockaddr_in name = ToSystem({bound.ip_, address.port});
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0)
-    return Fail(ErrorCode::kDevice, "{}: cannot bind: {}", address.ToText(), Words(errno));
+    return Fail(ErrorCode::kDevice, "{}: cannot bind: {}", address.ToText(),
+                std::generic_category().message(errno));
   socklen_t size = sizeof name;
   ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size);
   bound.address_.port = ntohs(name.sin_port);
@@ -68,7 +67,8 @@ Status UdpSocket::SendTo(std::span<const std::uint8_t> bytes, const UdpPeer& pee
     // ECONNREFUSED tells of an earlier datagram whose receiver had gone.
     if (errno == EINTR || errno == ECONNREFUSED) continue;
     if (errno != EAGAIN)
-      return Fail(ErrorCode::kDevice, "{}: cannot send: {}", address_.ToText(), Words(errno));
+      return Fail(ErrorCode::kDevice, "{}: cannot send: {}", address_.ToText(),
+                  std::generic_category().message(errno));
     PollFd(fd_, POLLOUT, std::chrono::milliseconds(100), nullptr);
   }
 }
@@ -98,7 +98,9 @@ Result<std::string> LocalAddressTowards(const std::string& peer) {
                      ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size) == 0;
   const int error = errno;
   if (fd >= 0) ::close(fd);
-  if (!found) return Fail(ErrorCode::kDevice, "{}: no way there: {}", peer, Words(error));
+  if (!found)
+    return Fail(ErrorCode::kDevice, "{}: no way there: {}", peer,
+                std::generic_category().message(error));
   std::array<char, INET_ADDRSTRLEN> text{};
   ::inet_ntop(AF_INET, &name.sin_addr, text.data(), text.size());
   return std::string(text.data());

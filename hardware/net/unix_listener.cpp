@@ -14,11 +14,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kBacklog = 4;
-
-std::string Words(int error) {
-  return std::generic_category().message(error);
-}
+constexpr int kUnixBacklog = 4;
 
 Result<sockaddr_un> AddressOf(const std::filesystem::path& path) {
   sockaddr_un address{};
@@ -33,7 +29,9 @@ Result<sockaddr_un> AddressOf(const std::filesystem::path& path) {
 
 Result<UniqueFd> NewSocket(const std::filesystem::path& path) {
   UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!fd.IsOpen()) return Fail(ErrorCode::kIo, "{}: no socket: {}", path.native(), Words(errno));
+  if (!fd.IsOpen())
+    return Fail(ErrorCode::kIo, "{}: no socket: {}", path.native(),
+                std::generic_category().message(errno));
   return fd;
 }
 
@@ -62,7 +60,9 @@ Status InUse(const std::filesystem::path& path) {
 Result<UniqueFd> Lock(const std::filesystem::path& path) {
   const std::string name = path.native() + ".lock";
   UniqueFd lock(::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR));
-  if (!lock.IsOpen()) return Fail(ErrorCode::kIo, "{}: cannot open: {}", name, Words(errno));
+  if (!lock.IsOpen())
+    return Fail(ErrorCode::kIo, "{}: cannot open: {}", name,
+                std::generic_category().message(errno));
   if (::flock(lock.Get(), LOCK_EX | LOCK_NB) == 0) return lock;
   return tl::unexpected(InUse(path).error());
 }
@@ -76,7 +76,8 @@ Status RemoveStale(const std::filesystem::path& path, const sockaddr_un& address
   FORESIGHT_TRY(const UniqueFd caller, NewSocket(path));
   if (Connect(caller, address) != ECONNREFUSED) return InUse(path);
   if (::unlink(path.c_str()) == 0) return {};
-  return Fail(ErrorCode::kIo, "{}: cannot remove the old socket: {}", path.native(), Words(errno));
+  return Fail(ErrorCode::kIo, "{}: cannot remove the old socket: {}", path.native(),
+              std::generic_category().message(errno));
 }
 
 }  // namespace
@@ -104,8 +105,9 @@ Result<UnixListener> UnixListener::Listen(const std::filesystem::path& path) {
   // Nobody can connect before listen(): until then the rights are not yet those we want.
   if (::bind(fd.Get(), generic, sizeof address) != 0 ||
       ::chmod(path.c_str(), S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 ||
-      ::listen(fd.Get(), kBacklog) != 0)
-    return Fail(ErrorCode::kIo, "{}: cannot listen: {}", path.native(), Words(errno));
+      ::listen(fd.Get(), kUnixBacklog) != 0)
+    return Fail(ErrorCode::kIo, "{}: cannot listen: {}", path.native(),
+                std::generic_category().message(errno));
   listener.path_ = path;
   listener.fd_ = std::move(fd);
   return listener;
@@ -120,7 +122,8 @@ Result<UniqueFd> ConnectUnix(const std::filesystem::path& path) {
   FORESIGHT_TRY(UniqueFd fd, NewSocket(path));
   const int error = Connect(fd, address);
   if (error == 0) return fd;
-  return Fail(ErrorCode::kIo, "{}: cannot connect: {}", path.native(), Words(error));
+  return Fail(ErrorCode::kIo, "{}: cannot connect: {}", path.native(),
+              std::generic_category().message(error));
 }
 
 }  // namespace foresight

@@ -45,15 +45,15 @@ std::optional<int> Number(std::string_view digits) {
   return value;
 }
 
-tl::unexpected<std::string> Status(std::string_view status) {
+tl::unexpected<std::string> Refused(std::string_view status) {
   return tl::unexpected<std::string>(std::string(status));
 }
 
 /// Fills in what stands behind the letters of a scan's request.
 tl::expected<ScipRequest, std::string> ParseWindow(ScipRequest request, std::string_view digits) {
   const std::size_t expected = IsStream(request.command) ? 13 : 10;
-  if (digits.size() < expected) return Status("0C");
-  if (digits.size() > expected) return Status("0D");
+  if (digits.size() < expected) return Refused("0C");
+  if (digits.size() > expected) return Refused("0D");
   struct Field {
     int* value;
     std::size_t at, size;
@@ -67,10 +67,10 @@ tl::expected<ScipRequest, std::string> ParseWindow(ScipRequest request, std::str
   for (const Field& field : fields) {
     if (field.at >= expected) break;
     const auto number = Number(digits.substr(field.at, field.size));
-    if (!number) return Status(field.status);
+    if (!number) return Refused(field.status);
     *field.value = *number;
   }
-  if (request.last_step < request.first_step) return Status("05");
+  if (request.last_step < request.first_step) return Refused("05");
   return request;
 }
 
@@ -118,17 +118,17 @@ tl::expected<ScipRequest, std::string> ParseScipRequest(std::string_view line) {
   const auto entry = std::find_if(kCommands.begin(), kCommands.end(), [&](const Entry& candidate) {
     return text.substr(0, candidate.text.size()) == candidate.text;
   });
-  if (entry == kCommands.end()) return Status("0E");
+  if (entry == kCommands.end()) return Refused("0E");
   ScipRequest request;
   request.command = entry->command;
   if (semicolon != std::string_view::npos) request.tag = line.substr(semicolon + 1);
-  if (request.tag.size() > ScipRequest::kLongestTag) return Status("0G");
+  if (request.tag.size() > ScipRequest::kLongestTag) return Refused("0G");
   if (std::any_of(request.tag.begin(), request.tag.end(),
                   [](char c) { return c < ' ' || c > '~'; }))
-    return Status("0H");
+    return Refused("0H");
   const std::string_view rest = text.substr(entry->text.size());
   if (IsStream(request.command) || IsSingle(request.command)) return ParseWindow(request, rest);
-  if (!rest.empty()) return Status("0D");
+  if (!rest.empty()) return Refused("0D");
   return request;
 }
 

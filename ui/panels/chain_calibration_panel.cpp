@@ -19,7 +19,7 @@ namespace foresight {
 namespace {
 
 /// Changes that come at once are drawn once.
-constexpr int kShowDelay_ms = 30;
+constexpr int kChainShowDelay_ms = 30;
 
 }  // namespace
 
@@ -111,7 +111,7 @@ void ChainCalibrationPanel::showEvent(QShowEvent* event) {
 }
 
 void ChainCalibrationPanel::ShowSoon() {
-  if (isVisible() && !soon_.isActive()) soon_.start(kShowDelay_ms);
+  if (isVisible() && !soon_.isActive()) soon_.start(kChainShowDelay_ms);
 }
 
 /// Of the pages only the one in sight.

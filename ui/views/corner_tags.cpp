@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kMargin_px = 8;
+constexpr int kTagMargin_px = 8;
 
 QLabel* Tag(QWidget* canvas) {
   auto* tag = new QLabel(canvas);
@@ -57,9 +57,9 @@ bool CornerTags::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void CornerTags::Place() {
-  top_left_->move(kMargin_px, kMargin_px);
-  top_right_->move(canvas_->width() - top_right_->width() - kMargin_px, kMargin_px);
-  legend_->move(kMargin_px, canvas_->height() - legend_->height() - kMargin_px);
+  top_left_->move(kTagMargin_px, kTagMargin_px);
+  top_right_->move(canvas_->width() - top_right_->width() - kTagMargin_px, kTagMargin_px);
+  legend_->move(kTagMargin_px, canvas_->height() - legend_->height() - kTagMargin_px);
 }
 
 }  // namespace foresight

@@ -28,7 +28,7 @@ vtkSmartPointer<vtkActor> LineActor(Rgb8 color, float width) {
   return actor;
 }
 
-constexpr double kGrip_px = 7.0;       ///< how near to the wipe line counts as on it
+constexpr double kCanvasGrip_px = 7.0;       ///< how near to the wipe line counts as on it
 constexpr double kWipeStep = 0.02;     ///< of the width, for an arrow key
 constexpr double kWipeBigStep = 0.10;  ///< the same with Shift
 
@@ -237,7 +237,7 @@ bool DepthCanvas::OnKey(const QKeyEvent& event) {
 
 bool DepthCanvas::OnWipeLine(const QPointF& position) const {
   if (!wipe_.Shown()) return false;
-  return std::abs(position.x() - WidgetFromPixel({wipe_.Column(), 0.0}).x()) <= kGrip_px;
+  return std::abs(position.x() - WidgetFromPixel({wipe_.Column(), 0.0}).x()) <= kCanvasGrip_px;
 }
 
 void DepthCanvas::WipeTo(const QPointF& position) {

@@ -200,9 +200,8 @@ class DrillFit {
   /// points the other way: the flipped one may take any proportions, at no cost.
   void SetFlipOfAnyProportions(const DrillState& best, DrillState flipped,
                                const DrillDetection& detection, DrillSupport& support) const {
-    constexpr double kWorthIt_nats =
-        20.0;  // the gate on it; a nearer one is met by the template's own
-    if (detection.evidence.flip_margin_nats >= kWorthIt_nats)
+    // A nearer flip fails the gate by the template's own proportions already.
+    if (detection.evidence.flip_margin_nats >= kMinAnyFlipMargin_nats)
       flipped = LocalSearch(likelihood_, Flipped(best), base_from_table_, AnyProportions(prior_),
                             LocalSearchEffort::kFine);
     const DrillModel model = flipped.Model();

@@ -15,11 +15,11 @@ constexpr int kMaxDirections = 14;
 constexpr double kCone_rad = RadiansFromDegrees(9.0);
 constexpr double kNearest_rad = RadiansFromDegrees(14.0);
 constexpr int kMeanShifts = 5;
-constexpr double kLeastFraction = 0.004;  // of all normals, within a cone
-constexpr int kBinsAcross = 61;           // of the tangent plane; 1.7 deg each at 45 deg of tilt
-constexpr int kReach = 2;                 // cells that a component may jump
+constexpr double kLeastGroupFraction = 0.004;  // of all normals, within a cone
+constexpr int kBinsAcross = 61;    // of the tangent plane; 1.7 deg each at 45 deg of tilt
+constexpr int kReach = 2;          // cells that a component may jump
 constexpr double kFarSteps = 8.0;  // between neighbours seen at a grazing angle, in beam spacings
-constexpr double kMinArea_m2 = 0.01;
+constexpr double kMinGroupArea_m2 = 0.01;
 constexpr double kMergeAngle_rad = RadiansFromDegrees(14.0);
 constexpr double kMergeSigmas = 2.5;
 constexpr double kMergeFraction = 0.75;
@@ -151,7 +151,7 @@ std::vector<Eigen::Vector3d> FrequentDirections(std::span<const Eigen::Vector3d>
   for (const Eigen::Vector3d& normal : normals)
     if (normal.allFinite() && normal.dot(up) > std::cos(max_tilt_rad + kCone_rad))
       left.push_back(normal);
-  const double least = std::max(6.0, kLeastFraction * static_cast<double>(left.size()));
+  const double least = std::max(6.0, kLeastGroupFraction * static_cast<double>(left.size()));
   std::vector<Eigen::Vector3d> directions;
   while (static_cast<int>(directions.size()) < kMaxDirections &&
          static_cast<double>(left.size()) >= least) {
@@ -222,8 +222,8 @@ SurfacePlanes GroupPlanes(const SurfaceGrid& grid, std::span<const Eigen::Vector
       members.push_back(
           Grow(grid, direction, directions, i, static_cast<int>(members.size()), surfaces.labels));
   surfaces.planes.resize(members.size());
-  RefitPlanes(grid, kMinArea_m2, surfaces);
-  MergeParts(grid, kMinArea_m2, surfaces);
+  RefitPlanes(grid, kMinGroupArea_m2, surfaces);
+  MergeParts(grid, kMinGroupArea_m2, surfaces);
   return surfaces;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRoughness_m = 0.002;
 constexpr double kTukeySigmas = 4.0;
-constexpr int kRounds = 3;
+constexpr int kGrowRounds = 3;
 constexpr double kLeastClosing = 0.05;  // cosine between ray and normal, for areas
 
 double TukeyWeight(double error_sigmas) {
@@ -26,7 +26,7 @@ bool Refit(const SurfaceGrid& grid, const std::vector<int>& points, SurfacePlane
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   for (const int i : points) center += grid[i].point;
   center /= static_cast<double>(points.size());
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kGrowRounds; ++round) {
     RangePlaneSums sums(grid.viewpoint(), center - grid.viewpoint());
     const bool known = round > 0 || surface.points > 0;
     for (const int i : points)

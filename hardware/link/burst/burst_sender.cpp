@@ -10,7 +10,7 @@ namespace {
 
 /// So much time may be made good at once: a thread is woken up late on a busy computer.
 constexpr double kSlack_s = 0.01;
-constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+constexpr std::size_t kSendBufferBytes = std::size_t{1} << 20;
 
 double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -37,7 +37,7 @@ Result<std::unique_ptr<BurstSender>> BurstSender::Start(const BurstSenderOptions
   FORESIGHT_CHECK(options.Check());
   FORESIGHT_TRY(DatagramSocket socket, DatagramSocket::Bind({"0.0.0.0", 0}));
   FORESIGHT_TRY(DatagramSealer sealer, DatagramSealer::Make(key));
-  socket.SetBuffers(kBufferBytes);
+  socket.SetBuffers(kSendBufferBytes);
   return std::unique_ptr<BurstSender>(
       new BurstSender(options, std::move(socket), std::move(sealer), std::move(source)));
 }

@@ -15,10 +15,6 @@
 namespace foresight {
 namespace {
 
-std::string Words(int error) {
-  return std::generic_category().message(error);
-}
-
 sockaddr_in ToSystem(const UdpPeer& peer) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -47,13 +43,14 @@ Result<DatagramSocket> DatagramSocket::Bind(const TcpAddress& address) {
     return Fail(ErrorCode::kInvalidOptions, "{}: is no numeric IPv4 address", address.ToText());
   UniqueFd fd(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!fd.IsOpen())
-    return Fail(ErrorCode::kDevice, "{}: no socket: {}", address.ToText(), Words(errno));
+    return Fail(ErrorCode::kDevice, "{}: no socket: {}", address.ToText(),
+                std::generic_category().message(errno));
   sockaddr_in name = ToSystem({ntohl(ip.s_addr), address.port});
   if (::bind(fd.Get(), reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0)
     return Fail(ErrorCode::kDevice,
                 "{}: cannot receive there: {}: is it an address of this computer, and is the port "
                 "free?",
-                address.ToText(), Words(errno));
+                address.ToText(), std::generic_category().message(errno));
   socklen_t size = sizeof name;
   ::getsockname(fd.Get(), reinterpret_cast<sockaddr*>(&name), &size);
   return DatagramSocket(std::move(fd), {address.host, ntohs(name.sin_port)});
@@ -92,7 +89,8 @@ Status DatagramSocket::Send(const std::vector<std::vector<std::uint8_t>>& datagr
     // ECONNREFUSED tells of an earlier datagram whose receiver had gone.
     if (errno == EINTR || errno == ECONNREFUSED) continue;
     if (errno != EAGAIN && errno != ENOBUFS)
-      return Fail(ErrorCode::kDevice, "{}: cannot send: {}", address_.ToText(), Words(errno));
+      return Fail(ErrorCode::kDevice, "{}: cannot send: {}", address_.ToText(),
+                  std::generic_category().message(errno));
     if (!PollFd(fd_.Get(), POLLOUT, std::chrono::milliseconds(20), nullptr)) return {};
   }
   return {};

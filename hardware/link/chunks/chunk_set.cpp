@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint8_t kForm = 1;
+constexpr std::uint8_t kChunkSetForm = 1;
 
 /// Gaps and lengths, from the first one on.
 void AppendNumbers(ItemWriter& writer, const NumberSet& numbers) {
@@ -132,7 +132,7 @@ bool ChunkSet::empty() const {
 
 std::string ChunkSet::Encode() const {
   ItemWriter writer;
-  writer.U8(kForm).Varint(items_.size());
+  writer.U8(kChunkSetForm).Varint(items_.size());
   for (const auto& [kind, numbers] : items_) {
     writer.U8(static_cast<std::uint8_t>(kind));
     AppendNumbers(writer, numbers);
@@ -148,7 +148,8 @@ std::string ChunkSet::Encode() const {
 
 Result<ChunkSet> ChunkSet::Decode(std::string_view bytes) {
   ItemReader reader(bytes);
-  if (reader.U8() != kForm) return Fail(ErrorCode::kBadData, "set of chunks: form is not known");
+  if (reader.U8() != kChunkSetForm)
+    return Fail(ErrorCode::kBadData, "set of chunks: form is not known");
   ChunkSet set;
   for (std::uint64_t kinds = reader.Count(kChunkKinds); kinds > 0 && reader.ok(); --kinds) {
     const ChunkKind kind = ReadKind(reader);

@@ -11,7 +11,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint8_t kForm = 1;
+constexpr std::uint8_t kCloudForm = 1;
 // Beams of a cloud are far apart: neighbours that differ by more than 30 mm lie on a slope.
 constexpr int kSmooth = 3;
 
@@ -105,7 +105,7 @@ Result<std::string> EncodeCloudBlock(const Scan& scan, std::int64_t block, const
     lines.push_back(ThinnedLine(scan, scan.lines[i], step.beams));
   }
   ItemWriter writer;
-  writer.U8(kForm).U8(static_cast<std::uint8_t>(step.lines));
+  writer.U8(kCloudForm).U8(static_cast<std::uint8_t>(step.lines));
   writer.U8(static_cast<std::uint8_t>(step.beams)).U8(static_cast<std::uint8_t>(lines.size()));
   ValueSpans rows;
   for (const CloudLine& line : lines) {
@@ -119,7 +119,7 @@ Result<std::string> EncodeCloudBlock(const Scan& scan, std::int64_t block, const
 
 Result<CloudBlock> DecodeCloudBlock(std::string_view bytes) {
   ItemReader reader(bytes);
-  if (reader.U8() != kForm) return Fail(ErrorCode::kBadData, "cloud: form is not known");
+  if (reader.U8() != kCloudForm) return Fail(ErrorCode::kBadData, "cloud: form is not known");
   CloudBlock block;
   block.step.lines = reader.U8();
   block.step.beams = reader.U8();

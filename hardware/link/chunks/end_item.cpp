@@ -6,7 +6,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint8_t kForm = 1;
+constexpr std::uint8_t kEndForm = 1;
 constexpr std::uint64_t kMostLines = std::uint64_t{kMaxItems} * kLinesPerBlock;
 constexpr std::uint64_t kMostSamples = std::uint64_t{kMaxItems} * kSamplesPerBlock;
 
@@ -14,7 +14,7 @@ constexpr std::uint64_t kMostSamples = std::uint64_t{kMaxItems} * kSamplesPerBlo
 
 std::string EncodeEnd(const ScanEnd& end) {
   return ItemWriter()
-      .U8(kForm)
+      .U8(kEndForm)
       .Text(ToString(end.state))
       .Text(end.reason)
       .Varint(static_cast<std::uint64_t>(end.lines))
@@ -27,7 +27,7 @@ std::string EncodeEnd(const ScanEnd& end) {
 
 Result<ScanEnd> DecodeEnd(std::string_view bytes) {
   ItemReader reader(bytes);
-  if (reader.U8() != kForm) return Fail(ErrorCode::kBadData, "end: form is not known");
+  if (reader.U8() != kEndForm) return Fail(ErrorCode::kBadData, "end: form is not known");
   ScanEnd end;
   const std::string state(reader.Text());
   end.reason = reader.Text();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/shrink_image.h"
+#include "core/io/image_limits.h"
 #include "core/io/jpeg.h"
 #include "hardware/link/chunks/item_bytes.h"
 #include "hardware/link/chunks/lossless_image.h"
@@ -11,10 +12,10 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint8_t kForm = 1;
+constexpr std::uint8_t kFrameForm = 1;
 
 void AppendFrame(ItemWriter& writer, const CameraFrame& frame) {
-  writer.U8(kForm)
+  writer.U8(kFrameForm)
       .Signed(frame.seq)
       .Double(frame.time_s)
       .Double(frame.exposure_s)
@@ -24,7 +25,7 @@ void AppendFrame(ItemWriter& writer, const CameraFrame& frame) {
 }
 
 Result<CameraFrame> ReadFrame(ItemReader& reader) {
-  if (reader.U8() != kForm) return Fail(ErrorCode::kBadData, "frame: form is not known");
+  if (reader.U8() != kFrameForm) return Fail(ErrorCode::kBadData, "frame: form is not known");
   CameraFrame frame;
   frame.seq = reader.Signed();
   for (double* value : {&frame.time_s, &frame.exposure_s, &frame.gain_db, &frame.motor_angle_rad,
@@ -51,12 +52,11 @@ Result<std::string> EncodeFrameJpeg(const CameraFrame& frame, int largest_side_p
 }
 
 Result<FrameItem> DecodeFrameJpeg(std::string_view bytes) {
-  constexpr std::uint64_t kMaxSide = 20000;
   ItemReader reader(bytes);
   FrameItem item;
   FORESIGHT_TRY(CameraFrame frame, ReadFrame(reader));
-  item.full_width = static_cast<int>(reader.Count(kMaxSide));
-  item.full_height = static_cast<int>(reader.Count(kMaxSide));
+  item.full_width = static_cast<int>(reader.Count(kMaxImageSide));
+  item.full_height = static_cast<int>(reader.Count(kMaxImageSide));
   const std::string_view jpeg = reader.Raw(reader.left());
   FORESIGHT_CHECK(reader.Finish("frame"));
   const std::int64_t pixels = std::int64_t{item.full_width} * item.full_height;

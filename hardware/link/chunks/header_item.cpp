@@ -8,13 +8,13 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint8_t kForm = 1;
+constexpr std::uint8_t kHeaderForm = 1;
 
 }  // namespace
 
 std::string EncodeHeader(const Scan& scan) {
   return ItemWriter()
-      .U8(kForm)
+      .U8(kHeaderForm)
       .Text(scan.uuid)
       .U64(static_cast<std::uint64_t>(scan.start_utc_ns))
       .Text(scan.source)
@@ -27,7 +27,7 @@ std::string EncodeHeader(const Scan& scan) {
 
 Result<ScanHeader> DecodeHeader(std::string_view bytes) {
   ItemReader reader(bytes);
-  if (reader.U8() != kForm) return Fail(ErrorCode::kBadData, "header: form is not known");
+  if (reader.U8() != kHeaderForm) return Fail(ErrorCode::kBadData, "header: form is not known");
   ScanHeader header;
   header.uuid = reader.Text();
   header.start_utc_ns = static_cast<std::int64_t>(reader.U64());

@@ -4,14 +4,14 @@
 #include <array>
 
 #include "core/base/gray_image.h"
+#include "core/io/image_limits.h"
 #include "hardware/link/chunks/grid_predictor.h"
 #include "hardware/link/chunks/item_bytes.h"
 
 namespace foresight {
 namespace {
 
-constexpr std::uint8_t kForm = 1;
-constexpr int kMaxSide = 20000;
+constexpr std::uint8_t kLosslessForm = 1;
 // zstd describes the frequencies of bytes once a piece; they change over an image.
 constexpr int kRowsPerPiece = 32;
 // Neighbours that differ by less are noise: found by trial on images of the room scene.
@@ -129,12 +129,12 @@ ColorImage ImageOf(const std::array<GrayImage, 3>& planes) {
 }  // namespace
 
 Result<std::string> EncodeLosslessImage(const ColorImage& image) {
-  if (static_cast<std::int64_t>(image.size()) > kMostImagePixels || image.width() > kMaxSide ||
-      image.height() > kMaxSide)
+  if (static_cast<std::int64_t>(image.size()) > kMostImagePixels || image.width() > kMaxImageSide ||
+      image.height() > kMaxImageSide)
     return Fail(ErrorCode::kInvalidInput, "an image of {} x {} is more than {} a side or {} pixels",
-                image.width(), image.height(), kMaxSide, kMostImagePixels);
+                image.width(), image.height(), kMaxImageSide, kMostImagePixels);
   ItemWriter writer;
-  writer.U8(kForm);
+  writer.U8(kLosslessForm);
   writer.Varint(static_cast<std::uint64_t>(image.width()));
   writer.Varint(static_cast<std::uint64_t>(image.height()));
   const bool gray = IsGray(image);
@@ -149,9 +149,9 @@ Result<std::string> EncodeLosslessImage(const ColorImage& image) {
 
 Result<ColorImage> DecodeLosslessImage(std::string_view bytes) {
   ItemReader reader(bytes);
-  if (reader.U8() != kForm) return Fail(ErrorCode::kBadData, "image: form is not known");
-  const int width = static_cast<int>(reader.Count(kMaxSide));
-  const int height = static_cast<int>(reader.Count(kMaxSide));
+  if (reader.U8() != kLosslessForm) return Fail(ErrorCode::kBadData, "image: form is not known");
+  const int width = static_cast<int>(reader.Count(kMaxImageSide));
+  const int height = static_cast<int>(reader.Count(kMaxImageSide));
   const std::uint8_t planes = reader.U8();
   if (std::int64_t{width} * height > kMostImagePixels || (planes != 1 && planes != 3))
     return Fail(ErrorCode::kBadData, "image: {} x {} pixels of {} planes", width, height, planes);

@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint8_t kForm = 1;
+constexpr std::uint8_t kTrackForm = 1;
 
 /// Second differences of the bits, byte plane by byte plane: of values that grow evenly most planes
 /// are the same byte again and again.
@@ -54,7 +54,7 @@ std::string EncodeTrackBlock(std::span<const MotorSample> samples) {
     angles_rad.push_back(sample.angle_rad);
   }
   return ItemWriter()
-      .U8(kForm)
+      .U8(kTrackForm)
       .U8(static_cast<std::uint8_t>(samples.size()))
       .Packed(PlanesOf(times_s))
       .Packed(PlanesOf(angles_rad))
@@ -63,7 +63,7 @@ std::string EncodeTrackBlock(std::span<const MotorSample> samples) {
 
 Result<std::vector<MotorSample>> DecodeTrackBlock(std::string_view bytes) {
   ItemReader reader(bytes);
-  if (reader.U8() != kForm) return Fail(ErrorCode::kBadData, "track: form is not known");
+  if (reader.U8() != kTrackForm) return Fail(ErrorCode::kBadData, "track: form is not known");
   const std::size_t count = reader.U8();
   if (count > kSamplesPerBlock)
     return Fail(ErrorCode::kBadData, "track: {} samples are more than {}", count, kSamplesPerBlock);

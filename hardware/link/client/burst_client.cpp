@@ -5,7 +5,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kTimeout{15'000};  ///< as for the rig on a thin path
+constexpr std::chrono::milliseconds kBurstTimeout{15'000};  ///< as for the rig on a thin path
 /// Twice the longest known blackout: then something else is wrong with the path.
 constexpr double kLongSilence_s = 60.0;
 
@@ -43,7 +43,7 @@ Result<std::uint32_t> BurstClient::Open(LinkSession& session, const std::string&
   link::BurstReply reply;
   const auto stub = session.WaitForStub(stop);
   if (stub == nullptr) return 0;
-  const auto context = LinkSession::Context(kTimeout);
+  const auto context = LinkSession::Context(kBurstTimeout);
   const std::stop_callback cancel(stop, [&] { context->TryCancel(); });
   const grpc::Status called = stub->OpenBurst(context.get(), request, &reply);
   if (!called.ok()) {

@@ -5,7 +5,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{250};  ///< before a command is sent again
+constexpr std::chrono::milliseconds kCommandPause{250};  ///< before a command is sent again
 /// One try; a link whose round trip is longer carries no commands.
 constexpr double kTry_s = 2.0;
 
@@ -73,7 +73,7 @@ CommandEnd CommandSender::Carry(const Waiting& waiting, const std::stop_token& s
       return {CommandEnd::Kind::kRefused, session_.ToError(called, "a command"), {}};
     sent = true;
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, stop, kPause, [] { return false; });
+    wake_.wait_for(lock, stop, kCommandPause, [] { return false; });
   }
   if (!sent)
     return {CommandEnd::Kind::kRefused,

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kGood_s = 120.0;
 /// A fit with its depth map takes some seconds, its answer 3 s at 9600 bit/s.
-constexpr std::chrono::milliseconds kTry{60'000};
+constexpr std::chrono::milliseconds kFitTry{60'000};
 constexpr std::chrono::milliseconds kCancelTry{3'000};
-constexpr std::chrono::milliseconds kPause{200};
+constexpr std::chrono::milliseconds kFitPause{200};
 
 link::ImageChoice ToMessage(HeadFitOrder::Image image) {
   switch (image) {
@@ -61,7 +61,7 @@ Result<HeadFit> FitOnHead(LinkSession& session, const HeadFitOrder& order,
   context.Report(0.0, "waiting for the head");
   for (;;) {
     link::FitReply reply;
-    const auto call = LinkSession::Context(kTry);
+    const auto call = LinkSession::Context(kFitTry);
     call->set_compression_algorithm(GRPC_COMPRESS_GZIP);
     const std::stop_callback cancel(context.stop, [&] { call->TryCancel(); });
     const grpc::Status called = session.stub(*call)->Fit(call.get(), request, &reply);
@@ -74,7 +74,7 @@ Result<HeadFit> FitOnHead(LinkSession& session, const HeadFitOrder& order,
                       called.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
     if (!lost || LinkSession::Now() > end_s)
       return tl::unexpected(session.ToError(called, "a fit on the robot"));
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kFitPause);
   }
 }
 

@@ -3,7 +3,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kTimeout{30'000};
+constexpr std::chrono::milliseconds kImageTimeout{30'000};
 
 }  // namespace
 
@@ -20,7 +20,7 @@ Result<HeadImage> FetchHeadImage(LinkSession& session, const HeadImageOrder& ord
     request.set_height(order.part->height);
   }
   link::ImageReply reply;
-  const auto context = LinkSession::Context(kTimeout);
+  const auto context = LinkSession::Context(kImageTimeout);
   const grpc::Status called = session.stub(*context)->FetchImage(context.get(), request, &reply);
   if (!called.ok()) return tl::unexpected(session.ToError(called, "an image"));
   return HeadImage{std::move(*reply.mutable_image()), reply.motor_angle_rad(), reply.full_width(),

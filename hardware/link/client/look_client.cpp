@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{500};
+constexpr std::chrono::milliseconds kLookPause{500};
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void LookClient::Work(const std::stop_token& stop) {
       return;
     std::mutex mutex;
     std::unique_lock lock(mutex);
-    std::condition_variable_any().wait_for(lock, stop, kPause, [] { return false; });
+    std::condition_variable_any().wait_for(lock, stop, kLookPause, [] { return false; });
   }
 }
 

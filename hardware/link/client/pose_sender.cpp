@@ -8,8 +8,8 @@ namespace {
 /// Within this time the head must have heard it: what the operator looked at is still so.
 constexpr double kGood_s = 8.0;
 /// The head waits 2 s for the robot's answer; a line and its answer take 2.5 s at 9600 bit/s.
-constexpr std::chrono::milliseconds kTry{6000};
-constexpr std::chrono::milliseconds kPause{200};
+constexpr std::chrono::milliseconds kPoseTry{6000};
+constexpr std::chrono::milliseconds kPosePause{200};
 
 Result<RobotAnswer> FromMessage(const link::PoseReply& reply) {
   using Kind = RobotAnswer::Kind;
@@ -30,14 +30,14 @@ Result<RobotAnswer> SendPose(LinkSession& session, const std::string& pose_json)
   for (;;) {
     request.set_control_token(session.Token());
     link::PoseReply reply;
-    const auto context = LinkSession::Context(kTry);
+    const auto context = LinkSession::Context(kPoseTry);
     const grpc::Status called = session.stub(*context)->PublishPose(context.get(), request, &reply);
     if (called.ok()) return FromMessage(reply);
     const bool lost = called.error_code() == grpc::StatusCode::UNAVAILABLE ||
                       called.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
     if (!lost || LinkSession::Now() > end_s)
       return tl::unexpected(session.ToError(called, "a pose to the robot"));
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kPosePause);
   }
 }
 

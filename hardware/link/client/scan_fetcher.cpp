@@ -11,9 +11,9 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kFetchTick{100};
 constexpr std::chrono::milliseconds kNoWait{0};
-constexpr std::chrono::milliseconds kPause{20};
+constexpr std::chrono::milliseconds kFetchPause{20};
 constexpr std::chrono::milliseconds kWatch{5};  ///< how late a fresh connection is seen
 constexpr double kPause_s = 0.020;
 /// What came and was not decoded yet: five windows of a second at 300 Mbit/s, since an image takes
@@ -276,7 +276,7 @@ std::shared_ptr<ScanFetcher::Fetched> ScanFetcher::Next(const std::stop_token& s
     }
     return next != nullptr;
   };
-  wake_.wait_for(lock, stop, kTick, find);
+  wake_.wait_for(lock, stop, kFetchTick, find);
   return next;
 }
 
@@ -425,15 +425,15 @@ void ScanFetcher::SayThatAllIsHere(Stream& stream, Inbox& inbox) {
   stream.Write(request);
   stream.WritesDone();
   const double end_s = LinkSession::Now() + kConfirm_s;
-  while (!inbox.Closed() && LinkSession::Now() < end_s) inbox.TakeAll(kTick);
+  while (!inbox.Closed() && LinkSession::Now() < end_s) inbox.TakeAll(kFetchTick);
 }
 
 /// How long to look for chunks before what came is taken in. An image takes longer to read than its
 /// parts take to come through a wide path, so it waits for a pause.
 std::chrono::milliseconds ScanFetcher::WaitBeforeTakingIn(const ScanTransfer& transfer,
                                                           double silent_s) {
-  if (!transfer.Waiting()) return kTick;
-  return transfer.NextKind() == ChunkKind::kImage && silent_s < kPause_s ? kPause : kNoWait;
+  if (!transfer.Waiting()) return kFetchTick;
+  return transfer.NextKind() == ChunkKind::kImage && silent_s < kPause_s ? kFetchPause : kNoWait;
 }
 
 Status ScanFetcher::Receive(Fetched& scan, const Stub& stub, Stream& stream, Inbox& inbox) {

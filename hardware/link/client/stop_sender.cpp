@@ -6,11 +6,11 @@ namespace foresight {
 namespace {
 
 constexpr double kGiveUp_s = 60.0;
-constexpr std::chrono::milliseconds kTry{1500};
-constexpr std::chrono::milliseconds kPause{100};
+constexpr std::chrono::milliseconds kStopTry{1500};
+constexpr std::chrono::milliseconds kStopPause{100};
 
 grpc::Status SendOnce(LinkSession& session, link::Outcome& outcome) {
-  const auto context = LinkSession::Context(kTry);
+  const auto context = LinkSession::Context(kStopTry);
   return session.stub(*context)->Stop(context.get(), link::StopRequest(), &outcome);
 }
 
@@ -33,7 +33,7 @@ Result<HeadStatus> StopHead(LinkSession& session, std::chrono::milliseconds pati
                       called.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
     if (!lost || LinkSession::Now() > end_s)
       return tl::unexpected(session.ToError(called, "stopping the head"));
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kStopPause);
   }
 }
 
@@ -74,7 +74,7 @@ void StopSender::Work(const std::stop_token& stop) {
       if (answered)
         answered_ = asked;
       else
-        wake_.wait_for(lock, stop, kPause, [&] { return asked_ != asked; });
+        wake_.wait_for(lock, stop, kStopPause, [&] { return asked_ != asked; });
     }
   }
 }

@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{250};
+constexpr std::chrono::milliseconds kStopsPause{250};
 
 }  // namespace
 
@@ -62,7 +62,8 @@ void StopsClient::Work(const std::stop_token& stop) {
       End(ScanState::kInterrupted, status.error_message());
     std::mutex mutex;
     std::unique_lock lock(mutex);
-    std::condition_variable_any().wait_for(lock, stop, kPause, [this] { return ended_.load(); });
+    std::condition_variable_any().wait_for(lock, stop, kStopsPause,
+                                           [this] { return ended_.load(); });
   }
 }
 

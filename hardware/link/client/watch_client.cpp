@@ -8,10 +8,10 @@ namespace foresight {
 namespace {
 
 constexpr std::chrono::milliseconds kIdentify{10'000};  ///< a first call takes 4 s at 9600 bit/s
-constexpr std::chrono::milliseconds kPause{250};        ///< before the next try
+constexpr std::chrono::milliseconds kWatchPause{250};   ///< before the next try
 constexpr double kSignEvery_s = 1.0;
 constexpr double kThere_s = 1.5;  ///< who was seen so long ago is not there any more
-constexpr std::chrono::milliseconds kTick{50};
+constexpr std::chrono::milliseconds kWatchTick{50};
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void WatchClient::Work(const std::stop_token& stop) {
       hooks_.on_lost(watched.error());
     std::mutex mutex;
     std::unique_lock lock(mutex);
-    std::condition_variable_any().wait_for(lock, stop, kPause, [] { return false; });
+    std::condition_variable_any().wait_for(lock, stop, kWatchPause, [] { return false; });
   }
 }
 
@@ -80,7 +80,7 @@ void WatchClient::Sign(const std::stop_token& stop,
       if (!stream.Write(sign)) return;
     }
     std::unique_lock lock(mutex);
-    wake.wait_for(lock, stop, kTick, [] { return false; });
+    wake.wait_for(lock, stop, kWatchTick, [] { return false; });
   }
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kDay = 86400;
-constexpr std::int64_t kSoon = 30 * kDay;
+constexpr std::int64_t kDay_s = 86400;
+constexpr std::int64_t kSoon = 30 * kDay_s;
 
 /// Looks at one folder, file by file; later files are judged by the earlier ones.
 class Examination {

@@ -6,7 +6,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kBurstTick{100};
 /// Where little is left it is not sent more often: a burst lasts for a second.
 constexpr std::chrono::milliseconds kShortestRound{20};
 
@@ -80,7 +80,7 @@ ChunkToBurst BurstSession::Next(bool wait, const std::stop_token& stop) {
     if (!wait) return {};
     const auto now = std::chrono::steady_clock::now();
     if (!sends) {
-      wake_.wait_for(lock, stop, kTick, [] { return false; });
+      wake_.wait_for(lock, stop, kBurstTick, [] { return false; });
     } else if (now < round_began_ + kShortestRound) {
       wake_.wait_until(lock, stop, round_began_ + kShortestRound, [] { return false; });
     } else {
@@ -136,7 +136,7 @@ bool BurstSession::EncodeOne() {
 void BurstSession::Encode(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     Refresh();
-    if (!EncodeOne()) shelf_.WaitForNews(shelf_.News(), kTick);
+    if (!EncodeOne()) shelf_.WaitForNews(shelf_.News(), kBurstTick);
   }
 }
 

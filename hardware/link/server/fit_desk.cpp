@@ -15,7 +15,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kTick{50};
+constexpr std::chrono::milliseconds kFitTick{50};
 
 Status TakeImage(const Scan& scan, link::ImageChoice choice, Provenance& provenance) {
   auto* region = std::get_if<ImageRoi>(&*provenance.roi);
@@ -71,7 +71,7 @@ Result<link::FitReply> FitDesk::Fit(const link::FitRequest& request, const std::
   }
   while (running_id_ == id) {
     if (gone()) return Fail(ErrorCode::kCancelled, "{} is gone: its fit goes on", caller);
-    changed_.wait_for(lock, kTick);
+    changed_.wait_for(lock, kFitTick);
   }
   auto reply = log_.Find(id);
   if (!reply) return Fail(ErrorCode::kCancelled, "there is no fit {}", id);

@@ -13,7 +13,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kServiceTick{100};
 
 /// One of a limited number of streams; empty where there is none left.
 class Place {
@@ -194,7 +194,7 @@ grpc::Status HeadService::FetchStops(grpc::ServerContext* context,
   if (!stops || request->from() < 0)
     return {grpc::StatusCode::NOT_FOUND, "the head does not have these captures any more"};
   for (int number = request->from(); !closing_ && !context->IsCancelled();) {
-    const StopShelf::News news = stops->Wait(static_cast<std::size_t>(number), kTick);
+    const StopShelf::News news = stops->Wait(static_cast<std::size_t>(number), kServiceTick);
     if (!news.capture && !news.end) continue;
     const auto event = news.capture ? ToMessage(number, *news.capture)
                                     : ToMessage(number, news.end->state, news.end->reason);

@@ -8,7 +8,7 @@ namespace foresight {
 namespace {
 
 /// How soon a scan that grows is looked at again.
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kCacheTick{100};
 /// An item takes some 55 ms to make where the maker has a core.
 constexpr std::chrono::milliseconds kPatience{60};
 /// And the end 600 ms, for the digest of a scan of 400 MB.
@@ -170,7 +170,7 @@ void ItemCache::Work(const std::stop_token& stop) {
     Refresh();
     if (MakeNext()) continue;
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, stop, kTick, [] { return false; });
+    changed_.wait_for(lock, stop, kCacheTick, [] { return false; });
   }
 }
 
@@ -191,7 +191,7 @@ void ItemCache::Help(const std::stop_token& stop) {
     }
     if (may && !IsRecording(shelf_) && MakeNext()) continue;
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, stop, kTick, [] { return false; });
+    changed_.wait_for(lock, stop, kCacheTick, [] { return false; });
   }
 }
 

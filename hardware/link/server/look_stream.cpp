@@ -11,7 +11,7 @@ namespace foresight {
 namespace {
 
 constexpr int kUsualQuality = 75;
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kLookTick{100};
 
 /// The newest image, until it is taken. Gone when another station looks: the head forgets its sink.
 class NewestImage final : public LiveViewSink {
@@ -33,7 +33,7 @@ class NewestImage final : public LiveViewSink {
   };
   News Take() {
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, kTick, [this] { return image_ || !trouble_.empty(); });
+    wake_.wait_for(lock, kLookTick, [this] { return image_ || !trouble_.empty(); });
     return {std::exchange(image_, std::nullopt), std::exchange(trouble_, "")};
   }
 

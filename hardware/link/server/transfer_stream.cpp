@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kTransferTick{100};
 /// Credit that a station gives on a wide path alone.
 constexpr std::int64_t kWideCredit = std::int64_t{1} << 20;
 
@@ -70,7 +70,7 @@ grpc::Status TransferStream::Begin(const link::TransferStart& start) {
       return grpc::Status::OK;
     }
     if (scan.error().code != ErrorCode::kState) return Refusal(scan.error());
-    shelf_.WaitForNews(news, kTick);
+    shelf_.WaitForNews(news, kTransferTick);
     if (context_.IsCancelled()) break;
   }
   return {grpc::StatusCode::UNAVAILABLE, "the scan has not begun yet: ask again"};
@@ -135,7 +135,7 @@ bool TransferStream::MaySend() {
     Flush();
     lock.lock();
   }
-  return wake_.wait_for(lock, kTick, may);
+  return wake_.wait_for(lock, kTransferTick, may);
 }
 
 /// On a wide path gRPC may gather what follows at once: to wait until each chunk is on the wire
