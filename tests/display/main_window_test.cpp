@@ -203,7 +203,7 @@ TEST_F(Workstation, ComparingSourcesSetsSixAnswersSideBySide) {
   ASSERT_TRUE(running->bench().live.gallery.CanStart());
   QApplication::setActiveWindow(&running->window());
   running->bench().live.gallery.start();
-  ASSERT_TRUE(WaitFor([] { return !running->bench().live.gallery.Runner()->Busy(); }, 60'000));
+  ASSERT_TRUE(WaitFor([] { return !running->bench().live.gallery.Runner()->Busy(); }, 180'000));
   running->Settle();
   const SourceGallery* gallery = running->window().Gallery();
   EXPECT_TRUE(gallery->isVisible());
@@ -408,7 +408,7 @@ TEST_F(Workstation, AnEarlierScanIsLookedAtInReviewAndTheLiveSessionStaysAsItIs)
   const auto live_scan = bench.live.session.CurrentScan();
   const std::size_t live_objects = bench.live.session.Objects().size();
   bench.reviewer.Open(bench.recording.Path(), bench.recording.Scans()[0].uuid);
-  ASSERT_TRUE(WaitFor([&] { return bench.ShowsReview() && bench.review.session.Depth(); }, 60'000));
+  ASSERT_TRUE(WaitFor([&] { return bench.ShowsReview() && bench.review.session.Depth(); }, 180'000));
   running->Settle();
   EXPECT_FALSE(running->window().Image()->isVisible()) << "the live pane is put away";
   for (ImagePane* pane : running->window().findChildren<ImagePane*>()) {

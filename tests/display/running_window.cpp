@@ -11,7 +11,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kScanLimit_ms = 60'000;  // the simulated camera and the depth take seconds each
+constexpr int kScanLimit_ms = 180'000;  // the simulated camera and the depth take seconds each
 
 std::shared_ptr<const World> RoomWithTheValve() {
   Scene scene = LoadScene(FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml").value();

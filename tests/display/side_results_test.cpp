@@ -64,7 +64,7 @@ struct SideResultsWindow : Workstation {
     auto* button = Panel()->findChild<QPushButton*>(QStringLiteral("runAgain"));
     if (button == nullptr || !button->isEnabled()) return false;
     button->click();
-    const bool listed = WaitFor([&] { return Row(name) >= 0 && running->bench().Idle(); }, 60'000);
+    const bool listed = WaitFor([&] { return Row(name) >= 0 && running->bench().Idle(); }, 180'000);
     Panel()->NameField()->clear();
     return listed;
   }
@@ -74,7 +74,7 @@ struct SideResultsWindow : Workstation {
     Panel()->ButtonB(b)->click();
     running->bench().commands.Run("results.compare");
     const bool done = WaitFor(
-        [&] { return Results().Last().comparison != nullptr && running->bench().Idle(); }, 60'000);
+        [&] { return Results().Last().comparison != nullptr && running->bench().Idle(); }, 180'000);
     running->Settle();
     return done;
   }
@@ -223,7 +223,7 @@ TEST_F(SideResultsWindow, AnotherRigIsKeptAndMadeAgain) {
   Results().RunAgainWithRig(QStringLiteral("20 mm higher"),
                             QString::fromStdString((out / "rig.yaml").string()));
   ASSERT_TRUE(WaitFor(
-      [] { return Row(QStringLiteral("20 mm higher")) >= 0 && running->bench().Idle(); }, 60'000));
+      [] { return Row(QStringLiteral("20 mm higher")) >= 0 && running->bench().Idle(); }, 180'000));
   ASSERT_TRUE(Compare(0, Row(QStringLiteral("20 mm higher"))));
   ASSERT_EQ(Results().Last().comparison->objects.size(), 1u);
   ASSERT_TRUE(Results().Last().comparison->objects[0].difference);
@@ -257,7 +257,7 @@ TEST_F(SideResultsWindow, TheReportIsWrittenBesideWithPictureAndPdf) {
   const TemporaryFolder out;
   running->bench().review.exporter.WriteReport(QString::fromStdString(mission), {},
                                                QString::fromStdString(out.path().string()));
-  ASSERT_TRUE(WaitFor([] { return running->bench().Idle(); }, 60'000));
+  ASSERT_TRUE(WaitFor([] { return running->bench().Idle(); }, 180'000));
   const std::filesystem::path folder =
       out / (std::filesystem::path(mission).stem().string() + "-report");
   const auto html = ReadFile(folder / "report.html");

@@ -334,7 +334,7 @@ TEST_F(ReviewWindow, WhatIsBegunInOneMissionIsNotShownInAnother) {
   bench().reviewer.Open(other);
   ASSERT_TRUE(WaitFor([&] { return bench().reviewer.Path() == other; }));
   Settle();
-  ASSERT_TRUE(WaitFor([] { return bench().tasks.Idle(); }, 60'000));
+  ASSERT_TRUE(WaitFor([] { return bench().tasks.Idle(); }, 180'000));
   EXPECT_TRUE(bench().review.map.Map() == nullptr || bench().review.map.Mission() == other);
   for (const ResultRow& row : bench().side_results.Rows()) EXPECT_EQ(row.mission, other);
   const auto review = MissionFile::FindReviewOf(other.toStdString());
