@@ -12,7 +12,7 @@ namespace foresight {
 
 /// Runs the event loop until `condition` holds; false when it does not within `limit_ms`, or ten
 /// times that under a sanitizer.
-inline bool WaitFor(const std::function<bool()>& condition, int limit_ms = 20'000) {
+inline bool WaitFor(const std::function<bool()>& condition, int limit_ms = 60'000) {
   QElapsedTimer timer;
   timer.start();
   // With a time limit of its own processEvents never sleeps, and takes a core from what is waited
