@@ -30,7 +30,7 @@ double CircleArea(double x) {
 }  // namespace
 
 BeamFootprints::BeamFootprints(const RaySet& rays, const std::optional<Plane>& wall)
-    : rays_(rays), sigma_m_(std::hypot(rays.sigma_m, kTemplateError_m)) {
+    : rays_(rays), wall_(wall), sigma_m_(std::hypot(rays.sigma_m, kTemplateError_m)) {
   const std::vector<Eigen::Vector3d> normals = LineNormalsOf(rays);
   footprints_.resize(rays.rays.size());
   for (std::size_t i = 0; i < footprints_.size(); ++i) {
@@ -88,7 +88,9 @@ ExpectedRange BeamFootprints::Expect(std::size_t i, const ValveIntersection& int
     expected.fraction = (high - low) / (2.0 * half);
     // The mean depth of the covered part of the round front.
     const double r = intersection.radius_m;
-    const double front = r * r * (CircleArea(high / r) - CircleArea(low / r)) / (high - low);
+    const double front = intersection.depth_m * r *
+                             (CircleArea(high / r) - CircleArea(low / r)) / (high - low) -
+                         intersection.lean * 0.5 * (low + high);
     expected.valve_m = expected.range_m = intersection.middle_m - intersection.stretch * front;
   }
   expected.fraction = std::max(expected.fraction, least_fraction);

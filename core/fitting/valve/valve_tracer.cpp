@@ -17,7 +17,7 @@ ValveIntersection Approach(ValvePart part, const Eigen::Vector3d& origin,
                            const Eigen::Vector3d& tangent, double radius) {
   ValveIntersection intersection;
   intersection.part = part;
-  intersection.radius_m = radius;
+  intersection.radius_m = intersection.depth_m = radius;
   intersection.middle_m = (point - origin).dot(direction);
   const Eigen::Vector3d offset = origin + intersection.middle_m * direction - point;
   intersection.offset_m = offset.norm();
@@ -26,11 +26,33 @@ ValveIntersection Approach(ValvePart part, const Eigen::Vector3d& origin,
   const Eigen::Vector3d across = tangent.cross(direction);
   const double length = across.norm();
   if (length > 1e-3)
-    intersection.across = across / length;
+    intersection.across = (across.dot(offset) < 0.0 ? -1.0 : 1.0) / length * across;
   else if (intersection.offset_m > 1e-9)
     intersection.across = offset / intersection.offset_m;
   intersection.stretch = 1.0 / std::sqrt(std::max(sine2, 1.0 / (kMaxStretch * kMaxStretch)));
   return intersection;
+}
+
+/// Turns the round section of an intersection into an ellipse with half axes `width` along
+/// tangent x depth_axis and `depth` along the depth axis, a unit vector across the tangent.
+void FlattenSection(double width, double depth, const Eigen::Vector3d& depth_axis,
+                    const Eigen::Vector3d& tangent, const Eigen::Vector3d& direction,
+                    ValveIntersection& intersection) {
+  if (width == depth) return;
+  // In the plane of the section, along the ray and across it.
+  Eigen::Vector2d along(tangent.cross(depth_axis).dot(direction), depth_axis.dot(direction));
+  const double length = along.norm();
+  if (length < 1e-3) return;
+  along /= length;
+  const double side = Eigen::Vector2d(tangent.cross(depth_axis).dot(intersection.across),
+                                      depth_axis.dot(intersection.across))
+                                  .dot(Eigen::Vector2d(-along.y(), along.x())) < 0.0
+                          ? -1.0
+                          : 1.0;
+  const double half2 = width * width * along.y() * along.y() + depth * depth * along.x() * along.x();
+  intersection.radius_m = std::sqrt(half2);
+  intersection.depth_m = width * depth / intersection.radius_m;
+  intersection.lean = side * along.x() * along.y() * (depth * depth - width * width) / half2;
 }
 
 /// Where along a line (point, unit direction) it is closest to a ray.
@@ -53,8 +75,9 @@ ValveIntersection FirstMet(const ValveIntersection& a, const ValveIntersection& 
 }  // namespace
 
 double ValveIntersection::Range() const {
-  const double depth2 = radius_m * radius_m - offset_m * offset_m;
-  return depth2 > 0.0 ? middle_m - stretch * std::sqrt(depth2) : middle_m;
+  const double middle = middle_m + stretch * lean * std::min(offset_m, radius_m);
+  const double part2 = 1.0 - offset_m * offset_m / (radius_m * radius_m);
+  return part2 > 0.0 ? middle - stretch * depth_m * std::sqrt(part2) : middle;
 }
 
 ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
@@ -65,21 +88,25 @@ ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
       hub_(0.0, 0.0, valve.model.IsLever() ? 0.0 : -valve.model.dish_m) {
   if (model_.IsLever()) {
     reach_m_ = model_.lever_length_m + model_.tube_radius_m;
+    const double stem_m = ValveModel::kLeverStemPerHub * model_.hub_radius_m;
     lever_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), model_.lever_length_m,
-              model_.tube_radius_m};
-    stem_ = {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), ValveModel::kLeverStem_m,
-             ValveModel::kLeverStemPerHub * model_.hub_radius_m};
+              model_.tube_radius_m,    model_.tube_radius_m,     Eigen::Vector3d::UnitZ()};
+    stem_ = {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), ValveModel::kLeverStem_m, stem_m,
+             stem_m,                  Eigen::Vector3d::UnitX()};
     return;
   }
-  reach_m_ = model_.rim_radius_m + model_.tube_radius_m +
+  reach_m_ = model_.rim_radius_m + std::max(model_.tube_radius_m, model_.RimDepth()) +
              std::max(0.0, std::abs(model_.dish_m) + model_.hub_radius_m - model_.rim_radius_m);
   for (int i = 0; i < model_.spokes; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / model_.spokes;
     const Eigen::Vector3d end(model_.rim_radius_m * std::cos(angle),
                               model_.rim_radius_m * std::sin(angle), 0.0);
     const double length = (end - hub_).norm();
-    spokes_[static_cast<std::size_t>(i)] = {hub_, (end - hub_) / length, length,
-                                            model_.spoke_radius_m};
+    const Eigen::Vector3d direction = (end - hub_) / length;
+    const Eigen::Vector3d sideways(-std::sin(angle), std::cos(angle), 0.0);
+    spokes_[static_cast<std::size_t>(i)] = {
+        hub_,   direction, length, model_.spoke_radius_m, model_.SpokeDepth(),
+        direction.cross(sideways)};
   }
 }
 
@@ -110,7 +137,9 @@ ValveIntersection ValveTracer::IntersectRim(const LocalRay& ray) const {
   }
   ValveIntersection intersection =
       Approach(ValvePart::kRim, ray.origin, ray.direction, on_rim, tangent, model_.tube_radius_m);
-  intersection.azimuth_rad = std::atan2(on_rim.y(), on_rim.x());
+  FlattenSection(model_.tube_radius_m, model_.RimDepth(), Eigen::Vector3d::UnitZ(), tangent,
+                 ray.direction, intersection);
+  intersection.on_rim = on_rim.head<2>();
   return intersection;
 }
 
@@ -126,6 +155,9 @@ ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray,
   const Eigen::Vector3d tangent = at_end ? Eigen::Vector3d::Zero() : bar.direction;
   ValveIntersection intersection = Approach(
       part, ray.origin, ray.direction, bar.begin + along * bar.direction, tangent, bar.radius_m);
+  if (!at_end)
+    FlattenSection(bar.radius_m, bar.depth_m, bar.depth_axis, bar.direction, ray.direction,
+                   intersection);
   intersection.along_m = along;
   return intersection;
 }
@@ -155,7 +187,7 @@ bool ValveTracer::IntersectDisc(const LocalRay& ray, ValveIntersection& intersec
   intersection = ValveIntersection{};
   intersection.part = ValvePart::kDisc;
   intersection.middle_m = range;
-  intersection.radius_m = model_.spoke_radius_m;
+  intersection.radius_m = intersection.depth_m = model_.spoke_radius_m;
   intersection.stretch = std::min(1.0 / std::abs(ray.direction.z()), kMaxStretch);
   return true;
 }
