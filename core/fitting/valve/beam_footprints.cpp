@@ -66,7 +66,7 @@ double BeamFootprints::HalfWidth(std::size_t i, const Eigen::Vector3d& across) c
     return std::hypot(0.5 * rays_.footprint_rad * range_m, kEdgeError_m);
   // As wide as an even footprint of the same variance.
   const Eigen::Vector2d half(footprint.along_line.dot(across), footprint.across_line.dot(across));
-  return std::hypot(range_m * half.norm(), kEdgeError_m);
+  return std::sqrt(range_m * range_m * half.squaredNorm() + kEdgeError_m * kEdgeError_m);
 }
 
 double BeamFootprints::Reach(std::size_t i) const {
@@ -102,7 +102,7 @@ ExpectedRange BeamFootprints::Expect(std::size_t i, const ValveIntersection& int
   expected.range_m += beside * gap;
   const double unsure =
       std::min(beside, kFractionError) + kBrightnessSpread * beside * (1.0 - beside);
-  expected.sigma_m = std::hypot(sigma_m_, gap * unsure);
+  expected.sigma_m = std::sqrt(sigma_m_ * sigma_m_ + gap * unsure * gap * unsure);
   return expected;
 }
 

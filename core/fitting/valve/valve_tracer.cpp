@@ -129,7 +129,7 @@ ValveIntersection ValveTracer::IntersectRim(const LocalRay& ray) const {
   Eigen::Vector3d tangent;
   // The circle is nearly straight over the distance of one step: two steps leave micrometres.
   for (int step = 0; step < 3; ++step) {
-    const double radial = std::max(std::hypot(point.x(), point.y()), 1e-9);
+    const double radial = std::max(point.head<2>().norm(), 1e-9);
     on_rim = {radius * point.x() / radial, radius * point.y() / radial, 0.0};
     tangent = {-on_rim.y() / radius, on_rim.x() / radius, 0.0};
     if (step < 2)
@@ -148,9 +148,13 @@ ValveIntersection ValveTracer::IntersectHub(const LocalRay& ray) const {
                   model_.hub_radius_m);
 }
 
-ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar) {
-  const double along = std::clamp(
-      ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction), 0.0, bar.length_m);
+double ValveTracer::AlongBar(const LocalRay& ray, const Bar& bar) {
+  return std::clamp(ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction), 0.0,
+                    bar.length_m);
+}
+
+ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar,
+                                            double along) {
   const bool at_end = part == ValvePart::kLever && along == bar.length_m;
   const Eigen::Vector3d tangent = at_end ? Eigen::Vector3d::Zero() : bar.direction;
   ValveIntersection intersection = Approach(
@@ -163,7 +167,8 @@ ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray,
 }
 
 ValveIntersection ValveTracer::IntersectStem(const LocalRay& ray) const {
-  ValveIntersection intersection = IntersectBar(ValvePart::kStem, ray, stem_);
+  ValveIntersection intersection =
+      IntersectBar(ValvePart::kStem, ray, stem_, AlongBar(ray, stem_));
   const Eigen::Vector3d entry = ray.origin + intersection.Range() * ray.direction;
   // Seen from the front, a stem without end would be entered before its beginning.
   if ((entry - stem_.begin).dot(stem_.direction) < 0.0)
@@ -179,7 +184,7 @@ bool ValveTracer::IntersectDisc(const LocalRay& ray, ValveIntersection& intersec
   // The cone from hub to rim is flat: its height at the last crossing gives the next one.
   for (int step = 0; step < 4; ++step) {
     const Eigen::Vector3d point = ray.origin + range * ray.direction;
-    radial = std::hypot(point.x(), point.y());
+    radial = point.head<2>().norm();
     const double height = -model_.dish_m * std::max(0.0, 1.0 - radial / model_.rim_radius_m);
     range = (height - ray.origin.z()) / ray.direction.z();
   }
@@ -197,8 +202,14 @@ ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray) const {
   if (parts_ == ValveParts::kRim) return best;
   best = FirstMet(best, IntersectHub(ray));
   for (int i = 0; i < model_.spokes; ++i) {
-    ValveIntersection spoke =
-        IntersectBar(ValvePart::kSpoke, ray, spokes_[static_cast<std::size_t>(i)]);
+    const Bar& bar = spokes_[static_cast<std::size_t>(i)];
+    const double along = AlongBar(ray, bar);
+    // Most spokes are farther than what the ray passes already.
+    const double near = std::max(0.0, best.Clearance()) + std::max(bar.radius_m, bar.depth_m);
+    const Eigen::Vector3d from_ray = bar.begin + along * bar.direction - ray.origin;
+    const double middle = from_ray.dot(ray.direction);
+    if (from_ray.squaredNorm() - middle * middle > near * near) continue;
+    ValveIntersection spoke = IntersectBar(ValvePart::kSpoke, ray, bar, along);
     spoke.spoke = i;
     best = FirstMet(best, spoke);
   }
@@ -208,7 +219,8 @@ ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray) const {
 }
 
 ValveIntersection ValveTracer::IntersectLever(const LocalRay& ray) const {
-  const ValveIntersection bar = IntersectBar(ValvePart::kLever, ray, lever_);
+  const ValveIntersection bar =
+      IntersectBar(ValvePart::kLever, ray, lever_, AlongBar(ray, lever_));
   return FirstMet(FirstMet(bar, IntersectHub(ray)), IntersectStem(ray));
 }
 

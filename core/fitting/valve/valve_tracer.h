@@ -62,7 +62,10 @@ class ValveTracer {
 
   ValveIntersection IntersectRim(const LocalRay& ray) const;
   ValveIntersection IntersectHub(const LocalRay& ray) const;
-  static ValveIntersection IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar);
+  /// Where along a bar a ray is closest to it.
+  static double AlongBar(const LocalRay& ray, const Bar& bar);
+  static ValveIntersection IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar,
+                                        double along);
   ValveIntersection IntersectStem(const LocalRay& ray) const;
   ValveIntersection IntersectWheel(const LocalRay& ray) const;
   ValveIntersection IntersectLever(const LocalRay& ray) const;
