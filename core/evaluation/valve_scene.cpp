@@ -230,10 +230,8 @@ FitTrialScene RandomValveScene(std::uint64_t seed) {
   AddRoom(place, !empty && !random.Chance(0.1), random, *scene);
   if (trial.positive) {
     std::optional<VariedWheel> varied;
-    if (otherwise && !model.IsLever() && model.spokes >= 2)
-      varied = RandomVariedWheel(model, made);
-    trial.what =
-        (varied ? varied->made + " " : "") + NameOf(model) + (far ? ", beyond 2 m" : "");
+    if (otherwise && !model.IsLever() && model.spokes >= 2) varied = RandomVariedWheel(model, made);
+    trial.what = (varied ? varied->made + " " : "") + NameOf(model) + (far ? ", beyond 2 m" : "");
     trial.focus_radius_m = AddRandomValve(model, varied, place, random, *scene);
     trial.focus_m = place.center;
     if (model.IsLever())

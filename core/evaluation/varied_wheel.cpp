@@ -19,15 +19,14 @@ SectionOutline OutlineOf(VariedWheel::Section kind, double width, double depth,
   SectionOutline outline;
   if (kind == VariedWheel::Section::kBar) {
     const double edge = 0.15 * std::min(width, depth);
-    for (const auto& [x, y] : std::array<std::pair<double, double>, 8>{
-             {{width - edge, -depth},
-              {width, -depth + edge},
-              {width, depth - edge},
-              {width - edge, depth},
-              {-width + edge, depth},
-              {-width, depth - edge},
-              {-width, -depth + edge},
-              {-width + edge, -depth}}})
+    for (const auto& [x, y] : std::array<std::pair<double, double>, 8>{{{width - edge, -depth},
+                                                                        {width, -depth + edge},
+                                                                        {width, depth - edge},
+                                                                        {width - edge, depth},
+                                                                        {-width + edge, depth},
+                                                                        {-width, depth - edge},
+                                                                        {-width, -depth + edge},
+                                                                        {-width + edge, -depth}}})
       outline.push_back(center + Eigen::Vector2d(x, y));
     return outline;
   }
