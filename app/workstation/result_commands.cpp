@@ -96,8 +96,9 @@ void AddReportCommands(Workbench* bench, const ResultWindow& window) {
        .run = [write] { write({}); },
        .why_not =
            [bench] {
-             return bench->ShownMission().isEmpty() ? ResultCommands::tr("There is no mission file.")
-                                               : QString();
+             return bench->ShownMission().isEmpty()
+                        ? ResultCommands::tr("There is no mission file.")
+                        : QString();
            }});
   bench->commands.Add({.id = "file.report_scan",
                        .menu = "file",

@@ -14,7 +14,6 @@ using gvcp::AckStatus;
 
 namespace {
 
-constexpr std::uint32_t kFireTestPacket = 0x80000000;
 constexpr std::uint32_t kLatch = 2;
 constexpr std::size_t kMostRegisters = gvcp::kLargestMemoryAccess / 4;
 
@@ -178,7 +177,7 @@ void CameraDevice::Follow(std::uint32_t address, std::uint32_t value, double now
       if (acquiring_ && registers_.Get(at::kTriggerMode) == 1) ++commands_.triggers;
       return;
     case at::kPacketSize:
-      if ((value & kFireTestPacket) != 0) commands_.test_packet = true;
+      if ((value & at::kFireTestPacket) != 0) commands_.test_packet = true;
       return;
     case at::kTimestampControl:
       if ((value & kLatch) != 0) {

@@ -20,7 +20,6 @@ namespace at = camera_register;
 constexpr std::size_t kBootstrapBytes = 0xE00;
 constexpr std::uint32_t kFirstFeature = 0x10000;
 constexpr std::size_t kFeatureBytes = 0x50;
-constexpr std::uint32_t kFireTestPacket = 0x80000000;
 
 constexpr std::array kDoubles = {kExposureRange_us, kGainRange_db, kFrameRateRange_hz};
 
@@ -164,7 +163,7 @@ AckStatus CameraRegisters::Write(std::uint32_t address, std::uint32_t value) {
   if (address % 4 != 0) return AckStatus::kBadAlignment;
   if (!Read(address, 4)) return AckStatus::kInvalidAddress;
   if (const AckStatus judged = Judge(address, value); judged != AckStatus::kSuccess) return judged;
-  if (address == at::kPacketSize) value &= ~kFireTestPacket;
+  if (address == at::kPacketSize) value &= ~at::kFireTestPacket;
   Set(address, value);
   if (address == at::kPixelFormat) UpdatePayloadSize();
   return AckStatus::kSuccess;

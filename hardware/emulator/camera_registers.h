@@ -38,8 +38,9 @@ inline constexpr std::uint32_t kTimestampHigh = 0x0948;
 inline constexpr std::uint32_t kTimestampLow = 0x094C;
 inline constexpr std::uint32_t kControlPrivilege = 0x0A00;
 inline constexpr std::uint32_t kStreamPort = 0x0D00;
-inline constexpr std::uint32_t kPacketSize = 0x0D04;   ///< bit 31 fires a test packet
-inline constexpr std::uint32_t kPacketDelay = 0x0D08;  ///< ticks
+inline constexpr std::uint32_t kPacketSize = 0x0D04;
+inline constexpr std::uint32_t kFireTestPacket = 0x80000000;  ///< bit of kPacketSize
+inline constexpr std::uint32_t kPacketDelay = 0x0D08;         ///< ticks
 inline constexpr std::uint32_t kStreamIp = 0x0D18;
 
 inline constexpr std::uint32_t kWidth = 0x10000;

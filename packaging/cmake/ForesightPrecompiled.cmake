@@ -14,8 +14,8 @@ function(foresight_compile_quickly target kind)
   endif()
 endfunction()
 
-# Files of one library share most of what their templates make: eight files compiled as one take less than half of the time. Tests are left as
-# they are. Two files of one batch cannot have the same name in their unnamed namespaces; what all libraries need is in a header.
+# Files of one library share much of what their templates make, so eight of them are compiled as one. Tests are left as they are. Two files
+# of one batch cannot have the same name in their unnamed namespaces.
 option(FORESIGHT_UNITY "Compile files of a library in batches (who changes them often wants OFF)" ON)
 
 function(foresight_precompiled target kind)

@@ -408,7 +408,8 @@ TEST_F(Workstation, AnEarlierScanIsLookedAtInReviewAndTheLiveSessionStaysAsItIs)
   const auto live_scan = bench.live.session.CurrentScan();
   const std::size_t live_objects = bench.live.session.Objects().size();
   bench.reviewer.Open(bench.recording.Path(), bench.recording.Scans()[0].uuid);
-  ASSERT_TRUE(WaitFor([&] { return bench.ShowsReview() && bench.review.session.Depth(); }, 180'000));
+  ASSERT_TRUE(
+      WaitFor([&] { return bench.ShowsReview() && bench.review.session.Depth(); }, 180'000));
   running->Settle();
   EXPECT_FALSE(running->window().Image()->isVisible()) << "the live pane is put away";
   for (ImagePane* pane : running->window().findChildren<ImagePane*>()) {

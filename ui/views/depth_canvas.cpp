@@ -28,9 +28,9 @@ vtkSmartPointer<vtkActor> LineActor(Rgb8 color, float width) {
   return actor;
 }
 
-constexpr double kCanvasGrip_px = 7.0;       ///< how near to the wipe line counts as on it
-constexpr double kWipeStep = 0.02;     ///< of the width, for an arrow key
-constexpr double kWipeBigStep = 0.10;  ///< the same with Shift
+constexpr double kCanvasGrip_px = 7.0;  ///< how near to the wipe line counts as on it
+constexpr double kWipeStep = 0.02;      ///< of the width, for an arrow key
+constexpr double kWipeBigStep = 0.10;   ///< the same with Shift
 
 void SetLines(vtkActor* actor, const Polylines& lines) {
   static_cast<vtkPolyDataMapper*>(actor->GetMapper())->SetInputData(VtkLinesOf(lines));

@@ -15,7 +15,7 @@ AddLateOptions* FromLibrary(const char* name) {
   void* const function = library == nullptr ? nullptr : ::dlsym(library, name);
   if (function == nullptr)
     throw std::runtime_error(
-        fmt::format("{}: {}; install it beside libforesight_core.so", kLibrary, ::dlerror()));
+        fmt::format("{}; install it beside libforesight_core.so", ::dlerror()));
   return reinterpret_cast<AddLateOptions*>(function);
 }
 
@@ -24,7 +24,8 @@ void AddLateCommand(CLI::App& app, const char* name, const char* help, const cha
                     Invocation& invocation) {
   CLI::App* command = app.add_subcommand(name, help);
   command->preparse_callback([command, options, &invocation](std::size_t) {
-    if (command->get_options().size() <= 1) FromLibrary(options)(command, &invocation);
+    const bool has_help_alone = command->get_options().size() <= 1;  // else it was called before
+    if (has_help_alone) FromLibrary(options)(command, &invocation);
   });
 }
 

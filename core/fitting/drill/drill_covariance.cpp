@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/squared.h"
+#include "core/fitting/drill/solid_likelihood.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/line_covariance.h"
 
@@ -12,8 +14,6 @@ namespace foresight {
 namespace {
 
 constexpr double kAgreeSigmas = 3.0;
-constexpr double kTemplateError_m = 0.005;
-constexpr double kEdgeError_m = 0.003;
 
 // What no ray tells, that drills are no templates and tables no planes, along and about x, y and z:
 // the deviations of the rays are multiplied, and what every drill is off by is added in squares.
@@ -22,10 +22,6 @@ constexpr double kEdgeError_m = 0.003;
 // and 1.5.
 constexpr std::array<double, 6> kFactors = {1.5, 1.3, 1.0, 1.8, 1.8, 1.4};
 constexpr std::array<double, 6> kAdded = {0.006, 0.0022, 0.003, 0.0, 0.0, 0.010};
-
-double Squared(double value) {
-  return value * value;
-}
 
 DrillStep PriorInformation(const DrillPrior& prior) {
   DrillStep before = DrillStep::Ones();
@@ -98,7 +94,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
                      const DrillPrior& prior) {
   constexpr double kStep = 1e-3;  // metres and radians
   constexpr double kReach_m = 0.02;
-  const double sigma = std::hypot(rays.sigma_m, kTemplateError_m);
+  const double sigma = std::hypot(rays.sigma_m, kDrillTemplateError_m);
   const auto tracer_at = [&](const DrillState& state) {
     return SolidTracer(state.Model().parts, state.Pose(base_from_table));
   };
@@ -115,7 +111,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
     const RangeRay& ray = rays.rays[i];
     const SolidIntersection intersection = here.IntersectWithDepth(ray, kReach_m);
     if (intersection.part < 0) continue;
-    const double width = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
+    const double width = 0.5 * rays.footprint_rad * ray.range_m + kDrillEdgeError_m;
     const bool inside = intersection.Hits();
     if (inside && std::abs(ray.range_m - intersection.range_m) > kAgreeSigmas * sigma) continue;
     // A ray that grazes the outline knows where that is, one further in how far the surface is.

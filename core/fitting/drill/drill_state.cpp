@@ -4,14 +4,12 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/squared.h"
+
 namespace foresight {
 namespace {
 
 constexpr double kReach = 3.0;  // sigmas of head and foot
-
-double Squared(double value) {
-  return value * value;
-}
 
 }  // namespace
 

@@ -9,7 +9,8 @@
 
 namespace foresight {
 
-/// A confirmed drill is at least so far ahead of one that points the other way with any proportions.
+/// A confirmed drill is at least so far ahead of one that points the other way with any
+/// proportions.
 inline constexpr double kMinAnyFlipMargin_nats = 20.0;
 
 /// Counts what the rays of a region say about a drill; the likelihoods are left at 0.

@@ -9,9 +9,7 @@
 namespace foresight {
 namespace {
 
-constexpr double kGrazing = 0.5;            // a ray that just misses a solid returns from it
-constexpr double kTemplateError_m = 0.005;  // no real drill is made of cylinders and boxes
-constexpr double kEdgeError_m = 0.003;
+constexpr double kGrazing = 0.5;  // a ray that just misses a solid returns from it
 constexpr double kReachWidths = 3.5;
 
 }  // namespace
@@ -19,11 +17,11 @@ constexpr double kReachWidths = 3.5;
 SolidLikelihood::SolidLikelihood(RaySet rays, std::span<const Plane> planes)
     : rays_(std::move(rays)) {
   noise_.reserve(rays_.rays.size());
-  const double sigma = std::hypot(rays_.sigma_m, kTemplateError_m);
+  const double sigma = std::hypot(rays_.sigma_m, kDrillTemplateError_m);
   for (const RangeRay& ray : rays_.rays) {
     RayNoise noise;
     noise.sigma_m = sigma;
-    noise.width_m = 0.5 * rays_.footprint_rad * ray.range_m + kEdgeError_m;
+    noise.width_m = 0.5 * rays_.footprint_rad * ray.range_m + kDrillEdgeError_m;
     noise.background = BackgroundDensity(ray, planes, sigma);
     noise.log_background = std::log(noise.background);
     noise_.push_back(noise);

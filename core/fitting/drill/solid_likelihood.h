@@ -11,6 +11,11 @@
 
 namespace foresight {
 
+/// No real drill is made of cylinders and boxes: by how much its surface lies beside them, 1 sigma.
+inline constexpr double kDrillTemplateError_m = 0.005;
+/// The same of its outline, as seen by a beam that passes.
+inline constexpr double kDrillEdgeError_m = 0.003;
+
 /// How well solids at a place explain every ray of a region: those that should intersect them, and
 /// those that went past or through. The same rays score every shape, a drill or a box, so scores
 /// compare directly. The terms are those of the valve's RayLikelihood.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/squared.h"
 #include "core/geometry/rotation_between.h"
 
 namespace foresight {
@@ -11,10 +12,6 @@ namespace {
 
 constexpr double kLeastStandoff_m = 0.025, kLargestStandoff_m = 0.100;
 constexpr double kLeastRadius_m = 0.005, kLargestRadius_m = 0.018;
-
-double Squared(double value) {
-  return value * value;
-}
 
 }  // namespace
 

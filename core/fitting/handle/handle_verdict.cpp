@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/squared.h"
 #include "core/fitting/gate.h"
 #include "core/fitting/region_place.h"
 
@@ -23,10 +24,6 @@ constexpr double kMinMirror_nats = 10.0;
 
 double Compressed(double nats) {
   return std::copysign(std::log1p(std::abs(nats)), nats);
-}
-
-double Squared(double value) {
-  return value * value;
 }
 
 IntersectBeam IntersectionWith(const DoorThing& thing) {

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/squared.h"
+
 namespace foresight {
 namespace {
 
 constexpr double kSpokePerTube = 0.67;
 constexpr double kHubPerRim = 0.20;
-
-double Squared(double value) {
-  return value * value;
-}
 
 /// By what a tilt against the wall's normal is multiplied to count as a residual of the prior.
 double SquareWeight(double tilt2) {

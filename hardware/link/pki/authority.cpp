@@ -25,7 +25,6 @@ constexpr std::int64_t kDay = 86400;
 /// A machine whose clock is behind by less takes a new certificate at once.
 constexpr std::int64_t kClockTolerance = kDay;
 constexpr std::size_t kLargestPem = 64 << 10;
-constexpr std::size_t kLargestList = 16 << 20;
 
 Status MakePrivateFolder(const fs::path& folder) {
   std::error_code error;
@@ -91,7 +90,8 @@ Result<CertificateAuthority> CertificateAuthority::Open(const fs::path& folder) 
   FORESIGHT_CHECK(CheckIsPrivate(key));
   FORESIGHT_TRY(ca.validity_, ReadCaCertificate(ca.keys_.certificate_pem, certificate));
   FORESIGHT_CHECK(CheckKeyFits(ca.keys_.certificate_pem, ca.keys_.private_key_pem, key.string()));
-  FORESIGHT_TRY(const std::string list, ReadFile(folder / kRevocationsFile, kLargestList));
+  FORESIGHT_TRY(const std::string list,
+                ReadFile(folder / kRevocationsFile, kLargestRevocationsFile_bytes));
   FORESIGHT_TRY(ca.revocations_, ReadRevocationList(list, ca.keys_.certificate_pem,
                                                     (folder / kRevocationsFile).string()));
   return ca;
@@ -235,7 +235,8 @@ Result<LinkCertificate> CertificateAuthority::SignAndKeep(const CertificateReque
   // The record first: what it does not know could never be revoked.
   FORESIGHT_CHECK(WriteFileAtomically(
       folder_ / kCertificates / fmt::format("{}-{}.crt", name, certificate.serial), pem));
-  FORESIGHT_TRY(const std::string list, ReadFile(folder_ / kRevocationsFile, kLargestList));
+  FORESIGHT_TRY(const std::string list,
+                ReadFile(folder_ / kRevocationsFile, kLargestRevocationsFile_bytes));
   FORESIGHT_CHECK(WriteFileAtomically(folder / kCaFile, keys_.certificate_pem));
   FORESIGHT_CHECK(WriteFileAtomically(folder / kRevocationsFile, list));
   FORESIGHT_CHECK(WriteFileAtomically(folder / kCertificateFile, pem));

@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestList = 16 << 20;
-
 /// Differs after each change of a file, also after two within one tick of the file system's clock.
 struct FileVersion {
   ino_t node = 0;
@@ -33,7 +31,7 @@ FileVersion VersionOf(const fs::path& path) {
 }
 
 Result<RevocationList> ReadList(const fs::path& file, std::string_view ca_pem) {
-  FORESIGHT_TRY(const std::string pem, ReadFile(file, kLargestList));
+  FORESIGHT_TRY(const std::string pem, ReadFile(file, kLargestRevocationsFile_bytes));
   return ReadRevocationList(pem, ca_pem, file.string());
 }
 

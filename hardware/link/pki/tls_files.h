@@ -8,8 +8,9 @@
 namespace foresight {
 
 /// Names of the files in a folder of keys, the same on each machine (docs/formats.md).
-inline constexpr const char* kCaFile = "ca.crt";           ///< the CA's certificate
-inline constexpr const char* kRevocationsFile = "ca.crl";  ///< what the CA has revoked
+inline constexpr const char* kCaFile = "ca.crt";                        ///< the CA's certificate
+inline constexpr const char* kRevocationsFile = "ca.crl";               ///< what the CA has revoked
+inline constexpr std::size_t kLargestRevocationsFile_bytes = 16 << 20;  ///< a larger one is refused
 inline constexpr const char* kCertificateFile =
     "link.crt";  ///< this machine's or person's certificate
 inline constexpr const char* kPrivateKeyFile = "link.key";  ///< its private key, 0600

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace foresight {
+
+constexpr double Squared(double value) {
+  return value * value;
+}
+
+}  // namespace foresight
