@@ -92,7 +92,7 @@ TEST(JudgeRig, ASweepOneWaySaysNothingOfTheStampsAndTellsWhatToDo) {
   plate.up_and_down = false;
   const RigCheck check = Judged(plate, GoodCamera());
   EXPECT_EQ(check.findings.back().state, RigFinding::State::kNotSeen);
-  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("--passes 2")));
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("a scan there and back shows it")));
 }
 
 TEST(JudgeRig, SaysAnOffsetOfTheStampsInMilliseconds) {
