@@ -22,8 +22,8 @@ struct Desk {
         depth(&session),
         compare(&session, &depth),
         fit(&session),
-        measure(&session),
         map(&session),
+        measure(&session, &map),
         gallery(&session, &fit),
         exporter(&session),
         check(&session) {}
@@ -33,8 +33,8 @@ struct Desk {
   LayersViewModel layers;
   CompareViewModel compare;
   FitViewModel fit;
-  MeasureViewModel measure;
   MapViewModel map;
+  MeasureViewModel measure;
   ClipBoxModel clip;
   SourceGalleryModel gallery;
   ExportViewModel exporter;

@@ -81,6 +81,14 @@ void AddReviewCommands(Workbench* bench) {
     return live.isEmpty() ? bench->replay.WhyNot() : live;
   };
   for (const Row& row : kReplay) Add(bench, row, playable);
+  bench->commands.Add({.id = "review.skip_idle",
+                       .menu = "review",
+                       .text = Commands::tr("Skip idle time"),
+                       .tip = Commands::tr("Let the replay jump over time in which nothing "
+                                           "happened, to half a second before the next event"),
+                       .keys = QStringLiteral("Ctrl+Shift+Right"),
+                       .run = [bench] { bench->replay.toggleSkipsIdle(); },
+                       .checked = [bench] { return bench->replay.SkipsIdle(); }});
   bench->commands.Add({.id = "review.whole",
                        .menu = "review",
                        .icon = "timeline_whole",

@@ -42,9 +42,12 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
   for (SessionModel* session : {&live.session, &review.session})
     connect(session, &SessionModel::noticed, &log, &LogModel::add);
   connect(&log, &LogModel::added, &recording, &RecordingViewModel::keepNotice);
-  connect(&reviewer, &ReviewViewModel::opened, this, &Workbench::showReview);
-  connect(&importer, &ImportViewModel::imported, this,
-          [this](const QString& mission) { reviewer.Open(mission); });
+  connect(&reviewer, &ReviewViewModel::opened, this, &Workbench::ShowOpened);
+  connect(&importer, &ImportViewModel::imported, this, [this](const QString& mission) {
+    // Nobody asked for the review at this moment: a running scan stays in sight.
+    if (head.Scanning() && !ShowsReview()) opened_beside_ = mission;
+    reviewer.Open(mission);
+  });
   connect(&reviewer, &ReviewViewModel::opened, this, [this] {
     if (review.map.Mission() != reviewer.Path()) review.map.clear();  // it is of another mission
   });
@@ -63,6 +66,12 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
   AddCommands(this);
   AddReviewCommands(this);
   KeepCommandsCurrent();
+}
+
+void Workbench::ShowOpened() {
+  if (std::exchange(opened_beside_, QString()) != reviewer.Path()) return showReview();
+  log.add({Notice::Level::kInfo, tr("The imported mission is open for review."),
+           tr("The running scan stays on the screen; Ctrl+R shows the review.")});
 }
 
 void Workbench::ConnectLink(const std::shared_ptr<SensorHead>& sensor_head) {

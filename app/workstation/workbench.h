@@ -76,10 +76,12 @@ class Workbench : public QObject {
   void shownChanged();
 
  private:
+  void ShowOpened();
   void ConnectLink(const std::shared_ptr<SensorHead>& sensor_head);
   void KeepCommandsCurrent();
 
   bool shows_review_ = false;
+  QString opened_beside_;  ///< mission that a running scan stays on the screen for
 };
 
 }  // namespace foresight

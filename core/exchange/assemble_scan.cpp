@@ -145,17 +145,11 @@ class Assembler {
         break;
       case GridPlaces::Kind::kRings:
         out_.grid = "recovered: turns of a spinning lidar";
-        Note(
-            "the grid was recovered from the order and the directions of the points: {} turns, "
-            "beams every {:.3f} deg",
-            places_.lines, DegreesFromRadians(places_.step_rad));
+        NoteRecoveredGrid("turns");
         break;
       case GridPlaces::Kind::kSweeps:
         out_.grid = "recovered: lines of a scanner";
-        Note(
-            "the grid was recovered from the order and the directions of the points: {} lines, "
-            "beams every {:.3f} deg",
-            places_.lines, DegreesFromRadians(places_.step_rad));
+        NoteRecoveredGrid("lines");
         break;
       case GridPlaces::Kind::kScattered:
         out_.grid = "none: the points have no order";
@@ -166,6 +160,13 @@ class Assembler {
         break;
     }
     return {};
+  }
+
+  void NoteRecoveredGrid(const char* lines) {
+    Note(
+        "the grid was recovered from the order and the directions of the points: {} {}, beams "
+        "every {:.3f} deg",
+        places_.lines, lines, DegreesFromRadians(places_.step_rad));
   }
 
   /// A camera that the organised cloud itself is an image of.

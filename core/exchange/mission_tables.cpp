@@ -105,9 +105,9 @@ Result<std::string> NotesCsv(const MissionFile& mission) {
   FORESIGHT_TRY(const std::vector<NoteRecord> notes, mission.ListNotes());
   std::string csv =
       "uuid,scan,scan_uuid,object_uuid,kind,made_utc,made_by,changed_utc,changed_by,text,tags,"
-      "deleted,measurement,value,sigma,unit,points_m,plane_from\r\n";
+      "deleted,measurement,value,sigma,unit,points_m,plane_from,frame\r\n";
   for (const NoteRecord& note : notes) {
-    std::string kind, value, sigma, unit, points, plane;
+    std::string kind, value, sigma, unit, points, plane, frame;
     if (const auto measured = MeasurementFromJson(note.json); !note.json.empty() && measured) {
       const bool angle = measured->kind == MeasureKind::kAngle;
       const auto number = [angle](double x) {
@@ -121,10 +121,11 @@ Result<std::string> NotesCsv(const MissionFile& mission) {
         points += fmt::format("{}{} {} {}", points.empty() ? "" : "; ", point.position_m.x(),
                               point.position_m.y(), point.position_m.z());
       if (measured->plane) plane = measured->plane->made_from;
+      frame = ToString(measured->frame);
     }
     AddRow(csv, note.uuid, note.scan_id, note.scan_uuid, note.object_uuid, note.kind,
            UtcText(note.made_utc_ns), note.made_by, UtcText(note.utc_ns), note.author, note.text,
-           note.tags, note.deleted, kind, value, sigma, unit, points, plane);
+           note.tags, note.deleted, kind, value, sigma, unit, points, plane, frame);
   }
   return csv;
 }

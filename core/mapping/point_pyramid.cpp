@@ -230,6 +230,29 @@ std::vector<TaggedPoint> PointPyramid::Select(const PyramidView& view) const {
   return taken;
 }
 
+std::vector<TaggedPoint> PointPyramid::SelectAll(PyramidView view,
+                                                 const Eigen::AlignedBox2d& area) const {
+  // The area becomes the whole picture.
+  const Eigen::Vector2d middle = area.center(), half = 0.5 * area.sizes();
+  for (int axis = 0; axis < 2; ++axis)
+    view.clip_from_map.row(axis) =
+        ((view.clip_from_map.row(axis) - middle[axis] * view.clip_from_map.row(3)) / half[axis])
+            .eval();
+  view.budget = points_.size() + 1;
+  view.finest_px = 0.0;
+  return Select(view);
+}
+
+std::vector<TaggedPoint> PointPyramid::Within(const Eigen::AlignedBox3d& box) const {
+  PyramidView view;
+  view.clip_from_map.setZero();
+  view.clip_from_map(3, 3) = 1.0;  // everything is seen
+  view.budget = points_.size() + 1;
+  view.finest_px = 0.0;
+  view.keep = box;
+  return Select(view);
+}
+
 std::vector<TaggedPoint> PointPyramid::Coarsest(std::size_t budget) const {
   std::vector<TaggedPoint> taken;
   for (const Cube& cube : cubes_) {  // level by level

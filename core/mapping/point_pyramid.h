@@ -61,6 +61,11 @@ class PointPyramid {
   /// The points of a picture, those of the coarsest cubes first: any first n of them show all of it
   /// coarsely. O(points taken + cubes looked at).
   std::vector<TaggedPoint> Select(const PyramidView& view) const;
+  /// Every point within an area of a picture, however many they are: `view`'s budget and finest_px
+  /// are not used. Others may be among them. O(points taken + cubes looked at).
+  std::vector<TaggedPoint> SelectAll(PyramidView view, const Eigen::AlignedBox2d& area) const;
+  /// Every point in the box, in map. O(points taken + cubes).
+  std::vector<TaggedPoint> Within(const Eigen::AlignedBox3d& box) const;
   /// The whole cloud coarsely, wherever it is looked at from.
   std::vector<TaggedPoint> Coarsest(std::size_t budget) const;
 

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/geometry/angles.h"
+#include "core/geometry/frames.h"
 
 namespace foresight {
 namespace {
@@ -39,19 +41,51 @@ double ValueOf(MeasureKind kind, const std::vector<Eigen::Vector3d>& at,
   return plane->plane.Distance(at[0]) / plane->plane.normal.z();
 }
 
-/// Each point moves along its ray; what the plane is uncertain by adds to that.
+/// How much the value changes a metre where the points of `moves` are moved along `way`.
+template <class Moves>
+double SlopeOf(MeasureKind kind, const std::vector<MeasuredPoint>& points,
+               const std::vector<Eigen::Vector3d>& at, const std::optional<MeasuredPlane>& plane,
+               const Eigen::Vector3d& way, const Moves& moves) {
+  constexpr double kStep_m = 1e-4;
+  std::vector<Eigen::Vector3d> ahead = at, behind = at;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!moves(points[i])) continue;
+    ahead[i] += kStep_m * way;
+    behind[i] -= kStep_m * way;
+  }
+  return (ValueOf(kind, ahead, plane) - ValueOf(kind, behind, plane)) / (2.0 * kStep_m);
+}
+
+/// Of the places of scans in a map: all points of a scan move together. The ground of a height is
+/// that of the point's own scan, and moves with it.
+double PlacementVariance(MeasureKind kind, const std::vector<MeasuredPoint>& points,
+                         const std::vector<Eigen::Vector3d>& at,
+                         const std::optional<MeasuredPlane>& plane) {
+  if (kind == MeasureKind::kHeight) return 0.0;
+  double variance = 0.0;
+  std::set<std::string> scans;
+  for (const MeasuredPoint& point : points) {
+    if (!scans.insert(point.scan_uuid).second) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slope =
+          SlopeOf(kind, points, at, plane, Eigen::Vector3d::Unit(axis),
+                  [&](const MeasuredPoint& other) { return other.scan_uuid == point.scan_uuid; });
+      variance += std::pow(slope * point.placement_sigma_m, 2);
+    }
+  }
+  return variance;
+}
+
+/// Each point moves along its ray; what the plane is uncertain by adds to that, and what the scans'
+/// places are.
 double SigmaOf(MeasureKind kind, const std::vector<MeasuredPoint>& points,
                const std::vector<Eigen::Vector3d>& at, const std::optional<MeasuredPlane>& plane) {
-  constexpr double kStep_m = 1e-4;
-  double variance = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!std::isfinite(points[i].sigma_m)) return std::nan("");
-    std::vector<Eigen::Vector3d> ahead = at, behind = at;
-    ahead[i] += kStep_m * points[i].ray;
-    behind[i] -= kStep_m * points[i].ray;
-    const double slope =
-        (ValueOf(kind, ahead, plane) - ValueOf(kind, behind, plane)) / (2.0 * kStep_m);
-    variance += std::pow(slope * points[i].sigma_m, 2);
+  double variance = PlacementVariance(kind, points, at, plane);
+  for (const MeasuredPoint& point : points) {
+    if (!std::isfinite(point.sigma_m)) return std::nan("");
+    const double slope = SlopeOf(kind, points, at, plane, point.ray,
+                                 [&](const MeasuredPoint& other) { return &other == &point; });
+    variance += std::pow(slope * point.sigma_m, 2);
   }
   if (plane && plane->inliers > 0) variance += plane->rms_m * plane->rms_m / plane->inliers;
   return std::sqrt(variance);
@@ -82,6 +116,10 @@ const char* ToString(MeasureKind kind) {
   return "height";
 }
 
+const char* ToString(MeasureFrame frame) {
+  return frame == MeasureFrame::kMap ? "map" : frame::Robot::kName;
+}
+
 Result<MeasureKind> MeasureKindFromString(const std::string& name) {
   for (const MeasureKind kind : kMeasureKinds)
     if (name == ToString(kind)) return kind;
@@ -98,7 +136,7 @@ bool NeedsPlane(MeasureKind kind) {
 }
 
 Result<Measurement> Measure(MeasureKind kind, std::vector<MeasuredPoint> points,
-                            std::optional<MeasuredPlane> plane) {
+                            std::optional<MeasuredPlane> plane, MeasureFrame frame) {
   if (static_cast<int>(points.size()) != PointsOf(kind))
     return Fail(ErrorCode::kInvalidInput, "{} takes {} points, not {}", ToString(kind),
                 PointsOf(kind), points.size());
@@ -116,6 +154,7 @@ Result<Measurement> Measure(MeasureKind kind, std::vector<MeasuredPoint> points,
   }
   Measurement measurement;
   measurement.kind = kind;
+  measurement.frame = frame;
   measurement.value = ValueOf(kind, at, plane);
   measurement.sigma = SigmaOf(kind, points, at, plane);
   measurement.points = std::move(points);

@@ -20,6 +20,7 @@ Json PointJson(const MeasuredPoint& point) {
                {"range_m", NumberJson(point.range_m)},
                {"sigma_m", NumberJson(point.sigma_m)},
                {"ray", ToJson(point.ray)}};
+  if (point.placement_sigma_m > 0.0) json["placement_sigma_m"] = point.placement_sigma_m;
   if (point.source == MeasuredPoint::Source::kLidar) {
     json["source"] = "lidar";
     json["line"] = point.line;
@@ -46,6 +47,11 @@ MeasuredPoint PointFrom(const Json& json) {
   point.range_m = NumberFrom(json.at("range_m"));
   point.sigma_m = NumberFrom(json.at("sigma_m"));
   point.ray = PlaceFrom(json.at("ray"), "ray");
+  if (json.contains("placement_sigma_m")) {
+    point.placement_sigma_m = NumberFrom(json.at("placement_sigma_m"));
+    if (!(point.placement_sigma_m >= 0.0 && point.placement_sigma_m <= kFarthest_m))
+      throw std::invalid_argument("placement_sigma_m is no standard deviation");
+  }
   const auto source = json.at("source").get<std::string>();
   if (source == "lidar") {
     point.line = CountIn(json, "line");
@@ -68,6 +74,14 @@ Json PlaneJson(const MeasuredPlane& plane) {
           {"inliers", plane.inliers},
           {"points", plane.points},
           {"made_from", plane.made_from}};
+}
+
+/// Measurements of earlier programs name no frame.
+MeasureFrame FrameFrom(const Json& json) {
+  const auto name = json.value("frame", std::string(ToString(MeasureFrame::kRobot)));
+  for (const MeasureFrame frame : {MeasureFrame::kRobot, MeasureFrame::kMap})
+    if (name == ToString(frame)) return frame;
+  throw std::invalid_argument(fmt::format("frame '{}' is neither robot nor map", name));
 }
 
 MeasuredPlane PlaneFrom(const Json& json) {
@@ -94,6 +108,7 @@ std::string MeasurementToJson(const Measurement& measurement) {
                {"sigma", NumberJson(measurement.sigma)},
                {"unit", measurement.kind == MeasureKind::kAngle ? "rad" : "m"},
                {"label", ValueText(measurement)},
+               {"frame", ToString(measurement.frame)},
                {"points", Json::array()}};
   for (const MeasuredPoint& point : measurement.points) json["points"].push_back(PointJson(point));
   if (measurement.plane) json["plane"] = PlaneJson(*measurement.plane);
@@ -111,7 +126,7 @@ Result<Measurement> MeasurementFromJson(const std::string& text) {
     for (const Json& point : json.at("points")) points.push_back(PointFrom(point));
     std::optional<MeasuredPlane> plane;
     if (json.contains("plane")) plane = PlaneFrom(json.at("plane"));
-    auto measured = Measure(kind, std::move(points), std::move(plane));
+    auto measured = Measure(kind, std::move(points), std::move(plane), FrameFrom(json));
     if (!measured) return Fail(ErrorCode::kBadData, "measurement: {}", measured.error().message);
     return measured;
   } catch (const std::exception& error) {

@@ -15,12 +15,6 @@ constexpr double kHiddenBehind_m = 0.10;
 /// The noise is told from the returns in a box of this size.
 constexpr double kNoiseBox_m = 0.3;
 
-struct Candidate {
-  std::size_t index = 0;
-  double distance_m = 0.0;  ///< along the line of sight
-  double beside = 0.0;      ///< squared, in units of the reach
-};
-
 double SigmaAround(const RegisteredScan& cloud, const SensorRig& rig,
                    const Eigen::Vector3d& in_base) {
   BoxRoi box;
@@ -32,41 +26,51 @@ double SigmaAround(const RegisteredScan& cloud, const SensorRig& rig,
 
 }  // namespace
 
-std::optional<MeasuredPoint> PickReturn(const RegisteredScan& cloud, const SensorRig& rig,
-                                        const std::string& scan_uuid, const CloudClick& click) {
-  const Eigen::Matrix4d clip_from_base = click.clip_from_robot * rig.robot_from_base.Matrix();
-  std::vector<Candidate> candidates;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!cloud.points[i].allFinite()) continue;
-    const Eigen::Vector3d point = cloud.points[i].cast<double>();
-    const Eigen::Vector4d clip = clip_from_base * point.homogeneous();
-    if (!(clip.w() > 0.0)) continue;
-    const Eigen::Vector2d off = (clip.head<2>() / clip.w() - click.at).cwiseQuotient(click.reach);
-    if (off.squaredNorm() > 1.0) continue;
-    if (click.shown && !click.shown(rig.robot_from_base * point)) continue;
-    candidates.push_back({i, clip.w(), off.squaredNorm()});
-    nearest_m = std::min(nearest_m, clip.w());
-  }
-  const double farthest_m = nearest_m * (1.0 + kHiddenBehind) + kHiddenBehind_m;
+void ClickChoice::Offer(std::size_t index, const Eigen::Vector3d& point) {
+  const Eigen::Vector4d clip = click_.clip_from_robot * point.homogeneous();
+  if (!(clip.w() > 0.0)) return;
+  const Eigen::Vector2d off = (clip.head<2>() / clip.w() - click_.at).cwiseQuotient(click_.reach);
+  if (!(off.squaredNorm() <= 1.0)) return;
+  if (click_.shown && !click_.shown(point)) return;
+  candidates_.push_back({index, clip.w(), off.squaredNorm()});
+  nearest_m_ = std::min(nearest_m_, clip.w());
+}
+
+std::optional<std::size_t> ClickChoice::Best() const {
+  const double farthest_m = nearest_m_ * (1.0 + kHiddenBehind) + kHiddenBehind_m;
   const Candidate* best = nullptr;
-  for (const Candidate& candidate : candidates)
+  for (const Candidate& candidate : candidates_)
     if (candidate.distance_m <= farthest_m && (best == nullptr || candidate.beside < best->beside))
       best = &candidate;
-  if (best == nullptr) return std::nullopt;
-  MeasuredPoint picked;
-  picked.scan_uuid = scan_uuid;
-  picked.line = static_cast<int>(best->index / static_cast<std::size_t>(cloud.beams));
-  picked.beam = static_cast<int>(best->index % static_cast<std::size_t>(cloud.beams));
-  const Eigen::Vector3d in_base = cloud.points[best->index].cast<double>();
-  picked.position_m = rig.robot_from_base * in_base;
-  picked.range_m = static_cast<double>(cloud.range_m[best->index]);
+  return best == nullptr ? std::nullopt : std::optional(best->index);
+}
+
+MeasuredPoint ReturnAt(const RegisteredScan& cloud, const SensorRig& rig,
+                       const std::string& scan_uuid, std::size_t index) {
+  MeasuredPoint point;
+  point.scan_uuid = scan_uuid;
+  point.line = static_cast<int>(index / static_cast<std::size_t>(cloud.beams));
+  point.beam = static_cast<int>(index % static_cast<std::size_t>(cloud.beams));
+  const Eigen::Vector3d in_base = cloud.points[index].cast<double>();
+  point.position_m = rig.robot_from_base * in_base;
+  point.range_m = static_cast<double>(cloud.range_m[index]);
   const Eigen::Vector3d origin =
       cloud.origins.empty() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                            : cloud.origins[static_cast<std::size_t>(picked.line)].cast<double>();
-  picked.ray = rig.robot_from_base.Rotate((in_base - origin).normalized());
-  picked.sigma_m = SigmaAround(cloud, rig, in_base);
-  return picked;
+                            : cloud.origins[static_cast<std::size_t>(point.line)].cast<double>();
+  point.ray = rig.robot_from_base.Rotate((in_base - origin).normalized());
+  point.sigma_m = SigmaAround(cloud, rig, in_base);
+  return point;
+}
+
+std::optional<MeasuredPoint> PickReturn(const RegisteredScan& cloud, const SensorRig& rig,
+                                        const std::string& scan_uuid, const CloudClick& click) {
+  ClickChoice choice(click);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (cloud.points[i].allFinite())
+      choice.Offer(i, rig.robot_from_base * cloud.points[i].cast<double>());
+  const auto best = choice.Best();
+  if (!best) return std::nullopt;
+  return ReturnAt(cloud, rig, scan_uuid, *best);
 }
 
 std::optional<MeasuredPoint> PickDepth(const DepthImage& depth_m, const MaskImage* mask,

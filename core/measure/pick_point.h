@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,9 +27,35 @@ struct CloudClick {
   std::function<bool(const Eigen::Vector3d&)> shown = nullptr;
 };
 
+/// Chooses the point that a click means among those that are offered one after the other: the
+/// nearest to the click of those that nothing in front of them within reach hides.
+class ClickChoice {
+ public:
+  explicit ClickChoice(const CloudClick& click) : click_(click) {}
+  /// `point` in the frame that the click looks at. A point out of reach, or not shown, is passed
+  /// over.
+  void Offer(std::size_t index, const Eigen::Vector3d& point);
+  /// The index of the chosen one; nullopt where none is within reach.
+  std::optional<std::size_t> Best() const;
+
+ private:
+  struct Candidate {
+    std::size_t index = 0;
+    double distance_m = 0.0;  ///< along the line of sight
+    double beside = 0.0;      ///< squared, in units of the reach
+  };
+  const CloudClick& click_;
+  std::vector<Candidate> candidates_;
+  double nearest_m_ = std::numeric_limits<double>::infinity();
+};
+
+/// The return at a place of the grid as a point in robot. Its sigma is that of the ranges around
+/// it, where enough neighbours tell. @pre the return is there. O(points).
+MeasuredPoint ReturnAt(const RegisteredScan& cloud, const SensorRig& rig,
+                       const std::string& scan_uuid, std::size_t index);
+
 /// The return nearest to the click among those that nothing in front of them within reach hides;
-/// nullopt where none is within reach. Its sigma is that of the ranges around it, where enough
-/// neighbours tell. O(points).
+/// nullopt where none is within reach. O(points).
 std::optional<MeasuredPoint> PickReturn(const RegisteredScan& cloud, const SensorRig& rig,
                                         const std::string& scan_uuid, const CloudClick& click);
 

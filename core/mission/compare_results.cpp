@@ -280,6 +280,10 @@ Result<ResultComparison> CompareResults(const ComparedResult& first, const Compa
   comparison.second_scan = second.scan_uuid;
   comparison.notes = first.notes;
   comparison.notes.insert(comparison.notes.end(), second.notes.begin(), second.notes.end());
+  if (first.scan_uuid != second.scan_uuid)
+    comparison.notes.push_back(
+        "A and B are two scans: each counts in its own robot's frame, as if the robot had stood at "
+        "one place. Make a map of both to bring them together");
   const bool one_image = first.scan_uuid == second.scan_uuid && first.image == second.image &&
                          first.depth && second.depth &&
                          first.depth->mask.SameSize(second.depth->mask);

@@ -219,6 +219,15 @@ Result<std::vector<DetectionRecord>> DetectionsOfScan(const MissionFile& mission
   return all;
 }
 
+Result<std::vector<NoteRecord>> NotesOfMission(const MissionFile& mission,
+                                               const MissionFile* review) {
+  FORESIGHT_TRY(std::vector<NoteRecord> notes, mission.ListNotes());
+  if (review == nullptr) return notes;
+  FORESIGHT_TRY(const std::vector<NoteRecord> later, review->ListNotes());
+  notes.insert(notes.end(), later.begin(), later.end());
+  return CurrentNotes(notes);
+}
+
 Result<DepthOptions> OriginalDepthOptions(const MissionFile& mission, std::int64_t scan_id,
                                           std::int64_t image_position) {
   FORESIGHT_TRY(const std::vector<DepthRecord> depths, mission.ListDepths(scan_id));

@@ -65,6 +65,11 @@ Result<std::vector<DetectionRecord>> DetectionsOfScan(const MissionFile& mission
                                                       const MissionFile* review,
                                                       const std::string& scan_uuid);
 
+/// The mission's notes and those of its review, which may be nullptr, as they stand now: what a
+/// review says of a note counts more. Deleted ones are among them.
+Result<std::vector<NoteRecord>> NotesOfMission(const MissionFile& mission,
+                                               const MissionFile* review);
+
 /// What a mission's own depth map of the image was made with; the default method's options where
 /// it keeps none. A map of another image of the scan counts where there is none of this one.
 Result<DepthOptions> OriginalDepthOptions(const MissionFile& mission, std::int64_t scan_id,

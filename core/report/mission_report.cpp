@@ -13,6 +13,7 @@
 #include "core/detection/facts.h"
 #include "core/geometry/angles.h"
 #include "core/io/png.h"
+#include "core/measure/measurement_json.h"
 #include "core/mission/provenance.h"
 #include "core/mission/side_result.h"
 #include "core/options/option_text.h"
@@ -50,9 +51,19 @@ struct ReportedScan {
   Scan scan;
   std::vector<ReportedObject> objects;
   std::vector<SideResult> side_results;
+  std::vector<NoteRecord> notes;
   std::int64_t image = -1;  ///< that is shown
   DepthOptions options;
 };
+
+/// Those about a scan, or with an empty uuid those about the mission; without the deleted ones.
+Result<std::vector<NoteRecord>> NotesAbout(const std::string& scan_uuid, const MissionFile& mission,
+                                           const MissionFile* review) {
+  FORESIGHT_TRY(std::vector<NoteRecord> notes, NotesOfMission(mission, review));
+  std::erase_if(
+      notes, [&](const NoteRecord& note) { return note.deleted || note.scan_uuid != scan_uuid; });
+  return notes;
+}
 
 /// The image that most objects were found in; where none was, the nearest to the scope's middle.
 std::int64_t ImageToShow(const ReportedScan& reported) {
@@ -90,6 +101,7 @@ Result<ReportedScan> Read(const MissionFile& mission, const MissionFile* review,
         {record, std::move(*detection), provenance ? std::optional(*provenance) : std::nullopt});
   }
   FORESIGHT_TRY(reported.side_results, SideResultsOf(mission, review, summary.uuid));
+  FORESIGHT_TRY(reported.notes, NotesAbout(summary.uuid, mission, review));
   reported.image = ImageToShow(reported);
   FORESIGHT_TRY(reported.options, OriginalDepthOptions(mission, summary.id, reported.image));
   return reported;
@@ -189,6 +201,19 @@ Table SideResultsTable(const ReportedScan& reported) {
   return table;
 }
 
+Table NotesTable(const std::vector<NoteRecord>& notes) {
+  Table table{"Notes and measurements", {}, {"what", "text", "tags", "by", "time (UTC)"}};
+  for (const NoteRecord& note : notes) {
+    const auto measured = MeasurementFromJson(note.json);
+    std::string what = measured ? ToString(measured->kind) : note.kind;
+    if (measured && measured->frame == MeasureFrame::kMap) what += " in a map";
+    std::string text = note.text;
+    if (measured) text += (text.empty() ? "" : ": ") + ValueText(*measured);
+    table.rows.push_back({what, text, {note.tags, note.made_by, UtcText(note.made_utc_ns)}});
+  }
+  return table;
+}
+
 /// What makes the pictures of one scan and puts them into the folder.
 class Pictures {
  public:
@@ -283,6 +308,7 @@ Result<HtmlReport::Section> SectionOf(const ReportedScan& reported,
   if (!reported.objects.empty()) section.tables.push_back(ObjectsTable(reported));
   for (std::size_t i = 0; i < reported.objects.size(); ++i)
     section.tables.push_back(ObjectTable(reported.objects[i], reported.scan.rig, i + 1));
+  if (!reported.notes.empty()) section.tables.push_back(NotesTable(reported.notes));
   if (!reported.side_results.empty()) section.tables.push_back(SideResultsTable(reported));
   section.tables.push_back(SettingsTable(reported.options));
   files.objects += static_cast<int>(reported.objects.size());
@@ -355,6 +381,8 @@ Result<MissionReportFiles> WriteMissionReport(const MissionFile& mission, const 
   report.title =
       options.scan ? fmt::format("Scan {} of {}", *options.scan, name) : "Mission " + name;
   report.tables = {MissionTable(mission, review, scans, shown), ScansTable(shown)};
+  FORESIGHT_TRY(const std::vector<NoteRecord> notes, NotesAbout({}, mission, review));
+  if (!notes.empty()) report.tables.push_back(NotesTable(notes));
   const double all = static_cast<double>(shown.size());
   for (const ScanSummary& scan : shown) {
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the report was cancelled");

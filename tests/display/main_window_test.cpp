@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 #include <qtadvanceddocking/DockWidget.h>
+#include <vtkCommand.h>
+#include <vtkRenderWindow.h>
 
 #include <QApplication>
 #include <QComboBox>
@@ -490,6 +492,46 @@ TEST_F(Workstation, AnAgeThatGrowsIsDrawnAlone) {
   running->Settle();
   EXPECT_GE(counter.Paints(), 1) << "the caption is in sight; the card's age may be scrolled out";
   EXPECT_LE(counter.Paints(), 4) << counter.Widgets();
+}
+
+/// How often a canvas makes a picture while this lives.
+class RenderCounter {
+ public:
+  explicit RenderCounter(VtkCanvas* canvas) : window_(canvas->renderWindow()) {
+    tag_ = window_->AddObserver(vtkCommand::StartEvent, this, &RenderCounter::Count);
+  }
+  ~RenderCounter() { window_->RemoveObserver(tag_); }
+  int Renders() const { return renders_; }
+
+ private:
+  void Count() { ++renders_; }
+
+  vtkSmartPointer<vtkRenderWindow> window_;
+  unsigned long tag_ = 0;
+  int renders_ = 0;
+};
+
+TEST_F(Workstation, NothingIsDrawnUnderAHint) {
+  SessionModel& session = running->bench().live.session;
+  const auto scan = session.CurrentScan();
+  running->Settle();
+  const RenderCounter cloud(running->window().Cloud()->Canvas());
+  const RenderCounter depth(running->window().Depth()->Canvas());
+  session.ExpectScan();
+  running->Settle();
+  ASSERT_TRUE(running->window().Cloud()->HintShown());
+  ASSERT_TRUE(running->window().Depth()->HintShown());
+  EXPECT_EQ(cloud.Renders(), 0) << "the old cloud, half a million points";
+  EXPECT_EQ(depth.Renders(), 0);
+  session.SetScan(scan);
+  ASSERT_TRUE(WaitFor([&] { return session.Depth() && running->bench().Idle(); }, 60'000));
+  running->Settle();
+  EXPECT_GE(cloud.Renders(), 1);
+  EXPECT_LE(cloud.Renders(), 2) << "its points, and what is drawn over them";
+  EXPECT_GE(depth.Renders(), 1);
+  EXPECT_LE(depth.Renders(), 2);
+  EXPECT_GT(FractionOf(DepthPixels(), IsColoured), 0.2);
+  EXPECT_GT(FractionOf(CloudPixels(), IsColoured), 0.05);
 }
 
 TEST_F(Workstation, TheGuiThreadNeverStallsForLongDuringAScan) {

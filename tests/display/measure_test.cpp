@@ -163,6 +163,47 @@ TEST_F(Workstation, TheClipBoxHidesWhatIsOutsideUntilItIsSwitchedOff) {
   EXPECT_NEAR(FractionOf(CloudPixels(), IsColoured), whole, 0.01);
 }
 
+/// Makes the map of all scans and waits until the cloud shows it.
+bool ShowMap() {
+  if (!Workstation::running->bench().commands.Run("map.make")) return false;
+  CloudPane* pane = Workstation::running->window().Cloud();
+  const bool shown = WaitFor([pane] {
+    return !Workstation::running->bench().live.map.Busy() &&
+           pane->Caption().contains(QStringLiteral("map frame"));
+  });
+  Workstation::running->Settle();
+  return shown;
+}
+
+TEST_F(Workstation, TwoClicksInAMapAreADistanceThatIsDrawnWhileTheMapIsShown) {
+  const MeasureCleanUp clean_up;
+  Cloud()->ResetView();
+  running->Settle();
+  const auto [a, b] = TwoPlaces();  // the first scan is the map's frame
+  const QImage scan_alone = CloudPixels();
+  ASSERT_TRUE(ShowMap());
+  const QImage before = CloudPixels();
+  ASSERT_TRUE(running->bench().commands.Run("measure.distance"));
+  ClickAt(Cloud(), Cloud()->WidgetFromRobot(a));
+  ASSERT_EQ(running->bench().live.measure.Points().size(), 1u);
+  ClickAt(Cloud(), Cloud()->WidgetFromRobot(b));
+  running->Settle();
+  ASSERT_EQ(Session().Notes()->All().size(), 1u);
+  const ShownNote& note = Session().Notes()->All()[0];
+  EXPECT_EQ(note.measurement->frame, MeasureFrame::kMap);
+  EXPECT_EQ(note.record.scan_uuid, "") << "it is of the mission";
+  EXPECT_NEAR(note.measurement->value, (a - b).norm(), 0.03);
+  EXPECT_GT(FractionOfChanges(before, CloudPixels()), 0.001) << "line and label are drawn";
+  running->bench().live.measure.leave();
+  // Of the scan alone they are no part.
+  running->bench().live.map.clear();
+  CloudPane* pane = running->window().Cloud();
+  ASSERT_TRUE(WaitFor([pane] { return pane->Caption().contains(QStringLiteral("robot frame")); }));
+  running->Settle();
+  EXPECT_LT(FractionOfChanges(scan_alone, CloudPixels()), 0.0005);
+  EXPECT_EQ(Session().Notes()->All().size(), 1u);
+}
+
 TEST_F(Workstation, AMapIsShownInTheColoursOfItsScansAndLeavesTheScanAlone) {
   const MeasureCleanUp clean_up;
   const auto of_first_scan = [](const QColor& color) { return IsNear(color, ColorOfScan(0)); };
@@ -181,10 +222,6 @@ TEST_F(Workstation, AMapIsShownInTheColoursOfItsScansAndLeavesTheScanAlone) {
   auto* panel = PanelInSight<MapPanel>();
   ASSERT_NE(panel, nullptr);
   EXPECT_EQ(panel->Scans()->count(), static_cast<int>(running->bench().recording.Scans().size()));
-  // Nothing is measured in a map.
-  running->bench().live.measure.SetKind(MeasureKind::kPoint);
-  ClickAt(Cloud(), Cloud()->rect().center());
-  EXPECT_TRUE(Session().Notes()->All().empty());
   running->bench().live.map.clear();
   ASSERT_TRUE(WaitFor([pane] { return pane->Caption().contains(QStringLiteral("robot frame")); }));
   running->Settle();

@@ -159,6 +159,35 @@ TEST_F(ReplayTest, TheSpeedCountsInRealTimeFromAQuarterTo64Times) {
   EXPECT_EQ(replay.Speed(), 0.25);
 }
 
+TEST_F(ReplayTest, IdleTimeIsSkippedUnlessItIsSwitchedOff) {
+  // The warning is the last event before the second scan, most of a minute later.
+  const std::int64_t last = timeline.Marks().PreviousTime(mission.SecondBegin());
+  ASSERT_GT(mission.SecondBegin() - last, 30 * kSecond_ns);
+  const auto play_after_the_last = [&] {
+    replay.pause();
+    EXPECT_TRUE(Seek(last));
+    replay.play();
+    replay.Advance(0.5);
+    EXPECT_LT(replay.Now(), last + kSecond_ns) << "what happened last is looked at";
+    replay.Advance(1.0);
+    replay.pause();
+    return replay.Now();
+  };
+  EXPECT_TRUE(replay.SkipsIdle());
+  EXPECT_NEAR(static_cast<double>(play_after_the_last() - mission.SecondBegin()), -0.5e9, 3e8);
+  replay.toggleSkipsIdle();
+  EXPECT_NEAR(static_cast<double>(play_after_the_last() - last), 1.5e9, 3e8);
+}
+
+TEST_F(ReplayTest, ASweepIsNoIdleTime) {
+  ASSERT_TRUE(Seek(mission.SecondBegin() + kSecond_ns * 11 / 10));
+  replay.play();
+  replay.SetSpeed(0.25);
+  replay.Advance(0.4);
+  EXPECT_NEAR(static_cast<double>(replay.Now() - mission.SecondBegin()), 1.2e9, 0.1e9)
+      << "a second after its begin and half a second before its end";
+}
+
 TEST_F(ReplayTest, PausedTheMomentStays) {
   replay.play();
   ASSERT_TRUE(WaitFor([&] { return replay.Now() > AfterBegin(0.2); }));

@@ -4,6 +4,8 @@
 #include <QTemporaryDir>
 #include <fstream>
 
+#include "core/geometry/angles.h"
+#include "core/simulation/simulate_scan.h"
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
 #include "ui/viewmodels/clip_box_model.h"
@@ -58,7 +60,7 @@ TEST_F(MapTest, TheScansOfAMissionComeTogetherInTheBackground) {
   EXPECT_EQ(map.Map()->pyramid.size(), returns);
 }
 
-TEST_F(MapTest, AFileOfOdometrySaysWhereTheScansBeginAndABadOneIsNamed) {
+TEST_F(MapTest, AFileOfOdometryThatIsFarOffLeavesAScanOutAndABadFileIsNamed) {
   const QString csv = folder.filePath("robot.csv");
   const auto write = [&csv](const char* rows) {
     std::ofstream(csv.toStdString()) << "scan,x_m,y_m,z_m,qw,qx,qy,qz\n" << rows;
@@ -69,20 +71,62 @@ TEST_F(MapTest, AFileOfOdometrySaysWhereTheScansBeginAndABadOneIsNamed) {
   ASSERT_TRUE(Settled());
   ASSERT_NE(map.Map(), nullptr);
   EXPECT_FALSE(map.Map()->map.scans[1].place.InMap());
-  write("1,0,0,0,1,0,0,0\n2,0.03,0.02,0,1,0,0,0\n");
-  map.Make(path, csv);
-  ASSERT_TRUE(Settled());
-  ASSERT_TRUE(map.Map()->map.scans[1].place.InMap());
-  // The wall holds a scan in its normal only: along it the valve alone does.
-  EXPECT_LT(map.Map()->map.scans[1].place.map_from_robot.translation().norm(),
-            std::hypot(0.03, 0.02))
-      << "nearer to the truth than the file says";
   write("1,0,0,0,0,0,0,0\n");
   map.Make(path, csv);
   ASSERT_TRUE(Settled());
   ASSERT_FALSE(notices.empty());
   EXPECT_THAT((notices.back().what + notices.back().next).toStdString(),
               HasSubstr("robot.csv:2: the quaternion"));
+}
+
+/// A sweep of the room by a robot that stands elsewhere than the scene's own.
+Scan RoomFrom(const Rigid<frame::Map, frame::Robot>& standpoint, std::uint64_t seed) {
+  const auto room = std::make_shared<const Scene>(
+      LoadScene(FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml").value());
+  SensorRig rig = DefaultSensorRig();
+  const auto mounted = rig.robot_from_base;
+  // To the simulation the standpoint is another mounting of the head.
+  rig.robot_from_base =
+      Rigid<frame::Robot, frame::Robot>(standpoint.rotation(), standpoint.translation()) * mounted;
+  WorldOptions options;
+  options.seed = seed;
+  const World world(room, rig, options);
+  ScanPlan plan;
+  plan.from_rad = RadiansFromDegrees(-40.0);
+  plan.to_rad = RadiansFromDegrees(40.0);
+  plan.speed_rad_s = RadiansFromDegrees(16.0);
+  Scan scan = SimulateSweep(world, plan, {}).value();
+  scan.uuid = NewUuid();
+  scan.rig.robot_from_base = mounted;
+  scan.rig.angle_correction = world.CalibratedCorrection();
+  return scan;
+}
+
+TEST_F(MapTest, TwoScansOfARoomComeTogetherFromOdometryThatIs50MillimetresAnd3DegreesOff) {
+  const Rigid<frame::Map, frame::Robot> truth(
+      Eigen::Quaterniond(Eigen::AngleAxisd(RadiansFromDegrees(10.0), Eigen::Vector3d::UnitZ())),
+      Eigen::Vector3d(0.4, 0.3, 0.0));
+  const QString room = folder.filePath("room.foresight"), csv = folder.filePath("robot.csv");
+  {
+    const auto file = MissionFile::Create(room.toStdString()).value();
+    ASSERT_TRUE(AppendScan(file.get(), RoomFrom({}, 21), {}));
+    ASSERT_TRUE(AppendScan(file.get(), RoomFrom(truth, 22), {}));
+  }
+  const Eigen::Vector3d way(0.6, -0.64, 0.48);  // of length 1
+  const Eigen::Vector3d axis(0.48, 0.6, 0.64);  // likewise
+  const Eigen::Vector3d t = truth.translation() + 0.050 * way;
+  const Eigen::Quaterniond q(truth.rotation() * Eigen::AngleAxisd(RadiansFromDegrees(3.0), axis));
+  std::ofstream(csv.toStdString())
+      << fmt::format("scan,x_m,y_m,z_m,qw,qx,qy,qz\n1,0,0,0,1,0,0,0\n2,{},{},{},{},{},{},{}\n",
+                     t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
+  map.Make(room, csv);
+  ASSERT_TRUE(WaitFor([&] { return !map.Busy(); }, 120'000));
+  ASSERT_NE(map.Map(), nullptr) << (notices.empty() ? "" : notices[0].next.toStdString());
+  const MapPlace& place = map.Map()->map.scans.at(1).place;
+  ASSERT_TRUE(place.InMap()) << place.failure;
+  EXPECT_LT((place.map_from_robot.translation() - truth.translation()).norm(), 0.005);
+  EXPECT_LT(DegreesFromRadians(place.map_from_robot.rotation().angularDistance(truth.rotation())),
+            0.1);
 }
 
 TEST_F(MapTest, NothingHasChangedBetweenTwoScansOfTheSame) {

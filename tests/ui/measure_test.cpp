@@ -21,7 +21,8 @@ struct MeasureTest : testing::Test {
       WallAndValveScan({.from_rad = -0.3, .to_rad = 0.3, .speed_rad_s = 0.4}));
   TaskQueue tasks;
   SessionModel session{SessionMode::kReplay, &tasks};
-  MeasureViewModel measure{&session};
+  MapViewModel map{&session};
+  MeasureViewModel measure{&session, &map};
   std::vector<Notice> notices;
   std::vector<NoteRecord> kept;
   std::shared_ptr<const RegisteredScan> cloud;
@@ -213,12 +214,92 @@ TEST_F(MeasureTest, ChoosingOneAsksForItsPlaceAndItsScan) {
   Eigen::Vector3d wanted = Eigen::Vector3d::Zero();
   QString scan_wanted;
   QObject::connect(session.Notes(), &NotesModel::centreWanted,
-                   [&](const Eigen::Vector3d& place) { wanted = place; });
+                   [&](const Eigen::Vector3d& place, MeasureFrame) { wanted = place; });
   QObject::connect(session.Notes(), &NotesModel::scanWanted,
                    [&](const QString& uuid) { scan_wanted = uuid; });
   session.Notes()->Select(Notes()[0].record.uuid);
   EXPECT_LT((wanted - InRobot(20, 500)).norm(), 1e-5);
   EXPECT_EQ(scan_wanted.toStdString(), scan->uuid);
+}
+
+/// A map of the mission with the scan twice, which the cloud shows.
+struct MeasureInMapTest : MeasureTest {
+  QTemporaryDir folder;
+  QString path = folder.filePath("m.foresight");
+
+  void SetUp() override {
+    {
+      const auto file = MissionFile::Create(path.toStdString()).value();
+      for (int i = 0; i < 2; ++i) {
+        Scan copy = *scan;
+        if (i > 0) copy.uuid = NewUuid();
+        ASSERT_TRUE(AppendScan(file.get(), copy, {}));
+      }
+    }
+    map.Make(path);
+    ASSERT_TRUE(WaitFor([&] { return !map.Busy(); }));
+    ASSERT_NE(map.Map(), nullptr);
+    map.SetShown(true);
+  }
+};
+
+TEST_F(MeasureInMapTest, AClickTakesAPointOfTheMapAndItIsKeptWithTheMission) {
+  measure.SetKind(MeasureKind::kDistance);
+  Click(20, 480);
+  ASSERT_EQ(measure.Points().size(), 1u);
+  EXPECT_EQ(measure.Frame(), MeasureFrame::kMap);
+  Click(20, 600);
+  ASSERT_EQ(Notes().size(), 1u);
+  EXPECT_EQ(Notes()[0].record.scan_uuid, "");
+  EXPECT_EQ(Notes()[0].measurement->frame, MeasureFrame::kMap);
+  EXPECT_NEAR(Notes()[0].measurement->value, (InRobot(20, 480) - InRobot(20, 600)).norm(), 0.005)
+      << "the second scan lies within some millimetres over the first";
+  EXPECT_THAT(DetailsOf(Notes()[0]).toStdString(), HasSubstr("m in the map's frame: line "));
+  ASSERT_EQ(kept.size(), 1u);
+}
+
+TEST_F(MeasureInMapTest, APlaneIsMadeOfTheReturnsOfAllScans) {
+  measure.SetKind(MeasureKind::kPlaneDistance);
+  Click(static_cast<int>(cloud->lines / 2), 700);
+  ASSERT_TRUE(measure.PlaneSoFar()) << (notices.empty() ? "" : notices[0].what.toStdString());
+  map.SetShown(false);
+  EXPECT_FALSE(measure.PlaneSoFar()) << "it is of the map";
+  Click(static_cast<int>(cloud->lines / 2), 700);
+  const int of_one_scan = measure.PlaneSoFar().value().points;
+  measure.back();
+  map.SetShown(true);
+  Click(static_cast<int>(cloud->lines / 2), 700);
+  EXPECT_GT(measure.PlaneSoFar().value().points, 1.8 * of_one_scan);
+}
+
+TEST_F(MeasureInMapTest, PointsOfTheMapAndOfADepthMapDoNotGoTogether) {
+  auto depth = std::make_shared<DepthResult>();
+  const CameraModel& camera = scan->rig.camera;
+  depth->dense.depth_m = DepthImage(camera.width, camera.height, 2.0f);
+  depth->mask = MaskImage(camera.width, camera.height, 255);
+  session.SetDepth(depth);
+  measure.SetKind(MeasureKind::kDistance);
+  Click(20, 480);
+  measure.ClickInImage({320, 240});
+  EXPECT_EQ(measure.Points().size(), 1u);
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(notices[0].what, "What was clicked before is in the map.");
+  measure.back();
+  measure.ClickInImage({320, 240});
+  EXPECT_EQ(measure.Points().size(), 1u);
+  Click(20, 480);
+  EXPECT_EQ(measure.Points().size(), 1u);
+  EXPECT_EQ(notices.back().what, "What was clicked before is in a scan.");
+}
+
+TEST_F(MeasureInMapTest, AnotherScanOnTheScreenLeavesThePointsOfTheMap) {
+  measure.SetKind(MeasureKind::kDistance);
+  Click(20, 480);
+  session.SetScan(std::make_shared<const Scan>(
+      WallAndValveScan({.from_rad = -0.01, .to_rad = 0.01, .speed_rad_s = 0.4})));
+  EXPECT_EQ(measure.Points().size(), 1u);
+  map.clear();
+  EXPECT_TRUE(measure.Points().empty()) << "the map is gone";
 }
 
 TEST_F(MeasureTest, InReviewTheyAreKeptBesideTheMissionWhichStaysAsItIs) {

@@ -7,6 +7,7 @@
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
 #include "ui/viewmodels/mission_objects.h"
+#include "ui/viewmodels/review_check_flow.h"
 
 namespace foresight {
 namespace {
@@ -97,6 +98,21 @@ TEST_F(ReviewTest, AFileThatIsNoMissionIsReportedAndChangesNothing) {
   ASSERT_EQ(notices.size(), 1u);
   EXPECT_EQ(notices[0].level, Notice::Level::kError);
   EXPECT_EQ(review.Path(), path);
+}
+
+TEST_F(ReviewTest, ACheckThatWasNeverKeptIsLookedForOnce) {
+  ScanCheckModel check(&session);
+  ReviewCheckFlow flow(&review, &session, &check);
+  review.Open(path);
+  ASSERT_TRUE(WaitFor([&] { return !review.Busy() && tasks.Idle(); }));
+  EXPECT_EQ(flow.ReadCount(), 1);
+  EXPECT_EQ(check.Now(), ScanCheckModel::State::kNotChecked);
+  session.AddObject(Valve());  // keeping it changes the review, before and after
+  ASSERT_TRUE(WaitFor([&] { return !review.Busy() && tasks.Idle(); }));
+  EXPECT_EQ(flow.ReadCount(), 1);
+  review.Open(path);  // asked for anew it is looked for anew: somebody may have checked meanwhile
+  ASSERT_TRUE(WaitFor([&] { return !review.Busy() && tasks.Idle(); }));
+  EXPECT_EQ(flow.ReadCount(), 2);
 }
 
 }  // namespace

@@ -13,6 +13,12 @@ QString MapViewModel::WhyNoMap() const {
   return Busy() ? tr("A map is being made.") : QString();
 }
 
+void MapViewModel::SetShown(bool shown) {
+  if (shown == shown_) return;
+  shown_ = shown;
+  Q_EMIT shownChanged();
+}
+
 void MapViewModel::Make(const QString& mission, const QString& odometry_file) {
   const auto work = [path = mission.toStdString(), poses = odometry_file.toStdString()](
                         const RunContext& context) -> Result<std::shared_ptr<const ShownMap>> {
@@ -87,6 +93,7 @@ void MapViewModel::clear() {
   mission_.clear();
   changes_.clear();
   changes_text_.clear();
+  SetShown(false);
   Q_EMIT changed();
 }
 

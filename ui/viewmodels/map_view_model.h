@@ -30,6 +30,9 @@ class MapViewModel : public QObject {
   /// The file it was made from; empty while there is none.
   QString Mission() const { return mission_; }
   bool Busy() const { return runner_.Busy(); }
+  /// Whether the cloud shows the map: a click there means a point of it then.
+  bool Shown() const { return shown_ && map_ != nullptr; }
+  void SetShown(bool shown);
   /// Brings all scans of the mission together, from where a file of the robot's odometry says that
   /// it stood (LoadMapOdometry); without one each is looked for where the last one was.
   void Make(const QString& mission, const QString& odometry_file = {});
@@ -54,12 +57,14 @@ class MapViewModel : public QObject {
   void changed();
   void made();  ///< there is a new map, which is to be shown
   void centreWanted(const Eigen::Vector3d& place);
+  void shownChanged();
 
  private:
   SessionModel* session_;
   TaskRunner runner_{session_->Tasks()};
   std::shared_ptr<const ShownMap> map_;
   QString mission_;
+  bool shown_ = false;
   std::vector<ScanChange> changes_;
   QString changes_text_;
 };

@@ -1,21 +1,37 @@
 #include "ui/viewmodels/measure_view_model.h"
 
-#include "core/measure/ground.h"
 #include "core/measure/measurement_json.h"
 
 namespace foresight {
 
-MeasureViewModel::MeasureViewModel(SessionModel* session, QObject* parent)
-    : QObject(parent), session_(session) {
+MeasureViewModel::MeasureViewModel(SessionModel* session, MapViewModel* map, QObject* parent)
+    : QObject(parent), session_(session), map_(map) {
   // Points of another scan do not go together with those of this one.
   connect(session_, &SessionModel::scanChanged, this, [this] {
-    if (points_.empty() && !plane_) return;
+    if (!Begun() || frame_ == MeasureFrame::kMap) return;
     const std::string uuid = session_->ShownScan() ? session_->ShownScan()->uuid : std::string();
-    if (!points_.empty() && points_.front().scan_uuid == uuid) return;
-    points_.clear();
-    plane_.reset();
-    Q_EMIT changed();
+    if (points_.empty() || points_.front().scan_uuid != uuid) DropPoints();
   });
+  // Nor do those of another map.
+  for (auto signal : {&MapViewModel::shownChanged, &MapViewModel::made})
+    connect(map_, signal, this, [this] {
+      if (Begun() && frame_ == MeasureFrame::kMap) return DropPoints();
+      Q_EMIT changed();  // other measurements are drawn
+    });
+}
+
+const MissionMap* MeasureViewModel::ShownMapOrNull() const {
+  return map_->Shown() ? &map_->Map()->map : nullptr;
+}
+
+std::unique_ptr<MeasureSource> MeasureViewModel::InCloud() const {
+  return map_->Shown() ? SourceInMap(map_->Map(), *session_) : SourceInScan(*session_);
+}
+
+void MeasureViewModel::DropPoints() {
+  points_.clear();
+  plane_.reset();
+  Q_EMIT changed();
 }
 
 void MeasureViewModel::SetKind(MeasureKind kind) {
@@ -75,24 +91,37 @@ void MeasureViewModel::Refuse(const QString& what, const QString& next) {
   session_->Report({Notice::Level::kInfo, what, next});
 }
 
+bool MeasureViewModel::GoesWithPoints(MeasureFrame frame) {
+  if (!Begun() || frame == frame_) return true;
+  if (frame_ == MeasureFrame::kMap)
+    Refuse(tr("What was clicked before is in the map."),
+           tr("Click in the map, or take the point back (Backspace)."));
+  else
+    Refuse(tr("What was clicked before is in a scan."),
+           tr("Click in the image, or take the point back (Backspace)."));
+  return false;
+}
+
 void MeasureViewModel::ClickInCloud(const CloudClick& click) {
-  if (!on_ || !session_->Cloud() || !session_->ShownScan()) return;
-  const auto picked =
-      PickReturn(*session_->Cloud(), session_->Rig(), session_->ShownScan()->uuid, click);
+  const auto source = InCloud();
+  if (!on_ || !source || !GoesWithPoints(source->Frame())) return;
+  const auto picked = source->Pick(click);
   if (!picked) {
     Refuse(tr("Nothing was measured there."), tr("Click a point of the lidar."));
     return;
   }
-  Take(*picked);
+  Take(*picked, *source);
 }
 
 void MeasureViewModel::ClickInImage(const Eigen::Vector2d& pixel) {
   const CameraFrame* frame = session_->CurrentImage();
   if (!on_ || frame == nullptr) return;
-  if (!session_->Depth()) {
+  const auto source = SourceInScan(*session_);
+  if (!session_->Depth() || !source) {
     Refuse(tr("There is no depth map to measure in yet."), tr("Click in the cloud."));
     return;
   }
+  if (!GoesWithPoints(source->Frame())) return;
   const auto picked =
       PickDepth(session_->Depth()->dense.depth_m, session_->Mask().get(), *frame,
                 session_->ShownScan()->rig, session_->ShownScan()->uuid, session_->ImageIndex(),
@@ -102,7 +131,7 @@ void MeasureViewModel::ClickInImage(const Eigen::Vector2d& pixel) {
            tr("Click where the depth map is not hatched."));
     return;
   }
-  Take(*picked);
+  Take(*picked, *source);
 }
 
 void MeasureViewModel::ClickInSecondMap() {
@@ -110,35 +139,30 @@ void MeasureViewModel::ClickInSecondMap() {
          tr("Click left of the line, or end the comparison."));
 }
 
-void MeasureViewModel::Take(MeasuredPoint point) {
+void MeasureViewModel::Take(MeasuredPoint point, const MeasureSource& source) {
   if (WantsPlane()) {
     const double radius_m = MeasuredPlaneOptions().radius_m;
-    if (!session_->Cloud()) return;
-    TakePlane(ReturnsWithin(*session_->Cloud(), session_->Rig(), point.position_m, radius_m),
-              tr("the returns within %1 mm of the click").arg(1e3 * radius_m, 0, 'f', 0));
+    TakePlane(source.Around(point.position_m, radius_m),
+              tr("the returns within %1 mm of the click").arg(1e3 * radius_m, 0, 'f', 0), source);
     return;
   }
+  frame_ = source.Frame();
   points_.push_back(std::move(point));
-  if (static_cast<int>(points_.size()) == PointsOf(kind_)) Finish();
+  if (static_cast<int>(points_.size()) == PointsOf(kind_)) Finish(source);
   Q_EMIT changed();
 }
 
 void MeasureViewModel::DrawPlane(const CloudRectangle& rectangle) {
-  if (!WantsPlane() || !session_->Cloud()) return;
-  const SensorRig& rig = session_->Rig();
-  const auto box =
-      BoxUnder(rectangle, session_->Cloud()->points.span(), rig.robot_from_base, nullptr);
-  std::vector<Eigen::Vector3d> points;
-  if (box)
-    for (const Eigen::Vector3f& point : session_->Cloud()->points.span())
-      if (point.allFinite() && box->Contains(point.cast<double>()))
-        points.push_back(rig.robot_from_base * point.cast<double>());
-  TakePlane(points, tr("the returns in the box that was drawn"));
+  const auto source = InCloud();
+  if (!WantsPlane() || !source) return;
+  TakePlane(source->Under(rectangle), tr("the returns in the box that was drawn"), *source);
 }
 
-void MeasureViewModel::TakePlane(std::span<const Eigen::Vector3d> points,
-                                 const QString& made_from) {
-  auto plane = FitMeasuredPlane(points, session_->Rig().robot_from_base.translation());
+void MeasureViewModel::TakePlane(std::span<const Eigen::Vector3d> points, const QString& made_from,
+                                 const MeasureSource& source) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) middle += point / static_cast<double>(points.size());
+  auto plane = FitMeasuredPlane(points, source.SeenFrom(middle));
   if (!plane) {
     Refuse(tr("No plane was found there: %1.").arg(QString::fromStdString(plane.error().message)),
            tr("Choose a larger flat place."));
@@ -146,21 +170,15 @@ void MeasureViewModel::TakePlane(std::span<const Eigen::Vector3d> points,
   }
   plane->made_from = made_from.toStdString();
   plane_ = std::move(*plane);
+  frame_ = source.Frame();
   Q_EMIT changed();
 }
 
-void MeasureViewModel::Finish() {
+void MeasureViewModel::Finish(const MeasureSource& source) {
   std::vector<MeasuredPoint> points = std::exchange(points_, {});
   std::optional<MeasuredPlane> plane = std::exchange(plane_, std::nullopt);
   if (kind_ == MeasureKind::kHeight) {
-    std::vector<const TerrainDetection*> terrains;
-    for (const FoundObject& object : session_->Objects())
-      if (const auto* terrain = std::get_if<TerrainDetection>(&object.detection);
-          terrain != nullptr && session_->IsCurrent(object))
-        terrains.push_back(terrain);
-    auto ground = session_->Cloud()
-                      ? FindGround(*session_->Cloud(), session_->Rig(), terrains)
-                      : Result<MeasuredPlane>(Fail(ErrorCode::kTooFewPoints, "there is no cloud"));
+    auto ground = source.Ground(points.front());
     if (!ground) {
       Refuse(tr("The ground is not known: %1.").arg(QString::fromStdString(ground.error().message)),
              tr("Fit the terrain first, or measure the distance to a plane."));
@@ -168,16 +186,16 @@ void MeasureViewModel::Finish() {
     }
     plane = std::move(*ground);
   }
-  const std::string scan_uuid = points.front().scan_uuid;
-  const auto measured = Measure(kind_, std::move(points), std::move(plane));
+  NoteRecord record;
+  record.kind = kMeasurementKind;
+  // A map is of the mission, whichever scan is on the screen.
+  if (frame_ == MeasureFrame::kRobot) record.scan_uuid = points.front().scan_uuid;
+  const auto measured = Measure(kind_, std::move(points), std::move(plane), frame_);
   if (!measured) {
     Refuse(tr("This is no measurement: %1.").arg(QString::fromStdString(measured.error().message)),
            tr("Choose other points."));
     return;
   }
-  NoteRecord record;
-  record.kind = kMeasurementKind;
-  record.scan_uuid = scan_uuid;
   record.json = MeasurementToJson(*measured);
   (void)session_->Notes()->Add(std::move(record));  // it has no tags that could be refused
 }

@@ -116,7 +116,8 @@ void NotesModel::Select(const std::string& uuid) {
   if (note == nullptr) return;
   if (!note->record.scan_uuid.empty())
     Q_EMIT scanWanted(QString::fromStdString(note->record.scan_uuid));
-  if (note->measurement) Q_EMIT centreWanted(LabelPlace(*note->measurement));
+  if (note->measurement)
+    Q_EMIT centreWanted(LabelPlace(*note->measurement), note->measurement->frame);
 }
 
 QString NameOf(MeasureKind kind) {
@@ -151,12 +152,17 @@ QString TextOf(const ShownNote& note) {
 QString DetailsOf(const ShownNote& note) {
   QStringList lines;
   if (note.measurement) {
-    for (const MeasuredPoint& point : note.measurement->points)
-      lines << NoteTexts::tr("(%1, %2, %3) m in the robot's frame: %4")
+    const bool in_map = note.measurement->frame == MeasureFrame::kMap;
+    for (const MeasuredPoint& point : note.measurement->points) {
+      QString origin = QString::fromStdString(OriginText(point));
+      if (in_map)
+        origin += NoteTexts::tr(" of scan %1").arg(QString::fromStdString(point.scan_uuid).left(8));
+      lines << NoteTexts::tr("(%1, %2, %3) m in the %4 frame: %5")
                    .arg(point.position_m.x(), 0, 'f', 3)
                    .arg(point.position_m.y(), 0, 'f', 3)
                    .arg(point.position_m.z(), 0, 'f', 3)
-                   .arg(QString::fromStdString(OriginText(point)));
+                   .arg(in_map ? NoteTexts::tr("map's") : NoteTexts::tr("robot's"), origin);
+    }
     if (const auto& plane = note.measurement->plane)
       lines << NoteTexts::tr("Plane of %1: %2 of %3 points, %4 mm rms")
                    .arg(QString::fromStdString(plane->made_from))

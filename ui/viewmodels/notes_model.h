@@ -51,8 +51,8 @@ class NotesModel : public QObject {
   void changed();
   /// It got a new state, which is to be kept.
   void touched(const foresight::NoteRecord& record);
-  /// Its middle, in robot of its scan, is to be seen.
-  void centreWanted(const Eigen::Vector3d& place);
+  /// Its middle is to be seen, in robot of its scan or in map.
+  void centreWanted(const Eigen::Vector3d& place, foresight::MeasureFrame frame);
   /// It is of a scan that is not shown.
   void scanWanted(const QString& scan_uuid);
 

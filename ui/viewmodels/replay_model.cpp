@@ -58,6 +58,26 @@ void ReplayModel::SetSpeed(double speed) {
   Q_EMIT changed();
 }
 
+void ReplayModel::toggleSkipsIdle() {
+  skips_idle_ = !skips_idle_;
+  Q_EMIT changed();
+}
+
+/// The moment itself or, where it lies in time that is skipped, the end of that.
+std::int64_t ReplayModel::AfterIdle(std::int64_t utc_ns) const {
+  constexpr auto kLinger_ns = static_cast<std::int64_t>(1e9 * kLinger_s);
+  constexpr auto kLead_ns = static_cast<std::int64_t>(1e9 * kLead_s);
+  const TimelineMarks& marks = timeline_->Marks();
+  const std::int64_t last = marks.PreviousTime(utc_ns + 1);
+  const std::int64_t next = marks.NextTime(utc_ns);
+  if (utc_ns - last < kLinger_ns || next - utc_ns <= kLead_ns) return utc_ns;
+  for (const TimelineEntry& entry : timeline_->Timeline()->entries)
+    if (entry.lane == TimelineLane::kScans && entry.begin_utc_ns <= utc_ns &&
+        utc_ns < entry.end_utc_ns)
+      return utc_ns;
+  return next - kLead_ns;
+}
+
 void ReplayModel::Forget() {
   runner_.cancel();
   timer_.stop();
@@ -130,6 +150,7 @@ void ReplayModel::Advance(double seconds) {
   if (!playing_ || Loading()) return;
   const auto step = static_cast<std::int64_t>(1e9 * speed_ * seconds);
   std::int64_t next = now_utc_ns_ + step;
+  if (skips_idle_) next = AfterIdle(next);
   // Not past the begin of a scan: it is loaded first.
   for (const ScanSummary& scan : review_->Scans())
     if (scan.begin_utc_ns > now_utc_ns_) next = std::min(next, scan.begin_utc_ns);

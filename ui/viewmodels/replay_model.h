@@ -35,6 +35,9 @@ class ReplayModel : public QObject {
   /// Times real time.
   double Speed() const { return speed_; }
   void SetSpeed(double speed);
+  /// Whether playing jumps over time in which nothing happened: from kLinger_s after an event to
+  /// kLead_s before the next one. A sweep is never jumped over.
+  bool SkipsIdle() const { return skips_idle_; }
   /// The moment that is shown or, where all of a scan is, its end. 0 = nothing is open.
   std::int64_t Now() const { return now_utc_ns_; }
   /// Why there is nothing to play, as a sentence; empty when there is.
@@ -47,6 +50,8 @@ class ReplayModel : public QObject {
 
   static constexpr double kSlowest = 0.25;
   static constexpr double kFastest = 64.0;
+  static constexpr double kLinger_s = 1.0;
+  static constexpr double kLead_s = 0.5;
 
  public Q_SLOTS:
   /// From the moment that is shown or, where all of a scan is, from its begin.
@@ -55,6 +60,7 @@ class ReplayModel : public QObject {
   void togglePlaying() { playing_ ? pause() : play(); }
   void faster() { SetSpeed(2.0 * speed_); }
   void slower() { SetSpeed(0.5 * speed_); }
+  void toggleSkipsIdle();
   void nextEvent();
   void previousEvent();
   /// Leaves the replay: all of the scan again.
@@ -63,10 +69,11 @@ class ReplayModel : public QObject {
  Q_SIGNALS:
   void moved();        ///< another moment is shown
   void sweepBroken();  ///< the lines that are shown are not those of before and some more
-  void changed();      ///< playing or not, another speed, another scan
+  void changed();      ///< playing or not, another speed, another scan, idle time skipped or not
 
  private:
   int ScanAt(std::int64_t utc_ns) const;
+  std::int64_t AfterIdle(std::int64_t utc_ns) const;
   void Enter();
   void Forget();
   void FollowReview();
@@ -93,6 +100,7 @@ class ReplayModel : public QObject {
   bool playing_ = false;
   bool showing_ = false;  ///< what the session tells now comes from here
   double speed_ = 1.0;
+  bool skips_idle_ = true;
   QTimer timer_;
   QElapsedTimer since_;
 };

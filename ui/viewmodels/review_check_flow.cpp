@@ -6,7 +6,10 @@ ReviewCheckFlow::ReviewCheckFlow(ReviewViewModel* review, SessionModel* session,
                                  ScanCheckModel* check, QObject* parent)
     : QObject(parent), review_(review), session_(session), check_(check) {
   // The model has heard of the scan first: it was there before this object.
-  connect(session_, &SessionModel::scanChanged, this, &ReviewCheckFlow::FindKept);
+  connect(session_, &SessionModel::scanChanged, this, [this] {
+    asked_for_.clear();  // shown anew, it is looked for anew
+    FindKept();
+  });
   connect(review_, &ReviewViewModel::changed, this, &ReviewCheckFlow::FindKept);
   connect(check_, &ScanCheckModel::checked, this, &ReviewCheckFlow::Keep);
 }
@@ -15,6 +18,10 @@ void ReviewCheckFlow::FindKept() {
   const auto scan = session_->CurrentScan();
   const auto mission = review_->File();
   if (!scan || !mission || check_->Now() != ScanCheckModel::State::kNotChecked) return;
+  // The review changes with every task: what was looked for is not looked for again.
+  if (asked_for_ == scan->uuid) return;
+  asked_for_ = scan->uuid;
+  ++read_count_;
   using Found = std::optional<KeptCheck>;
   reader_.Run<Found>(
       tr("Reading the self-check"),
@@ -23,10 +30,12 @@ void ReviewCheckFlow::FindKept() {
         return LastScanCheck(*mission, review.get(), uuid);
       },
       [this](const Result<Found>& found) {
-        if (!found)
+        if (!found) {
+          asked_for_.clear();
           session_->Report(NoticeOf(tr("Reading the self-check"), found.error()));
-        else if (*found)
+        } else if (*found) {
           check_->ShowKept(**found);
+        }
       });
 }
 

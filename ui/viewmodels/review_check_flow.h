@@ -16,6 +16,9 @@ class ReviewCheckFlow : public QObject {
   ReviewCheckFlow(ReviewViewModel* review, SessionModel* session, ScanCheckModel* check,
                   QObject* parent = nullptr);
 
+  /// How often the mission was asked for a check that was kept.
+  int ReadCount() const { return read_count_; }
+
  private:
   void FindKept();
   void Keep(const KeptCheck& check);
@@ -24,6 +27,8 @@ class ReviewCheckFlow : public QObject {
   SessionModel* session_;
   ScanCheckModel* check_;
   TaskRunner reader_{session_->Tasks()};
+  std::string asked_for_;  ///< scan that a check was looked for, whether one was found or not
+  int read_count_ = 0;
 };
 
 }  // namespace foresight

@@ -2,23 +2,10 @@
 
 #include <algorithm>
 
+#include "core/mission/side_result.h"
 #include "ui/viewmodels/mission_objects.h"
 
 namespace foresight {
-namespace {
-
-/// Of the mission and of its review, which counts more.
-Result<std::vector<NoteRecord>> NotesOf(const MissionFile& mission) {
-  FORESIGHT_TRY(std::vector<NoteRecord> notes, mission.ListNotes());
-  FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission.path(), ReviewFolder()));
-  if (!review) return notes;
-  FORESIGHT_TRY(const std::vector<NoteRecord> later, review->ListNotes());
-  notes.insert(notes.end(), later.begin(), later.end());
-  return CurrentNotes(notes);
-}
-
-}  // namespace
-
 struct ReviewViewModel::Wanted {
   std::vector<std::string> paths;      ///< to be opened; the last one is shown
   std::shared_ptr<MissionFile> file;   ///< or one that is open is shown
@@ -145,7 +132,8 @@ Result<ReviewViewModel::Opened> ReviewViewModel::LoadWanted(const Wanted& wanted
   opened.index = static_cast<int>(shown.scans.size()) - 1;
   for (std::size_t i = 0; i < shown.scans.size(); ++i)
     if (shown.scans[i].uuid == wanted.scan_uuid) opened.index = static_cast<int>(i);
-  FORESIGHT_TRY(opened.notes, NotesOf(*shown.file));
+  FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(shown.file->path(), ReviewFolder()));
+  FORESIGHT_TRY(opened.notes, NotesOfMission(*shown.file, review.get()));
   FORESIGHT_TRY(opened.scan, LoadReviewedScan(*shown.file, ReviewFolder(),
                                               shown.scans[static_cast<std::size_t>(opened.index)]));
   return opened;

@@ -170,21 +170,9 @@ void CloudCanvas::SetMeasuring(bool measuring, bool wants_plane) {
 }
 
 void CloudCanvas::SetMeasurements(const std::vector<RobotMeasurement>& measurements) {
-  shown_measurements_ = measurements;
-  DrawMeasurements();
-}
-
-void CloudCanvas::SetShowsScan(bool shows) {
-  if (shows == shows_scan_) return;
-  shows_scan_ = shows;
-  DrawMeasurements();
-}
-
-void CloudCanvas::DrawMeasurements() {
   measurements_.Clear();
   labels_.Clear();
-  for (const RobotMeasurement& one : shown_measurements_) {
-    if (!shows_scan_) break;
+  for (const RobotMeasurement& one : measurements) {
     measurements_.Add(one.lines, one.style);
     measurements_.Add(one.points, one.style);
     if (!one.label.empty()) labels_.Add(one.label_at, one.label, one.style.color);
@@ -266,7 +254,7 @@ void CloudCanvas::OnPress(const QMouseEvent& event) {
                      });
   if (grabs) return;
   const bool draws_plane = measuring_ && wants_plane_ && event.modifiers() & Qt::ShiftModifier;
-  if ((drawing_ || draws_plane) && event.button() == Qt::LeftButton && !shows_scan_) {
+  if (drawing_ && event.button() == Qt::LeftButton && !shows_scan_) {
     Q_EMIT refused();
   } else if ((drawing_ || draws_plane) && event.button() == Qt::LeftButton) {
     rectangle_begin_ = event.pos();
@@ -319,12 +307,8 @@ void CloudCanvas::OnRelease(const QMouseEvent& event) {
     ShowSample(false);
     rest_.start();
     const bool clicked = (event.pos() - pressed_at_).manhattanLength() <= kClickSlack_px;
-    if (measuring_ && clicked && event.button() == Qt::LeftButton) {
-      if (shows_scan_)
-        Q_EMIT pointClicked(ClickAt(event.pos()));
-      else
-        Q_EMIT refused();
-    }
+    if (measuring_ && clicked && event.button() == Qt::LeftButton)
+      Q_EMIT pointClicked(ClickAt(event.pos()));
     return;
   }
   rectangle_->hide();

@@ -43,10 +43,8 @@ class CloudCanvas : public VtkCanvas {
   /// A click is told, and while a plane is wanted left with Shift draws a rectangle over it;
   /// dragging orbits as ever.
   void SetMeasuring(bool measuring, bool wants_plane);
-  /// False: the points are not in the frame of a scan (a map). Then nothing is drawn into a scan or
-  /// measured in it.
-  void SetShowsScan(bool shows);
-  bool ShowsScan() const { return shows_scan_; }
+  /// False: the points are not those of a scan (a map), so no region is drawn into it.
+  void SetShowsScan(bool shows) { shows_scan_ = shows; }
   void SetMeasurements(const std::vector<RobotMeasurement>& measurements);
   /// Only what is inside is drawn and picked; the sides are dragged by their handles.
   void SetClipBox(const std::optional<Eigen::AlignedBox3d>& box);
@@ -73,7 +71,7 @@ class CloudCanvas : public VtkCanvas {
   void cameraMoved();
   void rectangleDrawn(const foresight::CloudRectangle& rectangle, bool cut);
   void pointClicked(const foresight::CloudClick& click);
-  /// A click or a rectangle where the points are not those of a scan.
+  /// A region where the points are not those of a scan.
   void refused();
   void planeDrawn(const foresight::CloudRectangle& rectangle);
   void clipBoxDragged(const Eigen::AlignedBox3d& box);
@@ -93,7 +91,6 @@ class CloudCanvas : public VtkCanvas {
   CloudClick ClickAt(const QPoint& position) const;
   void LookAtPointUnder(const QPointF& position);
   QPointF WidgetPointFromRobot(const Eigen::Vector3d& point) const;
-  void DrawMeasurements();
   void PutPoints(const PointSet& set);
   void ShowSample(bool sample);
   void PlaceCamera();
@@ -119,7 +116,6 @@ class CloudCanvas : public VtkCanvas {
   QRubberBand* rectangle_;  ///< shown while one is drawn
   QPoint rectangle_begin_;
   QPoint pressed_at_;
-  std::vector<RobotMeasurement> shown_measurements_;
   bool shows_scan_ = true;
   bool measuring_ = false;
   bool wants_plane_ = false;

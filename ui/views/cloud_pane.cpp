@@ -85,7 +85,7 @@ void CloudPane::BindMap() {
   });
   connect(canvas_, &CloudCanvas::refused, this, [this] {
     session_->Report({Notice::Level::kInfo, tr("This is a map of several scans."),
-                      tr("Choose Lidar points above the cloud to work in one scan.")});
+                      tr("Choose Lidar points above the cloud to draw a region in one scan.")});
   });
   connect(clip_, &ClipBoxModel::changed, this, &CloudPane::ShowClip);
   connect(canvas_, &CloudCanvas::clipBoxDragged, clip_, &ClipBoxModel::SetBox);
@@ -108,6 +108,7 @@ void CloudPane::ShowNewMap() {
 void CloudPane::ShowOverlays() {
   const bool map = Shown() == Source::kMap && map_->Map();
   canvas_->SetShowsScan(!map);
+  map_->SetShown(map);
   if (!map) {
     canvas_->SetOutlines(OutlinesInRobot(*session_));
     canvas_->SetRegion(RegionInRobot(*session_));

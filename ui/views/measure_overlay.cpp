@@ -27,7 +27,8 @@ void BindPixels(Canvas* canvas, SessionModel* session, MeasureViewModel* measure
     canvas->SetMeasurements(MeasurementsInImage(*session, *measure));
   });
   QObject::connect(session->Notes(), &NotesModel::centreWanted, canvas,
-                   [canvas, session](const Eigen::Vector3d& place) {
+                   [canvas, session](const Eigen::Vector3d& place, MeasureFrame frame) {
+                     if (frame != MeasureFrame::kRobot) return;
                      if (const auto pixel = PixelInImage(*session, place)) canvas->CentreOn(*pixel);
                    });
 }
@@ -38,14 +39,15 @@ void BindMeasurements(CloudCanvas* canvas, SessionModel* session, MeasureViewMod
   auto* tags = new CornerTags(canvas);
   DrawOnChange(canvas, session, measure, [canvas, session, measure, tags] {
     canvas->SetMeasuring(measure->On(), measure->WantsPlane());
-    canvas->SetMeasurements(MeasurementsInRobot(*session, *measure));
+    canvas->SetMeasurements(MeasurementsInCloud(*session, *measure));
     tags->SetTopLeft(measure->Hint());
   });
   QObject::connect(canvas, &CloudCanvas::pointClicked, measure, &MeasureViewModel::ClickInCloud);
   QObject::connect(canvas, &CloudCanvas::planeDrawn, measure, &MeasureViewModel::DrawPlane);
   QObject::connect(session->Notes(), &NotesModel::centreWanted, canvas,
-                   [canvas](const Eigen::Vector3d& place) {
-                     if (canvas->ShowsScan()) canvas->LookAt(place);
+                   [canvas, measure](const Eigen::Vector3d& place, MeasureFrame frame) {
+                     const bool map = measure->ShownMapOrNull() != nullptr;
+                     if (map == (frame == MeasureFrame::kMap)) canvas->LookAt(place);
                    });
 }
 

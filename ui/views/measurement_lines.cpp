@@ -1,5 +1,7 @@
 #include "ui/views/measurement_lines.h"
 
+#include "core/mapping/measure_in_map.h"
+
 namespace foresight {
 namespace {
 
@@ -45,21 +47,38 @@ RobotMeasurement Unfinished(const MeasureViewModel& measure) {
   return drawn;
 }
 
-}  // namespace
-
-std::vector<RobotMeasurement> MeasurementsInRobot(const SessionModel& session,
-                                                  const MeasureViewModel& measure) {
+/// The measurements that `belongs` takes, and the one that is being taken in that frame.
+template <class Belongs>
+std::vector<RobotMeasurement> AllThat(const SessionModel& session, const MeasureViewModel& measure,
+                                      MeasureFrame frame, const Belongs& belongs) {
   std::vector<RobotMeasurement> all;
-  if (!session.ShownScan()) return all;
   const ShownNote* selected = session.Notes()->Selected();
   for (const ShownNote& note : session.Notes()->All()) {
-    if (!note.measurement || note.record.scan_uuid != session.ShownScan()->uuid) continue;
+    if (!note.measurement || note.measurement->frame != frame || !belongs(note)) continue;
     std::string label = ValueText(*note.measurement);
     if (!note.record.text.empty()) label = note.record.text + ": " + label;
     all.push_back(Drawn(*note.measurement, label, &note == selected));
   }
-  if (measure.CanTakeBack()) all.push_back(Unfinished(measure));
+  if (measure.CanTakeBack() && measure.Frame() == frame) all.push_back(Unfinished(measure));
   return all;
+}
+
+}  // namespace
+
+std::vector<RobotMeasurement> MeasurementsInRobot(const SessionModel& session,
+                                                  const MeasureViewModel& measure) {
+  if (!session.ShownScan()) return {};
+  return AllThat(session, measure, MeasureFrame::kRobot, [&](const ShownNote& note) {
+    return note.record.scan_uuid == session.ShownScan()->uuid;
+  });
+}
+
+std::vector<RobotMeasurement> MeasurementsInCloud(const SessionModel& session,
+                                                  const MeasureViewModel& measure) {
+  const MissionMap* map = measure.ShownMapOrNull();
+  if (map == nullptr) return MeasurementsInRobot(session, measure);
+  return AllThat(session, measure, MeasureFrame::kMap,
+                 [&](const ShownNote& note) { return LiesInMap(*map, *note.measurement); });
 }
 
 std::vector<PixelMeasurement> MeasurementsInImage(const SessionModel& session,

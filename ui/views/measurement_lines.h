@@ -13,7 +13,7 @@ namespace foresight {
 /// A measurement, or what there is of one that is being taken: lines from point to point, a cross
 /// at each point, and its value.
 struct RobotMeasurement {
-  Wireframe lines;   ///< in robot, metres
+  Wireframe lines;   ///< in robot, or in map where the cloud shows one; metres
   Wireframe points;  ///< crosses
   Eigen::Vector3d label_at = Eigen::Vector3d::Zero();
   std::string label;  ///< UTF-8; empty while it is being taken
@@ -27,8 +27,12 @@ struct PixelMeasurement {
   OutlineStyle style;
 };
 
-/// All of the scan that is shown, and the one that is being taken. The selected one is thicker.
+/// All of the scan that is shown, and the one that is being taken in it. The selected one is
+/// thicker.
 std::vector<RobotMeasurement> MeasurementsInRobot(const SessionModel& session,
+                                                  const MeasureViewModel& measure);
+/// The same of what the cloud shows: of the map, those that lie in it (LiesInMap).
+std::vector<RobotMeasurement> MeasurementsInCloud(const SessionModel& session,
                                                   const MeasureViewModel& measure);
 std::vector<PixelMeasurement> MeasurementsInImage(const SessionModel& session,
                                                   const MeasureViewModel& measure);

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "ui/views/color_bar.h"
+#include "ui/views/vtk_canvas.h"
 #include "ui/widgets/quiet_label.h"
 
 namespace foresight {
@@ -59,6 +60,8 @@ Pane::Pane(QWidget* canvas, const QString& hint, QWidget* parent)
 
 void Pane::ShowCanvas(bool show) {
   hint_->setVisible(!show);
+  // A cloud of half a million points under a hint would be drawn for nobody.
+  if (auto* canvas = qobject_cast<VtkCanvas*>(canvas_)) canvas->SetCovered(!show);
 }
 
 bool Pane::HintShown() const {

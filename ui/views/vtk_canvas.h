@@ -12,6 +12,10 @@ class VtkCanvas : public QVTKOpenGLNativeWidget {
  public:
   explicit VtkCanvas(QWidget* parent = nullptr);
 
+  /// While something hides all of it nothing is drawn but once, which warms OpenGL up; what was to
+  /// be drawn is drawn when it is seen again.
+  void SetCovered(bool covered);
+
  protected:
   /// Draws soon. QWidget::update() would only show the last frame again.
   void Redraw();
@@ -22,6 +26,9 @@ class VtkCanvas : public QVTKOpenGLNativeWidget {
   void Draw();
 
   bool pending_ = false;
+  bool covered_ = false;
+  bool drawn_ = false;
+  bool outdated_ = false;
 };
 
 }  // namespace foresight

@@ -105,6 +105,30 @@ TEST(MeasureTest, SurvivesItsJson) {
   }
 }
 
+TEST(MeasureTest, OneInAMapKeepsItsFrameAndTheSigmaOfItsScansPlace) {
+  MeasuredPoint other = At(3, 0, 0);
+  other.scan_uuid = "scan-2";
+  other.placement_sigma_m = 0.02;
+  const Measurement before =
+      Measure(MeasureKind::kDistance, {At(1, 0, 0), other}, std::nullopt, MeasureFrame::kMap)
+          .value();
+  EXPECT_NEAR(before.sigma, std::sqrt(2.0 * 0.01 * 0.01 + 0.02 * 0.02), 1e-6);
+  const auto after = MeasurementFromJson(MeasurementToJson(before));
+  ASSERT_TRUE(after) << after.error().message;
+  EXPECT_EQ(after->frame, MeasureFrame::kMap);
+  EXPECT_EQ(MeasurementToJson(*after), MeasurementToJson(before));
+  EXPECT_EQ(after->sigma, before.sigma);
+}
+
+TEST(MeasureTest, OneOfAnEarlierProgramIsInTheRobotsFrame) {
+  std::string json =
+      MeasurementToJson(Measure(MeasureKind::kPoint, {At(1, 2, 3)}, std::nullopt).value());
+  const std::string frame = "\"frame\":\"robot\",";
+  ASSERT_NE(json.find(frame), std::string::npos) << json;
+  json.erase(json.find(frame), frame.size());
+  EXPECT_EQ(MeasurementFromJson(json)->frame, MeasureFrame::kRobot);
+}
+
 TEST(MeasureTest, JsonThatIsNoneIsRefusedInWords) {
   const auto refused = [](const std::string& json) {
     const auto measured = MeasurementFromJson(json);

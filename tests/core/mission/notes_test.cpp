@@ -6,6 +6,7 @@
 #include "core/mission/mission_index.h"
 #include "core/mission/mission_schema.h"
 #include "core/mission/salvage_mission.h"
+#include "core/mission/side_result.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/support/temporary_folder.h"
 
@@ -102,6 +103,24 @@ TEST_F(NotesTest, AScanThatIsNotThereIsRefusedButInAReview) {
   const auto review = MissionFile::OpenReviewOf(path).value();
   note.kind = kNoteKind;
   EXPECT_TRUE(review->AddNote(note));
+}
+
+TEST_F(NotesTest, WhatAReviewSaysOfANoteCountsMoreThanTheMission) {
+  const auto path = Mission("a.foresight", {1});
+  const auto mission = MissionFile::Open(path).value();
+  const auto review = MissionFile::OpenReviewOf(path).value();
+  NoteRecord changed = mission->ListNotes().value()[0];
+  changed.text = "the rim is cracked";
+  changed.author = "bob";
+  changed.scan_id = 0;  // rows of a review know scans by their uuid
+  ASSERT_TRUE(review->AddNote(changed));
+  ASSERT_TRUE(review->AddNote(Note("note of the review", "late")));
+  EXPECT_EQ(NotesOfMission(*mission, nullptr).value(), mission->ListNotes().value());
+  const std::vector<NoteRecord> notes = NotesOfMission(*mission, review.get()).value();
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_EQ(notes[0].text, "the rim is cracked");
+  EXPECT_EQ(notes[0].made_by, "ada");
+  EXPECT_EQ(notes[2].text, "late");
 }
 
 TEST_F(NotesTest, TagsAreShortWordsOnce) {

@@ -228,6 +228,18 @@ TEST_F(SideResultTest, AResultIsFoundByItsUuidAndAnUnknownNameIsAnsweredWithThos
             ErrorCode::kInvalidInput);
 }
 
+TEST_F(SideResultTest, TwoScansThatAreComparedAreSaidToBeInFramesOfTheirOwn) {
+  ComparedResult first =
+      MakeResultAgain(*Mission(), nullptr, scan_id, kOriginalResult, 0, {}).value();
+  ComparedResult second = first;
+  EXPECT_THAT(CompareResults(first, second, {})->notes, testing::IsEmpty());
+  second.scan_uuid = "another";
+  const ResultComparison compared = CompareResults(first, second, {}).value();
+  ASSERT_EQ(compared.notes.size(), 1u);
+  EXPECT_THAT(compared.notes[0], HasSubstr("each counts in its own robot's frame"));
+  EXPECT_THAT(ComparisonInWords(compared).back(), HasSubstr("own robot's frame"));
+}
+
 TEST_F(SideResultTest, AMergedMissionKeepsSideResultsAndTheirRigs) {
   const std::filesystem::path merged = *folder / "merged.foresight";
   const std::vector<std::filesystem::path> sources = {path, *MissionFile::ReviewPathOf(path)};

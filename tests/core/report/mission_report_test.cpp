@@ -10,6 +10,7 @@
 #include "core/depth/depth_method.h"
 #include "core/detection/fit_in_scan.h"
 #include "core/io/png.h"
+#include "core/measure/measurement_json.h"
 #include "core/mission/new_records.h"
 #include "core/mission/side_result.h"
 #include "core/report/report_pages.h"
@@ -49,6 +50,7 @@ struct MissionReportTest : testing::Test {
     ASSERT_TRUE(mission->AddEvent({0, NowUtc_ns(), "head", "warning", "the lamp is dim", ""}));
     ASSERT_TRUE(mission->AddEvent({0, NowUtc_ns(), "anna", "info", "command head.scan", ""}));
     review = MissionFile::OpenReviewOf(path).value();
+    AddNotes();
     RunAgainSettings settings;
     settings.depth = DefaultsOf(DepthMethod::kJointBilateral);
     ASSERT_TRUE(KeepSideResult(*review, "softer", scan, settings,
@@ -82,6 +84,25 @@ struct MissionReportTest : testing::Test {
     ASSERT_TRUE(mission->AddDetectionEvent(
         id, {NowUtc_ns(), "bert", DetectionEvent::Action::kRenamed, "main valve"}));
   }
+  /// A distance in the first scan, and in the review a note about the mission.
+  static void AddNotes() {
+    MeasuredPoint a, b;
+    a.position_m = {1.0, 0.0, 0.0};
+    b.position_m = {1.0, 0.5, 0.0};
+    a.scan_uuid = b.scan_uuid = scan.uuid;
+    a.line = a.beam = b.line = b.beam = 0;
+    NoteRecord measured;
+    measured.scan_uuid = scan.uuid;
+    measured.kind = kMeasurementKind;
+    measured.text = "rim to wall";
+    measured.made_by = measured.author = "carl";
+    measured.json = MeasurementToJson(Measure(MeasureKind::kDistance, {a, b}, {}).value());
+    ASSERT_TRUE(mission->AddNote(measured));
+    NoteRecord note;
+    note.kind = kNoteKind;
+    note.text = "windy all day";
+    ASSERT_TRUE(review->AddNote(note));
+  }
   static std::string Html() { return ReadFile(*folder / "all" / "report.html").value(); }
 };
 
@@ -92,7 +113,8 @@ TEST_F(MissionReportTest, TellsWhatWasFoundByWhomAndWhereItComesFrom) {
         std::string("sigma"), std::string("lidar returns"), RigId(scan.rig), scan.uuid,
         std::string("the lamp is dim"), std::string("softer"),
         std::string("method jbu instead of foresight"), std::string("run &lt;1&gt;.foresight"),
-        std::string("Settings of the depth map")})
+        std::string("Settings of the depth map"), std::string("rim to wall: 0.500 m"),
+        std::string("windy all day")})
     EXPECT_THAT(html, HasSubstr(wanted));
   EXPECT_THAT(html, Not(HasSubstr("command head.scan")));
   EXPECT_EQ(files.scans, 2);
@@ -144,6 +166,7 @@ TEST_F(MissionReportTest, AReportOfOneScanHasThatScanAlone) {
   const std::string html = ReadFile(one / "report.html").value();
   EXPECT_THAT(html, HasSubstr("Scan 2"));
   EXPECT_THAT(html, Not(HasSubstr("main valve")));
+  EXPECT_THAT(html, Not(HasSubstr("rim to wall")));
   EXPECT_FALSE(std::filesystem::exists(one / "report.pdf"));
 }
 
