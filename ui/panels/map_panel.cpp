@@ -59,8 +59,9 @@ MapPanel::MapPanel(MapViewModel* map, ClipBoxModel* clip, CommandTable* commands
   layout->addLayout(row);
   layout->addWidget(empty_);
   layout->addWidget(scans_, 1);
-  layout->addWidget(BuildChanges());
+  layout->addWidget(changes_box_ = BuildChanges());
   layout->addWidget(BuildClip(commands));
+  layout->addStretch(0);  // takes the room while there are no lists
   FillWithScroll(this, inner);
   setMinimumWidth(200);
   connect(map_, &MapViewModel::changed, this, &MapPanel::ShowMap);
@@ -148,6 +149,7 @@ void MapPanel::ShowMap() {
     }
     after_->setCurrentIndex(after_->count() - 1);
   }
+  changes_box_->setVisible(count > 0);
   find_->setEnabled(before_->count() > 1 && !map_->Busy());
   find_->setToolTip(before_->count() > 1 ? tr("Mark what appeared or is gone between two scans")
                                          : tr("It takes two scans that are in the map."));

@@ -43,6 +43,7 @@ class MapPanel : public QWidget {
   ClipBoxModel* clip_;
   QLabel* empty_;
   QListWidget* scans_;
+  QWidget* changes_box_;  ///< hidden as long as there is no map
   QComboBox* before_;
   QComboBox* after_;
   QPushButton* find_;
