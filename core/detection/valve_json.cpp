@@ -8,6 +8,8 @@
 namespace foresight {
 namespace {
 
+constexpr double kMostDepthRatio = 100.0;
+
 Json CandidateJson(const ValveCandidate& valve,
                    const Rigid<frame::Robot, frame::Base>& robot_from_base) {
   return {{"base_from_object", ToJson(valve.base_from_object)},
@@ -68,7 +70,9 @@ Json ToJson(const ValveModel& model) {
           {"spokes", model.spokes},
           {"spoke_radius_m", model.spoke_radius_m},
           {"hub_radius_m", model.hub_radius_m},
-          {"dish_m", model.dish_m}};
+          {"dish_m", model.dish_m},
+          {"rim_depth_ratio", model.rim_depth_ratio},
+          {"spoke_depth_ratio", model.spoke_depth_ratio}};
 }
 
 ValveModel ValveModelFrom(const Json& value) {
@@ -82,6 +86,10 @@ ValveModel ValveModelFrom(const Json& value) {
   // Records older than levers hold wheels.
   model.kind = KindFrom(value.value("kind", ToString(ValveModel::Kind::kWheel)));
   if (value.contains("lever_length_m")) model.lever_length_m = SizeIn(value, "lever_length_m");
+  // Those older than flat wheels hold round ones.
+  for (const auto& [key, ratio] : {std::pair("rim_depth_ratio", &model.rim_depth_ratio),
+                                   std::pair("spoke_depth_ratio", &model.spoke_depth_ratio)})
+    if (value.contains(key)) *ratio = NumberIn(value, key, 0.0, kMostDepthRatio);
   if (const Status status = model.Check(); !status)
     throw std::invalid_argument(status.error().message);
   return model;

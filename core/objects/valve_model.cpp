@@ -17,6 +17,47 @@ double SegmentDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
   return (point - a - t * along).norm();
 }
 
+/// Signed distance of a point to an ellipse around the origin: four steps along its evolute, which
+/// leave micrometres.
+double EllipseDistance(double x, double y, double half_x, double half_y) {
+  if (half_x == half_y) return std::hypot(x, y) - half_x;
+  x = std::abs(x);
+  y = std::abs(y);
+  const double squares = half_x * half_x - half_y * half_y;
+  Eigen::Vector2d on_circle = Eigen::Vector2d::Constant(std::numbers::sqrt2 / 2.0);
+  for (int step = 0; step < 4; ++step) {
+    const Eigen::Vector2d evolute(squares * std::pow(on_circle.x(), 3) / half_x,
+                                  -squares * std::pow(on_circle.y(), 3) / half_y);
+    const Eigen::Vector2d outwards(x - evolute.x(), y - evolute.y());
+    const double radius = std::hypot(half_x * on_circle.x() - evolute.x(),
+                                     half_y * on_circle.y() - evolute.y());
+    const Eigen::Vector2d nearest =
+        evolute + radius / std::max(outwards.norm(), 1e-12) * outwards;
+    on_circle = Eigen::Vector2d(std::clamp(nearest.x() / half_x, 0.0, 1.0),
+                                std::clamp(nearest.y() / half_y, 0.0, 1.0));
+    on_circle.normalize();
+  }
+  const double away = std::hypot(x - half_x * on_circle.x(), y - half_y * on_circle.y());
+  const bool inside = std::hypot(x / half_x, y / half_y) < 1.0;
+  return inside ? -away : away;
+}
+
+/// Distance of a point to a spoke of elliptic section with flat ends; y = 0 is the plane of its
+/// axis and the wheel's.
+double SpokeDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& hub,
+                     const Eigen::Vector3d& rim, const ValveModel& model) {
+  if (model.spoke_depth_ratio == 1.0)
+    return SegmentDistance(point, hub, rim) - model.spoke_radius_m;
+  const double length = (rim - hub).norm();
+  const Eigen::Vector3d along = (rim - hub) / length;
+  const Eigen::Vector3d across = along.cross(Eigen::Vector3d::UnitY());
+  const double at = (point - hub).dot(along);
+  const double beyond = at - std::clamp(at, 0.0, length);
+  const double beside = EllipseDistance(point.y(), (point - hub).dot(across),
+                                        model.spoke_radius_m, model.SpokeDepth());
+  return beyond == 0.0 ? beside : std::hypot(std::max(beside, 0.0), beyond);
+}
+
 std::vector<Eigen::Vector3d> Circle(double radius, double z) {
   constexpr int kCorners = 64;
   std::vector<Eigen::Vector3d> points;
@@ -87,13 +128,19 @@ Status ValveModel::Check() const {
     return Fail(ErrorCode::kInvalidOptions,
                 "valve: spoke_radius_m {}, hub_radius_m {} or dish_m {} is not usable",
                 spoke_radius_m, hub_radius_m, dish_m);
+  if (!(rim_depth_ratio > 0.0) || !(spoke_depth_ratio > 0.0) ||
+      !std::isfinite(rim_depth_ratio + spoke_depth_ratio))
+    return Fail(ErrorCode::kInvalidOptions,
+                "valve: rim_depth_ratio {} or spoke_depth_ratio {} is not usable", rim_depth_ratio,
+                spoke_depth_ratio);
   return {};
 }
 
 double ValveModel::Distance(const Eigen::Vector3d& point) const {
   if (IsLever()) return LeverDistance(*this, point);
   const double radial = std::hypot(point.x(), point.y());
-  double distance = std::hypot(radial - rim_radius_m, point.z()) - tube_radius_m;
+  double distance =
+      EllipseDistance(radial - rim_radius_m, point.z(), tube_radius_m, RimDepth());
   const Eigen::Vector3d hub(0.0, 0.0, -dish_m);
   distance = std::min(distance, (point - hub).norm() - hub_radius_m);
   if (spokes == 0) {
@@ -108,8 +155,7 @@ double ValveModel::Distance(const Eigen::Vector3d& point) const {
   const double angle = std::atan2(point.y(), point.x());
   const double turned = angle - sector * std::round(angle / sector);
   const Eigen::Vector3d in_sector(radial * std::cos(turned), radial * std::sin(turned), point.z());
-  return std::min(distance,
-                  SegmentDistance(in_sector, hub, {rim_radius_m, 0.0, 0.0}) - spoke_radius_m);
+  return std::min(distance, SpokeDistance(in_sector, hub, {rim_radius_m, 0.0, 0.0}, *this));
 }
 
 Wireframe WireframeOf(const ValveModel& model) {

@@ -1,7 +1,9 @@
 #include "core/simulation/scene_objects.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/base/contract.h"
 #include "core/objects/drill_model.h"
@@ -42,11 +44,40 @@ class Part {
   SceneMesh mesh_;
 };
 
+constexpr int kSectionCorners = 32;
+
+/// An ellipse about a point, counter-clockwise.
+std::vector<Eigen::Vector2d> Ellipse(double half_x, double half_y,
+                                     const Eigen::Vector2d& center = Eigen::Vector2d::Zero()) {
+  std::vector<Eigen::Vector2d> outline;
+  for (int i = 0; i < kSectionCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kSectionCorners;
+    outline.push_back(center +
+                      Eigen::Vector2d(half_x * std::cos(angle), half_y * std::sin(angle)));
+  }
+  return outline;
+}
+
+void AddSpoke(const ValveModel& model, const Eigen::Vector3d& hub, const Eigen::Vector3d& end,
+              Part& wheel) {
+  if (model.spoke_depth_ratio == 1.0) return wheel.AddCapsule(hub, end, model.spoke_radius_m);
+  const std::array path = {hub, end};
+  wheel.AddAt(SweptShape(Ellipse(model.spoke_radius_m, model.SpokeDepth()), path,
+                         Eigen::Vector3d::UnitZ()),
+              Eigen::Vector3d::Zero());
+}
+
 void AddWheel(const ValveObject& valve, Scene& scene) {
   const ValveModel& model = valve.model;
   const Eigen::Vector3d hub(0.0, 0.0, -model.dish_m);
   Part wheel(valve.name, valve.robot_from_object, valve.wheel_material);
-  wheel.AddAt(TorusShape(model.rim_radius_m, model.tube_radius_m), Eigen::Vector3d::Zero());
+  if (model.rim_depth_ratio == 1.0)
+    wheel.AddAt(TorusShape(model.rim_radius_m, model.tube_radius_m), Eigen::Vector3d::Zero());
+  else
+    wheel.AddAt(RevolvedShape(Ellipse(model.tube_radius_m, model.RimDepth(),
+                                      {model.rim_radius_m, 0.0}),
+                              true),
+                Eigen::Vector3d::Zero());
   wheel.AddAt(SphereShape(model.hub_radius_m), hub);
   if (model.spokes == 0)
     wheel.AddAt(DishShape(model.rim_radius_m, model.dish_m, 2.0 * model.spoke_radius_m),
@@ -55,7 +86,7 @@ void AddWheel(const ValveObject& valve, Scene& scene) {
     const double angle = 2.0 * std::numbers::pi * i / model.spokes;
     const Eigen::Vector3d end(model.rim_radius_m * std::cos(angle),
                               model.rim_radius_m * std::sin(angle), 0.0);
-    wheel.AddCapsule(hub, end, model.spoke_radius_m);
+    AddSpoke(model, hub, end, wheel);
   }
   wheel.MoveTo(scene);
 }
@@ -69,28 +100,6 @@ void AddLever(const ValveObject& valve, Scene& scene) {
   lever.AddCapsule(Eigen::Vector3d::Zero(), -ValveModel::kLeverStem_m * Eigen::Vector3d::UnitZ(),
                    ValveModel::kLeverStemPerHub * model.hub_radius_m);
   lever.MoveTo(scene);
-}
-
-void AddValveBody(const ValveObject& valve, Scene& scene) {
-  constexpr double kFlangeThickness_m = 0.016;
-  constexpr int kBolts = 6;
-  const double hub_z = valve.model.IsLever() ? 0.0 : -valve.model.dish_m;
-  const double face_z = hub_z - valve.stem_length_m;
-  Part body(valve.name + " body", valve.robot_from_object, valve.body_material);
-  body.AddCylinder({0.0, 0.0, face_z}, {0.0, 0.0, hub_z}, valve.stem_radius_m);
-  // The gland around the stem, half as long as it.
-  body.AddCylinder({0.0, 0.0, face_z}, {0.0, 0.0, face_z + 0.5 * valve.stem_length_m},
-                   2.0 * valve.stem_radius_m);
-  body.AddCylinder({0.0, 0.0, face_z - kFlangeThickness_m}, {0.0, 0.0, face_z},
-                   valve.flange_radius_m);
-  for (int i = 0; i < kBolts; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kBolts;
-    const Eigen::Vector3d at =
-        0.8 * valve.flange_radius_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
-    body.AddCylinder(at + Eigen::Vector3d(0.0, 0.0, face_z),
-                     at + Eigen::Vector3d(0.0, 0.0, face_z + 0.008), 0.006);
-  }
-  body.MoveTo(scene);
 }
 
 // Where a hand goes round a drill's grip.
@@ -186,6 +195,28 @@ void AddChuckAndBit(const DrillObject& drill, Scene& scene) {
 }
 
 }  // namespace
+
+void AddValveBody(const ValveObject& valve, Scene& scene) {
+  constexpr double kFlangeThickness_m = 0.016;
+  constexpr int kBolts = 6;
+  const double hub_z = valve.model.IsLever() ? 0.0 : -valve.model.dish_m;
+  const double face_z = hub_z - valve.stem_length_m;
+  Part body(valve.name + " body", valve.robot_from_object, valve.body_material);
+  body.AddCylinder({0.0, 0.0, face_z}, {0.0, 0.0, hub_z}, valve.stem_radius_m);
+  // The gland around the stem, half as long as it.
+  body.AddCylinder({0.0, 0.0, face_z}, {0.0, 0.0, face_z + 0.5 * valve.stem_length_m},
+                   2.0 * valve.stem_radius_m);
+  body.AddCylinder({0.0, 0.0, face_z - kFlangeThickness_m}, {0.0, 0.0, face_z},
+                   valve.flange_radius_m);
+  for (int i = 0; i < kBolts; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kBolts;
+    const Eigen::Vector3d at =
+        0.8 * valve.flange_radius_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    body.AddCylinder(at + Eigen::Vector3d(0.0, 0.0, face_z),
+                     at + Eigen::Vector3d(0.0, 0.0, face_z + 0.008), 0.006);
+  }
+  body.MoveTo(scene);
+}
 
 void AddValve(const ValveObject& valve, Scene& scene) {
   if (valve.model.IsLever())

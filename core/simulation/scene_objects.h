@@ -67,6 +67,8 @@ struct BlockObject {
 
 /// Each adds the object's meshes and its truth to the scene.
 void AddValve(const ValveObject& valve, Scene& scene);
+/// Stem, gland, flange and bolts alone, behind a wheel or a lever that was added another way.
+void AddValveBody(const ValveObject& valve, Scene& scene);
 void AddDrill(const DrillObject& drill, Scene& scene);
 void AddBlock(const BlockObject& block, Scene& scene);
 

@@ -30,7 +30,7 @@ double CircleArea(double x) {
 }  // namespace
 
 BeamFootprints::BeamFootprints(const RaySet& rays, const std::optional<Plane>& wall)
-    : rays_(rays), sigma_m_(std::hypot(rays.sigma_m, kTemplateError_m)) {
+    : rays_(rays), wall_(wall), sigma_m_(std::hypot(rays.sigma_m, kTemplateError_m)) {
   const std::vector<Eigen::Vector3d> normals = LineNormalsOf(rays);
   footprints_.resize(rays.rays.size());
   for (std::size_t i = 0; i < footprints_.size(); ++i) {
@@ -66,7 +66,7 @@ double BeamFootprints::HalfWidth(std::size_t i, const Eigen::Vector3d& across) c
     return std::hypot(0.5 * rays_.footprint_rad * range_m, kEdgeError_m);
   // As wide as an even footprint of the same variance.
   const Eigen::Vector2d half(footprint.along_line.dot(across), footprint.across_line.dot(across));
-  return std::hypot(range_m * half.norm(), kEdgeError_m);
+  return std::sqrt(range_m * range_m * half.squaredNorm() + kEdgeError_m * kEdgeError_m);
 }
 
 double BeamFootprints::Reach(std::size_t i) const {
@@ -88,7 +88,9 @@ ExpectedRange BeamFootprints::Expect(std::size_t i, const ValveIntersection& int
     expected.fraction = (high - low) / (2.0 * half);
     // The mean depth of the covered part of the round front.
     const double r = intersection.radius_m;
-    const double front = r * r * (CircleArea(high / r) - CircleArea(low / r)) / (high - low);
+    const double front = intersection.depth_m * r *
+                             (CircleArea(high / r) - CircleArea(low / r)) / (high - low) -
+                         intersection.lean * 0.5 * (low + high);
     expected.valve_m = expected.range_m = intersection.middle_m - intersection.stretch * front;
   }
   expected.fraction = std::max(expected.fraction, least_fraction);
@@ -100,7 +102,7 @@ ExpectedRange BeamFootprints::Expect(std::size_t i, const ValveIntersection& int
   expected.range_m += beside * gap;
   const double unsure =
       std::min(beside, kFractionError) + kBrightnessSpread * beside * (1.0 - beside);
-  expected.sigma_m = std::hypot(sigma_m_, gap * unsure);
+  expected.sigma_m = std::sqrt(sigma_m_ * sigma_m_ + gap * unsure * gap * unsure);
   return expected;
 }
 

@@ -21,14 +21,14 @@ struct ExpectedRange {
 
 /// The footprints of a set of rays. A lidar's footprint at 2 m is as wide as a rim's tube: its
 /// range then lies between tube and wall, and a fit that takes it for the tube's is drawn to the
-/// wall by centimetres.
+/// wall by centimetres. Made once for a set of rays: each looks at its neighbours, O(rays^2).
 class BeamFootprints {
  public:
   /// `rays` must outlive this.
   BeamFootprints(const RaySet& rays, const std::optional<Plane>& wall);
 
-  const RangeRay& Ray(std::size_t i) const { return rays_.rays[i]; }
-  std::size_t size() const { return rays_.rays.size(); }
+  const RaySet& Rays() const { return rays_; }
+  const std::optional<Plane>& Wall() const { return wall_; }
 
   /// Half the footprint's extent along `across`, at the ray's range, with the template's own error.
   double HalfWidth(std::size_t i, const Eigen::Vector3d& across) const;
@@ -57,6 +57,7 @@ class BeamFootprints {
   void LookBehind();
 
   const RaySet& rays_;
+  std::optional<Plane> wall_;
   double sigma_m_;
   std::vector<Footprint> footprints_;
 };

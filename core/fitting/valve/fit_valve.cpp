@@ -43,17 +43,15 @@ void SortByLikelihood(std::vector<ValveCandidate>& valves) {
 }
 
 /// Rims as valves without spokes, fitted to the rays, the best few first.
-std::vector<ValveCandidate> FitRims(const RaySet& rays, const std::optional<Plane>& wall,
-                                    const RayLikelihood& likelihood,
+std::vector<ValveCandidate> FitRims(const RayLikelihood& likelihood,
                                     const std::vector<RimHypothesis>& rims) {
   std::vector<ValveCandidate> fitted;
   RefineOptions options;
   options.parts = ValveParts::kRim;
-  options.wall = wall;
   for (const RimHypothesis& rim : rims) {
     const ValveCandidate start{PoseFromAxis(rim.center, rim.axis),
                                UsualValve(rim.radius_m, kTubeRadius_m, 0, 0.0), 0.0};
-    ValveCandidate valve = Refine(rays, start, options).valve;
+    ValveCandidate valve = Refine(likelihood.Footprints(), start, options).valve;
     valve.log_likelihood = likelihood(valve, ValveParts::kRim);
     fitted.push_back(valve);
   }
@@ -109,12 +107,10 @@ std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& spli
   LeverSearchOptions search;
   search.facing = Facing(rays, split);
   search.tolerance_m = 1.5 * rays.sigma_m + 0.012;
-  RefineOptions refine;
-  refine.wall = split.wall;
   std::vector<ValveCandidate> levers;
   for (const ValveCandidate& start : FindLevers(points, search, random)) {
     levers.push_back(start);
-    levers.push_back(Refine(rays, start, refine).valve);
+    levers.push_back(Refine(likelihood.Footprints(), start, {}).valve);
   }
   for (ValveCandidate& lever : levers) lever.log_likelihood = likelihood(lever);
   SortByLikelihood(levers);
@@ -170,12 +166,11 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   const std::vector<RimHypothesis> hypotheses = SearchRims(rays, split, options);
   const RayLikelihood likelihood(rays, split.wall);
   const RayLikelihood coarse(few_rays, split.wall);
-  const std::vector<ValveCandidate> rims = FitRims(rays, split.wall, likelihood, hypotheses);
+  const std::vector<ValveCandidate> rims = FitRims(likelihood, hypotheses);
 
   context.Report(0.3, "counting the spokes");
-  FORESIGHT_TRY(
-      std::vector<ValveCandidate> valves,
-      FindSpokes(rays, split.wall, coarse, likelihood, rims, SpokeCounts(options), context));
+  FORESIGHT_TRY(std::vector<ValveCandidate> valves,
+                FindSpokes(coarse, likelihood, rims, SpokeCounts(options), context));
   std::optional<ValveCandidate> wheel;
   if (!valves.empty()) wheel = valves.front();
   if (const auto lever = FitLever(rays, split, likelihood, wheel, options))
@@ -198,15 +193,14 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   for (std::size_t i = 1; i < valves.size() && i <= kAlternatives; ++i)
     detection.alternatives.push_back(WithUpwardSpoke(valves[i]));
   RefineOptions at_end;
-  at_end.wall = split.wall;
   at_end.rounds = at_end.steps = 1;
-  SetSigmas(Refine(rays, detection.best, at_end).information, detection);
-  detection.evidence = GatherEvidence(rays, split.wall, detection.best);
+  SetSigmas(Refine(likelihood.Footprints(), detection.best, at_end).information, detection);
+  detection.evidence = GatherEvidence(likelihood.Footprints(), detection.best);
   detection.evidence.margin_nats =
       valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
   detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
   detection.verdict = AssessValve(rays, region, detection, options);
-  WidenSigmas(rays, at_end, detection);
+  WidenSigmas(likelihood.Footprints(), detection);
   return detection;
 }
 

@@ -14,7 +14,7 @@ constexpr double kMixing = 0.75;  // a footprint on two surfaces reads in betwee
 }  // namespace
 
 RayLikelihood::RayLikelihood(const RaySet& rays, const std::optional<Plane>& wall)
-    : rays_(rays), wall_(wall), footprints_(rays, wall) {
+    : rays_(rays), footprints_(rays, wall) {
   backgrounds_.reserve(rays.rays.size());
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
     Background background;
@@ -57,7 +57,7 @@ double RayLikelihood::DensityOn(std::size_t i, const ExpectedRange& expected) co
 }
 
 double RayLikelihood::operator()(const ValveCandidate& valve, ValveParts parts) const {
-  const double prior = LogPrior(valve, wall_);
+  const double prior = LogPrior(valve, footprints_.Wall());
   if (!beams_) return OfRays(valve, parts) + prior;
   return BeamModel::kMapWithBeams * OfRays(valve, parts) + beams_->OfRays(valve, parts) + prior;
 }

@@ -23,6 +23,7 @@ namespace foresight {
 /// from them, for kMapWithBeams of its own.
 class RayLikelihood {
  public:
+  /// `rays` must outlive this.
   RayLikelihood(const RaySet& rays, const std::optional<Plane>& wall);
 
   /// Log likelihood of all rays in nats, counted as independent measurements, plus the log prior.
@@ -30,6 +31,9 @@ class RayLikelihood {
 
   /// The same with no valve there at all.
   double Nothing() const;
+
+  /// Of its rays, without the beams behind a map.
+  const BeamFootprints& Footprints() const { return footprints_; }
 
  private:
   /// Density of the measured range of a ray without a valve.
@@ -45,7 +49,6 @@ class RayLikelihood {
   double DensityOn(std::size_t i, const ExpectedRange& expected) const;
 
   const RaySet& rays_;
-  std::optional<Plane> wall_;
   BeamFootprints footprints_;
   std::vector<Background> backgrounds_;
   std::unique_ptr<const RayLikelihood> beams_;  ///< behind a dense map; null = not known

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/fitting/valve/beam_footprints.h"
+#include "core/fitting/valve/valve_tracer.h"
 
 namespace foresight {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kCauchyScale2 = 4.0;  // of the squared pair of residuals: 2 sigma
 constexpr double kGate = 2.5;          // sigmas of range within which a ray saw the template
 constexpr double kStep = 1e-5;         // of the numeric derivative, metres and radians
-constexpr int kPriors = 5;
+constexpr int kPriors = 8;
 
 constexpr double kLeastFraction = 0.5;  // of the footprint of a ray that saw the template
 
@@ -28,16 +28,21 @@ struct RoledRay {
 /// The step of a one-sided derivative. A size at the end of its range can only change inwards: the
 /// other way its clamp would hide the slope and the size would stay there for ever.
 double StepTowardsUsual(const ValveModel& model, int parameter) {
+  const Eigen::Vector3d sections = SectionResiduals(model);
   const bool above =
       (parameter == kTubeRadius && model.tube_radius_m > ValvePrior::kTubeRadius_m) ||
-      (parameter == kDish && OwnSizeResidual(model) > 0.0);
+      (parameter == kDish && OwnSizeResidual(model) > 0.0) ||
+      (parameter == kRimDepth && sections.x() > 0.0) ||
+      (parameter == kSpokeRadius && sections.y() > 0.0) ||
+      (parameter == kSpokeDepth && sections.z() > 0.0);
   return above ? -kStep : kStep;
 }
 
 class Problem {
  public:
-  Problem(const RaySet& rays, const RefineOptions& options)
-      : rays_(rays), options_(options), footprints_(rays, options.wall) {
+  Problem(const BeamFootprints& footprints, const RefineOptions& options)
+      : rays_(footprints.Rays()), options_(options), footprints_(footprints) {
+    const RaySet& rays = rays_;
     const std::size_t stride = std::max<std::size_t>(
         1, (rays.rays.size() + static_cast<std::size_t>(options.max_rays) - 1) /
                static_cast<std::size_t>(options.max_rays));
@@ -88,7 +93,7 @@ class Problem {
     residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
                                      ValvePrior::kTubeRadiusSigma_m,
         OwnSizeResidual(valve.model), std::log(valve.brightness) / ValvePrior::kBrightnessSigma,
-        AxisPriorResiduals(valve, options_.wall);
+        AxisPriorResiduals(valve, footprints_.Wall()), SectionResiduals(valve.model);
     return residuals;
   }
 
@@ -133,8 +138,7 @@ class Problem {
   Jacobian JacobianAt(const ValveCandidate& valve, const Eigen::VectorXd& residuals) const {
     Jacobian jacobian(residuals.size(), int{kValveParameters});
     for (int p = 0; p < kValveParameters; ++p) {
-      if (options_.parts == ValveParts::kRim && (p == kPhase || p == kTubeRadius || p == kDish)) {
-        // Alone, a rim would thicken to reach the returns of its spokes.
+      if (Unseen(valve.model, p)) {
         jacobian.col(p).setZero();
         continue;
       }
@@ -142,6 +146,16 @@ class Problem {
       jacobian.col(p) = (Residuals(Retract(valve, step * ValveStep::Unit(p))) - residuals) / step;
     }
     return jacobian;
+  }
+
+  /// Whether a parameter changes nothing that is looked at.
+  bool Unseen(const ValveModel& model, int parameter) const {
+    const bool section = parameter >= kRimDepth;
+    if (model.IsLever()) return section;
+    // Alone, a rim would thicken to reach the returns of its spokes.
+    if (options_.parts == ValveParts::kRim)
+      return section || parameter == kPhase || parameter == kTubeRadius || parameter == kDish;
+    return model.spokes == 0 && (parameter == kSpokeRadius || parameter == kSpokeDepth);
   }
 
   /// A ray that goes from one part to another within a derivative's step seems to know the pose to
@@ -162,15 +176,16 @@ class Problem {
 
   const RaySet& rays_;
   const RefineOptions& options_;
-  BeamFootprints footprints_;
+  const BeamFootprints& footprints_;
   std::vector<RoledRay> roled_;
   double weight_ = 1.0;  ///< measurements that one used ray stands for
 };
 
 }  // namespace
 
-RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const RefineOptions& options) {
-  Problem problem(rays, options);
+RefinedValve Refine(const BeamFootprints& footprints, const ValveCandidate& start,
+                    const RefineOptions& options) {
+  Problem problem(footprints, options);
   RefinedValve best{start, ValveInformation::Identity()};
   ValveStep gradient;
   for (int round = 0; round < options.rounds; ++round) {
@@ -201,9 +216,9 @@ RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const Refin
   return best;
 }
 
-ValveScores ScoresOf(const RaySet& rays, const ValveCandidate& valve,
+ValveScores ScoresOf(const BeamFootprints& footprints, const ValveCandidate& valve,
                      const RefineOptions& options) {
-  Problem problem(rays, options);
+  Problem problem(footprints, options);
   problem.AssignRoles(valve);
   return problem.Scores(valve);
 }

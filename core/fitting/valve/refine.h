@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fitting/ray_set.h"
+#include "core/fitting/valve/beam_footprints.h"
 #include "core/fitting/valve/valve_state.h"
 #include "core/geometry/plane.h"
 
@@ -12,7 +13,6 @@ namespace foresight {
 
 struct RefineOptions {
   ValveParts parts = ValveParts::kAll;
-  std::optional<Plane> wall;  ///< behind the valve
   bool free_space = true;     ///< rays that went through the template push it away
   int max_rays = 500;         ///< thinned evenly
   int rounds = 4;             ///< of deciding what each ray saw
@@ -27,7 +27,8 @@ struct RefinedValve {
 /// Levenberg-Marquardt on all parameters. A ray whose range agrees with the template pulls its
 /// surface along the ray and towards it across; a ray that ended behind the template pushes it
 /// aside. The result depends on a start within a few centimetres.
-RefinedValve Refine(const RaySet& rays, const ValveCandidate& start, const RefineOptions& options);
+RefinedValve Refine(const BeamFootprints& footprints, const ValveCandidate& start,
+                    const RefineOptions& options);
 
 /// What each ray says of the parameters at an answer, for its covariance.
 struct ValveScores {
@@ -38,6 +39,7 @@ struct ValveScores {
   ValveInformation prior;        ///< the prior's alone
 };
 
-ValveScores ScoresOf(const RaySet& rays, const ValveCandidate& valve, const RefineOptions& options);
+ValveScores ScoresOf(const BeamFootprints& footprints, const ValveCandidate& valve,
+                     const RefineOptions& options);
 
 }  // namespace foresight

@@ -34,8 +34,7 @@ ValveCandidate BestOfGrid(const RayLikelihood& likelihood, const ValveCandidate&
 
 }  // namespace
 
-Result<std::vector<ValveCandidate>> FindSpokes(const RaySet& rays, const std::optional<Plane>& wall,
-                                               const RayLikelihood& coarse,
+Result<std::vector<ValveCandidate>> FindSpokes(const RayLikelihood& coarse,
                                                const RayLikelihood& fine,
                                                const std::vector<ValveCandidate>& rims,
                                                const std::vector<int>& spoke_counts,
@@ -43,8 +42,6 @@ Result<std::vector<ValveCandidate>> FindSpokes(const RaySet& rays, const std::op
   if (rims.empty()) return std::vector<ValveCandidate>();
   const int jobs = static_cast<int>(rims.size() * spoke_counts.size());
   std::vector<ValveCandidate> refined(static_cast<std::size_t>(jobs));
-  RefineOptions refine;
-  refine.wall = wall;
   const bool finished = ParallelFor(jobs, context, [&](int job) {
     const auto index = static_cast<std::size_t>(job);
     const int spokes = spoke_counts[index / rims.size()];
@@ -52,7 +49,7 @@ Result<std::vector<ValveCandidate>> FindSpokes(const RaySet& rays, const std::op
     ValveCandidate& valve = refined[index];
     valve = start;
     valve.log_likelihood = fine(start);
-    ValveCandidate tried = Refine(rays, start, refine).valve;
+    ValveCandidate tried = Refine(fine.Footprints(), start, {}).valve;
     tried.log_likelihood = fine(tried);
     if (tried.log_likelihood > valve.log_likelihood) valve = tried;
   });

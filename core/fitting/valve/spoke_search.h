@@ -9,10 +9,9 @@
 namespace foresight {
 
 /// For each number of spokes (0 = a disc) the best valve on one of the given rims: a grid of dish
-/// and phase scored by `coarse`, its best cell refined on `rays` and scored by `fine`. Best first.
-/// Fails with kCancelled.
-Result<std::vector<ValveCandidate>> FindSpokes(const RaySet& rays, const std::optional<Plane>& wall,
-                                               const RayLikelihood& coarse,
+/// and phase scored by `coarse`, its best cell refined on the rays of `fine` and scored by it. Best
+/// first. Fails with kCancelled.
+Result<std::vector<ValveCandidate>> FindSpokes(const RayLikelihood& coarse,
                                                const RayLikelihood& fine,
                                                const std::vector<ValveCandidate>& rims,
                                                const std::vector<int>& spoke_counts,

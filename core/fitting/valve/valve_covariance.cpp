@@ -18,10 +18,10 @@ constexpr std::array<double, 6> kFactors = {1.5, 1.6, 2.4, 1.25, 1.25, 1.0};
 
 }  // namespace
 
-void WidenSigmas(const RaySet& rays, const RefineOptions& options, ValveDetection& detection) {
-  RefineOptions all = options;
+void WidenSigmas(const BeamFootprints& footprints, ValveDetection& detection) {
+  RefineOptions all;
   all.max_rays = std::numeric_limits<int>::max();  // a thinned line would count for too much
-  const ValveScores found = ScoresOf(rays, detection.best, all);
+  const ValveScores found = ScoresOf(footprints, detection.best, all);
   // The ridge bounds what no ray sees: a phase to a turn, a length to a metre.
   const ValveInformation ridge = ValveInformation::Identity();
   const Eigen::MatrixXd covariance = CovarianceClusteredByLine(

@@ -8,9 +8,9 @@ namespace foresight {
 /// axes, by those that hold for the pose: the beams of a scan line err together
 /// (CovarianceClusteredByLine), and what no ray tells, that wheels are no template, is a factor for
 /// each direction, chosen on training scenes (docs/evaluation.md, "Two worlds").
-/// @param rays those of the fit; @param options its wall is looked at.
+/// `footprints` are those of the fit.
 /// The verdict is assessed before: its weights were fitted to SetSigmas, which takes every beam for
-/// an independent one.
-void WidenSigmas(const RaySet& rays, const RefineOptions& options, ValveDetection& detection);
+/// an independent one and sections for known.
+void WidenSigmas(const BeamFootprints& footprints, ValveDetection& detection);
 
 }  // namespace foresight

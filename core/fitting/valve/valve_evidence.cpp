@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/fitting/region_place.h"
-#include "core/fitting/valve/beam_footprints.h"
+#include "core/fitting/valve/valve_tracer.h"
 
 namespace foresight {
 namespace {
@@ -30,8 +30,9 @@ struct PartSupport {
 /// Of the rays that cross the plane z = 0 inside the rim (beside a lever: within half its length of
 /// its middle) and touch nothing of the valve, the fraction that ends there all the same: a valve
 /// is open, a box or a ball is not.
-double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveTracer& tracer,
+double BlockedGaps(const ValveCandidate& valve, const ValveTracer& tracer,
                    const BeamFootprints& footprints) {
+  const RaySet& rays = footprints.Rays();
   const ValveModel& model = valve.model;
   const Eigen::Vector3d axis = valve.base_from_object.Rotate(Eigen::Vector3d::UnitZ());
   const double reach = model.IsLever() ? 0.5 * model.lever_length_m + 4.0 * model.tube_radius_m
@@ -57,9 +58,10 @@ double BlockedGaps(const RaySet& rays, const ValveCandidate& valve, const ValveT
 
 /// Fraction of the middle line's bins that have support: of the rim's circle, or along a lever.
 int BinOf(const ValveIntersection& intersection, const ValveModel& model) {
-  const double fraction = model.IsLever()
-                              ? intersection.along_m / std::max(model.lever_length_m, 1e-6)
-                              : intersection.azimuth_rad / (2.0 * std::numbers::pi) + 0.5;
+  const Eigen::Vector2d& on_rim = intersection.on_rim;
+  const double fraction =
+      model.IsLever() ? intersection.along_m / std::max(model.lever_length_m, 1e-6)
+                      : std::atan2(on_rim.y(), on_rim.x()) / (2.0 * std::numbers::pi) + 0.5;
   return std::clamp(static_cast<int>(fraction * kBins), 0, kBins - 1);
 }
 
@@ -69,10 +71,9 @@ bool HasPhase(const ValveModel& model) {
 
 }  // namespace
 
-ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wall,
-                             const ValveCandidate& valve) {
+ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandidate& valve) {
+  const RaySet& rays = footprints.Rays();
   const ValveTracer tracer(valve, ValveParts::kAll);
-  const BeamFootprints footprints(rays, wall);
   const ValvePart outline = valve.model.IsLever() ? ValvePart::kLever : ValvePart::kRim;
   ValveEvidence evidence;
   std::bitset<kBins> covered;
@@ -108,7 +109,7 @@ ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wal
   const double hits = std::max(1, evidence.hits);
   evidence.inlier_ratio = agreeing / hits;
   evidence.see_through = behind / hits;
-  evidence.blocked_gaps = BlockedGaps(rays, valve, tracer, footprints);
+  evidence.blocked_gaps = BlockedGaps(valve, tracer, footprints);
   evidence.rms_m = std::sqrt(square_sum / std::max(1, agreeing));
   evidence.arc_coverage = static_cast<double>(covered.count()) / kBins;
   evidence.weakest_spoke = 1.0;
@@ -131,8 +132,11 @@ void SetCovariance(const PoseCovariance& covariance, ValveDetection& detection) 
 
 void SetSigmas(const ValveInformation& information, ValveDetection& detection) {
   // The ridge bounds what no ray sees: a phase to a turn, a length to a metre.
-  const ValveInformation covariance =
-      (information + ValveInformation::Identity()).ldlt().solve(ValveInformation::Identity());
+  using Known = Eigen::Matrix<double, kRimDepth, kRimDepth>;
+  const Known covariance =
+      (information.topLeftCorner<kRimDepth, kRimDepth>() + Known::Identity())
+          .ldlt()
+          .solve(Known::Identity());
   SetCovariance(covariance.topLeftCorner<6, 6>(), detection);
   detection.phase_observable =
       HasPhase(detection.best.model) && detection.sigma_phase_rad < kMaxPhaseSigma_rad;

@@ -1,23 +1,21 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/fitting/ray_set.h"
+#include "core/fitting/valve/beam_footprints.h"
 #include "core/fitting/valve/valve_state.h"
-#include "core/geometry/plane.h"
 
 namespace foresight {
 
-/// What the rays of a region say about a valve before a wall. A ray intersects it where half of its
-/// footprint lies on it. The two likelihoods are left at 0.
-ValveEvidence GatherEvidence(const RaySet& rays, const std::optional<Plane>& wall,
-                             const ValveCandidate& valve);
+/// What the rays of a region say about a valve. A ray intersects it where half of its footprint
+/// lies on it. The two likelihoods are left at 0.
+ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandidate& valve);
 
 /// Fills the covariance and the deviations of a detection from the information of its best
-/// candidate, as if each beam were an independent measurement: for the verdict. WidenSigmas
-/// follows. A direction that no ray sees has a deviation of about a turn or a metre; the phase of
+/// candidate, as if each beam were an independent measurement and the sections were known: how well
+/// the beams know the front, for the verdict. WidenSigmas follows. A direction that no ray sees has a deviation of about a turn or a metre; the phase of
 /// a disc is NaN in the covariance.
 void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 

@@ -9,8 +9,10 @@
 namespace foresight {
 namespace {
 
-constexpr double kSpokePerTube = 0.67;
 constexpr double kHubPerRim = 0.20;
+constexpr double kSpokePerTube = 0.67;
+constexpr double kLeastDepth_m = 0.002;  // half of it, of any section
+constexpr double kMostDepth_m = 0.025;
 
 /// By what a tilt against the wall's normal is multiplied to count as a residual of the prior.
 double SquareWeight(double tilt2) {
@@ -24,15 +26,30 @@ double SquareWeight(double tilt2) {
   return std::sqrt(-2.0 * std::log(density / (square + skew)) / tilt2);
 }
 
+ValveModel StepWheel(const ValveModel& model, const ValveStep& step) {
+  ValveModel stepped = UsualValve(model.rim_radius_m + step[kRimRadius],
+                                  model.tube_radius_m + step[kTubeRadius], model.spokes,
+                                  model.dish_m + step[kDish]);
+  const auto ratio = [](double depth_m, double width_m) {
+    return std::clamp(depth_m, kLeastDepth_m, kMostDepth_m) / width_m;
+  };
+  stepped.rim_depth_ratio = ratio(model.RimDepth() + step[kRimDepth], stepped.tube_radius_m);
+  if (model.spokes == 0) return stepped;
+  stepped.spoke_radius_m = std::clamp(model.spoke_radius_m + step[kSpokeRadius], 0.003, 0.025);
+  stepped.spoke_depth_ratio =
+      ratio(model.SpokeDepth() + step[kSpokeDepth], stepped.spoke_radius_m);
+  return stepped;
+}
+
 }  // namespace
 
 ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, double dish_m) {
   ValveModel model;
   model.rim_radius_m = std::clamp(rim_radius_m, 0.030, 0.400);
-  model.tube_radius_m = std::clamp(tube_radius_m, 0.005, 0.025);
+  model.tube_radius_m = std::clamp(tube_radius_m, 0.003, 0.030);
   model.spokes = spokes;
   model.dish_m = std::clamp(dish_m, -0.060, 0.120);
-  model.spoke_radius_m = kSpokePerTube * model.tube_radius_m;
+  model.spoke_radius_m = std::max(0.003, kSpokePerTube * model.tube_radius_m);
   model.hub_radius_m = kHubPerRim * model.rim_radius_m;
   return model;
 }
@@ -55,13 +72,12 @@ ValveCandidate Retract(const ValveCandidate& valve, const ValveStep& step) {
       angle > 0.0 ? rotation * Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle))
                   : rotation;
   const ValveModel& model = valve.model;
-  const double tube_radius_m = model.tube_radius_m + step[kTubeRadius];
   return {Rigid<frame::Base, frame::Object>(
               turned, valve.base_from_object.translation() + rotation * step.segment<3>(kMoveX)),
-          model.IsLever() ? UsualLever(model.lever_length_m + step[kRimRadius], tube_radius_m,
+          model.IsLever() ? UsualLever(model.lever_length_m + step[kRimRadius],
+                                       model.tube_radius_m + step[kTubeRadius],
                                        model.hub_radius_m + step[kDish])
-                          : UsualValve(model.rim_radius_m + step[kRimRadius], tube_radius_m,
-                                       model.spokes, model.dish_m + step[kDish]),
+                          : StepWheel(model, step),
           valve.log_likelihood,
           std::clamp(valve.brightness * std::exp(step[kBrightness]), 0.1, 10.0)};
 }
@@ -83,6 +99,17 @@ double OwnSizeResidual(const ValveModel& model) {
              : (model.dish_m - ValvePrior::kDish_m) / ValvePrior::kDishSigma_m;
 }
 
+Eigen::Vector3d SectionResiduals(const ValveModel& model) {
+  if (model.IsLever()) return Eigen::Vector3d::Zero();
+  const auto residual = [](double size_m, double usual_m) {
+    return std::log(size_m / usual_m) / ValvePrior::kSectionSigma;
+  };
+  const double rim = residual(model.RimDepth(), ValvePrior::kRimDepth_m);
+  if (model.spokes == 0) return {rim, 0.0, 0.0};
+  return {rim, residual(model.spoke_radius_m, ValvePrior::kSpokeRadius_m),
+          residual(model.SpokeDepth(), ValvePrior::kSpokeDepth_m)};
+}
+
 double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall) {
   const ValveModel& model = valve.model;
   const double tube =
@@ -90,6 +117,7 @@ double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall) {
   const double own = OwnSizeResidual(model);
   return -0.5 * (Squared(tube) + Squared(own) +
                  Squared(std::log(valve.brightness) / ValvePrior::kBrightnessSigma) +
+                 SectionResiduals(model).squaredNorm() +
                  AxisPriorResiduals(valve, wall).squaredNorm());
 }
 

@@ -20,6 +20,9 @@ enum ValveParameter {
   kTubeRadius,
   kDish,        ///< or the radius of a lever's head
   kBrightness,  ///< its logarithm
+  kRimDepth,    ///< half of it, along the axis; a lever has none of the last three
+  kSpokeRadius,
+  kSpokeDepth,
   kValveParameters
 };
 using ValveStep = Eigen::Matrix<double, kValveParameters, 1>;
@@ -35,6 +38,12 @@ struct ValvePrior {
   static constexpr double kDish_m = 0.020;
   static constexpr double kDishSigma_m = 0.050;
   static constexpr double kBrightnessSigma = 0.4;  ///< of the logarithm
+  /// Of sections, of the logarithm: half a rim's depth, half a spoke's width and depth. A bar may
+  /// lie flat or stand upright: depths do not go with widths.
+  static constexpr double kRimDepth_m = 0.010;
+  static constexpr double kSpokeRadius_m = 0.008;
+  static constexpr double kSpokeDepth_m = 0.007;
+  static constexpr double kSectionSigma = 0.5;
   static constexpr double kHeadRadius_m = 0.025;   ///< of a lever
   static constexpr double kHeadRadiusSigma_m = 0.006;
   /// Most valves are mounted square to the wall behind them, the others at any angle: two normal
@@ -47,7 +56,8 @@ struct ValvePrior {
   static constexpr double kLeverTurnSigma_rad = 0.03;
 };
 
-/// A valve of usual proportions: spokes thinner than the rim's tube, a hub of a fifth of the rim.
+/// A valve of usual proportions: round sections, spokes thinner than the rim's tube, a hub of a
+/// fifth of the rim.
 ValveModel UsualValve(double rim_radius_m, double tube_radius_m, int spokes, double dish_m);
 
 inline constexpr double kMaxLeverLength_m = 0.45;
@@ -56,7 +66,8 @@ inline constexpr double kMaxLeverLength_m = 0.45;
 ValveModel UsualLever(double length_m, double tube_radius_m,
                       double head_radius_m = ValvePrior::kHeadRadius_m);
 
-/// The valve after a step. Radii and dish stay within what is built.
+/// The valve after a step. Radii, depths and dish stay within what is built. A section's depth does
+/// not change with its width.
 ValveCandidate Retract(const ValveCandidate& valve, const ValveStep& step);
 
 /// What the prior of an axis square to the wall counts in a sum of squares: components along the
@@ -66,6 +77,10 @@ Eigen::Vector2d AxisPriorResiduals(const ValveCandidate& valve, const std::optio
 
 /// A wheel's dish or a lever's head against the usual, in sigmas of the prior.
 double OwnSizeResidual(const ValveModel& model);
+
+/// A wheel's sections against the usual, in sigmas of the prior: depth of the rim, width and depth
+/// of the spokes. 0 of a lever; of a disc but the first.
+Eigen::Vector3d SectionResiduals(const ValveModel& model);
 
 /// Log of the prior's density, without its constant.
 double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall);

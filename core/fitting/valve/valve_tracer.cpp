@@ -17,7 +17,7 @@ ValveIntersection Approach(ValvePart part, const Eigen::Vector3d& origin,
                            const Eigen::Vector3d& tangent, double radius) {
   ValveIntersection intersection;
   intersection.part = part;
-  intersection.radius_m = radius;
+  intersection.radius_m = intersection.depth_m = radius;
   intersection.middle_m = (point - origin).dot(direction);
   const Eigen::Vector3d offset = origin + intersection.middle_m * direction - point;
   intersection.offset_m = offset.norm();
@@ -26,11 +26,33 @@ ValveIntersection Approach(ValvePart part, const Eigen::Vector3d& origin,
   const Eigen::Vector3d across = tangent.cross(direction);
   const double length = across.norm();
   if (length > 1e-3)
-    intersection.across = across / length;
+    intersection.across = (across.dot(offset) < 0.0 ? -1.0 : 1.0) / length * across;
   else if (intersection.offset_m > 1e-9)
     intersection.across = offset / intersection.offset_m;
   intersection.stretch = 1.0 / std::sqrt(std::max(sine2, 1.0 / (kMaxStretch * kMaxStretch)));
   return intersection;
+}
+
+/// Turns the round section of an intersection into an ellipse with half axes `width` along
+/// tangent x depth_axis and `depth` along the depth axis, a unit vector across the tangent.
+void FlattenSection(double width, double depth, const Eigen::Vector3d& depth_axis,
+                    const Eigen::Vector3d& tangent, const Eigen::Vector3d& direction,
+                    ValveIntersection& intersection) {
+  if (width == depth) return;
+  // In the plane of the section, along the ray and across it.
+  Eigen::Vector2d along(tangent.cross(depth_axis).dot(direction), depth_axis.dot(direction));
+  const double length = along.norm();
+  if (length < 1e-3) return;
+  along /= length;
+  const double side = Eigen::Vector2d(tangent.cross(depth_axis).dot(intersection.across),
+                                      depth_axis.dot(intersection.across))
+                                  .dot(Eigen::Vector2d(-along.y(), along.x())) < 0.0
+                          ? -1.0
+                          : 1.0;
+  const double half2 = width * width * along.y() * along.y() + depth * depth * along.x() * along.x();
+  intersection.radius_m = std::sqrt(half2);
+  intersection.depth_m = width * depth / intersection.radius_m;
+  intersection.lean = side * along.x() * along.y() * (depth * depth - width * width) / half2;
 }
 
 /// Where along a line (point, unit direction) it is closest to a ray.
@@ -53,8 +75,9 @@ ValveIntersection FirstMet(const ValveIntersection& a, const ValveIntersection& 
 }  // namespace
 
 double ValveIntersection::Range() const {
-  const double depth2 = radius_m * radius_m - offset_m * offset_m;
-  return depth2 > 0.0 ? middle_m - stretch * std::sqrt(depth2) : middle_m;
+  const double middle = middle_m + stretch * lean * std::min(offset_m, radius_m);
+  const double part2 = 1.0 - offset_m * offset_m / (radius_m * radius_m);
+  return part2 > 0.0 ? middle - stretch * depth_m * std::sqrt(part2) : middle;
 }
 
 ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
@@ -65,21 +88,25 @@ ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
       hub_(0.0, 0.0, valve.model.IsLever() ? 0.0 : -valve.model.dish_m) {
   if (model_.IsLever()) {
     reach_m_ = model_.lever_length_m + model_.tube_radius_m;
+    const double stem_m = ValveModel::kLeverStemPerHub * model_.hub_radius_m;
     lever_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), model_.lever_length_m,
-              model_.tube_radius_m};
-    stem_ = {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), ValveModel::kLeverStem_m,
-             ValveModel::kLeverStemPerHub * model_.hub_radius_m};
+              model_.tube_radius_m,    model_.tube_radius_m,     Eigen::Vector3d::UnitZ()};
+    stem_ = {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), ValveModel::kLeverStem_m, stem_m,
+             stem_m,                  Eigen::Vector3d::UnitX()};
     return;
   }
-  reach_m_ = model_.rim_radius_m + model_.tube_radius_m +
+  reach_m_ = model_.rim_radius_m + std::max(model_.tube_radius_m, model_.RimDepth()) +
              std::max(0.0, std::abs(model_.dish_m) + model_.hub_radius_m - model_.rim_radius_m);
   for (int i = 0; i < model_.spokes; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / model_.spokes;
     const Eigen::Vector3d end(model_.rim_radius_m * std::cos(angle),
                               model_.rim_radius_m * std::sin(angle), 0.0);
     const double length = (end - hub_).norm();
-    spokes_[static_cast<std::size_t>(i)] = {hub_, (end - hub_) / length, length,
-                                            model_.spoke_radius_m};
+    const Eigen::Vector3d direction = (end - hub_) / length;
+    const Eigen::Vector3d sideways(-std::sin(angle), std::cos(angle), 0.0);
+    spokes_[static_cast<std::size_t>(i)] = {
+        hub_,   direction, length, model_.spoke_radius_m, model_.SpokeDepth(),
+        direction.cross(sideways)};
   }
 }
 
@@ -102,7 +129,7 @@ ValveIntersection ValveTracer::IntersectRim(const LocalRay& ray) const {
   Eigen::Vector3d tangent;
   // The circle is nearly straight over the distance of one step: two steps leave micrometres.
   for (int step = 0; step < 3; ++step) {
-    const double radial = std::max(std::hypot(point.x(), point.y()), 1e-9);
+    const double radial = std::max(point.head<2>().norm(), 1e-9);
     on_rim = {radius * point.x() / radial, radius * point.y() / radial, 0.0};
     tangent = {-on_rim.y() / radius, on_rim.x() / radius, 0.0};
     if (step < 2)
@@ -110,7 +137,9 @@ ValveIntersection ValveTracer::IntersectRim(const LocalRay& ray) const {
   }
   ValveIntersection intersection =
       Approach(ValvePart::kRim, ray.origin, ray.direction, on_rim, tangent, model_.tube_radius_m);
-  intersection.azimuth_rad = std::atan2(on_rim.y(), on_rim.x());
+  FlattenSection(model_.tube_radius_m, model_.RimDepth(), Eigen::Vector3d::UnitZ(), tangent,
+                 ray.direction, intersection);
+  intersection.on_rim = on_rim.head<2>();
   return intersection;
 }
 
@@ -119,19 +148,27 @@ ValveIntersection ValveTracer::IntersectHub(const LocalRay& ray) const {
                   model_.hub_radius_m);
 }
 
-ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar) {
-  const double along = std::clamp(
-      ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction), 0.0, bar.length_m);
+double ValveTracer::AlongBar(const LocalRay& ray, const Bar& bar) {
+  return std::clamp(ClosestAlongLine(ray.origin, ray.direction, bar.begin, bar.direction), 0.0,
+                    bar.length_m);
+}
+
+ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar,
+                                            double along) {
   const bool at_end = part == ValvePart::kLever && along == bar.length_m;
   const Eigen::Vector3d tangent = at_end ? Eigen::Vector3d::Zero() : bar.direction;
   ValveIntersection intersection = Approach(
       part, ray.origin, ray.direction, bar.begin + along * bar.direction, tangent, bar.radius_m);
+  if (!at_end)
+    FlattenSection(bar.radius_m, bar.depth_m, bar.depth_axis, bar.direction, ray.direction,
+                   intersection);
   intersection.along_m = along;
   return intersection;
 }
 
 ValveIntersection ValveTracer::IntersectStem(const LocalRay& ray) const {
-  ValveIntersection intersection = IntersectBar(ValvePart::kStem, ray, stem_);
+  ValveIntersection intersection =
+      IntersectBar(ValvePart::kStem, ray, stem_, AlongBar(ray, stem_));
   const Eigen::Vector3d entry = ray.origin + intersection.Range() * ray.direction;
   // Seen from the front, a stem without end would be entered before its beginning.
   if ((entry - stem_.begin).dot(stem_.direction) < 0.0)
@@ -147,7 +184,7 @@ bool ValveTracer::IntersectDisc(const LocalRay& ray, ValveIntersection& intersec
   // The cone from hub to rim is flat: its height at the last crossing gives the next one.
   for (int step = 0; step < 4; ++step) {
     const Eigen::Vector3d point = ray.origin + range * ray.direction;
-    radial = std::hypot(point.x(), point.y());
+    radial = point.head<2>().norm();
     const double height = -model_.dish_m * std::max(0.0, 1.0 - radial / model_.rim_radius_m);
     range = (height - ray.origin.z()) / ray.direction.z();
   }
@@ -155,7 +192,7 @@ bool ValveTracer::IntersectDisc(const LocalRay& ray, ValveIntersection& intersec
   intersection = ValveIntersection{};
   intersection.part = ValvePart::kDisc;
   intersection.middle_m = range;
-  intersection.radius_m = model_.spoke_radius_m;
+  intersection.radius_m = intersection.depth_m = model_.spoke_radius_m;
   intersection.stretch = std::min(1.0 / std::abs(ray.direction.z()), kMaxStretch);
   return true;
 }
@@ -165,8 +202,14 @@ ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray) const {
   if (parts_ == ValveParts::kRim) return best;
   best = FirstMet(best, IntersectHub(ray));
   for (int i = 0; i < model_.spokes; ++i) {
-    ValveIntersection spoke =
-        IntersectBar(ValvePart::kSpoke, ray, spokes_[static_cast<std::size_t>(i)]);
+    const Bar& bar = spokes_[static_cast<std::size_t>(i)];
+    const double along = AlongBar(ray, bar);
+    // Most spokes are farther than what the ray passes already.
+    const double near = std::max(0.0, best.Clearance()) + std::max(bar.radius_m, bar.depth_m);
+    const Eigen::Vector3d from_ray = bar.begin + along * bar.direction - ray.origin;
+    const double middle = from_ray.dot(ray.direction);
+    if (from_ray.squaredNorm() - middle * middle > near * near) continue;
+    ValveIntersection spoke = IntersectBar(ValvePart::kSpoke, ray, bar, along);
     spoke.spoke = i;
     best = FirstMet(best, spoke);
   }
@@ -176,7 +219,8 @@ ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray) const {
 }
 
 ValveIntersection ValveTracer::IntersectLever(const LocalRay& ray) const {
-  const ValveIntersection bar = IntersectBar(ValvePart::kLever, ray, lever_);
+  const ValveIntersection bar =
+      IntersectBar(ValvePart::kLever, ray, lever_, AlongBar(ray, lever_));
   return FirstMet(FirstMet(bar, IntersectHub(ray)), IntersectStem(ray));
 }
 

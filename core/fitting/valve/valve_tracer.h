@@ -11,16 +11,19 @@ namespace foresight {
 enum class ValvePart { kRim, kHub, kSpoke, kDisc, kLever, kStem };
 
 /// How a ray passes the part of a valve that it intersects first, or that it misses by least. Each
-/// part is a tube of some radius around its middle line.
+/// part is a tube of elliptic section around its middle line.
 struct ValveIntersection {
   ValvePart part = ValvePart::kRim;
   double middle_m = 0.0;  ///< range at which the ray is closest to the middle line
   double offset_m = 0.0;  ///< how close that is
-  double radius_m = 0.0;  ///< of the tube
+  double radius_m = 0.0;  ///< half the section's width as seen along the ray
+  double depth_m = 0.0;   ///< half the section's depth along a ray through its middle
+  double lean = 0.0;      ///< how much nearer to the viewer (< 0) it is in the middle, per offset
   double stretch = 1.0;   ///< 1 / sine of the angle between ray and middle line
-  /// In base, length 1: across both ray and middle line. 0 for a disc, which has no sides.
+  /// In base, length 1: across both ray and middle line, from this to the ray. 0 for a disc, which
+  /// has no sides.
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
-  double azimuth_rad = 0.0;  ///< of the closest point of a rim, in the object's frame
+  Eigen::Vector2d on_rim = Eigen::Vector2d::Zero();  ///< closest point of a rim, object's frame
   double along_m = 0.0;      ///< of the closest point of a spoke, lever or stem, from its beginning
   int spoke = 0;             ///< which one
 
@@ -53,11 +56,16 @@ class ValveTracer {
     Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
     double length_m = 0.0;
     double radius_m = 0.0;
+    double depth_m = 0.0;                                     ///< half of it, along ...
+    Eigen::Vector3d depth_axis = Eigen::Vector3d::UnitZ();  ///< ... this, across direction
   };
 
   ValveIntersection IntersectRim(const LocalRay& ray) const;
   ValveIntersection IntersectHub(const LocalRay& ray) const;
-  static ValveIntersection IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar);
+  /// Where along a bar a ray is closest to it.
+  static double AlongBar(const LocalRay& ray, const Bar& bar);
+  static ValveIntersection IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar,
+                                        double along);
   ValveIntersection IntersectStem(const LocalRay& ray) const;
   ValveIntersection IntersectWheel(const LocalRay& ray) const;
   ValveIntersection IntersectLever(const LocalRay& ray) const;

@@ -18,6 +18,8 @@ ValveDetection Sample() {
                     {0.12, 0.013, 4, 0.009, 0.024, 0.031},
                     1234.5};
   detection.best.brightness = 0.7;
+  detection.best.model.rim_depth_ratio = 0.4;
+  detection.best.model.spoke_depth_ratio = 1.6;
   detection.phase_observable = false;
   detection.sigma_position_m = {0.001, 0.002, 0.003};
   detection.sigma_axis_rad = 0.01;
@@ -45,6 +47,8 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_TRUE(read->best.base_from_object.Matrix() == sample.best.base_from_object.Matrix());
   EXPECT_EQ(read->best.model.spokes, 4);
   EXPECT_EQ(read->best.model.dish_m, sample.best.model.dish_m);
+  EXPECT_EQ(read->best.model.rim_depth_ratio, 0.4);
+  EXPECT_EQ(read->best.model.spoke_depth_ratio, 1.6);
   EXPECT_FALSE(read->phase_observable);
   EXPECT_EQ(read->sigma_position_m, sample.sigma_position_m);
   EXPECT_EQ(read->evidence.hits, 200);
@@ -63,6 +67,18 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
             std::get<ImageRoi>(sample.origin.roi).polygon);
   // And the text itself is stable.
   EXPECT_EQ(DetectionToJson(*read, {}), DetectionToJson(sample, {}));
+}
+
+TEST(DetectionJson, AValveOfAnOlderProgramIsRound) {
+  nlohmann::json old = nlohmann::json::parse(DetectionToJson(Sample(), {}));
+  for (auto* candidate : {&old["best"], &old["alternatives"][0]})
+    for (const char* ratio : {"rim_depth_ratio", "spoke_depth_ratio"})
+      ASSERT_EQ((*candidate)["model"].erase(ratio), 1U);
+  const auto any = DetectionFromJson(old.dump());
+  ASSERT_TRUE(any) << any.error().message;
+  const ValveModel& model = std::get<ValveDetection>(*any).best.model;
+  EXPECT_EQ(model.rim_depth_ratio, 1.0);
+  EXPECT_EQ(model.spoke_depth_ratio, 1.0);
 }
 
 DrillDetection SampleDrill() {
@@ -199,6 +215,8 @@ TEST(DetectionJson, NumbersThatNoObjectHasAreRefusedByName) {
            {model + "spokes", -1},
            {model + "rim_radius_m", 1e308},
            {model + "tube_radius_m", nullptr},
+           {model + "rim_depth_ratio", -1.0},
+           {model + "spoke_depth_ratio", 1e9},
            {model + "dish_m", -1e9},
            {"/alternatives/0/model/spokes", 7},
            {"/evidence/hits", 1e10},

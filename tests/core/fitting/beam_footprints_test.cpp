@@ -23,7 +23,7 @@ class BeamFootprintsAtTwoMetres : public ::testing::Test {
   static ValveIntersection Tube(double radius_m, double offset_m, const Eigen::Vector3d& across) {
     ValveIntersection intersection;
     intersection.middle_m = 2.0;
-    intersection.radius_m = radius_m;
+    intersection.radius_m = intersection.depth_m = radius_m;
     intersection.offset_m = offset_m;
     intersection.across = across;
     return intersection;
@@ -45,6 +45,15 @@ TEST_F(BeamFootprintsAtTwoMetres, OnAThickTubeReadItsFront) {
       BeamFootprints(rays_, wall_).Expect(0, Tube(0.05, 0.0, Eigen::Vector3d::UnitY()), 1.0);
   EXPECT_EQ(expected.fraction, 1.0);
   EXPECT_NEAR(expected.range_m, 1.95, 0.001);
+}
+
+TEST_F(BeamFootprintsAtTwoMetres, OnAFlatBarReadItsFrontWhichLeansWithIt) {
+  ValveIntersection bar = Tube(0.05, 0.02, Eigen::Vector3d::UnitX());
+  bar.depth_m = 0.01;
+  bar.lean = -0.5;  // 10 mm nearer where the ray passes, 20 mm beside the middle
+  const ExpectedRange expected = BeamFootprints(rays_, wall_).Expect(0, bar, 1.0);
+  EXPECT_EQ(expected.fraction, 1.0);
+  EXPECT_NEAR(expected.range_m, 1.981, 0.001);
 }
 
 TEST_F(BeamFootprintsAtTwoMetres, OnAThinTubeReadBetweenItAndTheWall) {

@@ -36,7 +36,9 @@ ValveCandidate Displaced(const ValveScene& scene, std::uint64_t seed) {
   ValveStep step;
   for (int p = 0; p < kValveParameters; ++p) step[p] = random.Uniform(-1.0, 1.0);
   const ValveStep sizes =
-      (ValveStep() << 0.01, 0.01, 0.01, 0.05, 0.05, 0.1, 0.01, 0.003, 0.01, 0.2).finished();
+      (ValveStep() << 0.01, 0.01, 0.01, 0.05, 0.05, 0.1, 0.01, 0.003, 0.01, 0.2, 0.003, 0.002,
+       0.002)
+          .finished();
   return Retract(scene.truth, step.cwiseProduct(sizes));
 }
 
@@ -140,10 +142,9 @@ TEST(LocalSearch, NeverLosesLikelihood) {
 
 TEST(Refine, ComesBackFromACentimetre) {
   const ValveScene scene = FourSpokes();
-  RefineOptions options;
-  options.wall = WallOf(scene.rays);
+  const BeamFootprints footprints(scene.rays, WallOf(scene.rays));
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const ValveCandidate found = Refine(scene.rays, Displaced(scene, seed), options).valve;
+    const ValveCandidate found = Refine(footprints, Displaced(scene, seed), {}).valve;
     // Half of what the whole fit promises: mixed returns pull at the edges.
     EXPECT_LT(CompareValves(found, scene.truth).center_m, 0.006) << seed;
   }
@@ -156,12 +157,12 @@ TEST(Refine, RaysThatWentPastTheWheelImproveTheFit) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const ValveScene scene = MakeValveScene(RandomValveView(seed));
     RefineOptions options;
-    options.wall = WallOf(scene.rays);
-    const RayLikelihood likelihood(scene.rays, options.wall);
+    const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+    const BeamFootprints& footprints = likelihood.Footprints();
     const ValveCandidate start = Displaced(scene, seed);
-    const double with = likelihood(Refine(scene.rays, start, options).valve);
+    const double with = likelihood(Refine(footprints, start, options).valve);
     options.free_space = false;
-    gained_nats += with - likelihood(Refine(scene.rays, start, options).valve);
+    gained_nats += with - likelihood(Refine(footprints, start, options).valve);
   }
   EXPECT_GT(gained_nats, 6 * 5.0);  // 5 nats a view: 150 times as likely
 }
@@ -169,9 +170,8 @@ TEST(Refine, RaysThatWentPastTheWheelImproveTheFit) {
 TEST(Refine, ASizeAtTheEndOfItsRangeComesBack) {
   const ValveScene scene = FourSpokes();
   const ValveCandidate thick = Retract(scene.truth, 0.050 * ValveStep::Unit(int{kTubeRadius}));
-  RefineOptions options;
-  options.wall = WallOf(scene.rays);
-  EXPECT_LT(Refine(scene.rays, thick, options).valve.model.tube_radius_m,
+  const BeamFootprints footprints(scene.rays, WallOf(scene.rays));
+  EXPECT_LT(Refine(footprints, thick, {}).valve.model.tube_radius_m,
             scene.truth.model.tube_radius_m + 0.003);
 }
 

@@ -68,6 +68,25 @@ TEST(ValveTracer, IntersectsTheTemplateWhereSphereTracingDoes) {
   EXPECT_GT(hits, 300);
 }
 
+TEST(ValveTracer, IntersectsFlatAndUprightSectionsWhereSphereTracingDoes) {
+  Random random(11);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Case c = MakeCase(random, 2 + i % 5);
+    c.valve.model.rim_depth_ratio = random.Uniform(0.3, 2.5);
+    c.valve.model.spoke_depth_ratio = random.Uniform(0.3, 2.5);
+    const RangeRay ray = RandomRay(random, c.eye);
+    const Traced traced = SphereTrace(c.valve.model, ray);
+    const ValveIntersection intersection = ValveTracer(c.valve, ValveParts::kAll).Intersect(ray);
+    if (std::abs(intersection.Clearance()) < 0.002) continue;
+    EXPECT_EQ(intersection.Clearance() < 0.0, traced.hit);
+    if (!traced.hit || intersection.Clearance() > 0.0) continue;
+    ++hits;
+    EXPECT_NEAR(intersection.Range(), traced.range_m, 0.005);
+  }
+  EXPECT_GT(hits, 300);
+}
+
 TEST(ValveTracer, IntersectsALeverWhereSphereTracingDoes) {
   Random random(10);
   int hits = 0;

@@ -34,6 +34,32 @@ TEST(ValveModel, MeasuresDistancesOfKnownPoints) {
   EXPECT_NEAR(model.Distance({0.150, 0.0, 0.0}), -0.012, kExact);   // inside the tube
 }
 
+ValveModel FlatWheel(int spokes) {
+  ValveModel model = DishedWheel(spokes);
+  model.rim_depth_ratio = 0.4;
+  model.spoke_depth_ratio = 2.5;
+  return model;
+}
+
+TEST(ValveModel, MeasuresDistancesToFlatAndUprightSections) {
+  ValveModel model = FlatWheel(4);
+  model.dish_m = 0.0;
+  EXPECT_NEAR(model.Distance({0.150, 0.0, 0.050}), 0.030, 1e-9);  // above a spoke of 20 mm
+  EXPECT_NEAR(model.Distance({0.106, 0.106, 0.050}), 0.0452, 1e-4);  // above the rim of 4.8 mm
+  EXPECT_NEAR(model.Distance({0.0, 0.172, 0.0}), 0.010, 1e-9);       // outside the rim
+  EXPECT_NEAR(model.Distance({0.080, 0.020, 0.0}), 0.012, 1e-9);     // beside a spoke
+  // Off the section's axes: against the nearest of many points of the ellipse.
+  const Eigen::Vector2d off(0.009, 0.007);
+  double nearest = 1.0;
+  for (int i = 0; i < 100000; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 100000;
+    const Eigen::Vector2d on(0.012 * std::cos(angle), 0.0048 * std::sin(angle));
+    nearest = std::min(nearest, (off - on).norm());
+  }
+  const double radial = (0.150 + off.x()) / std::numbers::sqrt2;  // between two spokes
+  EXPECT_NEAR(model.Distance({radial, radial, off.y()}), nearest, 1e-6);
+}
+
 TEST(ValveModel, HasItsSpokesAtEqualAnglesFromX) {
   for (int spokes = 2; spokes <= 6; ++spokes) {
     const ValveModel model = DishedWheel(spokes);

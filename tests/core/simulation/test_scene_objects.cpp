@@ -45,6 +45,17 @@ TEST(ValveObject, NoVertexOfTheWheelLiesOutsideTheModelThatIsItsTruth) {
   }
 }
 
+TEST(ValveObject, FlatSectionsFollowTheModelToo) {
+  for (const double ratio : {0.3, 2.0}) {
+    ValveObject valve = SomeValve(4);
+    valve.model.rim_depth_ratio = ratio;
+    valve.model.spoke_depth_ratio = ratio;
+    const auto [smallest, largest] = DistancesToModel(valve);
+    EXPECT_NEAR(largest, 0.0, 2e-6) << ratio;
+    EXPECT_GT(smallest, -0.0245) << ratio;
+  }
+}
+
 TEST(ValveObject, ADiscFollowsTheModelToo) {
   // The model's disc bends around the rim and the hub with half its thickness; ours is a flat cone.
   const auto [smallest, largest] = DistancesToModel(SomeValve(0));
