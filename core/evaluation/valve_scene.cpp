@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/evaluation/valve_distractors.h"
+#include "core/evaluation/varied_wheel.h"
 #include "core/geometry/angles.h"
 #include "core/geometry/rotation_between.h"
 #include "core/simulation/scene_objects.h"
@@ -17,6 +19,8 @@ constexpr std::uint64_t kValveStream = 4242;
 constexpr double kHeadHeight_m = 1.4;  // of DefaultSensorRig, and 0.1 m in front of robot
 constexpr double kHeadForward_m = 0.1;
 constexpr double kFarRoom_m = 4.0;
+constexpr double kFlange_m = 0.016;
+constexpr std::uint64_t kMadeStream = 4243;
 
 Material RandomMaterial(Random& random) {
   using Pattern = Material::Pattern;
@@ -127,35 +131,42 @@ void AddRoom(const Place& place, bool with_wall, Random& random, Scene& scene) {
   scene.meshes.push_back(std::move(pipe));
 }
 
-/// What sits on the hub of many wheels.
-void AddNut(const ValveObject& valve, Random& random, Scene& scene) {
+/// What sits on the hub of many wheels, whose front is that far before where the spokes meet.
+void AddNut(const ValveObject& valve, double front_m, Random& random, Scene& scene) {
   if (valve.model.IsLever() || random.Chance(0.5)) return;
   SceneMesh nut;
   nut.name = "nut";
   nut.material = valve.body_material;
   const double hub_z = -valve.model.dish_m;
-  const auto part =
-      PoseAlong({0.0, 0.0, hub_z}, {0.0, 0.0, hub_z + valve.model.hub_radius_m + 0.010});
-  AppendShape(CylinderShape(0.010, valve.model.hub_radius_m + 0.010),
-              valve.robot_from_object * part, nut);
+  const double length_m = std::max(front_m + 0.010, 0.002);
+  const auto part = PoseAlong({0.0, 0.0, hub_z}, {0.0, 0.0, hub_z + length_m});
+  AppendShape(CylinderShape(0.010, length_m), valve.robot_from_object * part, nut);
   scene.meshes.push_back(std::move(nut));
 }
 
-double AddRandomValve(const ValveModel& model, const Place& place, Random& random, Scene& scene) {
+/// A varied wheel instead of the template where there is one.
+double AddRandomValve(const ValveModel& model, const std::optional<VariedWheel>& varied,
+                      const Place& place, Random& random, Scene& scene) {
   ValveObject valve;
   valve.name = "valve";
-  valve.model = model;
+  valve.model = varied ? ModelOf(*varied) : model;
   valve.robot_from_object =
       ValvePose(place.center, place.axis, random.Uniform(0.0, 2.0 * std::numbers::pi));
-  constexpr double kFlange_m = 0.016;
-  const double hub_depth_m = model.IsLever() ? 0.0 : model.dish_m;
+  const double hub_depth_m = model.IsLever() ? 0.0 : valve.model.dish_m;
   valve.stem_length_m = std::max(0.02, place.wall_m - hub_depth_m - kFlange_m);
   valve.stem_radius_m = random.Uniform(0.009, 0.014);
   valve.flange_radius_m = random.Uniform(0.03, 0.06);
   valve.wheel_material = RandomMaterial(random);
   valve.body_material = RandomMaterial(random);
-  AddValve(valve, scene);
-  AddNut(valve, random, scene);
+  if (varied) {
+    AddVariedWheel(*varied, valve, scene);
+    AddValveBody(valve, scene);
+    scene.valves.push_back({valve.name, valve.robot_from_object, valve.model});
+    AddNut(valve, varied->hub_forward_m + 0.5 * varied->hub_length_m, random, scene);
+  } else {
+    AddValve(valve, scene);
+    AddNut(valve, model.hub_radius_m, random, scene);
+  }
   return model.IsLever() ? 0.5 * model.lever_length_m + model.tube_radius_m
                          : model.rim_radius_m + model.tube_radius_m;
 }
@@ -165,6 +176,22 @@ std::string NameOf(const ValveModel& model) {
   const std::string size = model.rim_radius_m < 0.095 ? "small " : "";
   return model.spokes == 0 ? size + "disc"
                            : fmt::format("{}wheel of {} spokes", size, model.spokes);
+}
+
+/// A wheel that is none, on a stem before the wall.
+std::string AddAlmostWheel(const ValveModel& like, const Place& place, const Material& material,
+                           Random& random, Scene& scene) {
+  ValveObject thing;
+  thing.robot_from_object =
+      ValvePose(place.center, place.axis, random.Uniform(0.0, 2.0 * std::numbers::pi));
+  thing.wheel_material = material;
+  thing.body_material = RandomMaterial(random);
+  const VariedWheel wheel = RandomAlmostWheel(like, random, thing.name);
+  AddVariedWheel(wheel, thing, scene);
+  thing.model = ModelOf(wheel);
+  thing.stem_length_m = std::max(0.02, place.wall_m - wheel.dish_m - kFlange_m);
+  if (wheel.hub_length_m > 0.0) AddValveBody(thing, scene);
+  return thing.name;
 }
 
 /// Lines 0.25 to 1 deg apart over the thing and some degrees around it.
@@ -194,16 +221,27 @@ FitTrialScene RandomValveScene(std::uint64_t seed) {
   scene->lights.push_back({{0.3, random.Uniform(-1.5, 1.5), 2.6}, random.Uniform(0.8, 1.4)});
   const Distractor thing =
       Distractors()[static_cast<std::size_t>(random.Index(static_cast<int>(Distractors().size())))];
-  const bool empty = !trial.positive && thing == Distractor::kEmptyRegion;
+  // Half of the wheels with spokes and of the negatives are made another way, by numbers of their
+  // own: all else of a scene is as it was without.
+  Random made(seed, kMadeStream);
+  const bool otherwise = made.Uniform() < 0.5;
+  const bool empty = !trial.positive && thing == Distractor::kEmptyRegion && !otherwise;
   // A tenth hang free, the room's far wall behind them.
   AddRoom(place, !empty && !random.Chance(0.1), random, *scene);
   if (trial.positive) {
-    trial.what = NameOf(model) + (far ? ", beyond 2 m" : "");
-    trial.focus_radius_m = AddRandomValve(model, place, random, *scene);
+    std::optional<VariedWheel> varied;
+    if (otherwise && !model.IsLever() && model.spokes >= 2) varied = RandomVariedWheel(model, made);
+    trial.what = (varied ? varied->made + " " : "") + NameOf(model) + (far ? ", beyond 2 m" : "");
+    trial.focus_radius_m = AddRandomValve(model, varied, place, random, *scene);
     trial.focus_m = place.center;
     if (model.IsLever())
       trial.focus_m = scene->valves.front().robot_from_object *
                       Eigen::Vector3d(0.5 * model.lever_length_m, 0.0, 0.0);
+  } else if (otherwise) {
+    const ValveModel like = model.IsLever() ? RandomWheel(made) : model;
+    trial.what = AddAlmostWheel(like, place, RandomMaterial(random), made, *scene);
+    trial.focus_m = place.center;
+    trial.focus_radius_m = like.rim_radius_m;
   } else {
     trial.what = foresight::NameOf(thing);
     const DistractorPlace at{

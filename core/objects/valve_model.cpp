@@ -29,10 +29,9 @@ double EllipseDistance(double x, double y, double half_x, double half_y) {
     const Eigen::Vector2d evolute(squares * std::pow(on_circle.x(), 3) / half_x,
                                   -squares * std::pow(on_circle.y(), 3) / half_y);
     const Eigen::Vector2d outwards(x - evolute.x(), y - evolute.y());
-    const double radius = std::hypot(half_x * on_circle.x() - evolute.x(),
-                                     half_y * on_circle.y() - evolute.y());
-    const Eigen::Vector2d nearest =
-        evolute + radius / std::max(outwards.norm(), 1e-12) * outwards;
+    const double radius =
+        std::hypot(half_x * on_circle.x() - evolute.x(), half_y * on_circle.y() - evolute.y());
+    const Eigen::Vector2d nearest = evolute + radius / std::max(outwards.norm(), 1e-12) * outwards;
     on_circle = Eigen::Vector2d(std::clamp(nearest.x() / half_x, 0.0, 1.0),
                                 std::clamp(nearest.y() / half_y, 0.0, 1.0));
     on_circle.normalize();
@@ -53,8 +52,8 @@ double SpokeDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& hub,
   const Eigen::Vector3d across = along.cross(Eigen::Vector3d::UnitY());
   const double at = (point - hub).dot(along);
   const double beyond = at - std::clamp(at, 0.0, length);
-  const double beside = EllipseDistance(point.y(), (point - hub).dot(across),
-                                        model.spoke_radius_m, model.SpokeDepth());
+  const double beside = EllipseDistance(point.y(), (point - hub).dot(across), model.spoke_radius_m,
+                                        model.SpokeDepth());
   return beyond == 0.0 ? beside : std::hypot(std::max(beside, 0.0), beyond);
 }
 
@@ -139,8 +138,7 @@ Status ValveModel::Check() const {
 double ValveModel::Distance(const Eigen::Vector3d& point) const {
   if (IsLever()) return LeverDistance(*this, point);
   const double radial = std::hypot(point.x(), point.y());
-  double distance =
-      EllipseDistance(radial - rim_radius_m, point.z(), tube_radius_m, RimDepth());
+  double distance = EllipseDistance(radial - rim_radius_m, point.z(), tube_radius_m, RimDepth());
   const Eigen::Vector3d hub(0.0, 0.0, -dish_m);
   distance = std::min(distance, (point - hub).norm() - hub_radius_m);
   if (spokes == 0) {

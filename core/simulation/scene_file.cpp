@@ -335,9 +335,9 @@ void SceneReader::ReadValve(YamlMap& map) {
   valve.model.rim_depth_ratio = map.Number("rim_depth_ratio", valve.model.rim_depth_ratio);
   valve.model.spoke_depth_ratio = map.Number("spoke_depth_ratio", valve.model.spoke_depth_ratio);
   if (const Status status = valve.model.Check(); !status) map.Fault(status.error().message);
-  for (const double size : {valve.model.rim_radius_m, valve.model.hub_radius_m,
-                            valve.model.spoke_radius_m, std::abs(valve.model.dish_m),
-                            valve.model.RimDepth(), valve.model.SpokeDepth()})
+  for (const double size :
+       {valve.model.rim_radius_m, valve.model.hub_radius_m, valve.model.spoke_radius_m,
+        std::abs(valve.model.dish_m), valve.model.RimDepth(), valve.model.SpokeDepth()})
     if (!(size <= kFarthest_m))
       map.Fault(fmt::format("a valve with a radius or a dish of {} m; {} m is the most", size,
                             kFarthest_m));

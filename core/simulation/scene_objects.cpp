@@ -52,8 +52,7 @@ std::vector<Eigen::Vector2d> Ellipse(double half_x, double half_y,
   std::vector<Eigen::Vector2d> outline;
   for (int i = 0; i < kSectionCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kSectionCorners;
-    outline.push_back(center +
-                      Eigen::Vector2d(half_x * std::cos(angle), half_y * std::sin(angle)));
+    outline.push_back(center + Eigen::Vector2d(half_x * std::cos(angle), half_y * std::sin(angle)));
   }
   return outline;
 }
@@ -62,9 +61,9 @@ void AddSpoke(const ValveModel& model, const Eigen::Vector3d& hub, const Eigen::
               Part& wheel) {
   if (model.spoke_depth_ratio == 1.0) return wheel.AddCapsule(hub, end, model.spoke_radius_m);
   const std::array path = {hub, end};
-  wheel.AddAt(SweptShape(Ellipse(model.spoke_radius_m, model.SpokeDepth()), path,
-                         Eigen::Vector3d::UnitZ()),
-              Eigen::Vector3d::Zero());
+  wheel.AddAt(
+      SweptShape(Ellipse(model.spoke_radius_m, model.SpokeDepth()), path, Eigen::Vector3d::UnitZ()),
+      Eigen::Vector3d::Zero());
 }
 
 void AddWheel(const ValveObject& valve, Scene& scene) {
@@ -74,10 +73,10 @@ void AddWheel(const ValveObject& valve, Scene& scene) {
   if (model.rim_depth_ratio == 1.0)
     wheel.AddAt(TorusShape(model.rim_radius_m, model.tube_radius_m), Eigen::Vector3d::Zero());
   else
-    wheel.AddAt(RevolvedShape(Ellipse(model.tube_radius_m, model.RimDepth(),
-                                      {model.rim_radius_m, 0.0}),
-                              true),
-                Eigen::Vector3d::Zero());
+    wheel.AddAt(
+        RevolvedShape(Ellipse(model.tube_radius_m, model.RimDepth(), {model.rim_radius_m, 0.0}),
+                      true),
+        Eigen::Vector3d::Zero());
   wheel.AddAt(SphereShape(model.hub_radius_m), hub);
   if (model.spokes == 0)
     wheel.AddAt(DishShape(model.rim_radius_m, model.dish_m, 2.0 * model.spoke_radius_m),

@@ -88,9 +88,9 @@ ExpectedRange BeamFootprints::Expect(std::size_t i, const ValveIntersection& int
     expected.fraction = (high - low) / (2.0 * half);
     // The mean depth of the covered part of the round front.
     const double r = intersection.radius_m;
-    const double front = intersection.depth_m * r *
-                             (CircleArea(high / r) - CircleArea(low / r)) / (high - low) -
-                         intersection.lean * 0.5 * (low + high);
+    const double front =
+        intersection.depth_m * r * (CircleArea(high / r) - CircleArea(low / r)) / (high - low) -
+        intersection.lean * 0.5 * (low + high);
     expected.valve_m = expected.range_m = intersection.middle_m - intersection.stretch * front;
   }
   expected.fraction = std::max(expected.fraction, least_fraction);

@@ -9,7 +9,8 @@ namespace {
 
 constexpr int kRounds = 5;  // each halves the steps
 constexpr int kPasses = 2;
-constexpr double kFront = std::numbers::pi / 4.0;  // mean depth of an ellipse's front to its largest
+constexpr double kFront =
+    std::numbers::pi / 4.0;  // mean depth of an ellipse's front to its largest
 
 ValveStep FirstSteps() {
   ValveStep steps;

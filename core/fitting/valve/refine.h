@@ -13,10 +13,10 @@ namespace foresight {
 
 struct RefineOptions {
   ValveParts parts = ValveParts::kAll;
-  bool free_space = true;     ///< rays that went through the template push it away
-  int max_rays = 500;         ///< thinned evenly
-  int rounds = 4;             ///< of deciding what each ray saw
-  int steps = 4;              ///< of Levenberg-Marquardt in a round
+  bool free_space = true;  ///< rays that went through the template push it away
+  int max_rays = 500;      ///< thinned evenly
+  int rounds = 4;          ///< of deciding what each ray saw
+  int steps = 4;           ///< of Levenberg-Marquardt in a round
 };
 
 struct RefinedValve {

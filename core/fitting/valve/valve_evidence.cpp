@@ -59,9 +59,9 @@ double BlockedGaps(const ValveCandidate& valve, const ValveTracer& tracer,
 /// Fraction of the middle line's bins that have support: of the rim's circle, or along a lever.
 int BinOf(const ValveIntersection& intersection, const ValveModel& model) {
   const Eigen::Vector2d& on_rim = intersection.on_rim;
-  const double fraction =
-      model.IsLever() ? intersection.along_m / std::max(model.lever_length_m, 1e-6)
-                      : std::atan2(on_rim.y(), on_rim.x()) / (2.0 * std::numbers::pi) + 0.5;
+  const double fraction = model.IsLever()
+                              ? intersection.along_m / std::max(model.lever_length_m, 1e-6)
+                              : std::atan2(on_rim.y(), on_rim.x()) / (2.0 * std::numbers::pi) + 0.5;
   return std::clamp(static_cast<int>(fraction * kBins), 0, kBins - 1);
 }
 
@@ -133,10 +133,9 @@ void SetCovariance(const PoseCovariance& covariance, ValveDetection& detection) 
 void SetSigmas(const ValveInformation& information, ValveDetection& detection) {
   // The ridge bounds what no ray sees: a phase to a turn, a length to a metre.
   using Known = Eigen::Matrix<double, kRimDepth, kRimDepth>;
-  const Known covariance =
-      (information.topLeftCorner<kRimDepth, kRimDepth>() + Known::Identity())
-          .ldlt()
-          .solve(Known::Identity());
+  const Known covariance = (information.topLeftCorner<kRimDepth, kRimDepth>() + Known::Identity())
+                               .ldlt()
+                               .solve(Known::Identity());
   SetCovariance(covariance.topLeftCorner<6, 6>(), detection);
   detection.phase_observable =
       HasPhase(detection.best.model) && detection.sigma_phase_rad < kMaxPhaseSigma_rad;

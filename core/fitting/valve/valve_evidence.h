@@ -15,8 +15,8 @@ ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandid
 
 /// Fills the covariance and the deviations of a detection from the information of its best
 /// candidate, as if each beam were an independent measurement and the sections were known: how well
-/// the beams know the front, for the verdict. WidenSigmas follows. A direction that no ray sees has a deviation of about a turn or a metre; the phase of
-/// a disc is NaN in the covariance.
+/// the beams know the front, for the verdict. WidenSigmas follows. A direction that no ray sees has
+/// a deviation of about a turn or a metre; the phase of a disc is NaN in the covariance.
 void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 
 /// Fills in a covariance about the object's axes and the deviations that it says; the phase of a

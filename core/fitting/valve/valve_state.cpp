@@ -27,17 +27,16 @@ double SquareWeight(double tilt2) {
 }
 
 ValveModel StepWheel(const ValveModel& model, const ValveStep& step) {
-  ValveModel stepped = UsualValve(model.rim_radius_m + step[kRimRadius],
-                                  model.tube_radius_m + step[kTubeRadius], model.spokes,
-                                  model.dish_m + step[kDish]);
+  ValveModel stepped =
+      UsualValve(model.rim_radius_m + step[kRimRadius], model.tube_radius_m + step[kTubeRadius],
+                 model.spokes, model.dish_m + step[kDish]);
   const auto ratio = [](double depth_m, double width_m) {
     return std::clamp(depth_m, kLeastDepth_m, kMostDepth_m) / width_m;
   };
   stepped.rim_depth_ratio = ratio(model.RimDepth() + step[kRimDepth], stepped.tube_radius_m);
   if (model.spokes == 0) return stepped;
   stepped.spoke_radius_m = std::clamp(model.spoke_radius_m + step[kSpokeRadius], 0.003, 0.025);
-  stepped.spoke_depth_ratio =
-      ratio(model.SpokeDepth() + step[kSpokeDepth], stepped.spoke_radius_m);
+  stepped.spoke_depth_ratio = ratio(model.SpokeDepth() + step[kSpokeDepth], stepped.spoke_radius_m);
   return stepped;
 }
 
@@ -72,14 +71,14 @@ ValveCandidate Retract(const ValveCandidate& valve, const ValveStep& step) {
       angle > 0.0 ? rotation * Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle))
                   : rotation;
   const ValveModel& model = valve.model;
-  return {Rigid<frame::Base, frame::Object>(
-              turned, valve.base_from_object.translation() + rotation * step.segment<3>(kMoveX)),
-          model.IsLever() ? UsualLever(model.lever_length_m + step[kRimRadius],
-                                       model.tube_radius_m + step[kTubeRadius],
-                                       model.hub_radius_m + step[kDish])
-                          : StepWheel(model, step),
-          valve.log_likelihood,
-          std::clamp(valve.brightness * std::exp(step[kBrightness]), 0.1, 10.0)};
+  return {
+      Rigid<frame::Base, frame::Object>(
+          turned, valve.base_from_object.translation() + rotation * step.segment<3>(kMoveX)),
+      model.IsLever()
+          ? UsualLever(model.lever_length_m + step[kRimRadius],
+                       model.tube_radius_m + step[kTubeRadius], model.hub_radius_m + step[kDish])
+          : StepWheel(model, step),
+      valve.log_likelihood, std::clamp(valve.brightness * std::exp(step[kBrightness]), 0.1, 10.0)};
 }
 
 Eigen::Vector2d AxisPriorResiduals(const ValveCandidate& valve, const std::optional<Plane>& wall) {
@@ -115,10 +114,10 @@ double LogPrior(const ValveCandidate& valve, const std::optional<Plane>& wall) {
   const double tube =
       (model.tube_radius_m - ValvePrior::kTubeRadius_m) / ValvePrior::kTubeRadiusSigma_m;
   const double own = OwnSizeResidual(model);
-  return -0.5 * (Squared(tube) + Squared(own) +
-                 Squared(std::log(valve.brightness) / ValvePrior::kBrightnessSigma) +
-                 SectionResiduals(model).squaredNorm() +
-                 AxisPriorResiduals(valve, wall).squaredNorm());
+  return -0.5 *
+         (Squared(tube) + Squared(own) +
+          Squared(std::log(valve.brightness) / ValvePrior::kBrightnessSigma) +
+          SectionResiduals(model).squaredNorm() + AxisPriorResiduals(valve, wall).squaredNorm());
 }
 
 ValveCandidate WithUpwardSpoke(const ValveCandidate& valve) {

@@ -44,7 +44,7 @@ struct ValvePrior {
   static constexpr double kSpokeRadius_m = 0.008;
   static constexpr double kSpokeDepth_m = 0.007;
   static constexpr double kSectionSigma = 0.5;
-  static constexpr double kHeadRadius_m = 0.025;   ///< of a lever
+  static constexpr double kHeadRadius_m = 0.025;  ///< of a lever
   static constexpr double kHeadRadiusSigma_m = 0.006;
   /// Most valves are mounted square to the wall behind them, the others at any angle: two normal
   /// densities of the axis about the wall's normal, with these sigmas and this fraction of the

@@ -49,7 +49,8 @@ void FlattenSection(double width, double depth, const Eigen::Vector3d& depth_axi
                                   .dot(Eigen::Vector2d(-along.y(), along.x())) < 0.0
                           ? -1.0
                           : 1.0;
-  const double half2 = width * width * along.y() * along.y() + depth * depth * along.x() * along.x();
+  const double half2 =
+      width * width * along.y() * along.y() + depth * depth * along.x() * along.x();
   intersection.radius_m = std::sqrt(half2);
   intersection.depth_m = width * depth / intersection.radius_m;
   intersection.lean = side * along.x() * along.y() * (depth * depth - width * width) / half2;
@@ -91,8 +92,12 @@ ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
     const double stem_m = ValveModel::kLeverStemPerHub * model_.hub_radius_m;
     lever_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), model_.lever_length_m,
               model_.tube_radius_m,    model_.tube_radius_m,     Eigen::Vector3d::UnitZ()};
-    stem_ = {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), ValveModel::kLeverStem_m, stem_m,
-             stem_m,                  Eigen::Vector3d::UnitX()};
+    stem_ = {Eigen::Vector3d::Zero(),
+             -Eigen::Vector3d::UnitZ(),
+             ValveModel::kLeverStem_m,
+             stem_m,
+             stem_m,
+             Eigen::Vector3d::UnitX()};
     return;
   }
   reach_m_ = model_.rim_radius_m + std::max(model_.tube_radius_m, model_.RimDepth()) +
@@ -104,9 +109,12 @@ ValveTracer::ValveTracer(const ValveCandidate& valve, ValveParts parts)
     const double length = (end - hub_).norm();
     const Eigen::Vector3d direction = (end - hub_) / length;
     const Eigen::Vector3d sideways(-std::sin(angle), std::cos(angle), 0.0);
-    spokes_[static_cast<std::size_t>(i)] = {
-        hub_,   direction, length, model_.spoke_radius_m, model_.SpokeDepth(),
-        direction.cross(sideways)};
+    spokes_[static_cast<std::size_t>(i)] = {hub_,
+                                            direction,
+                                            length,
+                                            model_.spoke_radius_m,
+                                            model_.SpokeDepth(),
+                                            direction.cross(sideways)};
   }
 }
 
@@ -167,8 +175,7 @@ ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray,
 }
 
 ValveIntersection ValveTracer::IntersectStem(const LocalRay& ray) const {
-  ValveIntersection intersection =
-      IntersectBar(ValvePart::kStem, ray, stem_, AlongBar(ray, stem_));
+  ValveIntersection intersection = IntersectBar(ValvePart::kStem, ray, stem_, AlongBar(ray, stem_));
   const Eigen::Vector3d entry = ray.origin + intersection.Range() * ray.direction;
   // Seen from the front, a stem without end would be entered before its beginning.
   if ((entry - stem_.begin).dot(stem_.direction) < 0.0)
@@ -219,8 +226,7 @@ ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray) const {
 }
 
 ValveIntersection ValveTracer::IntersectLever(const LocalRay& ray) const {
-  const ValveIntersection bar =
-      IntersectBar(ValvePart::kLever, ray, lever_, AlongBar(ray, lever_));
+  const ValveIntersection bar = IntersectBar(ValvePart::kLever, ray, lever_, AlongBar(ray, lever_));
   return FirstMet(FirstMet(bar, IntersectHub(ray)), IntersectStem(ray));
 }
 

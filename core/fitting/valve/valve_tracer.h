@@ -24,8 +24,8 @@ struct ValveIntersection {
   /// has no sides.
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
   Eigen::Vector2d on_rim = Eigen::Vector2d::Zero();  ///< closest point of a rim, object's frame
-  double along_m = 0.0;      ///< of the closest point of a spoke, lever or stem, from its beginning
-  int spoke = 0;             ///< which one
+  double along_m = 0.0;  ///< of the closest point of a spoke, lever or stem, from its beginning
+  int spoke = 0;         ///< which one
 
   /// Gap between ray and part; negative when the ray intersects it.
   double Clearance() const { return offset_m - radius_m; }
@@ -56,7 +56,7 @@ class ValveTracer {
     Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
     double length_m = 0.0;
     double radius_m = 0.0;
-    double depth_m = 0.0;                                     ///< half of it, along ...
+    double depth_m = 0.0;                                   ///< half of it, along ...
     Eigen::Vector3d depth_axis = Eigen::Vector3d::UnitZ();  ///< ... this, across direction
   };
 

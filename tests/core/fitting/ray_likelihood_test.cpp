@@ -35,10 +35,9 @@ ValveCandidate Displaced(const ValveScene& scene, std::uint64_t seed) {
   Random random(seed);
   ValveStep step;
   for (int p = 0; p < kValveParameters; ++p) step[p] = random.Uniform(-1.0, 1.0);
-  const ValveStep sizes =
-      (ValveStep() << 0.01, 0.01, 0.01, 0.05, 0.05, 0.1, 0.01, 0.003, 0.01, 0.2, 0.003, 0.002,
-       0.002)
-          .finished();
+  const ValveStep sizes = (ValveStep() << 0.01, 0.01, 0.01, 0.05, 0.05, 0.1, 0.01, 0.003, 0.01, 0.2,
+                           0.003, 0.002, 0.002)
+                              .finished();
   return Retract(scene.truth, step.cwiseProduct(sizes));
 }
 

@@ -44,7 +44,7 @@ ValveModel FlatWheel(int spokes) {
 TEST(ValveModel, MeasuresDistancesToFlatAndUprightSections) {
   ValveModel model = FlatWheel(4);
   model.dish_m = 0.0;
-  EXPECT_NEAR(model.Distance({0.150, 0.0, 0.050}), 0.030, 1e-9);  // above a spoke of 20 mm
+  EXPECT_NEAR(model.Distance({0.150, 0.0, 0.050}), 0.030, 1e-9);     // above a spoke of 20 mm
   EXPECT_NEAR(model.Distance({0.106, 0.106, 0.050}), 0.0452, 1e-4);  // above the rim of 4.8 mm
   EXPECT_NEAR(model.Distance({0.0, 0.172, 0.0}), 0.010, 1e-9);       // outside the rim
   EXPECT_NEAR(model.Distance({0.080, 0.020, 0.0}), 0.012, 1e-9);     // beside a spoke
