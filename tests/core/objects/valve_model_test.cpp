@@ -27,11 +27,11 @@ Eigen::Vector3d PointNear(Random& random) {
 
 TEST(ValveModel, MeasuresDistancesOfKnownPoints) {
   const ValveModel model = DishedWheel(4);
-  const double kExact = 1e-12;
-  EXPECT_NEAR(model.Distance({0.150, 0.0, 0.050}), 0.038, kExact);  // above the rim's tube
-  EXPECT_NEAR(model.Distance({0.250, 0.0, 0.0}), 0.088, kExact);    // outside the rim
-  EXPECT_NEAR(model.Distance({0.0, 0.0, -0.100}), 0.040, kExact);   // behind the hub
-  EXPECT_NEAR(model.Distance({0.150, 0.0, 0.0}), -0.012, kExact);   // inside the tube
+  const double kNothing_m = 1e-12;
+  EXPECT_NEAR(model.Distance({0.150, 0.0, 0.050}), 0.038, kNothing_m);  // above the rim's tube
+  EXPECT_NEAR(model.Distance({0.250, 0.0, 0.0}), 0.088, kNothing_m);    // outside the rim
+  EXPECT_NEAR(model.Distance({0.0, 0.0, -0.100}), 0.040, kNothing_m);   // behind the hub
+  EXPECT_NEAR(model.Distance({0.150, 0.0, 0.0}), -0.012, kNothing_m);   // inside the tube
 }
 
 ValveModel FlatWheel(int spokes) {
