@@ -24,9 +24,9 @@ struct Sweep {
 const Sweep& SweepWithImage(bool full_size) {
   const auto make = [](int width, int height) {
     Scan scan =
-        testing::SweepOverRoom(testing::RigWithImage(width, height), RadiansFromDegrees(10.0));
-    return Sweep{scan.rig, scan.frames[0], scan.plan, testing::RegisteredAfter(scan, kLinesBefore),
-                 testing::RegisteredAfter(scan, kLinesBefore + kNewLines)};
+        samples::SweepOverRoom(samples::RigWithImage(width, height), RadiansFromDegrees(10.0));
+    return Sweep{scan.rig, scan.frames[0], scan.plan, samples::RegisteredAfter(scan, kLinesBefore),
+                 samples::RegisteredAfter(scan, kLinesBefore + kNewLines)};
   };
   static const Sweep half = make(640, 482);
   if (!full_size) return half;

@@ -12,7 +12,7 @@
 #include "core/simulation/scene_objects.h"
 #include "core/simulation/shapes.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// A table with something on it as a lidar sees it: the simulator's meshes, cast by Embree.
 struct DrillView {
@@ -113,4 +113,4 @@ inline DrillRays MakeDrillRays(const DrillView& view) {
   return made;
 }
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

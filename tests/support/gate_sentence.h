@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// A number and its limit as a reason states them.
 struct StatedGate {
@@ -64,4 +64,4 @@ inline std::vector<StatedGate> StatedGates(const std::string& reason) {
   return gates;
 }
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

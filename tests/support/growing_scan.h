@@ -9,7 +9,7 @@
 #include "core/simulation/scene.h"
 #include "tests/support/valve_scan.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// The default head with an image of another size, and the same view.
 inline SensorRig RigWithImage(int width, int height) {
@@ -48,4 +48,4 @@ inline RegisteredScan RegisteredAfter(const Scan& scan, int lines) {
   return std::move(*registered);
 }
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

@@ -9,7 +9,7 @@
 #include "core/fitting/fit_origin.h"
 #include "core/geometry/rigid.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// Errors of fitted poses against the covariances that the fits gave with them.
 class PoseSpread {
@@ -75,4 +75,4 @@ class PoseSpread {
   std::vector<PoseCovariance> covariances_;
 };
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

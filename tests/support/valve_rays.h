@@ -10,7 +10,7 @@
 #include "core/fitting/ray_set.h"
 #include "core/fitting/valve/valve_detection.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// A wheel in front of a wall as a lidar sees it, by tracing spheres through distance functions: it
 /// shares no geometry with the fit's closed forms.
@@ -182,4 +182,4 @@ inline ValveView RandomValveView(std::uint64_t seed) {
   return view;
 }
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

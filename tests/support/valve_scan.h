@@ -4,7 +4,7 @@
 
 #include "core/simulation/simulate_scan.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// A sweep of a simulated head at constant speed, with one sharp image at `image_rad`.
 inline Scan SweepWorld(const World& world, double from_rad, double to_rad, double speed_rad_s,
@@ -21,4 +21,4 @@ inline Scan SweepWorld(const World& world, double from_rad, double to_rad, doubl
   return std::move(*scan);
 }
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

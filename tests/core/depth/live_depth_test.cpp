@@ -16,10 +16,10 @@ namespace {
 const Scan& SmallScan() {
   // 80 lines about 2 px apart, with every other beam; made once, as it takes a while.
   static const Scan scan = [] {
-    SensorRig rig = testing::RigWithImage(324, 242);
+    SensorRig rig = samples::RigWithImage(324, 242);
     rig.lidar.beams = 541;
     rig.lidar.angle_step_rad *= 2.0;
-    return testing::SweepOverRoom(rig, RadiansFromDegrees(30.0));
+    return samples::SweepOverRoom(rig, RadiansFromDegrees(30.0));
   }();
   return scan;
 }
@@ -57,7 +57,7 @@ void ExpectTheSameAsTheWhole(const DepthOptions& options, int first_lines, int s
   const Scan& scan = SmallScan();
   LiveDepth live(scan.rig, scan.frames[0], options);
   for (int lines = first_lines; lines <= last_lines; lines += step) {
-    const RegisteredScan registered = testing::RegisteredAfter(scan, lines);
+    const RegisteredScan registered = samples::RegisteredAfter(scan, lines);
     const auto grown = live.Update(registered, {});
     const auto whole = ComputeDepthInFrame(registered, scan.rig, scan.frames[0], options, {});
     ASSERT_TRUE(grown) << grown.error().message;
@@ -109,12 +109,12 @@ TEST(LiveDepth, FiltersOnlyTheBandThatFourLinesReach) {
   for (const DepthMethod method : {DepthMethod::kForesight, DepthMethod::kPaper}) {
     const Scan& scan = SmallScan();
     LiveDepth live(scan.rig, scan.frames[0], FixedOptions(method));
-    ASSERT_TRUE(live.Update(testing::RegisteredAfter(scan, 40), {}));
+    ASSERT_TRUE(live.Update(samples::RegisteredAfter(scan, 40), {}));
     EXPECT_EQ(live.filtered_rows(), 242) << "the first time all rows";
-    ASSERT_TRUE(live.Update(testing::RegisteredAfter(scan, 44), {}));
+    ASSERT_TRUE(live.Update(samples::RegisteredAfter(scan, 44), {}));
     EXPECT_GT(live.filtered_rows(), 0);
     EXPECT_LT(live.filtered_rows(), 242 / 2);
-    ASSERT_TRUE(live.Update(testing::RegisteredAfter(scan, 44), {}));
+    ASSERT_TRUE(live.Update(samples::RegisteredAfter(scan, 44), {}));
     EXPECT_EQ(live.filtered_rows(), 0) << "nothing new";
   }
 }
@@ -123,12 +123,12 @@ TEST(LiveDepth, IsRightAgainAfterItWasCancelled) {
   const Scan& scan = SmallScan();
   const DepthOptions options = FixedOptions(DepthMethod::kForesight);
   LiveDepth live(scan.rig, scan.frames[0], options);
-  ASSERT_TRUE(live.Update(testing::RegisteredAfter(scan, 40), {}));
+  ASSERT_TRUE(live.Update(samples::RegisteredAfter(scan, 40), {}));
   std::stop_source stop;
   stop.request_stop();
   RunContext cancelled;
   cancelled.stop = stop.get_token();
-  const RegisteredScan registered = testing::RegisteredAfter(scan, 48);
+  const RegisteredScan registered = samples::RegisteredAfter(scan, 48);
   EXPECT_EQ(live.Update(registered, cancelled).error().code, ErrorCode::kCancelled);
   const auto grown = live.Update(registered, {});
   const auto whole = ComputeDepthInFrame(registered, scan.rig, scan.frames[0], options, {});
@@ -140,8 +140,8 @@ TEST(LiveDepth, StartsOverWithAnotherScanOfTheSameImage) {
   const Scan& scan = SmallScan();
   const DepthOptions options = FixedOptions(DepthMethod::kForesight);
   LiveDepth live(scan.rig, scan.frames[0], options);
-  ASSERT_TRUE(live.Update(testing::RegisteredAfter(scan, 60), {}));
-  const RegisteredScan shorter = testing::RegisteredAfter(scan, 40);
+  ASSERT_TRUE(live.Update(samples::RegisteredAfter(scan, 60), {}));
+  const RegisteredScan shorter = samples::RegisteredAfter(scan, 40);
   const auto grown = live.Update(shorter, {});
   const auto whole = ComputeDepthInFrame(shorter, scan.rig, scan.frames[0], options, {});
   ASSERT_TRUE(grown && whole);
@@ -153,7 +153,7 @@ TEST(LiveDepth, SaysThatNothingIsInTheImageYet) {
   // An image of what is above: the first lines look below it.
   scan.frames.Edit(0).motor_angle_rad = RadiansFromDegrees(40.0);
   LiveDepth live(scan.rig, scan.frames[0], FixedOptions(DepthMethod::kForesight));
-  const auto depth = live.Update(testing::RegisteredAfter(scan, 2), {});
+  const auto depth = live.Update(samples::RegisteredAfter(scan, 2), {});
   ASSERT_FALSE(depth);
   EXPECT_EQ(depth.error().code, ErrorCode::kTooFewPoints);
 }

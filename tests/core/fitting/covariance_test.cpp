@@ -15,8 +15,8 @@
 namespace foresight {
 namespace {
 
-using testing::CompareValves;
-using testing::PoseSpread;
+using samples::CompareValves;
+using samples::PoseSpread;
 
 // A ratio is the mean squared distance from the mean in deviations, for each degree of freedom: 1
 // where the covariance is right. Eight fits with 6 degrees of freedom tell it to within 0.22, one
@@ -31,10 +31,10 @@ void Print(const char* what, const PoseSpread& spread) {
 
 PoseSpread ValvesOf(std::uint64_t wheel, int fits) {
   PoseSpread spread;
-  testing::ValveView view = testing::RandomValveView(wheel);
+  samples::ValveView view = samples::RandomValveView(wheel);
   for (int i = 1; i <= fits; ++i) {
     view.seed = 100 + static_cast<std::uint64_t>(i);
-    const testing::ValveScene scene = MakeValveScene(view);
+    const samples::ValveScene scene = MakeValveScene(view);
     const auto found = FitValve(scene.rays, {}, {});
     EXPECT_TRUE(found) << "seed " << view.seed;
     if (!found) continue;
@@ -67,11 +67,11 @@ TEST(CovarianceOfManyFits, OfAValveIsTheSpreadOfItsPlaceAndAxis) {
 
 PoseSpread DrillsAt(double yaw_rad, int fits) {
   PoseSpread spread;
-  testing::DrillView view;
+  samples::DrillView view;
   view.yaw_rad = yaw_rad;
   for (int i = 1; i <= fits; ++i) {
     view.seed = 100 + static_cast<std::uint64_t>(i);
-    const testing::DrillRays scene = MakeDrillRays(view);
+    const samples::DrillRays scene = MakeDrillRays(view);
     const auto found = FitDrill(scene.rays, {}, {});
     EXPECT_TRUE(found) << "seed " << view.seed;
     if (!found) continue;
@@ -100,9 +100,9 @@ TEST(CovarianceOfManyFits, OfADrillIsMoreThanTheSpreadOfItsScans) {
 
 PoseSpread BlocksWith(double sigma_m, double step_deg, int fits) {
   PoseSpread spread;
-  const testing::Slab block = testing::SlabAt(0.1, 1.2, 1.5, {0.397, 0.390}, 12.0, 0.0, 10.0);
+  const samples::Slab block = samples::SlabAt(0.1, 1.2, 1.5, {0.397, 0.390}, 12.0, 0.0, 10.0);
   for (int i = 1; i <= fits; ++i) {
-    const auto found = FitTerrain(testing::RaysOnto({testing::Ground(1.4), block}, step_deg,
+    const auto found = FitTerrain(samples::RaysOnto({samples::Ground(1.4), block}, step_deg,
                                                     sigma_m, 100 + static_cast<std::uint64_t>(i)),
                                   {}, {});
     EXPECT_TRUE(found && found->surfaces.front().kind == TerrainSurface::Kind::kBlock) << i;

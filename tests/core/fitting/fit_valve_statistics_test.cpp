@@ -13,8 +13,8 @@
 namespace foresight {
 namespace {
 
-using testing::CompareValves;
-using testing::ValveError;
+using samples::CompareValves;
+using samples::ValveError;
 
 constexpr double kSigma_m = 0.010;
 
@@ -30,7 +30,7 @@ TEST(FitValveStatistics, WheelsOfAllKindsAreFound) {
   int confirmed_wrongly = 0;
   constexpr int kViews = 60;
   for (std::uint64_t seed = 1; seed <= kViews; ++seed) {
-    const testing::ValveScene scene = MakeValveScene(testing::RandomValveView(seed));
+    const samples::ValveScene scene = MakeValveScene(samples::RandomValveView(seed));
     const auto found = FitValve(scene.rays, {}, {});
     if (!found) continue;
     const ValveError error = CompareValves(found->best, scene.truth);
@@ -49,11 +49,11 @@ TEST(FitValveStatistics, WheelsOfAllKindsAreFound) {
 }
 
 TEST(FitValveStatistics, OtherThingsAreNotConfirmed) {
-  using Object = testing::ValveView::Object;
+  using Object = samples::ValveView::Object;
   for (const Object object : {Object::kNothing, Object::kBox, Object::kBall}) {
     int answers = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      testing::ValveView view = testing::RandomValveView(seed);
+      samples::ValveView view = samples::RandomValveView(seed);
       view.object = object;
       const auto found = FitValve(MakeValveScene(view).rays, {}, {});
       if (!found) continue;
@@ -89,7 +89,7 @@ class SimulatedValve : public ::testing::Test {
     options.seed = seed;
     const World world(scene_, DefaultSensorRig(), options);
     Seen seen;
-    seen.scan = testing::SweepWorld(world, RadiansFromDegrees(-20), RadiansFromDegrees(20),
+    seen.scan = samples::SweepWorld(world, RadiansFromDegrees(-20), RadiansFromDegrees(20),
                                     RadiansFromDegrees(10), 0.0);
     auto cloud = RegisterScan(seen.scan, {});
     EXPECT_TRUE(cloud);

@@ -12,12 +12,12 @@
 namespace foresight {
 namespace {
 
-using testing::CompareValves;
-using testing::MakeValveScene;
-using testing::RandomValveView;
-using testing::ValveError;
-using testing::ValveScene;
-using testing::ValveView;
+using samples::CompareValves;
+using samples::MakeValveScene;
+using samples::RandomValveView;
+using samples::ValveError;
+using samples::ValveScene;
+using samples::ValveView;
 
 class FitValveSpokes : public ::testing::TestWithParam<int> {};
 

@@ -75,7 +75,7 @@ TEST(Gate, ItsNumberIsOnTheWrongSideOfItsLimitInEveryUnit) {
       const double off = scale * std::pow(10.0, random.Uniform(-9.0, 0.5));
       gate.side = random.Index(2) == 0 ? Gate::Side::kAtLeast : Gate::Side::kAtMost;
       gate.number = gate.limit + (gate.side == Gate::Side::kAtLeast ? -off : off);
-      const auto stated = testing::StatedGates(gate.Sentence());
+      const auto stated = samples::StatedGates(gate.Sentence());
       ASSERT_EQ(stated.size(), 1u) << gate.Sentence();
       ASSERT_TRUE(stated.front().Fails()) << gate.Sentence();
       ASSERT_EQ(stated.front().at_least, gate.side == Gate::Side::kAtLeast);
@@ -90,13 +90,13 @@ void ExpectStatedGatesFail(const Verdict& verdict, int* stated_count) {
   for (const std::string& sentence : sentences) {
     EXPECT_THAT(sentence, Not(HasSubstr("nats")));
     EXPECT_THAT(sentence, Not(HasSubstr("{}")));
-    for (const auto& gate : testing::StatedGates(sentence)) {
+    for (const auto& gate : samples::StatedGates(sentence)) {
       EXPECT_TRUE(gate.Fails()) << sentence;
       ++*stated_count;
     }
   }
   if (verdict.level != VerdictLevel::kConfirmed && verdict.failed_gates.empty()) {
-    EXPECT_FALSE(testing::StatedGates(verdict.reason).empty()) << verdict.reason;
+    EXPECT_FALSE(samples::StatedGates(verdict.reason).empty()) << verdict.reason;
   }
 }
 
@@ -270,11 +270,11 @@ TEST(Reasons, OfCylindersFailAsTheyAreStated) {
                       .seen_arc_rad = random.Uniform(0.8, 3.0),
                       .box_margin_nats = random.Uniform(-10.0, 60.0)};
     Assess(rays, {}, found);
-    for (const auto& gate : testing::StatedGates(found.reason)) {
+    for (const auto& gate : samples::StatedGates(found.reason)) {
       EXPECT_TRUE(gate.Fails()) << found.reason;
       ++stated;
     }
-    EXPECT_EQ(found.level == VerdictLevel::kLikely, testing::StatedGates(found.reason).empty())
+    EXPECT_EQ(found.level == VerdictLevel::kLikely, samples::StatedGates(found.reason).empty())
         << found.reason;
   }
   EXPECT_GT(stated, kAnswers / 2);

@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-using testing::ValveView;
+using samples::ValveView;
 
 class RangeNoise : public ::testing::TestWithParam<double> {};
 
@@ -26,7 +26,7 @@ TEST_P(RangeNoise, IsReadOffAWall) {
 
 TEST_P(RangeNoise, IsReadOffAWheelInFrontOfItsWall) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    ValveView view = testing::RandomValveView(seed);
+    ValveView view = samples::RandomValveView(seed);
     view.sigma_m = GetParam();
     // Round tubes and edges add a little; a fit bears a third more.
     const double ratio = EstimateRangeSigma(MakeValveScene(view).rays) / view.sigma_m;
@@ -46,7 +46,7 @@ TEST(RangeNoise, OfAnExactDeviceIsTheLeastThereIs) {
 
 TEST_P(RangeNoise, IsReadOffAWheelWithoutAGridToo) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    ValveView view = testing::RandomValveView(seed);
+    ValveView view = samples::RandomValveView(seed);
     view.sigma_m = GetParam();
     RaySet cloud = MakeValveScene(view).rays;
     for (RangeRay& ray : cloud.rays) ray.cell.setConstant(-1);

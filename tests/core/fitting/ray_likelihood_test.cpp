@@ -13,11 +13,11 @@
 namespace foresight {
 namespace {
 
-using testing::CompareValves;
-using testing::MakeValveScene;
-using testing::RandomValveView;
-using testing::ValveScene;
-using testing::ValveView;
+using samples::CompareValves;
+using samples::MakeValveScene;
+using samples::RandomValveView;
+using samples::ValveScene;
+using samples::ValveView;
 
 ValveScene FourSpokes() {
   ValveView view = RandomValveView(3);

@@ -11,8 +11,8 @@
 namespace foresight {
 namespace {
 
-using testing::CalibratedSession;
-using testing::CalibrateSimulated;
+using samples::CalibratedSession;
+using samples::CalibrateSimulated;
 using ::testing::HasSubstr;
 
 CalibrationSimulation Seeded(std::uint64_t seed) {

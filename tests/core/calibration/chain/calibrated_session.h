@@ -6,7 +6,7 @@
 #include "core/calibration/compare_rigs.h"
 #include "core/evaluation/simulate_calibration.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// A simulated session, calibrated; the test fails where it is not.
 struct CalibratedSession {
@@ -31,4 +31,4 @@ inline CalibratedSession CalibrateSimulated(const CalibrationSimulation& options
   return session;
 }
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

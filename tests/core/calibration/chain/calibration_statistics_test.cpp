@@ -66,7 +66,7 @@ TEST(CalibrationStatistics, SessionsThatMissAJointBarMissWhatTheirCovarianceAllo
     options.seed = seed;
     options.mount = static_cast<CameraMount>(seed % 3);
     options.range_bias_m = seed % 2 == 0 ? 0.020 : 0.0;
-    const auto session = testing::CalibrateSimulated(options);
+    const auto session = samples::CalibrateSimulated(options);
     ASSERT_TRUE(session.found.covariance);
     const double stops = static_cast<double>(session.found.rig.angle_correction.knots().size());
     const Miss of_axis{seed, "axis", DegreesFromRadians(session.error.axis_rad),
@@ -103,7 +103,7 @@ TEST(CalibrationStatistics, ThirtySessionsOfEachMountReachTheBars) {
     options.seed = seed;
     options.mount = static_cast<CameraMount>(seed % 3);
     options.range_bias_m = seed % 2 == 0 ? 0.020 : 0.0;
-    const auto session = testing::CalibrateSimulated(options);
+    const auto session = samples::CalibrateSimulated(options);
     all["axis, deg"].values.push_back(DegreesFromRadians(session.error.axis_rad));
     all["axis, mm"].values.push_back(1000.0 * session.error.axis_m);
     all["angles, deg"].values.push_back(DegreesFromRadians(session.error.angles_rms_rad));
@@ -134,7 +134,7 @@ TEST(CalibrationStatistics, CovarianceIsThatOfFiftySessions) {
     CalibrationSimulation options;
     options.seed = seed;
     options.mount = static_cast<CameraMount>(seed % 3);
-    const auto session = testing::CalibrateSimulated(options);
+    const auto session = samples::CalibrateSimulated(options);
     if (!session.found.covariance) continue;
     const ChainCovariance& covariance = *session.found.covariance;
     const Eigen::VectorXd errors = DeviationsFromTruth(session.found, session.made);

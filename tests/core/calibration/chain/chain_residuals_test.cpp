@@ -7,8 +7,8 @@
 namespace foresight {
 namespace {
 
-using testing::CalibratedSession;
-using testing::CalibrateSimulated;
+using samples::CalibratedSession;
+using samples::CalibrateSimulated;
 
 const CalibratedSession& SmallSession() {
   static const CalibratedSession session = [] {

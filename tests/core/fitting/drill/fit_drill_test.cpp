@@ -15,9 +15,9 @@
 namespace foresight {
 namespace {
 
-using testing::DrillRays;
-using testing::DrillView;
-using testing::MakeDrillRays;
+using samples::DrillRays;
+using samples::DrillView;
+using samples::MakeDrillRays;
 
 double YawError(const Rigid<frame::Base, frame::Object>& found,
                 const Rigid<frame::Base, frame::Object>& truth) {

@@ -10,9 +10,9 @@
 namespace foresight {
 namespace {
 
-using testing::RaysOnto;
-using testing::Slab;
-using testing::SlabAt;
+using samples::RaysOnto;
+using samples::Slab;
+using samples::SlabAt;
 
 constexpr double kMinArea_m2 = 0.01;
 

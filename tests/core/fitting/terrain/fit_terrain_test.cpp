@@ -10,10 +10,10 @@
 namespace foresight {
 namespace {
 
-using testing::Ground;
-using testing::RaysOnto;
-using testing::Slab;
-using testing::SlabAt;
+using samples::Ground;
+using samples::RaysOnto;
+using samples::Slab;
+using samples::SlabAt;
 using Kind = TerrainSurface::Kind;
 
 constexpr double kStep_deg = 0.4;

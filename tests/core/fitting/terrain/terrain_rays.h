@@ -9,7 +9,7 @@
 #include "core/fitting/ray_set.h"
 #include "core/geometry/angles.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// A flat rectangle in base (y down, z forward); z of its frame is its normal.
 struct Slab {
@@ -68,4 +68,4 @@ inline RaySet RaysOnto(const std::vector<Slab>& slabs, double step_deg, double s
   return set;
 }
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

@@ -10,8 +10,8 @@
 namespace foresight {
 namespace {
 
-using testing::RandomScan;
-using testing::WithHealth;
+using samples::RandomScan;
+using samples::WithHealth;
 
 void EncodeAll(BurstCarousel& carousel) {
   while (const auto id = carousel.NextToEncode())

@@ -12,8 +12,8 @@
 namespace foresight {
 namespace {
 
-using testing::RandomScan;
-using testing::WithHealth;
+using samples::RandomScan;
+using samples::WithHealth;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kStride =

@@ -8,8 +8,8 @@
 namespace foresight {
 namespace {
 
-using testing::RandomScan;
-using testing::WithHealth;
+using samples::RandomScan;
+using samples::WithHealth;
 
 /// What goes over the path, item by item.
 std::vector<ItemId> OrderOf(const ScanToSend& source, const TransferPreferences& preferences,
@@ -147,7 +147,7 @@ TEST(ChunkOrder, NoCloudGoesOnceItsLinesAreThere) {
 TEST(ChunkSource, SomethingUrgentGoesBetweenThePartsOfAnImage) {
   Scan scan = RandomScan(1, 20, 0);
   Random random(3);
-  CameraFrame frame = testing::RandomFrame(random, 0);
+  CameraFrame frame = samples::RandomFrame(random, 0);
   frame.image = ColorImage(300, 300);
   for (Rgb8& pixel : frame.image.values())
     pixel = {static_cast<std::uint8_t>(random.Index(256)), 0,

@@ -10,7 +10,7 @@
 namespace foresight {
 namespace {
 
-using testing::RandomLine;
+using samples::RandomLine;
 
 std::vector<const LidarLine*> Pointers(const std::vector<LidarLine>& lines) {
   std::vector<const LidarLine*> pointers;

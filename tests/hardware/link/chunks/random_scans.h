@@ -13,7 +13,7 @@
 #include "hardware/link/chunks/chunk_source.h"
 #include "hardware/link/chunks/health_item.h"
 
-namespace foresight::testing {
+namespace foresight::samples {
 
 /// Beams that lie on a wall with noise, on an edge now and then, and status codes.
 inline LidarLine RandomLine(Random& random, int beams, bool with_intensity) {
@@ -180,4 +180,4 @@ class KeepingSink : public ScanSink {
   int ended = 0;
 };
 
-}  // namespace foresight::testing
+}  // namespace foresight::samples

@@ -85,7 +85,7 @@ TEST(RoomScan, ThinCloudsLieWhereTheWholeScanHasItsPoints) {
     const CloudStep step = kind == ChunkKind::kCoarseCloud ? kCoarseStep : kFineStep;
     ScanBuilder builder(scan.uuid);
     EXPECT_EQ(builder.Cloud().error().code, ErrorCode::kState);
-    for (const Chunk& chunk : testing::AllChunks({scan, ""}))
+    for (const Chunk& chunk : samples::AllChunks({scan, ""}))
       if (chunk.id.kind == kind || chunk.id.kind == ChunkKind::kRig) {
         ASSERT_TRUE(builder.Take(chunk));
       }

@@ -11,12 +11,12 @@
 namespace foresight {
 namespace {
 
-using testing::AllChunks;
-using testing::ExpectSame;
-using testing::KeepingSink;
-using testing::RandomScan;
-using testing::Shuffle;
-using testing::WithHealth;
+using samples::AllChunks;
+using samples::ExpectSame;
+using samples::KeepingSink;
+using samples::RandomScan;
+using samples::Shuffle;
+using samples::WithHealth;
 
 Chunk ChunkWith(const ItemId& id, const std::string& bytes) {
   return SplitItem(id, bytes).value().front();
@@ -66,7 +66,7 @@ TEST(ScanBuilder, EveryCompleteSetGivesTheSameScan) {
     EXPECT_EQ(ScanDigest(*whole), ScanDigest(scan));
     ExpectSame(sink.scan, scan);
     EXPECT_EQ(sink.ended, 1);
-    const HealthReport health = health_came_first ? testing::SomeHealth() : HealthReport{};
+    const HealthReport health = health_came_first ? samples::SomeHealth() : HealthReport{};
     EXPECT_TRUE(ToJson(sink.health) == ToJson(health)) << seed;
     EXPECT_TRUE(builder.Progress().complete);
   }

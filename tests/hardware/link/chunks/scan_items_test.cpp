@@ -10,9 +10,9 @@
 namespace foresight {
 namespace {
 
-using testing::AllChunks;
-using testing::RandomScan;
-using testing::WithHealth;
+using samples::AllChunks;
+using samples::RandomScan;
+using samples::WithHealth;
 
 /// The scan as it was when it had so many lines and samples, and ran.
 Scan Earlier(const Scan& scan, std::size_t lines, std::size_t samples, std::size_t frames) {
@@ -66,7 +66,7 @@ TEST(ScanItems, ACoarseCloudWaitsForTheTrack) {
   scan.rig.lidar.beams = 1081;
   Random random(1);
   for (int i = 0; i < 40; ++i) {
-    LidarLine line = testing::RandomLine(random, 1081, true);
+    LidarLine line = samples::RandomLine(random, 1081, true);
     line.seq = i;
     line.time_s = 0.025 * i;
     scan.lines.push_back(line);

@@ -33,7 +33,7 @@ class BurstSessionTest : public ::testing::Test {
  protected:
   /// A scan that the head has, with more than a stream of a thin path carries.
   std::string ScanAtHead(const std::string& id = "a-scan") {
-    Scan scan = foresight::testing::RandomScan(3, 300, 4);
+    Scan scan = samples::RandomScan(3, 300, 4);
     scan.uuid = id;
     scan.state = ScanState::kComplete;
     scan.reason.clear();

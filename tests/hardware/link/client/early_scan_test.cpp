@@ -7,10 +7,10 @@
 namespace foresight {
 namespace {
 
-using testing::AllChunks;
-using testing::KeepingSink;
-using testing::RandomScan;
-using testing::WithHealth;
+using samples::AllChunks;
+using samples::KeepingSink;
+using samples::RandomScan;
+using samples::WithHealth;
 
 class EarlyScanTest : public ::testing::Test {
  protected:

@@ -151,7 +151,7 @@ TEST_F(ScanFetcherTest, APathThatIsSaidToBeThinIsThinFromTheFirstMoment) {
 
 /// An image takes 50 ms to read, the first twentieth of a window of a second.
 TEST_F(ScanFetcherTest, AConnectionIsUsedWhileWhatCameBeforeIsStillTakenIn) {
-  Scan scan = foresight::testing::RandomScan(3, 40, 1);
+  Scan scan = samples::RandomScan(3, 40, 1);
   scan.uuid = "0c2f1a3e-0000-4000-8000-000000000002";
   auto first = std::make_unique<PassingHead>(scan);
   const int port = first->port();

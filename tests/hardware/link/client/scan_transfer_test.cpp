@@ -27,7 +27,7 @@ class ScanTransferTest : public ::testing::Test {
 
   const TemporaryFolder folder;
   const Scan scan = [] {
-    Scan made = foresight::testing::RandomScan(7, 40, 2);
+    Scan made = samples::RandomScan(7, 40, 2);
     made.state = ScanState::kComplete;
     made.reason.clear();
     return made;

@@ -26,8 +26,7 @@ class FitDeskTest : public ::testing::Test {
  protected:
   static const Scan& Room() {
     static const Scan scan = [] {
-      Scan made =
-          foresight::testing::SweepOverRoom(foresight::testing::RigWithImage(322, 241), 0.5);
+      Scan made = samples::SweepOverRoom(samples::RigWithImage(322, 241), 0.5);
       made.uuid = kScan;
       return made;
     }();

@@ -30,7 +30,7 @@ class ImageDeskTest : public ::testing::Test {
   }
 
   const Scan scan = [] {
-    Scan made = foresight::testing::RandomScan(3, 10, 2);
+    Scan made = samples::RandomScan(3, 10, 2);
     made.uuid = "a-scan";
     made.state = ScanState::kComplete;
     made.reason.clear();

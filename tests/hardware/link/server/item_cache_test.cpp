@@ -14,7 +14,7 @@ class ItemCacheTest : public ::testing::Test {
   ItemCacheTest() { Record(kScan, 5); }
 
   void Record(const std::string& id, int seed) {
-    Scan scan = foresight::testing::RandomScan(seed, 60, 3);
+    Scan scan = samples::RandomScan(seed, 60, 3);
     scan.uuid = id;
     scan.state = ScanState::kComplete;
     scan.reason.clear();
