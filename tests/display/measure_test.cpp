@@ -204,6 +204,15 @@ TEST_F(Workstation, TwoClicksInAMapAreADistanceThatIsDrawnWhileTheMapIsShown) {
   EXPECT_EQ(Session().Notes()->All().size(), 1u);
 }
 
+TEST_F(Workstation, AMapThatGoesAwayWhileItIsPreparedGivesWayToTheScan) {
+  const MeasureCleanUp clean_up;
+  ASSERT_TRUE(ShowMap());
+  CloudPane* pane = running->window().Cloud();
+  Q_EMIT Cloud()->viewRested();  // its points are prepared anew
+  running->bench().live.map.clear();
+  EXPECT_TRUE(WaitFor([pane] { return pane->Caption().contains(QStringLiteral("robot frame")); }));
+}
+
 TEST_F(Workstation, AMapIsShownInTheColoursOfItsScansAndLeavesTheScanAlone) {
   const MeasureCleanUp clean_up;
   const auto of_first_scan = [](const QColor& color) { return IsNear(color, ColorOfScan(0)); };

@@ -133,8 +133,9 @@ TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
 }
 
 TEST_F(FitOfACloud, IsTrustedAboutAsMuchAsItsMission) {
-  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-15", "--to", "15", "--out",
-                 mission_})
+  // Of a denser scan each fit draws rays of its own, which alone moves the probability by 0.2.
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-15", "--to", "15",
+                 "--speed", "60", "--out", mission_})
                 .exit_code,
             0);
   ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
@@ -203,7 +204,7 @@ TEST(FitInALargeBox, TheValveIsNotLostToThePierThatItHangsOn) {
   EXPECT_EQ(json["best"]["model"]["spokes"], 5);
   EXPECT_LT(
       (PositionIn(json["best"]["robot_from_object"]) - Eigen::Vector3d(1.42, 0.88, 1.25)).norm(),
-      0.010);
+      0.015);
 }
 
 }  // namespace

@@ -159,7 +159,11 @@ void CloudPane::PrepareMap() {
     return set;
   };
   runner_.Run<PointSet>(tr("Preparing the map"), work, [this, coarse](const Result<PointSet>& set) {
-    if (!set || Shown() != Source::kMap || !map_->Map()) return;
+    if (Shown() != Source::kMap || !map_->Map()) {
+      if (std::exchange(outdated_, false)) Prepare();  // the map went away meanwhile
+      return;
+    }
+    if (!set) return;
     if (coarse) {
       canvas_->SetPoints(*set, ColorMap::kTurbo, {});
       canvas_->GoHome();

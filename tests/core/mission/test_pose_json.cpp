@@ -118,6 +118,7 @@ TEST(PoseJson, NoParameterIsTakenAsAnotherTypeOrLeftOut) {
       json value = good;
       value["parameters"][key] = json::object();
       EXPECT_NE(Fault(value), "") << key;
+      if (key.ends_with("_depth_ratio")) continue;  // poses of earlier programs have none
       value["parameters"].erase(key);
       EXPECT_NE(Fault(value), "") << key;
     }
