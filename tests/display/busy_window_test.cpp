@@ -59,7 +59,8 @@ TEST_F(BusyWindow, ALiveSweepBeginsWhileAnImportAReportAndAMapAreMade) {
               worst.cpu_ms);
   // Of its own work 0.11 to 0.15 s were measured with nothing beside it, 0.29 s beside the suite.
   EXPECT_LT(worst.cpu_ms, kSanitizerFactor * 500.0);
-  EXPECT_LT(worst.wall_ms, kSanitizerFactor * 1500.0);
+  // Four tasks share the machine with it: what it waits for its turn says little.
+  EXPECT_LT(worst.wall_ms, kSanitizerFactor * 5000.0);
   QObject::disconnect(listener);
 
   // The live scan is recorded whole, and nothing of the others with it.
