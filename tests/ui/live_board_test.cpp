@@ -92,7 +92,8 @@ TEST_F(LiveBoard, OfManyImagesTheNewestIsLookedAt) {
     head->live_view->OnLiveImage(image);
   }
   int looks = 0;
-  QObject::connect(&model, &LiveBoardModel::changed, [&looks] { ++looks; });
+  const QObject counting;  // the model outlives what is counted
+  QObject::connect(&model, &LiveBoardModel::changed, &counting, [&looks] { ++looks; });
   ASSERT_TRUE(WaitFor([&] { return model.Image() && model.Image()->time_s == 20.0; }));
   EXPECT_LT(looks, 20) << "images that came meanwhile are left out";
 }
