@@ -37,9 +37,7 @@ void MeasureViewModel::DropPoints() {
 void MeasureViewModel::SetKind(MeasureKind kind) {
   kind_ = kind;
   on_ = true;
-  points_.clear();
-  plane_.reset();
-  Q_EMIT changed();
+  DropPoints();
 }
 
 void MeasureViewModel::toggle() {
@@ -52,9 +50,7 @@ void MeasureViewModel::toggle() {
 void MeasureViewModel::leave() {
   if (!on_) return;
   on_ = false;
-  points_.clear();
-  plane_.reset();
-  Q_EMIT changed();
+  DropPoints();
 }
 
 void MeasureViewModel::back() {
