@@ -21,7 +21,6 @@ void AddCloudCommand(CLI::App& app, Invocation& invocation);
 void AddDepthCommand(CLI::App& app, Invocation& invocation);
 void AddFitCommand(CLI::App& app, Invocation& invocation);
 /// `app` is the command `fit`.
-void AddFitCylinderCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateBoardsCommand(CLI::App& app, Invocation& invocation);

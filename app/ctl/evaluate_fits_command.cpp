@@ -255,7 +255,7 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<EvaluateFitsArguments>();
   CLI::App* command = app.add_subcommand(
       "evaluate-fits", "Try a fit on simulated scenes drawn at random, and judge every answer");
-  command->add_option("object", arguments->kind, "valve, drill or terrain")
+  command->add_option("object", arguments->kind, "valve, drill, terrain or handle")
       ->required()
       ->check(CLI::IsMember(FitPopulationKinds()));
   command

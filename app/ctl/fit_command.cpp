@@ -67,9 +67,10 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
   CLI::App* fit = app.add_subcommand(
       "fit", "Fit a known object in a region of a scan, a depth map or a point cloud");
   fit->require_subcommand(1);
-  AddFitCylinderCommand(*fit, invocation);
   constexpr const char* kHelp[] = {"Fit a valve: a wheel or a lever", "Fit a standing drill",
-                                   "Fit blocks that can be stood on"};
+                                   "Fit blocks that can be stood on",
+                                   "Fit a door handle: a lever on its plate",
+                                   "Fit a pole, a pipe or anything else that is round"};
   for (const ObjectKind kind : kObjectKinds) {
     const auto arguments = std::make_shared<FitArguments>();
     arguments->kind = kind;

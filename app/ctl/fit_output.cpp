@@ -17,10 +17,11 @@ void PrintSummary(const Detection& detection, const SensorRig& rig) {
 }
 
 ExitCode PrintNothingFound(ObjectKind kind, const Error& error) {
+  using Json = nlohmann::ordered_json;
   PrintNote("foresightctl: {}", error.message);
   PrintJson({{"kind", ToString(kind)},
              {"verdict", "UNSURE"},
-             {"probability", 0.0},
+             {"probability", kind == ObjectKind::kCylinder ? Json(nullptr) : Json(0.0)},
              {"reason", error.message}});
   return ExitCode::kNegative;
 }

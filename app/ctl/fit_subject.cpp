@@ -209,19 +209,6 @@ Result<DepthOptions> DepthOptionsFor(const FitArguments& arguments, const std::s
   return DepthOptionsFrom(depth_arguments);
 }
 
-Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, BoxRays box_rays,
-                      const RunContext& context) {
-  if (!subject.depth_m.empty())
-    return RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad, subject.roi,
-                          arguments.density, box_rays);
-  if (!subject.scan) return RaysInCloudOf(subject, arguments, box_rays);
-  if (arguments.source == "raw")
-    return RaysInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi, box_rays);
-  FORESIGHT_TRY(const DepthResult depth, DepthFor(subject, arguments, arguments.source, context));
-  return RaysInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepthAlone, subject.roi,
-                    box_rays);
-}
-
 FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const std::string& source,
                 const RunContext& context) {
   const auto options = FitOptionsFrom(arguments, subject.rig.robot_from_base);

@@ -40,11 +40,6 @@ FitSource FitSourceOf(const std::string& source);
 /// How the depth map of a --source is made. Fails as DepthOptionsFrom does.
 Result<DepthOptions> DepthOptionsFor(const FitArguments& arguments, const std::string& source);
 
-/// The rays of the region as a fit of its own wants them, from the source that the arguments name.
-/// Fails as RaysInScan, RaysInDepthMap, RaysInCloud and ComputeDepthInFrame do.
-Result<RaySet> RaysIn(const FitSubject& subject, const FitArguments& arguments, BoxRays box_rays,
-                      const RunContext& context);
-
 /// Fits to one source; a scan's depth map is made by its method.
 FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const std::string& source,
                 const RunContext& context);

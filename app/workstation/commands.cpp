@@ -108,7 +108,13 @@ void AddToolCommands(Workbench* bench) {
        ObjectKind::kDrill},
       {"tool.terrain", "terrain", QT_TRANSLATE_NOOP("Commands", "Terrain"),
        QT_TRANSLATE_NOOP("Commands", "Draw a region over blocks to fit them"), "T",
-       ObjectKind::kTerrain}};
+       ObjectKind::kTerrain},
+      {"tool.handle", "handle", QT_TRANSLATE_NOOP("Commands", "Handle"),
+       QT_TRANSLATE_NOOP("Commands", "Draw a region over a door handle to fit it"), "G",
+       ObjectKind::kHandle},
+      {"tool.cylinder", "cylinder", QT_TRANSLATE_NOOP("Commands", "Cylinder"),
+       QT_TRANSLATE_NOOP("Commands", "Draw a region over a pole, a pipe or a bottle to fit it"),
+       "Y", ObjectKind::kCylinder}};
   for (const Tool& tool : kTools)
     bench->commands.Add(
         {.id = tool.id,

@@ -35,6 +35,18 @@ std::string Describe(const DrillModel& model) {
   return OperatorText("{}, scale {:.2f}", model.template_name, model.scale);
 }
 
+std::string Describe(const HandleModel& model) {
+  return OperatorText("lever, {:.0f} mm long, on a {}{}", 1000.0 * model.length_m,
+                      model.plate == HandleModel::Plate::kLong ? OperatorText("long plate")
+                                                               : OperatorText("rosette"),
+                      model.returned ? OperatorText(", end bent back") : std::string());
+}
+
+std::string Describe(const CylinderModel& model) {
+  return OperatorText("cylinder, {:.0f} mm across, {:.0f} mm of it seen", 2000.0 * model.radius_m,
+                      1000.0 * model.length_m);
+}
+
 std::string KindText(TerrainSurface::Kind kind) {
   switch (kind) {
     case TerrainSurface::Kind::kBlock:
@@ -73,12 +85,24 @@ std::optional<double> MarginOf(const TerrainDetection&, int) {
   return std::nullopt;
 }
 
+std::optional<double> MarginOf(const CylinderDetection&, int) {
+  return std::nullopt;
+}
+
+std::string TextOf(const CylinderDetection& cylinder, int) {
+  return Describe(cylinder.model);
+}
+
 std::string TextOf(const TerrainDetection& terrain, int candidate) {
   const TerrainSurface* surface = Chosen(terrain, candidate);
   if (surface == nullptr) return OperatorText("no surface");
   const int count = static_cast<int>(terrain.surfaces.size());
   return OperatorText("surface {} of {}: {}", std::clamp(candidate, 0, count - 1) + 1, count,
                       Describe(*surface));
+}
+
+Rigid<frame::Base, frame::Object> PoseOf(const CylinderDetection& cylinder, int) {
+  return cylinder.base_from_object;
 }
 
 template <class Found>
@@ -92,6 +116,13 @@ Rigid<frame::Base, frame::Object> PoseOf(const TerrainDetection& terrain, int ca
 }
 
 }  // namespace
+
+SolidPart PartOf(const CylinderModel& model) {
+  SolidPart part;
+  part.shape = SolidPart::Shape::kCylinder;
+  part.size_m = {2.0 * model.radius_m, 2.0 * model.radius_m, model.length_m};
+  return part;
+}
 
 std::string MarginInWords(double nats) {
   return OperatorText(MarginWords(nats));
@@ -107,6 +138,9 @@ int CandidateCount(const Detection& detection) {
     return 1 + static_cast<int>(valve->alternatives.size());
   if (const auto* drill = std::get_if<DrillDetection>(&detection))
     return 1 + static_cast<int>(drill->alternatives.size());
+  if (const auto* handle = std::get_if<HandleDetection>(&detection))
+    return 1 + static_cast<int>(handle->alternatives.size());
+  if (std::holds_alternative<CylinderDetection>(detection)) return 1;
   return static_cast<int>(std::get<TerrainDetection>(detection).surfaces.size());
 }
 

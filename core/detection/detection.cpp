@@ -3,7 +3,7 @@
 namespace foresight {
 
 const char* ToString(ObjectKind kind) {
-  constexpr const char* kKinds[] = {"valve", "drill", "terrain"};
+  constexpr const char* kKinds[] = {"valve", "drill", "terrain", "handle", "cylinder"};
   return kKinds[static_cast<std::size_t>(kind)];
 }
 

@@ -14,6 +14,8 @@ Detection ObjectFrom(const Json& value) {
   if (kind == "valve") return ValveFrom(value);
   if (kind == "drill") return DrillFrom(value);
   if (kind == "terrain") return TerrainFrom(value);
+  if (kind == "handle") return HandleFrom(value);
+  if (kind == "cylinder") return CylinderFrom(value);
   throw std::invalid_argument("kind '" + kind + "' is not known");
 }
 

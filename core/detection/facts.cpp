@@ -104,6 +104,47 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
   facts.push_back({OperatorText("Support"), Support(drill.evidence)});
 }
 
+void AddFacts(const HandleDetection& handle, int candidate, const RobotFromBase& robot_from_base,
+              std::vector<Fact>& facts) {
+  const auto pose = robot_from_base * CandidatePose(handle, candidate);
+  facts.push_back(
+      {OperatorText("Pivot"),
+       WithSigma(Place(pose.translation()), SigmaOfPlace(handle.sigma_position_m), candidate)});
+  facts.push_back(
+      {OperatorText("Lever (x)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
+                                            Degrees(handle.sigma_turn_rad), candidate)});
+  facts.push_back({OperatorText("Door's normal (z)"),
+                   WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
+                             Degrees(handle.sigma_normal_rad), candidate)});
+  if (candidate > 0) return;
+  facts.push_back({OperatorText("Length"), WithSigma(Millimetres(handle.best.model.length_m),
+                                                     Millimetres(handle.sigma_length_m, 1))});
+  facts.push_back({OperatorText("Off the door"), Millimetres(handle.best.model.standoff_m)});
+  facts.push_back(
+      {OperatorText("Turned round"), MarginInWords(handle.evidence.mirror_margin_nats)});
+  facts.push_back({OperatorText("Support"), Support(handle.evidence)});
+}
+
+void AddFacts(const CylinderDetection& cylinder, int, const RobotFromBase& robot_from_base,
+              std::vector<Fact>& facts) {
+  const auto pose = robot_from_base * cylinder.base_from_object;
+  const CylinderEvidence& evidence = cylinder.evidence;
+  facts.push_back({OperatorText("Radius"), WithSigma(Millimetres(cylinder.model.radius_m),
+                                                     Millimetres(cylinder.sigma_radius_m))});
+  facts.push_back({OperatorText("Middle"),
+                   WithSigma(Place(pose.translation()),
+                             OperatorText("{} across", Millimetres(cylinder.sigma_across_m)))});
+  facts.push_back(
+      {OperatorText("Axis (z)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
+                                           Degrees(cylinder.sigma_axis_rad))});
+  facts.push_back(
+      {OperatorText("Support"),
+       OperatorText("{} beams on it, {:.0f} % agree, {:.0f} % went through, {} of its girth seen",
+                    evidence.hits, 100.0 * evidence.inlier_ratio, 100.0 * evidence.see_through,
+                    Degrees(evidence.seen_arc_rad))});
+  facts.push_back({OperatorText("Residual"), Millimetres(evidence.residual_mad_m)});
+}
+
 void AddFacts(const TerrainDetection& terrain, int candidate, const RobotFromBase& robot_from_base,
               std::vector<Fact>& facts) {
   if (terrain.surfaces.empty()) return;

@@ -56,6 +56,13 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
       options.up = up;
       return options;
     }
+    case ObjectKind::kHandle:
+      return FitHandleOptions();
+    case ObjectKind::kCylinder: {
+      FitCylinderOptions options;
+      options.up = up;
+      return options;
+    }
   }
   return FitValveOptions();
 }
@@ -100,6 +107,10 @@ Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
     return FitDrill(rays, *drill, context);
   if (const auto* terrain = std::get_if<FitTerrainOptions>(&options))
     return FitTerrain(rays, *terrain, context);
+  if (const auto* handle = std::get_if<FitHandleOptions>(&options))
+    return FitHandle(rays, *handle, context);
+  if (const auto* cylinder = std::get_if<FitCylinderOptions>(&options))
+    return FitCylinder(rays, *cylinder, context);
   return FitValve(rays, std::get<FitValveOptions>(options), context);
 }
 
@@ -111,6 +122,8 @@ Result<Detection> FitInRegion(const std::function<Result<RaySet>(BoxRays)>& rays
     return FitInRays(rays, options, context);
   }
   FORESIGHT_TRY(const RaySet through, rays_of(BoxRays::kPassThrough));
+  if (std::holds_alternative<FitCylinderOptions>(options))
+    return FitInRays(through, options, context);
   Result<Detection> best = FitInRays(through, options, context.Part(0.0, 0.5));
   if (context.Cancelled() || (best && VerdictOf(*best).level != VerdictLevel::kUnsure)) return best;
   const auto rays = rays_of(BoxRays::kEndInside);

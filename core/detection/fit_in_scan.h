@@ -10,7 +10,9 @@
 
 #include "core/depth/pipeline.h"
 #include "core/detection/detection.h"
+#include "core/fitting/cylinder/fit_cylinder.h"
 #include "core/fitting/drill/fit_drill.h"
+#include "core/fitting/handle/fit_handle.h"
 #include "core/fitting/terrain/fit_terrain.h"
 #include "core/fitting/valve/fit_valve.h"
 
@@ -42,7 +44,8 @@ struct ProcessedScan {
 };
 
 /// What to look for, and how; in the order of Detection's alternatives.
-using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOptions>;
+using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOptions,
+                                FitHandleOptions, FitCylinderOptions>;
 
 /// The defaults for an object seen by a head that is mounted as `robot_from_base` says. `up` is
 /// against gravity, in robot, length 1.
@@ -66,16 +69,18 @@ Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPl
                            const Eigen::Vector3d& viewpoint, const SensorRig& rig, const Roi& roi,
                            std::optional<double> sigma_m, BoxRays box_rays = BoxRays::kEndInside);
 
-/// The fit that belongs to the options. Fails as FitValve, FitDrill and FitTerrain do.
+/// The fit that belongs to the options. Fails as FitValve, FitDrill, FitTerrain, FitHandle and
+/// FitCylinder do.
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
                             const RunContext& context);
 
-/// The same for a region whose rays `rays_of` gives. Of a wheel or a drill that a box is drawn
-/// tightly round, the wall behind the box tells what stands in front of it, so the beams that went
-/// through count too. What stands in a large box, as a pier, stands in front of the far wall itself
-/// and may hide the object: where that fit is UNSURE or finds nothing, the rays that end inside are
-/// tried alone, and the answer of the higher probability is given. A terrain's box holds its
-/// ground. Fails as the first of both fits, and as `rays_of`.
+/// The same for a region whose rays `rays_of` gives. Of a wheel, a drill or a lever that a box is
+/// drawn tightly round, the wall behind the box tells what stands in front of it, so the beams that
+/// went through count too. What stands in a large box, as a pier, stands in front of the far wall
+/// itself and may hide the object: where that fit is UNSURE or finds nothing, the rays that end
+/// inside are tried alone, and the answer of the higher probability is given. A terrain's box holds
+/// its ground. Of a cylinder the beams that went past on both sides fix the radius: they always
+/// count. Fails as the first of both fits, and as `rays_of`.
 Result<Detection> FitInRegion(const std::function<Result<RaySet>(BoxRays)>& rays_of, const Roi& roi,
                               const FitOptions& options, const RunContext& context);
 

@@ -256,6 +256,76 @@ Rows TerrainRows() {
   return rows;
 }
 
+Rows HandleRows() {
+  const auto length = [](const char* key, const char* flag, const char* title, const char* help,
+                         auto at) {
+    return Number({.key = key,
+                   .flag = flag,
+                   .group = kObject,
+                   .title = title,
+                   .help = help,
+                   .unit = "mm",
+                   .units_per_si = kMillimetres,
+                   .low = 20.0,
+                   .high = 999.0},
+                  at);
+  };
+  Rows rows;
+  rows.push_back(length("min_length_m", "--min-length-mm", "Length from",
+                        "Shortest lever, from the pivot's axis to its end",
+                        FORESIGHT_AT(FitHandleOptions, min_length_m)));
+  rows.push_back(length("max_length_m", "--max-length-mm", "Length to",
+                        "Longest lever, from the pivot's axis to its end",
+                        FORESIGHT_AT(FitHandleOptions, max_length_m)));
+  rows.push_back(Integer({.key = "pair_trials",
+                          .flag = "--pair-trials",
+                          .group = kSearch,
+                          .title = "Bars tried",
+                          .help = "Bars through two points that are tried",
+                          .low = 1,
+                          .high = 1e5},
+                         FORESIGHT_AT(FitHandleOptions, pair_trials)));
+  rows.push_back(MaxRays(FORESIGHT_AT(FitHandleOptions, max_rays)));
+  rows.push_back(SeedOption<FitOptions>(FORESIGHT_AT(FitHandleOptions, seed)));
+  return rows;
+}
+
+/// Least and largest, as one option.
+Row CylinderRadii() {
+  OptionInfo info{.key = "radius_m",
+                  .flag = "--radius-mm",
+                  .group = kObject,
+                  .title = "Radius from, to",
+                  .help = "Least and largest radius in millimetres; default: 10,600",
+                  .type = OptionType::kNumbers,
+                  .unit = "mm",
+                  .units_per_si = kMillimetres,
+                  .low = 2.0,
+                  .high = 10000.0,
+                  .count = 2};
+  const auto get = [](const FitOptions& options) -> OptionValue {
+    const auto& held = std::get<FitCylinderOptions>(options);
+    return std::vector<double>{held.min_radius_m, held.max_radius_m};
+  };
+  const auto set = [](FitOptions& options, const OptionValue& value) -> Status {
+    const auto& numbers = std::get<std::vector<double>>(value);
+    auto& held = std::get<FitCylinderOptions>(options);
+    held.min_radius_m = numbers[0];
+    held.max_radius_m = numbers[1];
+    return {};
+  };
+  return {std::move(info), get, set};
+}
+
+Rows CylinderRows() {
+  Rows rows;
+  rows.push_back(CylinderRadii());
+  rows.push_back(Up(FORESIGHT_AT(FitCylinderOptions, up)));
+  rows.push_back(MaxRays(FORESIGHT_AT(FitCylinderOptions, max_rays)));
+  rows.push_back(SeedOption<FitOptions>(FORESIGHT_AT(FitCylinderOptions, seed)));
+  return rows;
+}
+
 #undef FORESIGHT_AT
 
 FitOptions DefaultsOf(ObjectKind kind) {
@@ -265,12 +335,17 @@ FitOptions DefaultsOf(ObjectKind kind) {
 }  // namespace
 
 OptionTable<FitOptions> FitOptionTable(ObjectKind kind) {
-  static const Rows kValve = ValveRows(), kDrill = DrillRows(), kTerrain = TerrainRows();
+  static const Rows kValve = ValveRows(), kDrill = DrillRows(), kTerrain = TerrainRows(),
+                    kHandle = HandleRows(), kCylinder = CylinderRows();
   switch (kind) {
     case ObjectKind::kValve:
       return kValve;
     case ObjectKind::kDrill:
       return kDrill;
+    case ObjectKind::kHandle:
+      return kHandle;
+    case ObjectKind::kCylinder:
+      return kCylinder;
     case ObjectKind::kTerrain:
       break;
   }

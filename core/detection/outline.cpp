@@ -41,6 +41,11 @@ Wireframe TemplateOf(const Detection& detection, int candidate) {
   const auto alternative = static_cast<std::size_t>(std::max(0, candidate - 1));
   if (const auto* valve = std::get_if<ValveDetection>(&detection))
     return WireframeOf(candidate > 0 ? valve->alternatives[alternative].model : valve->best.model);
+  if (const auto* handle = std::get_if<HandleDetection>(&detection))
+    return WireframeOf(candidate > 0 ? handle->alternatives[alternative].model
+                                     : handle->best.model);
+  if (const auto* cylinder = std::get_if<CylinderDetection>(&detection))
+    return WireframeOf(PartOf(cylinder->model));
   const auto& drill = std::get<DrillDetection>(detection);
   return WireframeOf(candidate > 0 ? drill.alternatives[alternative].model : drill.best.model);
 }
@@ -53,14 +58,6 @@ std::vector<Outline> OutlinesOf(const Detection& detection, int candidate) {
   const int index = std::clamp(candidate, 0, CandidateCount(detection) - 1);
   return {{InBase(TemplateOf(detection, index), CandidatePose(detection, index)),
            CandidateLevel(detection, index), true}};
-}
-
-Outline OutlineOf(const CylinderDetection& cylinder) {
-  SolidPart part;
-  part.shape = SolidPart::Shape::kCylinder;
-  part.size_m = {2.0 * cylinder.model.radius_m, 2.0 * cylinder.model.radius_m,
-                 cylinder.model.length_m};
-  return {InBase(WireframeOf(part), cylinder.base_from_object), cylinder.level, true};
 }
 
 Wireframe Dashed(const Wireframe& lines, double dash_m, double gap_m) {

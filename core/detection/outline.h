@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/detection/detection.h"
-#include "core/fitting/cylinder/cylinder_detection.h"
 #include "core/objects/solid_part.h"
 
 namespace foresight {
@@ -19,9 +18,6 @@ struct Outline {
 /// The candidate's template; of a terrain all surfaces, each with its toehold as a second rectangle
 /// inside. Nothing for a terrain without a surface.
 std::vector<Outline> OutlinesOf(const Detection& detection, int candidate);
-
-/// A cylinder's girths and sides.
-Outline OutlineOf(const CylinderDetection& cylinder);
 
 /// The lines cut into dashes, metres along each line.
 Wireframe Dashed(const Wireframe& lines, double dash_m, double gap_m);

@@ -11,6 +11,7 @@ namespace foresight {
 namespace {
 
 int TurnsOf(const Detection& detection) {
+  if (std::holds_alternative<CylinderDetection>(detection)) return 0;
   const auto* valve = std::get_if<ValveDetection>(&detection);
   if (valve == nullptr || valve->best.model.IsLever()) return 1;
   return valve->best.model.spokes;

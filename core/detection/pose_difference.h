@@ -11,12 +11,12 @@ namespace foresight {
 /// One thing that was found, where it is in the robot's frame.
 struct PlacedObject {
   std::string uuid;  ///< of its detection
-  std::string kind;  ///< "valve", "drill", "terrain"
+  std::string kind;  ///< "valve", "drill", "terrain", "handle", "cylinder"
   std::string text;  ///< CandidateText: "4 spokes, rim 240 mm across"
   VerdictLevel level = VerdictLevel::kUnsure;
   Rigid<frame::Robot, frame::Object> robot_from_object;
   /// How many turns about the object's z give the same object: 4 for a wheel of four spokes; 0 =
-  /// any turn does (a disc); 1 = none.
+  /// any turn does (a disc, a cylinder); 1 = none.
   int turns = 1;
 };
 

@@ -94,6 +94,16 @@ std::vector<Residual> ResidualsOf(const Detection& detection, int candidate, con
     return OfTemplate(
         pose, [&](const Eigen::Vector3d& p) { return model.Distance(p); }, rays);
   }
+  if (const auto* handle = std::get_if<HandleDetection>(&detection)) {
+    const HandleModel& model = ModelOf(*handle, candidate);
+    return OfTemplate(
+        pose, [&](const Eigen::Vector3d& p) { return model.Distance(p); }, rays);
+  }
+  if (const auto* cylinder = std::get_if<CylinderDetection>(&detection)) {
+    const SolidPart part = PartOf(cylinder->model);
+    return OfTemplate(
+        pose, [&](const Eigen::Vector3d& p) { return part.Distance(p); }, rays);
+  }
   const DrillModel& model = ModelOf(std::get<DrillDetection>(detection), candidate);
   return OfTemplate(
       pose, [&](const Eigen::Vector3d& p) { return model.Distance(p); }, rays);

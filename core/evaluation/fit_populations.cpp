@@ -20,6 +20,8 @@ const std::vector<Entry>& Entries() {
        [] { return std::make_unique<OtherDrillPopulation>(); }},
       {"terrain", [] { return std::make_unique<TerrainPopulation>(); },
        [] { return std::make_unique<OtherTerrainPopulation>(); }},
+      {"handle", [] { return std::make_unique<HandlePopulation>(); },
+       [] { return std::make_unique<OtherHandlePopulation>(); }},
   };
   return entries;
 }

@@ -8,7 +8,7 @@
 
 namespace foresight {
 
-/// "valve", "drill", "terrain": the objects whose fits can be tried.
+/// "valve", "drill", "terrain", "handle": the objects whose fits can be tried.
 std::vector<std::string> FitPopulationKinds();
 
 /// Fails with kInvalidOptions, listing the kinds there are.

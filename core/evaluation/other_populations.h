@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/evaluation/drill_population.h"
+#include "core/evaluation/handle_population.h"
 #include "core/evaluation/terrain_population.h"
 #include "core/evaluation/valve_population.h"
 
@@ -23,6 +24,12 @@ class OtherDrillPopulation : public DrillPopulation {
 };
 
 class OtherTerrainPopulation : public TerrainPopulation {
+ public:
+  FitWorld World() const override { return FitWorld::kOther; }
+  FitTrialScene MakeScene(std::uint64_t seed) const override;
+};
+
+class OtherHandlePopulation : public HandlePopulation {
  public:
   FitWorld World() const override { return FitWorld::kOther; }
   FitTrialScene MakeScene(std::uint64_t seed) const override;

@@ -63,6 +63,8 @@ class BeamLikelihood {
                  const BeamLikelihoodOptions& options = {});
 
   const RaySet& rays() const { return rays_; }
+  /// Of the beams behind a map alone; nullptr = not known, or the rays are beams themselves.
+  const BeamLikelihood* BehindMap() const { return behind_map_.get(); }
   /// Deviation of a range, the shape's error included.
   double Sigma() const { return sigma_m_; }
 

@@ -24,6 +24,7 @@ Result<VerdictLevel> VerdictLevelFromString(const std::string& name) {
 }
 
 std::string ProbabilityText(double probability) {
+  if (std::isnan(probability)) return "no probability";
   if (probability > 0.99) return "over 99 %";
   if (!(probability >= 0.01)) return "under 1 %";
   return fmt::format("{:.0f} %", std::floor(100.0 * probability + 1e-9));

@@ -16,8 +16,9 @@ Result<VerdictLevel> VerdictLevelFromString(const std::string& name);
 /// What an operator may make of a fit.
 struct Verdict {
   VerdictLevel level = VerdictLevel::kUnsure;
-  double probability = 0.0;  ///< that the pose is right, in [0, 1]
-  std::string reason;        ///< one sentence
+  /// That the pose is right, in [0, 1]; NaN where none was calibrated for the object.
+  double probability = 0.0;
+  std::string reason;  ///< one sentence
   /// What the probability was computed from, in the order of the object's VerdictModel.
   std::vector<double> features;
   /// The hard gates that keep it from being CONFIRMED, whatever its probability, a sentence each,
@@ -28,7 +29,8 @@ struct Verdict {
   static constexpr double kConfirmed = 0.95;  ///< ... and of CONFIRMED
 };
 
-/// "97 %", rounded down: nothing is ever certain. "over 99 %" from there on, "under 1 %" below.
+/// "97 %", rounded down: nothing is ever certain. "over 99 %" from there on, "under 1 %" below; "no
+/// probability" for NaN.
 std::string ProbabilityText(double probability);
 
 /// By how much another answer is behind, in words: "about as likely" below kComparable_nats (1 :

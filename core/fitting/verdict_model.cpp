@@ -153,11 +153,16 @@ Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::st
   return model;
 }
 
-const VerdictModel& ShippedVerdictModel(std::string_view object, VerdictSource source) {
+const VerdictModel* FindVerdictModel(std::string_view object, VerdictSource source) {
   static const Models models = LoadModels();
   const auto found = models.find({std::string(object), source});
-  FORESIGHT_EXPECTS(found != models.end(), "there is a verdict model for each object and source");
-  return found->second;
+  return found == models.end() ? nullptr : &found->second;
+}
+
+const VerdictModel& ShippedVerdictModel(std::string_view object, VerdictSource source) {
+  const VerdictModel* model = FindVerdictModel(object, source);
+  FORESIGHT_EXPECTS(model != nullptr, "there is a verdict model for each object and source");
+  return *model;
 }
 
 }  // namespace foresight

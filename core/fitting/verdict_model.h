@@ -36,7 +36,7 @@ struct VerdictModel {
     double weight = 0.0;  ///< of (value - mean) / deviation
   };
 
-  std::string object;  ///< "valve", "drill", "terrain"
+  std::string object;  ///< "valve", "drill", "terrain", "handle"
   VerdictSource source = VerdictSource::kRaw;
   std::string population;  ///< how it was made: scenes, seeds, sources
   int fits = 0;            ///< in the population
@@ -67,8 +67,10 @@ struct VerdictModel {
 /// Fails with kBadData, naming `source` and the line at fault.
 Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::string& source);
 
-/// resources/verdicts/<object>_<source>.yaml as it was when the program was built. Throws
-/// ContractViolation where there is none.
+/// resources/verdicts/<object>_<source>.yaml as it was when the program was built; nullptr where
+/// there is none, as before an object's first weights were fitted.
+const VerdictModel* FindVerdictModel(std::string_view object, VerdictSource source);
+/// The same of an object that has one. Throws ContractViolation where there is none.
 const VerdictModel& ShippedVerdictModel(std::string_view object, VerdictSource source);
 
 }  // namespace foresight

@@ -65,7 +65,8 @@ const char* ToString(DetectionEvent::Action action);
 /// The reverse; fails with kBadData.
 Result<DetectionEvent::Action> DetectionActionFromString(const std::string& text);
 
-/// An answer found in a scan, as JSON of its kind ("valve", "drill", "terrain").
+/// An answer found in a scan, as JSON of its kind ("valve", "drill", "terrain",
+/// "handle", "cylinder").
 struct DetectionRecord {
   std::int64_t id = 0;       ///< given by the file
   std::string uuid;          ///< empty = the file gives one

@@ -48,10 +48,22 @@ Status CheckVector(const char* member, const Eigen::Ref<const Eigen::VectorXd>& 
   return {};
 }
 
-Status CheckParameters(const ValveParameters& valve) {
-  const Status sound = valve.model.Check();
+Status CheckModel(const auto& model) {
+  const Status sound = model.Check();
   if (sound) return {};
   return Fail(ErrorCode::kBadData, "'parameters': {}", sound.error().message);
+}
+
+Status CheckParameters(const ValveParameters& valve) {
+  return CheckModel(valve.model);
+}
+
+Status CheckParameters(const HandleParameters& handle) {
+  return CheckModel(handle.model);
+}
+
+Status CheckParameters(const CylinderParameters& cylinder) {
+  return CheckModel(cylinder.model);
 }
 
 Status CheckParameters(const DrillParameters& drill) {

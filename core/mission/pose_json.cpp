@@ -38,6 +38,14 @@ Json JsonOf(const SurfaceParameters& surface) {
           {"step_m", surface.step_m ? Json(*surface.step_m) : Json(nullptr)}};
 }
 
+Json JsonOf(const HandleParameters& handle) {
+  return ToJson(handle.model);
+}
+
+Json JsonOf(const CylinderParameters& cylinder) {
+  return {{"radius_m", cylinder.model.radius_m}, {"length_m", cylinder.model.length_m}};
+}
+
 /// A list of exactly `count` numbers.
 std::vector<double> NumbersIn(const Json& object, const char* key, std::size_t count) {
   const Json& list = ListIn(object, key, count);
@@ -113,6 +121,10 @@ ObjectParameters ParametersFrom(ObjectKind kind, const Json& value) {
       return ValveParametersFrom(value);
     case ObjectKind::kDrill:
       return DrillParametersFrom(value);
+    case ObjectKind::kHandle:
+      return HandleParameters{HandleModelFrom(value)};
+    case ObjectKind::kCylinder:
+      return CylinderParameters{CylinderModelFrom(value)};
     case ObjectKind::kTerrain:
       break;
   }

@@ -10,7 +10,9 @@
 namespace foresight {
 namespace {
 
-constexpr int kPhase = 5;  ///< row of the turn about the object's z
+constexpr int kAlong = 2;  ///< row of the move along the object's z
+constexpr int kPhase = 5;  ///< ... and of the turn about it
+constexpr double kVarianceOfAnyAngle = std::numbers::pi * std::numbers::pi / 3.0;
 
 DrillParameters WithoutParts(DrillModel model) {
   model.parts.clear();
@@ -34,13 +36,33 @@ void Describe(const ValveDetection& valve, std::size_t candidate, PoseMessage& m
   // Every direction of x is as good as another: the variance of an angle that may be any.
   message.covariance->row(kPhase).setZero();
   message.covariance->col(kPhase).setZero();
-  (*message.covariance)(kPhase, kPhase) = std::numbers::pi * std::numbers::pi / 3.0;
+  (*message.covariance)(kPhase, kPhase) = kVarianceOfAnyAngle;
 }
 
 void Describe(const DrillDetection& drill, std::size_t candidate, PoseMessage& message) {
   const DrillCandidate& chosen = candidate == 0 ? drill.best : drill.alternatives[candidate - 1];
   message.parameters = WithoutParts(chosen.model);
   if (candidate == 0) message.covariance = drill.covariance;
+}
+
+void Describe(const HandleDetection& handle, std::size_t candidate, PoseMessage& message) {
+  const HandleCandidate& chosen = candidate == 0 ? handle.best : handle.alternatives[candidate - 1];
+  message.parameters = HandleParameters{chosen.model};
+  if (candidate == 0) message.covariance = handle.covariance;
+}
+
+void Describe(const CylinderDetection& cylinder, std::size_t, PoseMessage& message) {
+  message.parameters = CylinderParameters{cylinder.model};
+  message.probability.reset();
+  message.covariance = cylinder.covariance;
+  for (const int i : {kAlong, kPhase}) {
+    message.covariance->row(i).setZero();
+    message.covariance->col(i).setZero();
+  }
+  // Its middle may be anywhere along what was seen, as it may go on; and x may point anywhere.
+  const double length_m = cylinder.model.length_m;
+  (*message.covariance)(kAlong, kAlong) = length_m * length_m / 12.0;
+  (*message.covariance)(kPhase, kPhase) = kVarianceOfAnyAngle;
 }
 
 void Describe(const TerrainDetection& terrain, std::size_t candidate, PoseMessage& message) {

@@ -14,7 +14,8 @@
 
 namespace foresight {
 
-/// What a robot is told of a valve, a drill and a surface beside its pose.
+/// What a robot is told of a valve, a drill, a surface, a door handle and a cylinder beside its
+/// pose.
 struct ValveParameters {
   ValveModel model;
   bool phase_observable = true;  ///< false: the direction of x means nothing (a disc)
@@ -29,8 +30,15 @@ struct SurfaceParameters {
   double slope_rad = 0.0;
   std::optional<double> step_m;  ///< as Toehold has it; none = not known
 };
+struct HandleParameters {
+  HandleModel model;
+};
+struct CylinderParameters {
+  CylinderModel model;
+};
 /// In the order of Detection's alternatives.
-using ObjectParameters = std::variant<ValveParameters, DrillParameters, SurfaceParameters>;
+using ObjectParameters = std::variant<ValveParameters, DrillParameters, SurfaceParameters,
+                                      HandleParameters, CylinderParameters>;
 
 /// A pose on its way to the robot (docs/protocols.md, "To the robot").
 struct PoseMessage {
@@ -45,9 +53,10 @@ struct PoseMessage {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< object to frame
   std::optional<PoseCovariance> covariance;                      ///< none = not known
   VerdictLevel verdict = VerdictLevel::kUnsure;                  ///< of the candidate
-  std::optional<double> probability;  ///< that the pose is right; none for an alternative
-  int candidate = 0;                  ///< which answer: 0 = the best; of a terrain, which surface
-  bool is_winner = true;              ///< false: an alternative to the best answer
+  /// That the pose is right; none for an alternative, and where none was calibrated.
+  std::optional<double> probability;
+  int candidate = 0;      ///< which answer: 0 = the best; of a terrain, which surface
+  bool is_winner = true;  ///< false: an alternative to the best answer
   Decision decision = Decision::kOpen;
   std::string decided_by;  ///< empty where nothing was decided
   Origin origin = Origin::kReview;

@@ -21,6 +21,9 @@ PoseCovariance CovarianceOf(const Detection& detection, std::size_t part) {
   if (const auto* terrain = std::get_if<TerrainDetection>(&detection))
     return terrain->surfaces[part].covariance;
   if (const auto* drill = std::get_if<DrillDetection>(&detection)) return drill->covariance;
+  if (const auto* cylinder = std::get_if<CylinderDetection>(&detection))
+    return cylinder->covariance;
+  if (const auto* handle = std::get_if<HandleDetection>(&detection)) return handle->covariance;
   return std::get<ValveDetection>(detection).covariance;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/geometry/rigid.h"
+#include "core/objects/handle_model.h"
 #include "core/objects/valve_model.h"
 #include "core/simulation/board_stand.h"
 #include "core/simulation/material.h"
@@ -48,6 +49,12 @@ struct BlockTruth {
   Eigen::Vector3d size_m;
 };
 
+struct HandleTruth {
+  std::string name;
+  Rigid<frame::Robot, frame::Object> robot_from_object;  ///< as HandleModel defines the frame
+  HandleModel model;
+};
+
 struct BoardTruth {
   std::string name;
   CalibrationBoard board;  ///< as drawn
@@ -69,6 +76,7 @@ struct Scene {
   std::vector<ValveTruth> valves;
   std::vector<DrillTruth> drills;
   std::vector<BlockTruth> blocks;
+  std::vector<HandleTruth> handles;
   std::vector<BoardTruth> boards;
   // What somebody carries from place to place. None of it is in `meshes` before AtPlace.
   std::vector<BoardStand> stands;

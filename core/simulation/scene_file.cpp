@@ -216,6 +216,7 @@ class SceneReader {
   void ReadValve(YamlMap& map);
   void ReadDrill(YamlMap& map);
   void ReadBlock(YamlMap& map);
+  void ReadHandle(YamlMap& map);
   BoardObject BoardOf(YamlMap& map, const std::string& key) const;
   BoardStand StandOf(YamlMap& map) const;
   void ReadPlace(YamlMap& map);
@@ -308,13 +309,16 @@ void SceneReader::ReadObject(YamlMap& map) {
     ReadDrill(map);
   } else if (kind == "block") {
     ReadBlock(map);
+  } else if (kind == "handle") {
+    ReadHandle(map);
   } else if (kind == "stand") {
     const BoardStand stand = StandOf(map);
     const Rigid<frame::Robot, frame::Pattern> pose = StandPoseOf(map, stand);
     map.Finish();
     AddStand(stand, pose, scene_);
   } else {
-    map.Fault(map.Node("kind"), "object '" + kind + "' is not valve, drill, block or stand");
+    map.Fault(map.Node("kind"),
+              "object '" + kind + "' is not valve, drill, block, handle or stand");
   }
 }
 
@@ -370,6 +374,26 @@ void SceneReader::ReadBlock(YamlMap& map) {
   block.material = Named(map, "material");
   map.Finish();
   AddBlock(block, scene_);
+}
+
+void SceneReader::ReadHandle(YamlMap& map) {
+  HandleObject handle;
+  handle.name = map.Text("name", "handle");
+  handle.robot_from_object = PoseOf(map);
+  HandleModel& model = handle.model;
+  model.length_m = map.Number("length_m", model.length_m);
+  model.radius_m = map.Number("radius_m", model.radius_m);
+  model.standoff_m = map.Number("standoff_m", model.standoff_m);
+  model.returned = map.Flag("returned", model.returned);
+  const std::string plate = map.Text("plate", ToString(model.plate));
+  if (plate != ToString(HandleModel::Plate::kLong) && plate != ToString(model.plate))
+    map.Fault(map.Node("plate"), "plate '" + plate + "' is neither rosette nor long");
+  if (plate == ToString(HandleModel::Plate::kLong)) model.plate = HandleModel::Plate::kLong;
+  if (const Status status = model.Check(); !status) map.Fault(status.error().message);
+  handle.lever_material = Named(map, "material");
+  handle.plate_material = Named(map, "plate_material", handle.lever_material);
+  map.Finish();
+  AddHandle(handle, scene_);
 }
 
 BoardObject SceneReader::BoardOf(YamlMap& map, const std::string& key) const {

@@ -246,6 +246,23 @@ void AddBlock(const BlockObject& block, Scene& scene) {
   scene.blocks.push_back({block.name, block.robot_from_object, block.size_m});
 }
 
+void AddHandle(const HandleObject& handle, Scene& scene) {
+  const HandleModel& model = handle.model;
+  Part lever(handle.name, handle.robot_from_object, handle.lever_material);
+  for (const HandleBar& bar : BarsOf(model)) lever.AddCapsule(bar.from, bar.to, bar.radius_m);
+  lever.MoveTo(scene);
+  Part plate(handle.name + " plate", handle.robot_from_object, handle.plate_material);
+  const double thick_m = HandleModel::kPlateThickness_m;
+  const Eigen::Vector3d middle(0.0, 0.0, 0.5 * thick_m - model.standoff_m);
+  if (model.plate == HandleModel::Plate::kLong)
+    plate.AddAt(BoxShape({HandleModel::kPlateWidth_m, HandleModel::kPlateLength_m, thick_m}),
+                middle);
+  else
+    plate.AddAt(CylinderShape(HandleModel::kRosetteRadius_m, thick_m), middle);
+  plate.MoveTo(scene);
+  scene.handles.push_back({handle.name, handle.robot_from_object, model});
+}
+
 Rigid<frame::Robot, frame::Object> ValvePose(const Eigen::Vector3d& position_m,
                                              const Eigen::Vector3d& axis, double phase_rad) {
   const Eigen::Vector3d z = axis.normalized();

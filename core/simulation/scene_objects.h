@@ -65,12 +65,22 @@ struct BlockObject {
   Material material;
 };
 
+/// A lever on its neck and plate; the door that it is on is not part of it.
+struct HandleObject {
+  std::string name;
+  Rigid<frame::Robot, frame::Object> robot_from_object;  ///< as HandleModel defines the frame
+  HandleModel model;
+  Material lever_material;
+  Material plate_material;
+};
+
 /// Each adds the object's meshes and its truth to the scene.
 void AddValve(const ValveObject& valve, Scene& scene);
 /// Stem, gland, flange and bolts alone, behind a wheel or a lever that was added another way.
 void AddValveBody(const ValveObject& valve, Scene& scene);
 void AddDrill(const DrillObject& drill, Scene& scene);
 void AddBlock(const BlockObject& block, Scene& scene);
+void AddHandle(const HandleObject& handle, Scene& scene);
 
 /// The pose of a valve whose axis (towards the viewer, in robot) and first spoke are given. A phase
 /// of 0 puts the first spoke as far up as the axis allows, positive ones turn it counter-clockwise

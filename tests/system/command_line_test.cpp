@@ -36,7 +36,7 @@ TEST(CommandLine, AnUnknownCommandIsNamedWithTheOneThatWasMeant) {
 
 TEST(CommandLine, AMissingCommandIsToldWhichThereAre) {
   ExpectUsage(Ctl({}), "a command is missing: one of scan, depth");
-  ExpectUsage(Ctl({"fit"}), "'fit' needs a command: one of cylinder, valve");
+  ExpectUsage(Ctl({"fit"}), "'fit' needs a command: one of valve, drill");
 }
 
 TEST(CommandLine, ASeedIsAWholeNumberWithoutASign) {

@@ -19,13 +19,17 @@
 namespace foresight {
 namespace {
 
-/// "Valve", "Drill", "Terrain".
+/// "Valve", "Drill", "Terrain", "Door handle", "Cylinder".
 QString TitleOf(ObjectKind kind) {
   switch (kind) {
     case ObjectKind::kValve:
       return ObjectsPanel::tr("Valve");
     case ObjectKind::kDrill:
       return ObjectsPanel::tr("Drill");
+    case ObjectKind::kHandle:
+      return ObjectsPanel::tr("Door handle");
+    case ObjectKind::kCylinder:
+      return ObjectsPanel::tr("Cylinder");
     case ObjectKind::kTerrain:
       break;
   }

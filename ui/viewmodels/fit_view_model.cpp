@@ -98,6 +98,10 @@ QString FitViewModel::Doing() const {
       return tr("Fitting the valve");
     case ObjectKind::kDrill:
       return tr("Fitting the drill");
+    case ObjectKind::kHandle:
+      return tr("Fitting the door handle");
+    case ObjectKind::kCylinder:
+      return tr("Fitting the cylinder");
     case ObjectKind::kTerrain:
       break;
   }

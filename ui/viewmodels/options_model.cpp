@@ -57,6 +57,10 @@ QString FitOptionsModel::Title() const {
       return tr("Fit: valve");
     case ObjectKind::kDrill:
       return tr("Fit: drill");
+    case ObjectKind::kHandle:
+      return tr("Fit: door handle");
+    case ObjectKind::kCylinder:
+      return tr("Fit: cylinder");
     case ObjectKind::kTerrain:
       break;
   }

@@ -14,6 +14,10 @@ namespace foresight {
 struct CylinderModel {
   double radius_m = 0.0;
   double length_m = 0.0;  ///< of what lies in the region; it may go on
+
+  /// Fails with kInvalidOptions: a size that is not within 0 to kLargest_m.
+  Status Check() const;
+  static constexpr double kLargest_m = 10.0;
 };
 
 /// How well the measurements support a cylinder.
@@ -37,9 +41,11 @@ struct CylinderDetection {
   double sigma_radius_m = std::nan("");
   double sigma_across_m = std::nan("");  ///< of the axis' place, the larger of both ways
   double sigma_axis_rad = std::nan("");  ///< of its direction, likewise
+  /// Across and about the axis' two sides; along z, where it may go on, and about it NaN.
+  PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
   CylinderEvidence evidence;
-  VerdictLevel level = VerdictLevel::kUnsure;  ///< UNSURE or LIKELY
-  std::string reason;                          ///< one sentence
+  /// UNSURE or LIKELY; its probability is NaN.
+  Verdict verdict;
   FitOrigin origin;
 };
 

@@ -140,6 +140,15 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
   const double range_m = (cylinder.middle - rays.viewpoint).norm();
   detection.sigma_radius_m =
       std::hypot(deviation(4), 0.5 * rays.footprint_rad * range_m / std::numbers::sqrt3);
+  detection.covariance = PoseCovariance::Zero();
+  for (const int i : {0, 1})
+    detection.covariance(i, i) = detection.sigma_across_m * detection.sigma_across_m;
+  for (const int i : {3, 4})
+    detection.covariance(i, i) = detection.sigma_axis_rad * detection.sigma_axis_rad;
+  for (const int i : {2, 5}) {
+    detection.covariance.row(i).setConstant(std::nan(""));
+    detection.covariance.col(i).setConstant(std::nan(""));
+  }
 }
 
 namespace {
@@ -203,16 +212,28 @@ std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& b
 
 }  // namespace
 
+Status CylinderModel::Check() const {
+  const auto usable = [](double size_m) { return size_m > 0.0 && size_m <= kLargest_m; };
+  if (!usable(radius_m) || !usable(length_m))
+    return Fail(ErrorCode::kInvalidOptions,
+                "cylinder: radius_m {} or length_m {} is not within 0 to {}", radius_m, length_m,
+                kLargest_m);
+  return {};
+}
+
 void Assess(const RaySet& rays, const CylinderBounds& bounds, CylinderDetection& detection) {
-  if (const auto failed = FailedGates(rays, bounds, detection); !failed.empty()) {
-    detection.reason = failed.front();
-    return;
-  }
-  detection.level = VerdictLevel::kLikely;
-  detection.reason = fmt::format(
-      "{} beams on it, {:.0f} % of them agree; never confirmed, as no probability was "
-      "calibrated for cylinders",
-      detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio);
+  constexpr const char* kNotCalibrated =
+      "never confirmed, as no probability was calibrated for cylinders";
+  Verdict& verdict = detection.verdict;
+  verdict.probability = std::nan("");
+  verdict.failed_gates = FailedGates(rays, bounds, detection);
+  const bool likely = verdict.failed_gates.empty();
+  verdict.level = likely ? VerdictLevel::kLikely : VerdictLevel::kUnsure;
+  verdict.reason =
+      likely ? fmt::format("{} beams on it, {:.0f} % of them agree; {}", detection.evidence.hits,
+                           100.0 * detection.evidence.inlier_ratio, kNotCalibrated)
+             : verdict.failed_gates.front();
+  verdict.failed_gates.push_back(kNotCalibrated);
 }
 
 }  // namespace foresight

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/fitting/gate.h"
 #include "core/fitting/handle/handle_search.h"
 #include "core/fitting/handle/handle_verdict.h"
 #include "core/fitting/ray_selection.h"
@@ -21,6 +22,7 @@ constexpr std::size_t kFine = 3;
 constexpr double kLeastBefore_m = 0.020, kMostBefore_m = 0.110;
 constexpr double kBeforeSigmas = 1.5;
 constexpr int kFootprintSamples = 3;
+constexpr double kOtherLength_m = 0.020;  // of the alternatives; what a hand would notice
 
 /// Streams of the seed: each stage draws its own numbers.
 enum Stream : std::uint64_t { kThinning, kDoor, kSearch };
@@ -120,14 +122,29 @@ class HandleFit {
   HandleDetection DetectionOf(const HandleState& best, const HandleState& mirrored) const {
     HandleDetection detection;
     detection.best = CandidateOf(best, base_from_door_);
-    detection.alternatives = {CandidateOf(mirrored, base_from_door_)};
+    const HandleScorer scorer{likelihood_, base_from_door_, options_};
+    std::vector<HandleState> others = {mirrored};
+    // Where the options allow no other length none is near.
+    double best_length = best.score - kFarBehind_nats;
+    bool tried = false;
+    for (const double longer_m : {-kOtherLength_m, kOtherLength_m}) {
+      const HandleState other = OtherLength(scorer, best, longer_m);
+      if (!std::isfinite(other.score)) continue;
+      others.push_back(other);
+      best_length = tried ? std::max(best_length, other.score) : other.score;
+      tried = true;
+    }
+    SortBest(others);
+    for (const HandleState& other : others)
+      detection.alternatives.push_back(CandidateOf(other, base_from_door_));
     detection.door = door_;
-    SetSigmas({likelihood_, base_from_door_, options_}, best, detection);
+    SetSigmas(scorer, best, detection);
     HandleEvidence& evidence = detection.evidence;
     evidence = GatherEvidence(likelihood_, door_, detection.best);
     const double own = LogLikelihoodOf(
         ThingOf(detection.best.model, detection.best.base_from_object), likelihood_);
     evidence.mirror_margin_nats = best.score - mirrored.score;
+    evidence.length_margin_nats = best.score - best_length;
     evidence.gain_nats = own - likelihood_.Nothing();
     evidence.alternative_margin_nats = std::numeric_limits<double>::infinity();
     // Half of Schwarz's penalty for each parameter that an alternative has more.

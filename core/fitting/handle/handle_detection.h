@@ -24,9 +24,10 @@ struct HandleEvidence {
   double covered = 0.0;             ///< of the lever's length, the fraction with agreeing hits
   double beside = 0.0;              ///< fraction of the rays round it that end before the door
   double mirror_margin_nats = 0.0;  ///< ahead of the best lever that points the other way
+  double length_margin_nats = 0.0;  ///< ahead of the best one that is 20 mm shorter or longer
   double gain_nats = 0.0;           ///< ahead of the bare door
-  double alternative_margin_nats = 0.0;  ///< ahead of the best knob, pull bar or box
-  std::string best_alternative;          ///< "knob", "pull bar", "box"
+  double alternative_margin_nats = 0.0;  ///< ahead of the best knob, pull bar, bow or box
+  std::string best_alternative;          ///< "knob", "pull bar", "bow", "box"
 };
 
 /// One answer to "where is the handle".
@@ -43,11 +44,14 @@ struct HandleDetection {
   double sigma_turn_rad = 0.0;                                 ///< of x about the door's normal
   double sigma_normal_rad = 0.0;                               ///< of the door's normal
   double sigma_length_m = 0.0;
+  /// Of the turn as independent beams would have it: the verdict's weights were fitted to that.
+  double beam_sigma_turn_rad = 0.0;
   PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
   Plane door;  ///< in base, its normal towards the viewer
   HandleEvidence evidence;
   Verdict verdict;
-  std::vector<HandleCandidate> alternatives;  ///< best first; the lever that points the other way
+  /// Best first: the lever that points the other way, and levers 20 mm shorter and longer.
+  std::vector<HandleCandidate> alternatives;
   FitOrigin origin;
 };
 

@@ -87,8 +87,10 @@ HandleState BestVariant(const HandleScorer& scorer, const HandleState& state) {
   return best;
 }
 
+enum class Lengths { kAny, kAsItIs };
+
 HandleState Climbed(const HandleScorer& scorer, const HandleState& start, double first_step_m,
-                    int rounds) {
+                    int rounds, Lengths which = Lengths::kAny) {
   constexpr double kLever_m = 0.06;
   HandleStep lengths;
   lengths << first_step_m, first_step_m, first_step_m / kLever_m, first_step_m, first_step_m,
@@ -96,14 +98,15 @@ HandleState Climbed(const HandleScorer& scorer, const HandleState& start, double
   PatternSearchOptions options;
   options.rounds = rounds;
   for (int i = 0; i < kHandleParameters; ++i)
-    options.steps.push_back(lengths[i] * Eigen::VectorXd::Unit(kHandleParameters, i));
+    if (i != kHandleLength || which == Lengths::kAny)
+      options.steps.push_back(lengths[i] * Eigen::VectorXd::Unit(kHandleParameters, i));
   // The pivot's end by itself, while the other end stays; and a turn about the lever's middle.
   const double turn = start.values[kHandleTurn];
   Eigen::VectorXd pivot = Eigen::VectorXd::Zero(kHandleParameters);
   pivot[kHandleX] = -first_step_m * std::cos(turn);
   pivot[kHandleY] = -first_step_m * std::sin(turn);
   pivot[kHandleLength] = first_step_m;
-  options.steps.push_back(pivot);
+  if (which == Lengths::kAny) options.steps.push_back(pivot);
   Eigen::VectorXd about = Eigen::VectorXd::Zero(kHandleParameters);
   about[kHandleTurn] = first_step_m / kLever_m;
   about[kHandleX] = first_step_m * std::sin(turn);
@@ -149,8 +152,8 @@ double BestKnob(const BeamLikelihood& likelihood, const DoorFrame& base_from_doo
     if (v[2] < 0.015 || v[2] > 0.10 || v[3] < 0.012 || v[3] > 0.05) return kNever;
     const std::vector<HandleBar> bars = {{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), v[3]},
                                          {Eigen::Vector3d::Zero(), {0.0, 0.0, -v[2]}, 0.4 * v[3]}};
-    const DoorThing::Plate plate{
-        HandleModel::kPlateThickness_m - v[2], HandleModel::kRosetteRadius_m, {}};
+    const DoorThing::Plate plate{HandleModel::kPlateThickness_m - v[2],
+                                 HandleModel::kRosetteRadius_m, Eigen::Vector2d::Zero()};
     return LogLikelihoodOf(DoorThing(bars, plate, PlacedAt(base_from_door, v[0], v[1], v[2], 0.0)),
                            likelihood);
   };
@@ -182,6 +185,36 @@ double BestPullBar(const BeamLikelihood& likelihood, const DoorFrame& base_from_
   }
   Eigen::VectorXd steps(6);
   steps << 0.010, 0.010, 0.12, 0.008, 0.016, 0.003;
+  return BestOf(starts, steps, score);
+}
+
+/// A rod bent from foot to foot: middle, turn, height, length, radius.
+double BestBow(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
+               const HandleState& handle, const Eigen::Vector2d& middle, double largest_m) {
+  constexpr int kPieces = 6;
+  const auto score = [&](const Eigen::VectorXd& v) {
+    if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > 0.4 || v[5] < 0.003 || v[5] > 0.018)
+      return kNever;
+    const auto at = [&](int i) {
+      const double angle = std::numbers::pi * i / kPieces;
+      return Eigen::Vector3d(0.5 * v[4] * std::cos(angle), 0.0,
+                             v[3] * std::sqrt(std::max(0.0, std::sin(angle))));
+    };
+    std::vector<HandleBar> bars;
+    for (int i = 0; i < kPieces; ++i) bars.push_back({at(i), at(i + 1), v[5]});
+    return LogLikelihoodOf(
+        DoorThing(bars, std::nullopt, PlacedAt(base_from_door, v[0], v[1], 0.0, v[2])), likelihood);
+  };
+  const HandleStep& h = handle.values;
+  std::vector<Eigen::VectorXd> starts;
+  for (const double length_m : {1.3 * h[kHandleLength], largest_m + 0.03}) {
+    Eigen::VectorXd start(6);
+    start << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], length_m,
+        0.7 * h[kHandleRadius];
+    starts.push_back(start);
+  }
+  Eigen::VectorXd steps(6);
+  steps << 0.010, 0.010, 0.12, 0.008, 0.020, 0.003;
   return BestOf(starts, steps, score);
 }
 
@@ -248,6 +281,22 @@ HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEff
   return Climbed(scorer, BestVariant(scorer, start), 0.006, 4);
 }
 
+HandleState OtherLength(const HandleScorer& scorer, const HandleState& lever, double longer_m) {
+  HandleState best;
+  best.score = kNever;
+  for (const double of_pivot : {0.0, 1.0}) {
+    HandleState other = lever;
+    const double turn = lever.values[kHandleTurn];
+    other.values[kHandleLength] += longer_m;
+    other.values[kHandleX] -= of_pivot * longer_m * std::cos(turn);
+    other.values[kHandleY] -= of_pivot * longer_m * std::sin(turn);
+    if (!std::isfinite(scorer(other))) continue;
+    other = Climbed(scorer, other, 0.006, 3, Lengths::kAsItIs);
+    if (other.score > best.score) best = other;
+  }
+  return best;
+}
+
 std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likelihood,
                                                      const DoorFrame& base_from_door,
                                                      const HandleState& handle,
@@ -269,6 +318,7 @@ std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likel
           {"pull bar", 6,
            std::max(BestPullBar(likelihood, base_from_door, handle, middle, 0.0),
                     BestPullBar(likelihood, base_from_door, handle, seen, largest_m))},
+          {"bow", 6, BestBow(likelihood, base_from_door, handle, seen, largest_m)},
           {"box", 6,
            std::max(BestBox(likelihood, base_from_door, handle, middle, h[kHandleLength]),
                     BestBox(likelihood, base_from_door, handle, seen, largest_m))}};

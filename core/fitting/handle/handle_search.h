@@ -20,9 +20,13 @@ enum class HandleEffort { kCoarse, kFine };
 /// plates. The result's score is never below the start's.
 HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEffort effort);
 
+/// The best lever that is `longer_m` longer (negative: shorter), with its free end where the
+/// lever's is or its pivot's end; minus infinity where none of that length is built.
+HandleState OtherLength(const HandleScorer& scorer, const HandleState& lever, double longer_m);
+
 /// Something else that may sit there.
 struct HandleAlternative {
-  std::string name;  ///< "knob", "pull bar", "box"
+  std::string name;  ///< "knob", "pull bar", "bow", "box"
   int parameters = 0;
   double log_likelihood = 0.0;
 };

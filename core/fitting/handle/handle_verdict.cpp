@@ -8,7 +8,9 @@
 
 #include "core/base/squared.h"
 #include "core/fitting/gate.h"
+#include "core/fitting/line_covariance.h"
 #include "core/fitting/region_place.h"
+#include "core/fitting/verdict_model.h"
 
 namespace foresight {
 namespace {
@@ -17,6 +19,10 @@ constexpr double kAgreeSigmas = 3.0;
 constexpr double kOnHandle = 0.5;  // fraction of a footprint
 constexpr int kCoverBins = 8;      // along the lever
 constexpr double kRound_m = 0.03;  // beside the handle
+
+// What no beam tells, that handles are no template, along and about x, y and z, and of the length.
+constexpr std::array<double, 6> kSigmaFactors = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+constexpr double kLengthSigmaFactor = 1.0;
 
 constexpr double kMinHits = 12.0;  // independent measurements on the handle
 constexpr double kMaxSeeThrough = 0.15;
@@ -38,6 +44,7 @@ std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detect
   const HandleEvidence& evidence = detection.evidence;
   const double hits = std::max(1.0, Hits(rays, evidence));
   return {Compressed(evidence.mirror_margin_nats),
+          Compressed(evidence.length_margin_nats),
           Compressed(evidence.alternative_margin_nats),
           evidence.gain_nats / hits,
           evidence.inlier_ratio,
@@ -45,7 +52,7 @@ std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detect
           evidence.covered,
           evidence.beside,
           std::log(hits),
-          std::log(std::max(1e-3, detection.sigma_turn_rad)),
+          std::log(std::max(1e-3, detection.beam_sigma_turn_rad)),
           std::abs(std::log(detection.best.model.length_m / HandlePrior::kLength_m))};
 }
 
@@ -110,6 +117,51 @@ std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection
   return failed;
 }
 
+/// The nats that Compressed made a value of.
+double Expanded(double value) {
+  return std::copysign(std::expm1(std::abs(value)), value);
+}
+
+/// What may be unusual about it.
+std::vector<FeatureGate> FeatureGates(const HandleDetection& detection, const VerdictModel& model) {
+  const HandleEvidence& evidence = detection.evidence;
+  const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
+  const auto usual_nats = [&](const char* feature) {
+    return std::min(kFarBehind_nats, Expanded(mean(feature)));
+  };
+  return {
+      {"inlier_ratio",
+       {.what = "{} of the beams on the handle agree with it",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.inlier_ratio,
+        .limit = mean("inlier_ratio")}},
+      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"covered",
+       {.what = "{} of the lever's length has measurements that agree",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.covered,
+        .limit = mean("covered")}},
+      {"beside",
+       {.what = "{} of the beams beside the handle end before the door",
+        .unit = Gate::Unit::kFraction,
+        .number = evidence.beside,
+        .side = Gate::Side::kAtMost,
+        .limit = mean("beside")}},
+      {"log_sigma_turn",
+       {.what = "its beams know its direction to {}",
+        .unit = Gate::Unit::kAngle,
+        .number = detection.beam_sigma_turn_rad,
+        .side = Gate::Side::kAtMost,
+        .limit = std::exp(mean("log_sigma_turn"))}},
+      {"log_mirror_margin", MirrorGate(evidence, usual_nats("log_mirror_margin"))},
+      {"log_length_margin",
+       {.what = "the odds against a lever that is 20 mm shorter or longer are {}",
+        .unit = Gate::Unit::kOdds,
+        .number = evidence.length_margin_nats,
+        .limit = usual_nats("log_length_margin")}},
+      {"log_alternative_margin", AlternativeGate(evidence, usual_nats("log_alternative_margin"))}};
+}
+
 /// What a beam should read in which no handle is: the door.
 double DoorRange(const RangeRay& ray, const Plane& door) {
   return -door.Distance(ray.origin) / door.normal.dot(ray.direction);
@@ -136,8 +188,16 @@ Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door
   return {sigma(squares.y()), sigma(squares.x())};
 }
 
-HandleInformation InformationOf(const HandleScorer& scorer, const HandleState& handle,
-                                const Plane& door) {
+/// What the beams say about the parameters near the handle: of each agreeing beam the slope of
+/// what it should read, in deviations, and how far off it is.
+struct BeamSlopes {
+  std::vector<RangeRay> rays;
+  Eigen::MatrixXd slopes;     ///< (rays x parameters), 1 / parameter
+  Eigen::VectorXd residuals;  ///< in deviations
+};
+
+BeamSlopes SlopesOf(const BeamLikelihood& likelihood, const HandleScorer& scorer,
+                    const HandleState& handle, const Plane& door) {
   const std::array<double, kHandleParameters> steps = {0.002, 0.002, 0.02, 0.002, 0.004, 0.001};
   std::vector<DoorThing> moved;
   for (int p = 0; p < kHandleParameters; ++p) {
@@ -146,29 +206,64 @@ HandleInformation InformationOf(const HandleScorer& scorer, const HandleState& h
     moved.push_back(ThingOf(state.Model(), state.Pose(scorer.base_from_door)));
   }
   const DoorThing here = ThingOf(handle.Model(), handle.Pose(scorer.base_from_door));
-  const RaySet& rays = scorer.likelihood.rays();
-  HandleInformation information = HandleInformation::Zero();
+  const RaySet& rays = likelihood.rays();
+  BeamSlopes found;
+  const auto most = static_cast<Eigen::Index>(rays.rays.size());
+  found.slopes.resize(most, kHandleParameters);
+  found.residuals.resize(most);
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
     const double door_m = DoorRange(rays.rays[i], door);
     const auto reading = [&](const DoorThing& thing) {
-      const auto expected = scorer.likelihood.Expect(i, IntersectionWith(thing));
-      if (!expected) return ExpectedBeam{0.0, door_m, door_m, scorer.likelihood.Sigma(), false};
+      const auto expected = likelihood.Expect(i, IntersectionWith(thing));
+      if (!expected) return ExpectedBeam{0.0, door_m, door_m, likelihood.Sigma(), false};
       return *expected;
     };
     const ExpectedBeam at = reading(here);
-    if (std::abs(rays.rays[i].range_m - at.range_m) > kAgreeSigmas * at.sigma_m) continue;
+    const double residual = (rays.rays[i].range_m - at.range_m) / at.sigma_m;
+    if (std::abs(residual) > kAgreeSigmas) continue;
     HandleStep slope;
     for (int p = 0; p < kHandleParameters; ++p)
       slope[p] = (reading(moved[static_cast<std::size_t>(p)]).range_m - at.range_m) /
                  (steps[static_cast<std::size_t>(p)] * at.sigma_m);
-    information += slope * slope.transpose();
+    if (slope.isZero()) continue;
+    const auto row = static_cast<Eigen::Index>(found.rays.size());
+    found.rays.push_back(rays.rays[i]);
+    found.slopes.row(row) = slope.transpose();
+    found.residuals[row] = residual;
   }
-  information *= std::min(1.0, rays.samples_per_ray);
-  information.diagonal().array() += 1.0;
-  information(kHandleStandoff, kHandleStandoff) += 1.0 / Squared(HandlePrior::kStandoffSigma_m);
-  information(kHandleRadius, kHandleRadius) += 1.0 / Squared(HandlePrior::kRadiusSigma_m);
-  information(kHandleLength, kHandleLength) += 1.0 / Squared(HandlePrior::kLengthSigma_m);
-  return information;
+  found.slopes.conservativeResize(static_cast<Eigen::Index>(found.rays.size()), Eigen::NoChange);
+  found.residuals.conservativeResize(static_cast<Eigen::Index>(found.rays.size()));
+  return found;
+}
+
+/// Of what is built, and a ridge that bounds what no beam tells: a length to a metre.
+HandleInformation PriorInformation() {
+  HandleInformation prior = HandleInformation::Identity();
+  prior(kHandleStandoff, kHandleStandoff) += 1.0 / Squared(HandlePrior::kStandoffSigma_m);
+  prior(kHandleRadius, kHandleRadius) += 1.0 / Squared(HandlePrior::kRadiusSigma_m);
+  prior(kHandleLength, kHandleLength) += 1.0 / Squared(HandlePrior::kLengthSigma_m);
+  return prior;
+}
+
+/// The handle's own covariance: as independent beams would have it, and for lines that err
+/// together. The beams behind a map count, or a map that comes alone.
+struct HandleCovariances {
+  HandleInformation of_beams, of_lines;
+};
+
+HandleCovariances CovariancesOf(const HandleScorer& scorer, const HandleState& handle,
+                                const Plane& door) {
+  const BeamLikelihood* behind = scorer.likelihood.BehindMap();
+  const BeamLikelihood& likelihood = behind != nullptr ? *behind : scorer.likelihood;
+  const BeamSlopes beams = SlopesOf(likelihood, scorer, handle, door);
+  const double worth = std::min(1.0, likelihood.rays().samples_per_ray);
+  const HandleInformation prior = PriorInformation();
+  const Eigen::MatrixXd information = worth * beams.slopes.transpose() * beams.slopes + prior;
+  const Eigen::MatrixXd scores = std::sqrt(worth) * beams.residuals.asDiagonal() * beams.slopes;
+  HandleCovariances found;
+  found.of_beams = information.ldlt().solve(HandleInformation::Identity());
+  found.of_lines = CovarianceClusteredByLine(beams.rays, scores, information, prior);
+  return found;
 }
 
 }  // namespace
@@ -216,8 +311,7 @@ HandleEvidence GatherEvidence(const BeamLikelihood& likelihood, const Plane& doo
 }
 
 void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDetection& detection) {
-  const HandleInformation covariance =
-      InformationOf(scorer, handle, detection.door).ldlt().solve(HandleInformation::Identity());
+  const HandleCovariances own = CovariancesOf(scorer, handle, detection.door);
   // From the door's frame to the handle's own axes.
   Eigen::Matrix<double, 6, kHandleParameters> to_pose =
       Eigen::Matrix<double, 6, kHandleParameters>::Zero();
@@ -225,19 +319,28 @@ void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDete
   to_pose.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-turn).toRotationMatrix();
   to_pose(2, kHandleStandoff) = 1.0;
   to_pose(5, kHandleTurn) = 1.0;
-  detection.covariance = to_pose * covariance * to_pose.transpose();
+  detection.covariance = to_pose * own.of_lines * to_pose.transpose();
   const Eigen::Vector2d normal =
       NormalSigmas(scorer.likelihood, detection.door, detection.best.base_from_object.Inverse());
   detection.covariance(3, 3) += Squared(normal.x());
   detection.covariance(4, 4) += Squared(normal.y());
-  detection.sigma_position_m = detection.covariance.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
-  detection.sigma_turn_rad = std::sqrt(std::max(0.0, covariance(kHandleTurn, kHandleTurn)));
-  detection.sigma_normal_rad = normal.maxCoeff();
-  detection.sigma_length_m = std::sqrt(std::max(0.0, covariance(kHandleLength, kHandleLength)));
+  for (int i = 0; i < 6; ++i) {
+    detection.covariance.row(i) *= kSigmaFactors[static_cast<std::size_t>(i)];
+    detection.covariance.col(i) *= kSigmaFactors[static_cast<std::size_t>(i)];
+  }
+  const Eigen::Matrix<double, 6, 1> sigmas =
+      detection.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  detection.sigma_position_m = sigmas.head<3>();
+  detection.sigma_normal_rad = sigmas.segment<2>(3).maxCoeff();
+  detection.sigma_turn_rad = sigmas[5];
+  detection.sigma_length_m =
+      kLengthSigmaFactor * std::sqrt(std::max(0.0, own.of_lines(kHandleLength, kHandleLength)));
+  detection.beam_sigma_turn_rad = std::sqrt(std::max(0.0, own.of_beams(kHandleTurn, kHandleTurn)));
 }
 
 std::vector<std::string> HandleFeatureNames() {
   return {"log_mirror_margin",
+          "log_length_margin",
           "log_alternative_margin",
           "gain_per_hit",
           "inlier_ratio",
@@ -251,18 +354,29 @@ std::vector<std::string> HandleFeatureNames() {
 
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
                      const FitHandleOptions& options) {
+  constexpr const char* kSupport = "{} beams on the handle, {:.0f} % of them agree; {}";
+  const HandleEvidence& evidence = detection.evidence;
+  const auto support = [&](const char* rest) {
+    return fmt::format(fmt::runtime(kSupport), evidence.hits, 100.0 * evidence.inlier_ratio, rest);
+  };
   Verdict verdict;
-  verdict.probability = std::nan("");
   verdict.features = FeaturesOf(region, detection);
   verdict.failed_gates = FailedGates(region, detection, options);
-  verdict.level = verdict.failed_gates.empty() ? VerdictLevel::kLikely : VerdictLevel::kUnsure;
+  const VerdictModel* model = FindVerdictModel("handle", VerdictSourceOf(region));
+  if (model == nullptr) {
+    verdict.probability = std::nan("");
+    verdict.level = verdict.failed_gates.empty() ? VerdictLevel::kLikely : VerdictLevel::kUnsure;
+    verdict.reason = verdict.failed_gates.empty()
+                         ? support("never confirmed, as no probability was calibrated for it")
+                         : verdict.failed_gates.front();
+    return verdict;
+  }
+  verdict.probability = model->Probability(verdict.features);
+  model->AddReservation(verdict.failed_gates);
+  verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
   verdict.reason =
-      verdict.failed_gates.empty()
-          ? fmt::format(
-                "{} beams on the handle, {:.0f} % of them agree; never confirmed, as no "
-                "probability was calibrated for door handles",
-                detection.evidence.hits, 100.0 * detection.evidence.inlier_ratio)
-          : verdict.failed_gates.front();
+      ReasonOf(verdict, Verdict::kLikely, support("the other way fits worse"),
+               WeightiestFirst(*model, verdict.features, FeatureGates(detection, *model)));
   return verdict;
 }
 

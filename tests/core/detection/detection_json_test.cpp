@@ -119,6 +119,47 @@ TEST(DetectionJson, ADrillSaysWhereToGraspAndByHowMuchItBeatsItsAlternatives) {
   EXPECT_EQ(json["best"]["base_from_object"]["z_axis"], nlohmann::json({0.0, 0.0, -1.0}));
 }
 
+HandleDetection SampleHandle() {
+  HandleDetection handle;
+  handle.best.base_from_object = {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.1, 0.2, 1.0}};
+  handle.best.model = {0.131, 0.0095, 0.052, true, HandleModel::Plate::kLong};
+  handle.best.log_likelihood = 90.0;
+  handle.door = {-Eigen::Vector3d::UnitY(), 0.2};
+  handle.sigma_length_m = 0.004;
+  handle.evidence.best_alternative = "pull bar";
+  handle.evidence.mirror_margin_nats = 12.0;
+  handle.alternatives = {handle.best, handle.best};
+  handle.alternatives[0].log_likelihood = 78.0;
+  handle.alternatives[1].model.length_m = 0.111;
+  handle.verdict = {VerdictLevel::kLikely, 0.9, "handle", {1.0}};
+  handle.origin.roi = BoxRoi{handle.best.base_from_object, {0.3, 0.4, 0.5}};
+  return handle;
+}
+
+TEST(DetectionJson, ADoorHandleSurvivesTheRoundTripAndSaysHowFarTheFlippedOneIsBehind) {
+  const std::string text = DetectionToJson(SampleHandle(), {});
+  const auto any = DetectionFromJson(text);
+  ASSERT_TRUE(any) << any.error().message;
+  const auto* read = std::get_if<HandleDetection>(&*any);
+  ASSERT_NE(read, nullptr);
+  EXPECT_TRUE(read->best.model.returned);
+  EXPECT_EQ(read->best.model.plate, HandleModel::Plate::kLong);
+  EXPECT_EQ(read->door.offset, 0.2);
+  EXPECT_EQ(read->alternatives[1].model.length_m, 0.111);
+  EXPECT_EQ(DetectionToJson(*read, {}), text);
+  EXPECT_EQ(nlohmann::json::parse(text)["alternatives"][0]["margin_nats"], 12.0);
+}
+
+TEST(DetectionJson, ADoorHandleThatIsLongerThanAMetreOrOnAnUnknownPlateIsRefused) {
+  for (const auto& [key, value] : {std::pair<const char*, nlohmann::json>{"length_m", 1.5},
+                                   {"length_m", -0.1},
+                                   {"plate", "round"}}) {
+    nlohmann::json wrong = nlohmann::json::parse(DetectionToJson(SampleHandle(), {}));
+    wrong["best"]["model"][key] = value;
+    EXPECT_FALSE(DetectionFromJson(wrong.dump())) << key;
+  }
+}
+
 TEST(DetectionJson, AlternativesThatWereCalledRivalsAreRead) {
   const std::string text = DetectionToJson(SampleDrill(), {});
   nlohmann::json old = nlohmann::json::parse(text);

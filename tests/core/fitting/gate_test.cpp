@@ -6,6 +6,7 @@
 #include "core/base/random.h"
 #include "core/fitting/cylinder/cylinder_evidence.h"
 #include "core/fitting/drill/drill_verdict.h"
+#include "core/fitting/handle/handle_verdict.h"
 #include "core/fitting/terrain/terrain_verdict.h"
 #include "core/fitting/valve/valve_verdict.h"
 #include "tests/support/gate_sentence.h"
@@ -251,6 +252,33 @@ TEST(Reasons, OfBlocksFailAsTheyAreStated) {
     evidence.block = block.evidence;
     evidence.size_error_m = random.Uniform(0.0, 0.08);
     ExpectStatedGatesFail(AssessBlock(rays, block, evidence), &stated);
+  }
+  EXPECT_GT(stated, kAnswers / 2);
+}
+
+TEST(Reasons, OfDoorHandlesFailAsTheyAreStated) {
+  Random random(15);
+  const RaySet rays = Fan();
+  int stated = 0;
+  for (int i = 0; i < kAnswers; ++i) {
+    HandleDetection found;
+    found.best.base_from_object = {Eigen::Quaterniond::Identity(),
+                                   {0.2 * random.Uniform(), 0.0, 1.0}};
+    found.best.model.length_m = random.Index(6) == 0 ? 0.180 : random.Uniform(0.081, 0.178);
+    found.beam_sigma_turn_rad = random.Uniform(0.01, 0.2);
+    found.evidence = {.rays = 441,
+                      .hits = 5 + random.Index(100),
+                      .inlier_ratio = random.Uniform(0.4, 1.0),
+                      .see_through = random.Uniform(0.0, 0.2),
+                      .rms_m = 0.008,
+                      .covered = random.Uniform(0.3, 1.0),
+                      .beside = random.Uniform(0.0, 0.4),
+                      .mirror_margin_nats = random.Uniform(-20.0, 60.0),
+                      .length_margin_nats = random.Uniform(-5.0, 60.0),
+                      .gain_nats = random.Uniform(10.0, 500.0),
+                      .alternative_margin_nats = random.Uniform(-20.0, 100.0),
+                      .best_alternative = "knob"};
+    ExpectStatedGatesFail(AssessHandle(rays, found, {}), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
 }

@@ -74,7 +74,8 @@ class ShippedScene : public testing::TestWithParam<const char*> {
 
 TEST_P(ShippedScene, ShowsItsObjectsToTheHead) {
   const Look look(scene_);
-  EXPECT_FALSE(scene_.valves.empty() && scene_.drills.empty() && scene_.blocks.empty());
+  EXPECT_FALSE(scene_.valves.empty() && scene_.drills.empty() && scene_.blocks.empty() &&
+               scene_.handles.empty());
   for (const ValveTruth& valve : scene_.valves) {
     EXPECT_GE(SeenFractionOfRim(look, valve), 0.95) << valve.name;
     EXPECT_LT(std::abs(look.ElevationDeg(valve.robot_from_object.translation())), 30.0);
@@ -82,6 +83,14 @@ TEST_P(ShippedScene, ShowsItsObjectsToTheHead) {
   for (const DrillTruth& drill : scene_.drills) {
     const Eigen::Vector3d in_head(0.0, 0.0, 0.208 * drill.scale);
     EXPECT_EQ(look.FirstMeshTowards(drill.robot_from_object * in_head), drill.name + " head");
+  }
+  for (const HandleTruth& handle : scene_.handles) {
+    for (const double fraction : {0.0, 0.5, 1.0})
+      EXPECT_TRUE(look.Sees(
+          handle.robot_from_object * Eigen::Vector3d(fraction * handle.model.length_m, 0.0, 0.0),
+          2.0 * handle.model.radius_m))
+          << handle.name;
+    EXPECT_LT(std::abs(look.ElevationDeg(handle.robot_from_object.translation())), 30.0);
   }
   for (const BlockTruth& block : scene_.blocks)
     EXPECT_TRUE(look.Sees(block.robot_from_object * Eigen::Vector3d(0.0, 0.05, 0.0), 0.002))
@@ -115,7 +124,8 @@ TEST_P(ShippedScene, IsNeitherDarkNorGlaringInTheImage) {
   EXPECT_LT(saturated / pixels, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::Values("valve", "drill", "terrain", "room"),
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene,
+                         testing::Values("valve", "drill", "terrain", "room", "door"),
                          [](const auto& name) { return std::string(name.param); });
 
 TEST(ShippedValveScene, TurnsItsAxisAwayFromTheLineOfSight) {

@@ -96,7 +96,7 @@ TEST(FitCylinder, APoleOnTheGroundBeforeAWall) {
   view.half_rad = 0.28;
   const auto found = Fit(RaysOf(view));
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_EQ(found->level, VerdictLevel::kLikely) << found->reason;
+  EXPECT_EQ(found->verdict.level, VerdictLevel::kLikely) << found->verdict.reason;
   // Beams are 24 mm apart there: an edge is known to about half of that.
   EXPECT_NEAR(found->model.radius_m, 0.12, 0.012);
   EXPECT_LT(AcrossError_m(*found, view.at), 0.015);
@@ -169,7 +169,7 @@ TEST(FitCylinder, AWallAndABoxAreNotLikely) {
   for (const View& view : {wall, box}) {
     const auto found = Fit(RaysOf(view));
     ASSERT_TRUE(found) << found.error().message;
-    EXPECT_EQ(found->level, VerdictLevel::kUnsure) << found->model.radius_m;
+    EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->model.radius_m;
     EXPECT_FALSE(found->reason.empty());
   }
 }

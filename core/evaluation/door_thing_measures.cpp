@@ -1,0 +1,96 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/evaluation/door_hardware.h"
+#include "core/simulation/ray_caster.h"
+
+namespace foresight {
+namespace {
+
+constexpr double kStep_m = 0.003;
+constexpr double kLifted_m = 0.022;   // off the door: what a hand can go behind
+constexpr double kReaches_m = 0.010;  // something that begins nearer to the door than this is on it
+
+/// The cells of a grid over the door where a thing is lifted, and which of them are carried.
+struct LiftedCells {
+  std::vector<Eigen::Vector2d> places;
+  std::vector<bool> carried;
+  double height_m = 0.0;
+};
+
+float DistanceFrom(const RayCaster& caster, const Eigen::Vector2d& at, double z, double way) {
+  return caster
+      .Cast({Eigen::Vector3f(static_cast<float>(at.x()), static_cast<float>(at.y()),
+                             static_cast<float>(z)),
+             Eigen::Vector3f(0.0F, 0.0F, static_cast<float>(way))})
+      .distance_m;
+}
+
+LiftedCells CellsOf(const DoorHardware& hardware) {
+  constexpr double kFront_m = 1.0, kBehind_m = -0.5;
+  auto scene = std::make_shared<Scene>();
+  scene->meshes = hardware.parts;
+  Eigen::Vector2f low = Eigen::Vector2f::Constant(1e6F), high = -low;
+  for (const SceneMesh& part : hardware.parts)
+    for (const Eigen::Vector3f& vertex : part.vertices) {
+      low = low.cwiseMin(vertex.head<2>());
+      high = high.cwiseMax(vertex.head<2>());
+    }
+  const RayCaster caster(scene);
+  LiftedCells cells;
+  for (double x = low.x() + 0.5 * kStep_m; x < high.x(); x += kStep_m)
+    for (double y = low.y() + 0.5 * kStep_m; y < high.y(); y += kStep_m) {
+      const double top_m = kFront_m - DistanceFrom(caster, {x, y}, kFront_m, -1.0);
+      if (!std::isfinite(top_m) || !(top_m > kLifted_m)) continue;
+      const double bottom_m = kBehind_m + DistanceFrom(caster, {x, y}, kBehind_m, 1.0);
+      cells.places.emplace_back(x, y);
+      cells.carried.push_back(bottom_m < kReaches_m);
+      cells.height_m = std::max(cells.height_m, top_m);
+    }
+  return cells;
+}
+
+}  // namespace
+
+bool DoorThingMeasures::IsLeverHandle() const {
+  return height_m >= 0.030 && height_m <= 0.115 && length_m >= 0.085 && length_m <= 0.205 &&
+         width_m <= 0.45 * length_m && width_m <= 0.055 && carried_m > 0.0 &&
+         free_m >= 0.55 * length_m;
+}
+
+DoorThingMeasures MeasureDoorThing(const DoorHardware& hardware) {
+  DoorThingMeasures measures;
+  const LiftedCells cells = CellsOf(hardware);
+  measures.height_m = cells.height_m;
+  if (cells.places.size() < 10) return measures;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& place : cells.places) mean += place / static_cast<double>(cells.places.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const auto& place : cells.places) spread += (place - mean) * (place - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(spread);
+  const Eigen::Vector2d along = eigen.eigenvectors().col(1), across = eigen.eigenvectors().col(0);
+  double low = 1e6, high = -1e6, left = 1e6, right = -1e6, first = 1e6, last = -1e6;
+  for (std::size_t i = 0; i < cells.places.size(); ++i) {
+    const double s = along.dot(cells.places[i] - mean), t = across.dot(cells.places[i] - mean);
+    low = std::min(low, s);
+    high = std::max(high, s);
+    left = std::min(left, t);
+    right = std::max(right, t);
+    if (!cells.carried[i]) continue;
+    first = std::min(first, s);
+    last = std::max(last, s);
+  }
+  measures.length_m = high - low + kStep_m;
+  measures.width_m = right - left + kStep_m;
+  if (last < first) return measures;  // nothing reaches the door
+  // The carried end is the one that the last carried place is nearer to.
+  const double from_low = last - low + kStep_m, from_high = high - first + kStep_m;
+  measures.carried_m = std::min(from_low, from_high);
+  measures.free_m = measures.length_m - measures.carried_m;
+  return measures;
+}
+
+}  // namespace foresight
