@@ -76,7 +76,7 @@ void AddMissionSearchCommand(CLI::App& mission, Invocation& invocation) {
   command->add_option("--what", query.what, "Only one sort of entry")
       ->check(CLI::IsMember({"scan", "object", "note", "log"}));
   command->add_option("--kind", query.kind,
-                      "Only this kind: valve, drill, terrain, note, measurement");
+                      "Only this kind: valve, drill, terrain, handle, cylinder, note, measurement");
   command->add_option("--decision", query.decision, "Only objects with this decision")
       ->check(CLI::IsMember({"open", "accepted", "rejected"}));
   command->add_option("--since", arguments->since, "Not before this time, UTC");

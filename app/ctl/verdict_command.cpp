@@ -53,7 +53,7 @@ void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<VerdictArguments>();
   CLI::App* fit = verdict->add_subcommand(
       "fit", "Fit the weights of a probability to judged answers (evaluate-fits --table)");
-  fit->add_option("object", arguments->kind, "valve, drill or terrain")
+  fit->add_option("object", arguments->kind, "valve, drill, terrain or handle")
       ->required()
       ->check(CLI::IsMember(FitPopulationKinds()));
   fit->add_option("tables", arguments->tables, "Outcomes, one JSON object a line")->required();

@@ -160,6 +160,28 @@ TEST(DetectionJson, ADoorHandleThatIsLongerThanAMetreOrOnAnUnknownPlateIsRefused
   }
 }
 
+TEST(DetectionJson, ACylinderSurvivesTheRoundTripWithoutAProbability) {
+  CylinderDetection sample;
+  sample.base_from_object = {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.1, 0.2, 1.0}};
+  sample.model = {0.05, 0.7};
+  sample.sigma_radius_m = 0.004;
+  sample.covariance(0, 0) = 1e-6;
+  sample.evidence.hits = 77;
+  sample.verdict = {VerdictLevel::kLikely, std::nan(""), "77 beams on it", {}, {"never confirmed"}};
+  sample.origin.roi = BoxRoi{sample.base_from_object, {0.3, 0.4, 0.5}};
+  const std::string text = DetectionToJson(sample, {});
+  EXPECT_TRUE(nlohmann::json::parse(text)["probability"].is_null());
+  const auto any = DetectionFromJson(text);
+  ASSERT_TRUE(any) << any.error().message;
+  const auto* read = std::get_if<CylinderDetection>(&*any);
+  ASSERT_NE(read, nullptr);
+  EXPECT_TRUE(std::isnan(read->verdict.probability));
+  EXPECT_EQ(read->model.radius_m, 0.05);
+  EXPECT_EQ(read->covariance(0, 0), 1e-6);
+  EXPECT_TRUE(std::isnan(read->covariance(2, 2)));
+  EXPECT_EQ(DetectionToJson(*read, {}), text);
+}
+
 TEST(DetectionJson, AlternativesThatWereCalledRivalsAreRead) {
   const std::string text = DetectionToJson(SampleDrill(), {});
   nlohmann::json old = nlohmann::json::parse(text);

@@ -30,9 +30,12 @@ SurfaceParameters Surface() {
 }
 
 std::vector<PoseMessage> Samples() {
-  std::vector<PoseMessage> samples(4, SamplePose());
+  std::vector<PoseMessage> samples(6, SamplePose());
   samples[1].parameters = Drill();
   samples[2].parameters = Surface();
+  samples[4].parameters = HandleParameters{{0.131, 0.0095, 0.052, true, HandleModel::Plate::kLong}};
+  samples[5].parameters = CylinderParameters{{0.05, 0.7}};
+  samples[5].probability.reset();
   samples[3].is_winner = false;
   samples[3].candidate = 1;
   samples[3].probability.reset();

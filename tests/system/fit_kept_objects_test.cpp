@@ -1,0 +1,120 @@
+// A door handle and a cylinder go the way of every object: fitted, kept, told to a robot, made
+// again, exported.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/atomic_file.h"
+#include "core/detection/detection_json.h"
+#include "core/mission/mission_file.h"
+#include "core/mission/pose_json.h"
+#include "core/simulation/scene.h"
+#include "tests/support/run_program.h"
+
+namespace foresight {
+namespace {
+
+using testing::HasSubstr;
+
+std::string PathOf(const char* scene) {
+  return std::string(FORESIGHT_SOURCE_DIR "/resources/scenes/") + scene + ".yaml";
+}
+
+ProgramResult Run(const std::vector<std::string>& arguments) {
+  return RunProgram(FORESIGHTCTL, arguments);
+}
+
+/// A mission with one scan of a scene and what was fitted in a box, in the robot's frame.
+class KeptObject {
+ public:
+  KeptObject(const char* scene, const char* kind, const char* box, const char* to_deg = "15")
+      : mission_(folder_ / "mission.foresight") {
+    const ProgramResult scanned = Run({"scan", "--scene", PathOf(scene), "--from", "-35", "--to",
+                                       to_deg, "--speed", "10", "--out", mission_});
+    EXPECT_EQ(scanned.exit_code, 0) << scanned.errors;
+    fit_ = Run({"fit", kind, mission_, "--box", box, "--save", "--json"});
+    EXPECT_LE(fit_.exit_code, 1) << fit_.errors;
+  }
+
+  nlohmann::json Answer() const { return nlohmann::json::parse(fit_.output); }
+  const std::string& Mission() const { return mission_; }
+  std::string Path(const char* name) const { return folder_ / name; }
+  DetectionRecord Record() const {
+    const auto records = MissionFile::OpenReadOnly(mission_).value()->ListDetections().value();
+    EXPECT_EQ(records.size(), 1u);
+    return records.front();
+  }
+
+ private:
+  TemporaryFolder folder_;
+  std::string mission_;
+  ProgramResult fit_;
+};
+
+constexpr const char* kHandleBox = "1.16,0.40,1.06,0.16,0.22,0.16";
+
+TEST(FitHandleInAScan, FindsTheLeverOfTheDoorThatIsShipped) {
+  const KeptObject kept("door", "handle", kHandleBox);
+  const auto answer = kept.Answer();
+  const HandleTruth truth = LoadScene(PathOf("door"))->handles.front();
+  const auto& best = answer["best"];
+  const auto& at = best["robot_from_object"];
+  Eigen::Vector3d position, x;
+  for (int i = 0; i < 3; ++i) {
+    position[i] = at["position_m"][i].get<double>();
+    x[i] = at["x_axis"][i].get<double>();
+  }
+  // What counts as right in docs/evaluation.md.
+  EXPECT_LT((position - truth.robot_from_object.translation()).norm(), 0.015);
+  EXPECT_GT(x.dot(truth.robot_from_object.Rotate(Eigen::Vector3d::UnitX())), std::cos(0.14));
+  EXPECT_NEAR(best["model"]["length_m"].get<double>(), truth.model.length_m, 0.020);
+  EXPECT_NE(answer["verdict"], "UNSURE") << answer["reason"];
+  EXPECT_GE(answer["alternatives"].size(), 3u) << "flipped, shorter and longer";
+  EXPECT_GT(answer["alternatives"][0]["margin_nats"].get<double>(), 0.0);
+}
+
+TEST(FitHandleInAScan, IsKeptMadeAgainToldToARobotExportedAndReported) {
+  const KeptObject kept("door", "handle", kHandleBox);
+  EXPECT_EQ(kept.Record().kind, "handle");
+  const ProgramResult again = Run({"mission", "check", kept.Mission(), "--recompute"});
+  EXPECT_EQ(again.exit_code, 0) << again.output << again.errors;
+  const ProgramResult pose = Run({"mission", "pose", kept.Mission(), "--detection", "1", "--json"});
+  ASSERT_EQ(pose.exit_code, 0) << pose.errors;
+  const auto message = PoseMessageFromJson(pose.output);
+  ASSERT_TRUE(message) << message.error().message;
+  EXPECT_NEAR(std::get<HandleParameters>(message->parameters).model.length_m, 0.125, 0.02);
+  EXPECT_TRUE(message->covariance);
+  ASSERT_EQ(Run({"mission", "export", kept.Mission(), "-o", kept.Path("export")}).exit_code, 0);
+  const std::string table = ReadFile(kept.Path("export") + "/detections.csv").value();
+  EXPECT_THAT(table, HasSubstr("handle"));
+  ASSERT_EQ(Run({"mission", "report", kept.Mission(), "-o", kept.Path("report")}).exit_code, 0);
+}
+
+TEST(FitHandleInAScan, APullBarIsNotConfirmedAsOne) {
+  const KeptObject kept("door", "handle", "1.16,-0.22,1.05,0.16,0.34,0.16");
+  EXPECT_NE(kept.Answer()["verdict"], "CONFIRMED") << kept.Answer()["reason"];
+}
+
+TEST(FitCylinderInAScan, IsKeptMadeAgainAndToldToARobotWithoutAProbability) {
+  const KeptObject kept("valve", "cylinder", "1.60,0.42,1.15,0.24,0.30,0.40");
+  EXPECT_EQ(kept.Record().kind, "cylinder");
+  const auto answer = kept.Answer();
+  EXPECT_NEAR(answer["radius_m"].get<double>(), 0.030, 0.012);
+  EXPECT_TRUE(answer["probability"].is_null());
+  EXPECT_NE(answer["verdict"], "CONFIRMED");
+  EXPECT_THAT(answer["gates"].dump(), HasSubstr("never confirmed"));
+  const ProgramResult again = Run({"mission", "check", kept.Mission(), "--recompute"});
+  EXPECT_EQ(again.exit_code, 0) << again.output << again.errors;
+  const ProgramResult pose = Run({"mission", "pose", kept.Mission(), "--detection", "1", "--json"});
+  ASSERT_EQ(pose.exit_code, 0) << pose.errors;
+  const auto message = PoseMessageFromJson(pose.output);
+  ASSERT_TRUE(message) << message.error().message;
+  EXPECT_FALSE(message->probability);
+  EXPECT_TRUE(std::holds_alternative<CylinderParameters>(message->parameters));
+}
+
+}  // namespace
+}  // namespace foresight
