@@ -13,6 +13,7 @@
 #include "core/evaluation/fit_outcome_json.h"
 #include "core/evaluation/fit_populations.h"
 #include "core/evaluation/fit_statistics.h"
+#include "core/evaluation/like_home.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -21,6 +22,7 @@ namespace {
 struct EvaluateFitsArguments {
   std::string kind;
   std::string world = "home";
+  std::vector<std::string> like_home;  ///< conditions of the other world
   std::uint64_t first_seed = 1;
   int count = 50;
   std::string only;  ///< "positives", "negatives"; empty = both
@@ -227,10 +229,22 @@ Result<std::regex> PatternFrom(const std::string& text) {
   }
 }
 
+Result<std::unique_ptr<FitPopulation>> PopulationFrom(const EvaluateFitsArguments& arguments) {
+  const FitWorld world = arguments.world == "other" ? FitWorld::kOther : FitWorld::kHome;
+  if (!arguments.like_home.empty() && world == FitWorld::kHome)
+    return Fail(ErrorCode::kInvalidOptions, "--like-home changes --world other; at home all is so");
+  FORESIGHT_TRY(std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind, world));
+  if (arguments.like_home.empty()) return population;
+  std::vector<OtherCondition> conditions;
+  for (const std::string& name : arguments.like_home) {
+    FORESIGHT_TRY(const OtherCondition condition, OtherConditionFromString(name));
+    conditions.push_back(condition);
+  }
+  return MakeLikeHome(std::move(population), std::move(conditions));
+}
+
 Result<ExitCode> EvaluateFits(const EvaluateFitsArguments& arguments, const RunContext& context) {
-  FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population,
-                MakeFitPopulation(arguments.kind,
-                                  arguments.world == "other" ? FitWorld::kOther : FitWorld::kHome));
+  FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, PopulationFrom(arguments));
   FORESIGHT_TRY(const std::regex what, PatternFrom(arguments.what));
   OutcomeTable table;
   FORESIGHT_CHECK(table.Open(arguments.table));
@@ -264,6 +278,13 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
                    "judges only, nothing is ever fitted to it")
       ->check(CLI::IsMember({"home", "other"}))
       ->capture_default_str();
+  command
+      ->add_option("--like-home", arguments->like_home,
+                   "Conditions of the other world that are made what they are at home, to see what "
+                   "each costs: " +
+                       fmt::format("{}", fmt::join(OtherConditionNames(), ", ")))
+      ->delimiter(',')
+      ->check(CLI::IsMember(OtherConditionNames()));
   AddSeedOption(*command, "--first-seed", arguments->first_seed, "Seed of the first scene")
       ->capture_default_str();
   command->add_option("--count", arguments->count, "Number of scenes")

@@ -43,6 +43,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
     connect(session, &SessionModel::noticed, &log, &LogModel::add);
   connect(&log, &LogModel::added, &recording, &RecordingViewModel::keepNotice);
   connect(&reviewer, &ReviewViewModel::opened, this, &Workbench::ShowOpened);
+  connect(&reviewer, &ReviewViewModel::notOpened, this, [this] { opened_beside_.clear(); });
   connect(&importer, &ImportViewModel::imported, this, [this](const QString& mission) {
     // Nobody asked for the review at this moment: a running scan stays in sight.
     if (head.Scanning() && !ShowsReview()) opened_beside_ = mission;
@@ -69,7 +70,8 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
 }
 
 void Workbench::ShowOpened() {
-  if (std::exchange(opened_beside_, QString()) != reviewer.Path()) return showReview();
+  if (opened_beside_ != reviewer.Path()) return showReview();
+  opened_beside_.clear();
   log.add({Notice::Level::kInfo, tr("The imported mission is open for review."),
            tr("The running scan stays on the screen; Ctrl+R shows the review.")});
 }

@@ -114,5 +114,26 @@ TEST_F(BusyWindow, AnImportThatEndsDuringASweepLeavesTheSweepOnTheScreen) {
   running->Settle();
 }
 
+TEST_F(BusyWindow, AnImportThatCannotBeOpenedDoesNotHideTheMissionFromWhoAsksForItLater) {
+  QTemporaryDir folder;
+  const QString mission = folder.filePath("late.foresight");
+  ASSERT_TRUE(Bench().commands.Run("head.scan"));
+  ASSERT_TRUE(WaitFor([] { return Bench().head.Scanning(); }));
+  bool failed = false;
+  const auto listener =
+      QObject::connect(&Bench().reviewer, &ReviewViewModel::notOpened, [&] { failed = true; });
+  Q_EMIT Bench().importer.imported(mission);  // which is not there
+  EXPECT_TRUE(WaitFor([&] { return failed; }));
+  QObject::disconnect(listener);
+  ASSERT_TRUE(WaitFor([] { return Bench().Idle() && Bench().recording.Waiting() == 0; }, 60'000));
+  ASSERT_TRUE(MissionFile::OpenReadOnly(Bench().recording.Path().toStdString())
+                  .value()
+                  ->ExportTo(mission.toStdString()));
+  Bench().reviewer.Open(mission);
+  EXPECT_TRUE(WaitFor([] { return Bench().ShowsReview(); }));
+  Bench().reviewer.close();
+  running->Settle();
+}
+
 }  // namespace
 }  // namespace foresight

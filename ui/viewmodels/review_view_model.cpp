@@ -146,9 +146,13 @@ void ReviewViewModel::Load(const QString& title, Wanted wanted) {
         return LoadWanted(wanted, context);
       },
       [this, title](Result<Opened> opened) {
-        if (!opened) return session_->Report(NoticeOf(title, opened.error()));
+        if (!opened) {
+          session_->Report(NoticeOf(title, opened.error()));
+          return Q_EMIT notOpened();
+        }
         for (const Error& error : opened->failed) session_->Report(NoticeOf(title, error));
-        if (!opened->missions.empty()) Show(std::move(*opened));
+        if (opened->missions.empty()) return Q_EMIT notOpened();
+        Show(std::move(*opened));
       });
 }
 

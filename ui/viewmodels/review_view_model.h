@@ -76,6 +76,8 @@ class ReviewViewModel : public QObject {
  Q_SIGNALS:
   /// A scan is shown that was asked for.
   void opened();
+  /// What was asked for could not be shown; the session was told why.
+  void notOpened();
   void changed();
   /// Something was written into the file beside the mission.
   void reviewKept();

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/quantile.h"
+#include "core/fitting/beam_model.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/gate.h"
 #include "core/geometry/angles.h"
@@ -19,7 +20,6 @@ constexpr double kGross_m = 0.15;  // further off, it is something else
 constexpr double kMadToSigma = 1.4826;
 constexpr double kLeastSigma_m = 0.003, kLargestSigma_m = 0.060;
 constexpr int kLeastHits = 12;
-constexpr double kAgreeSigmas = 3.0;
 constexpr double kShapeError_m = 0.005;  // no real pole is smooth and straight
 constexpr double kEdgeError_m = 0.003;
 
@@ -72,7 +72,7 @@ double RangeSigmaFrom(const RaySet& rays, const CylinderState& cylinder) {
 CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinder) {
   const SolidTracer tracer = TracerOf(cylinder);
   const Eigen::Vector3d x = cylinder.axis.unitOrthogonal(), y = cylinder.axis.cross(x);
-  const double agree_m = kAgreeSigmas * Sigma(rays);
+  const double agree_m = BeamModel::kAgreeSigmas * Sigma(rays);
   CylinderEvidence evidence;
   evidence.rays = static_cast<int>(rays.rays.size());
   evidence.range_sigma_m = rays.sigma_m;
@@ -115,7 +115,7 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
     const double width_m = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
     const SolidIntersection intersection = tracer.IntersectWithDepth(ray, kReach_m);
     if (intersection.part < 0) continue;
-    const bool agrees = std::abs(ray.range_m - intersection.range_m) < kAgreeSigmas * sigma_m;
+    const bool agrees = std::abs(ray.range_m - intersection.range_m) < BeamModel::kAgreeSigmas * sigma_m;
     // A ray that grazes the outline knows where that is, one further in how far the surface is.
     const bool outline = std::abs(intersection.clearance_m) < width_m;
     if (!outline && !(intersection.Hits() && agrees)) continue;

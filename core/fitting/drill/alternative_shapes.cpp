@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/quantile.h"
 #include "core/fitting/drill/pattern_search.h"
 
 namespace foresight {
@@ -40,13 +41,6 @@ SolidPart BoxOf(const Eigen::VectorXd& v) {
 
 bool Real(const SolidPart& part) {
   return part.size_m.minCoeff() >= kLeastSize_m && part.size_m.maxCoeff() < 1.0;
-}
-
-double Quantile(std::vector<double> values, double fraction) {
-  const auto at = values.begin() +
-                  static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 struct Span {

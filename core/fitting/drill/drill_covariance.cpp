@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/squared.h"
+#include "core/fitting/beam_model.h"
 #include "core/fitting/drill/solid_likelihood.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/line_covariance.h"
@@ -13,7 +14,6 @@
 namespace foresight {
 namespace {
 
-constexpr double kAgreeSigmas = 3.0;
 
 // What no ray tells, that drills are no templates and tables no planes, along and about x, y and z:
 // the deviations of the rays are multiplied, and what every drill is off by is added in squares.
@@ -47,7 +47,7 @@ Eigen::Matrix2d TableTiltCovariance(const RaySet& rays, const Plane& table,
   for (const RangeRay& ray : rays.rays) {
     const double sigma = rays.sigma_m * std::abs(table.normal.dot(ray.direction)) + 0.001;
     const double error = table.Distance(ray.Point());
-    if (std::abs(error) > kAgreeSigmas * sigma) continue;
+    if (std::abs(error) > BeamModel::kAgreeSigmas * sigma) continue;
     const Eigen::Vector3d at = object_from_base * ray.Point();
     on_table.push_back(ray);
     rows.emplace_back(Eigen::Vector4d(1.0, at.x(), at.y(), error) / sigma);
@@ -86,7 +86,7 @@ double ErrorOf(const RangeRay& ray, const SolidIntersection& intersection, bool 
                double sigma_m, double width_m) {
   const double range_error = (ray.range_m - intersection.range_m) / sigma_m;
   if (!outline) return range_error;
-  const bool returned = std::abs(range_error) < kAgreeSigmas;
+  const bool returned = std::abs(range_error) < BeamModel::kAgreeSigmas;
   return returned == intersection.Hits() ? 0.0 : -intersection.clearance_m / width_m;
 }
 
@@ -113,7 +113,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
     if (intersection.part < 0) continue;
     const double width = 0.5 * rays.footprint_rad * ray.range_m + kDrillEdgeError_m;
     const bool inside = intersection.Hits();
-    if (inside && std::abs(ray.range_m - intersection.range_m) > kAgreeSigmas * sigma) continue;
+    if (inside && std::abs(ray.range_m - intersection.range_m) > BeamModel::kAgreeSigmas * sigma) continue;
     // A ray that grazes the outline knows where that is, one further in how far the surface is.
     const bool outline = std::abs(intersection.clearance_m) < width;
     if (!inside && !outline) continue;

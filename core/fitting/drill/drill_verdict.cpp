@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fitting/beam_model.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/gate.h"
@@ -14,7 +15,6 @@
 namespace foresight {
 namespace {
 
-constexpr double kAgreeSigmas = 3.0;
 
 constexpr double kMaxOutside_m = 0.025;  // of a part's middle; lines may be 44 mm apart
 constexpr double kMinHits = 40.0;        // independent measurements on the drill
@@ -229,7 +229,7 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
 
 DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill) {
   const SolidTracer tracer(drill.model.parts, drill.base_from_object);
-  const double agree_m = kAgreeSigmas * std::hypot(rays.sigma_m, kDrillTemplateError_m);
+  const double agree_m = BeamModel::kAgreeSigmas * std::hypot(rays.sigma_m, kDrillTemplateError_m);
   DrillEvidence evidence;
   int agreeing = 0;
   int behind = 0;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/quantile.h"
 #include "core/fitting/drill/pattern_search.h"
 #include "core/fitting/drill/solid_tracer.h"
 
@@ -20,13 +21,6 @@ constexpr double kBesideBar_m = 0.018;
 constexpr std::size_t kLeastOnBar = 4;
 constexpr double kEndFraction = 0.04;  // of a bar's points that lie beyond what counts as its end
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-
-double Quantile(std::vector<double> values, double fraction) {
-  const auto place = values.begin() +
-                     static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// A bar seen on the door: where it begins and ends, how far it stands off.
 struct SeenBar {

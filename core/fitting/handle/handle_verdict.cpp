@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/squared.h"
+#include "core/fitting/beam_model.h"
 #include "core/fitting/gate.h"
 #include "core/fitting/line_covariance.h"
 #include "core/fitting/region_place.h"
@@ -15,7 +16,6 @@
 namespace foresight {
 namespace {
 
-constexpr double kAgreeSigmas = 3.0;
 constexpr double kOnHandle = 0.5;  // fraction of a footprint
 constexpr int kCoverBins = 8;      // along the lever
 constexpr double kRound_m = 0.03;  // beside the handle
@@ -180,7 +180,7 @@ Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door
   std::vector<Eigen::Vector2d> on_door;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const RangeRay& ray : likelihood.rays().rays) {
-    if (std::abs(door.Distance(ray.Point())) > kAgreeSigmas * likelihood.Sigma()) continue;
+    if (std::abs(door.Distance(ray.Point())) > BeamModel::kAgreeSigmas * likelihood.Sigma()) continue;
     on_door.push_back((object_from_base * ray.Point()).head<2>());
     mean += on_door.back();
   }
@@ -226,7 +226,7 @@ BeamSlopes SlopesOf(const BeamLikelihood& likelihood, const HandleScorer& scorer
     };
     const ExpectedBeam at = reading(here);
     const double residual = (rays.rays[i].range_m - at.range_m) / at.sigma_m;
-    if (std::abs(residual) > kAgreeSigmas) continue;
+    if (std::abs(residual) > BeamModel::kAgreeSigmas) continue;
     HandleStep slope;
     for (int p = 0; p < kHandleParameters; ++p)
       slope[p] = (reading(moved[static_cast<std::size_t>(p)]).range_m - at.range_m) /
@@ -290,13 +290,13 @@ HandleEvidence GatherEvidence(const BeamLikelihood& likelihood, const Plane& doo
     if (!expected || expected->fraction < 0.02) {
       if (!thing.Intersect(ray, kRound_m)) continue;
       ++round;
-      round_before += ray.range_m < DoorRange(ray, door) - kAgreeSigmas * likelihood.Sigma();
+      round_before += ray.range_m < DoorRange(ray, door) - BeamModel::kAgreeSigmas * likelihood.Sigma();
       continue;
     }
     if (expected->fraction < kOnHandle) continue;
     ++evidence.hits;
     const double error = ray.range_m - expected->range_m;
-    const double agree_m = kAgreeSigmas * expected->sigma_m;
+    const double agree_m = BeamModel::kAgreeSigmas * expected->sigma_m;
     behind += error > agree_m;
     if (std::abs(error) > agree_m) continue;
     ++agreeing;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fitting/beam_model.h"
 #include "core/fitting/region_place.h"
 #include "core/fitting/valve/valve_tracer.h"
 
@@ -14,7 +15,6 @@ namespace foresight {
 namespace {
 
 constexpr int kBins = 24;
-constexpr double kAgreeSigmas = 3.0;
 constexpr double kIntersectedFraction = 0.5;
 constexpr double kWholeFraction = 0.9;
 constexpr double kMaxPhaseSigma_rad = 0.15;
@@ -89,7 +89,7 @@ ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandid
     const ExpectedRange expected = footprints.Expect(i, intersection, valve.brightness);
     if (intersection.Clearance() >= 0.0 || expected.fraction < kIntersectedFraction) continue;
     const double error = ray.range_m - expected.range_m;
-    const double agree_m = kAgreeSigmas * expected.sigma_m;
+    const double agree_m = BeamModel::kAgreeSigmas * expected.sigma_m;
     const bool agrees = std::abs(error) <= agree_m;
     if (intersection.part == ValvePart::kSpoke) {
       PartSupport& spoke = spokes[static_cast<std::size_t>(intersection.spoke)];
