@@ -19,7 +19,7 @@ constexpr std::chrono::seconds kPatience{5};  ///< with a link that does not com
 HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
                      const RunContext& context, const std::function<void()>& meanwhile) {
   bool aborted = false;
-  std::optional<std::chrono::steady_clock::time_point> lost;
+  auto heard = std::chrono::steady_clock::now();
   for (;;) {
     head.OperatorSeen();
     const HeadStatus status = head.Status();
@@ -33,12 +33,8 @@ HeadStatus WaitWhile(SensorHead& head, std::initializer_list<HeadState> states,
     // Over a link that is lost nobody hears that, and what is shown is old.
     const HeadLink* link = head.Link();
     const auto now = std::chrono::steady_clock::now();
-    if (!aborted || !link || link->Health().connected)
-      lost.reset();
-    else if (!lost)
-      lost = now;
-    else if (now - *lost > kPatience)
-      return status;
+    if (!aborted || !link || link->Health().connected) heard = now;
+    if (now - heard > kPatience) return status;
     if (meanwhile) meanwhile();
     std::this_thread::sleep_for(kPoll);
   }
