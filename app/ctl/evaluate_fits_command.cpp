@@ -233,7 +233,8 @@ Result<std::unique_ptr<FitPopulation>> PopulationFrom(const EvaluateFitsArgument
   const FitWorld world = arguments.world == "other" ? FitWorld::kOther : FitWorld::kHome;
   if (!arguments.like_home.empty() && world == FitWorld::kHome)
     return Fail(ErrorCode::kInvalidOptions, "--like-home changes --world other; at home all is so");
-  FORESIGHT_TRY(std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind, world));
+  FORESIGHT_TRY(std::unique_ptr<FitPopulation> population,
+                MakeFitPopulation(arguments.kind, world));
   if (arguments.like_home.empty()) return population;
   std::vector<OtherCondition> conditions;
   for (const std::string& name : arguments.like_home) {

@@ -6,7 +6,6 @@
 #include "app/ctl/fit_output.h"
 #include "app/ctl/fit_subject.h"
 #include "core/detection/detection_json.h"
-#include "core/detection/fit_in_scan.h"
 #include "core/io/png.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/new_records.h"
@@ -73,7 +72,6 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
                                    "Fit a door handle: a lever on its plate",
                                    "Fit a pole, a pipe or anything else that is round"};
   for (const ObjectKind kind : kObjectKinds) {
-    if (!IsOffered(kind)) continue;
     const auto arguments = std::make_shared<FitArguments>();
     arguments->kind = kind;
     CLI::App* command = fit->add_subcommand(ToString(kind), kHelp[static_cast<std::size_t>(kind)]);

@@ -4,7 +4,6 @@
 
 #include "app/workstation/measure_commands.h"
 #include "app/workstation/workbench.h"
-#include "core/detection/fit_in_scan.h"
 
 namespace foresight {
 namespace {
@@ -116,8 +115,7 @@ void AddToolCommands(Workbench* bench) {
       {"tool.cylinder", "cylinder", QT_TRANSLATE_NOOP("Commands", "Cylinder"),
        QT_TRANSLATE_NOOP("Commands", "Draw a region over a pole, a pipe or a bottle to fit it"),
        "Y", ObjectKind::kCylinder}};
-  for (const Tool& tool : kTools) {
-    if (!IsOffered(tool.kind)) continue;
+  for (const Tool& tool : kTools)
     bench->commands.Add(
         {.id = tool.id,
          .menu = "object",
@@ -128,7 +126,6 @@ void AddToolCommands(Workbench* bench) {
          .in_tool_bar = true,
          .run = [fit, kind = tool.kind] { fit().SetTool(kind, fit().Tool() != kind); },
          .checked = [fit, kind = tool.kind] { return fit().Tool() == kind; }});
-  }
   bench->commands.Add({.id = "tool.leave",
                        .menu = "object",
                        .text = Commands::tr("Leave tool"),

@@ -4,7 +4,6 @@
 
 #include "core/depth/depth_method.h"
 #include "core/fitting/range_noise.h"
-#include "core/fitting/verdict_model.h"
 
 namespace foresight {
 namespace {
@@ -39,11 +38,6 @@ std::string NameOf(const NamedSource& source) {
   std::string name = InfoOf(source.method).name;
   if (source.source == FitSource::kDepthAlone) name += kAloneSuffix;
   return name;
-}
-
-bool IsOffered(ObjectKind kind) {
-  return kind != ObjectKind::kHandle ||
-         FindVerdictModel(ToString(kind), VerdictSource::kRaw) != nullptr;
 }
 
 FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,

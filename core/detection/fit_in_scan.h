@@ -52,10 +52,6 @@ using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOpti
 FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,
                          const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
-/// Whether programs offer to fit it. Not a door handle before its first weights were fitted: it is
-/// tried by `evaluate-fits` alone.
-bool IsOffered(ObjectKind kind);
-
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
 /// RaysFromScan and RaysFromDepth do, and with kState for a depth that is not there.
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,

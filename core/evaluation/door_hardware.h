@@ -35,9 +35,9 @@ struct DoorThingMeasures {
   double height_m = 0.0;  ///< of its highest point off the door
   double length_m = 0.0;  ///< of what stands 22 mm and more off the door, along its longest way
   double width_m = 0.0;   ///< of that across, at its widest
-  double carried_m =
-      0.0;              ///< from its carried end to the last place where something reaches the door
-  double free_m = 0.0;  ///< of its other end, where nothing under it reaches the door
+  /// From its carried end to the last place that is solid down to the door, or to the plate on it.
+  double carried_m = 0.0;
+  double free_m = 0.0;  ///< of its other end, where nothing carries it
   /// A bar 85 to 205 mm long, at most 0.45 of that and 55 mm wide and 30 to 115 mm high, that is
   /// carried from the door at one end (55 % of it is free) and ends free at the other.
   bool IsLeverHandle() const;

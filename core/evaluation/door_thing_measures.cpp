@@ -1,5 +1,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -11,8 +12,10 @@ namespace foresight {
 namespace {
 
 constexpr double kStep_m = 0.003;
-constexpr double kLifted_m = 0.022;   // off the door: what a hand can go behind
-constexpr double kReaches_m = 0.010;  // something that begins nearer to the door than this is on it
+constexpr double kLifted_m = 0.022;  // off the door: what a hand can go behind
+// What is solid at all of these heights off the door carries what is above: neck and post, and no
+// plate that lies on the door, nor an end that is bent back to it.
+constexpr std::array kCarriedAt_m = {0.0045, 0.0075, 0.0105, 0.0135, 0.0165, 0.0195};
 
 /// The cells of a grid over the door where a thing is lifted, and which of them are carried.
 struct LiftedCells {
@@ -21,16 +24,25 @@ struct LiftedCells {
   double height_m = 0.0;
 };
 
-float DistanceFrom(const RayCaster& caster, const Eigen::Vector2d& at, double z, double way) {
-  return caster
-      .Cast({Eigen::Vector3f(static_cast<float>(at.x()), static_cast<float>(at.y()),
-                             static_cast<float>(z)),
-             Eigen::Vector3f(0.0F, 0.0F, static_cast<float>(way))})
-      .distance_m;
+/// Inside of a solid, whatever other solids overlap it.
+bool IsInside(const RayCaster& caster, const Eigen::Vector3d& at) {
+  int from_behind = 0;
+  for (const Eigen::Vector3f& way : {Eigen::Vector3f(1.0F, 0.0F, 0.0F),
+                                     {-1.0F, 0.0F, 0.0F},
+                                     {0.0F, 1.0F, 0.0F},
+                                     {0.0F, -1.0F, 0.0F}})
+    from_behind += caster.Cast({at.cast<float>(), way}).from_behind ? 1 : 0;
+  return from_behind > 2;
+}
+
+bool IsCarried(const RayCaster& caster, double x, double y) {
+  return std::all_of(kCarriedAt_m.begin(), kCarriedAt_m.end(), [&](double z) {
+    return IsInside(caster, {x, y, z});
+  });
 }
 
 LiftedCells CellsOf(const DoorHardware& hardware) {
-  constexpr double kFront_m = 1.0, kBehind_m = -0.5;
+  constexpr double kFront_m = 1.0;
   auto scene = std::make_shared<Scene>();
   scene->meshes = hardware.parts;
   Eigen::Vector2f low = Eigen::Vector2f::Constant(1e6F), high = -low;
@@ -43,11 +55,12 @@ LiftedCells CellsOf(const DoorHardware& hardware) {
   LiftedCells cells;
   for (double x = low.x() + 0.5 * kStep_m; x < high.x(); x += kStep_m)
     for (double y = low.y() + 0.5 * kStep_m; y < high.y(); y += kStep_m) {
-      const double top_m = kFront_m - DistanceFrom(caster, {x, y}, kFront_m, -1.0);
+      const Eigen::Vector3d front(x, y, kFront_m);
+      const double top_m =
+          kFront_m - caster.Cast({front.cast<float>(), {0.0F, 0.0F, -1.0F}}).distance_m;
       if (!std::isfinite(top_m) || !(top_m > kLifted_m)) continue;
-      const double bottom_m = kBehind_m + DistanceFrom(caster, {x, y}, kBehind_m, 1.0);
       cells.places.emplace_back(x, y);
-      cells.carried.push_back(bottom_m < kReaches_m);
+      cells.carried.push_back(IsCarried(caster, x, y));
       cells.height_m = std::max(cells.height_m, top_m);
     }
   return cells;

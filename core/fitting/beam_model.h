@@ -15,7 +15,7 @@ struct BeamModel {
   static constexpr double kGoodReturn = 0.9;  ///< ... and has no other reason to be wrong
   static constexpr double kMapWithBeams = 0.3;   ///< of a dense map's own worth, beside its beams
   static constexpr double kPlaneFraction = 0.7;  ///< of the beams that miss: they end on a plane
-  static constexpr double kAgreeSigmas = 3.0;  ///< a range this near to what it should be agrees
+  static constexpr double kAgreeSigmas = 3.0;    ///< a range this near to what it should be agrees
 };
 
 /// Normal density of an error, per metre; exactly 0 beyond 7.7 sigma.

@@ -53,8 +53,9 @@ SceneHit HitOf(float distance, unsigned mesh, Eigen::Vector3f normal,
                const Eigen::Vector3f& direction) {
   if (mesh == RTC_INVALID_GEOMETRY_ID) return {kNaN, -1, Eigen::Vector3f::Zero()};
   normal.normalize();
-  if (normal.dot(direction) > 0.0f) normal = -normal;
-  return {distance, static_cast<int>(mesh), normal};
+  const bool from_behind = normal.dot(direction) > 0.0f;
+  if (from_behind) normal = -normal;
+  return {distance, static_cast<int>(mesh), normal, from_behind};
 }
 
 /// Works for RTCRay16 and, through its `ray` member, RTCRayHit16.

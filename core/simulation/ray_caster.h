@@ -18,6 +18,8 @@ struct SceneHit {
   float distance_m = 0.0f;                           ///< NaN = nothing hit
   int mesh = -1;                                     ///< index into Scene::meshes; -1 = nothing hit
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< length 1, towards the ray's origin
+  /// The triangle was hit where its corners run clockwise: of a solid, from inside.
+  bool from_behind = false;
 };
 
 /// A scene ready for ray casting (Embree). Casting is const and safe from many threads. Surfaces

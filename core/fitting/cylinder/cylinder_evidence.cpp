@@ -115,7 +115,8 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
     const double width_m = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
     const SolidIntersection intersection = tracer.IntersectWithDepth(ray, kReach_m);
     if (intersection.part < 0) continue;
-    const bool agrees = std::abs(ray.range_m - intersection.range_m) < BeamModel::kAgreeSigmas * sigma_m;
+    const bool agrees =
+        std::abs(ray.range_m - intersection.range_m) < BeamModel::kAgreeSigmas * sigma_m;
     // A ray that grazes the outline knows where that is, one further in how far the surface is.
     const bool outline = std::abs(intersection.clearance_m) < width_m;
     if (!outline && !(intersection.Hits() && agrees)) continue;

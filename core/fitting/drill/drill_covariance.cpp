@@ -14,7 +14,6 @@
 namespace foresight {
 namespace {
 
-
 // What no ray tells, that drills are no templates and tables no planes, along and about x, y and z:
 // the deviations of the rays are multiplied, and what every drill is off by is added in squares.
 // Chosen so that the spread over predicted of `evaluate-fits drill --first-seed 1 --count 80
@@ -113,7 +112,8 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
     if (intersection.part < 0) continue;
     const double width = 0.5 * rays.footprint_rad * ray.range_m + kDrillEdgeError_m;
     const bool inside = intersection.Hits();
-    if (inside && std::abs(ray.range_m - intersection.range_m) > BeamModel::kAgreeSigmas * sigma) continue;
+    if (inside && std::abs(ray.range_m - intersection.range_m) > BeamModel::kAgreeSigmas * sigma)
+      continue;
     // A ray that grazes the outline knows where that is, one further in how far the surface is.
     const bool outline = std::abs(intersection.clearance_m) < width;
     if (!inside && !outline) continue;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/fitting/drill/pattern_search.h"
 
 namespace foresight {
@@ -174,15 +175,24 @@ std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
   return bodies;
 }
 
-std::vector<DrillState> FindModes(const SolidLikelihood& likelihood,
-                                  std::span<const DrillTemplate> templates,
-                                  const std::vector<Eigen::Vector2d>& bodies,
-                                  const TableFrame& base_from_table, const DrillPrior& prior) {
+Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
+                                          std::span<const DrillTemplate> templates,
+                                          const std::vector<Eigen::Vector2d>& bodies,
+                                          const TableFrame& base_from_table,
+                                          const DrillPrior& prior, const RunContext& context) {
+  std::vector<std::vector<DrillState>> by_yaw(templates.size() * bodies.size());
+  const auto turn = [&](int i) {
+    const auto index = static_cast<std::size_t>(i);
+    by_yaw[index] = BestByYaw(likelihood, templates[index / bodies.size()],
+                              bodies[index % bodies.size()], base_from_table, prior);
+  };
+  if (!ParallelFor(static_cast<int>(by_yaw.size()), context, turn))
+    return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
   std::vector<DrillState> modes;
-  for (const DrillTemplate& kind : templates) {
+  for (std::size_t kind = 0; kind < templates.size(); ++kind) {
     std::vector<DrillState> of_kind;
-    for (const Eigen::Vector2d& body : bodies)
-      AppendPeaks(BestByYaw(likelihood, kind, body, base_from_table, prior), of_kind);
+    for (std::size_t body = 0; body < bodies.size(); ++body)
+      AppendPeaks(by_yaw[kind * bodies.size() + body], of_kind);
     KeepDistinct(of_kind, kModesPerTemplate);
     modes.insert(modes.end(), of_kind.begin(), of_kind.end());
   }

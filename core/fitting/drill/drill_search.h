@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/solid_likelihood.h"
 
@@ -16,11 +18,12 @@ std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
                                         const TableFrame& base_from_table, double radius_m);
 
 /// Every direction and size of each template at each body, scored by ray; the leading local maxima,
-/// best first, none near a better one of its template.
-std::vector<DrillState> FindModes(const SolidLikelihood& likelihood,
-                                  std::span<const DrillTemplate> templates,
-                                  const std::vector<Eigen::Vector2d>& bodies,
-                                  const TableFrame& base_from_table, const DrillPrior& prior);
+/// best first, none near a better one of its template. Fails with kCancelled.
+Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
+                                          std::span<const DrillTemplate> templates,
+                                          const std::vector<Eigen::Vector2d>& bodies,
+                                          const TableFrame& base_from_table,
+                                          const DrillPrior& prior, const RunContext& context);
 
 enum class LocalSearchEffort { kCoarse, kFine };
 

@@ -15,7 +15,6 @@
 namespace foresight {
 namespace {
 
-
 constexpr double kMaxOutside_m = 0.025;  // of a part's middle; lines may be 44 mm apart
 constexpr double kMinHits = 40.0;        // independent measurements on the drill
 constexpr double kMaxSeeThrough = 0.15;

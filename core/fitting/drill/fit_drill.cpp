@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/fitting/drill/alternative_shapes.h"
 #include "core/fitting/drill/drill_covariance.h"
 #include "core/fitting/drill/drill_search.h"
@@ -92,9 +94,8 @@ class DrillFit {
       return Fail(ErrorCode::kNoConvergence,
                   "nothing as tall as a drill stands in the region: draw it around the drill");
     context.Report(0.3, "turning the templates");
-    std::vector<DrillState> modes =
-        FindModes(coarse_, options_.templates, bodies, base_from_table_, prior_);
-    if (context.Cancelled()) return Cancelled();
+    FORESIGHT_TRY(std::vector<DrillState> modes, FindModes(coarse_, options_.templates, bodies,
+                                                           base_from_table_, prior_, context));
     if (modes.empty())
       return Fail(ErrorCode::kNoConvergence,
                   "no template of a drill can be compared with the region: draw it around the "
@@ -124,7 +125,7 @@ class DrillFit {
     return flipped;
   }
 
-  DrillDetection Detection(std::vector<DrillState> modes) const {
+  Result<DrillDetection> Detection(std::vector<DrillState> modes, const RunContext& context) const {
     const DrillState flipped = TestFlip(modes);
     const DrillState& best = modes.front();
     DrillDetection detection;
@@ -133,13 +134,18 @@ class DrillFit {
     for (std::size_t i = 1; i < modes.size() && detection.alternatives.size() < kAlternatives; ++i)
       detection.alternatives.push_back(CandidateOf(modes[i], base_from_table_));
     DrillSupport support;
-    support.beam_sigma_yaw_rad =
-        SetSigmas(likelihood_.rays(), best, base_from_table_, prior_, detection);
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
-    SetFlipOfAnyProportions(best, flipped, detection, support);
-    SetChuckMargins(best, detection, support);
-    SetAlternativeMargin(best, detection);
+    const std::function<void()> independent[] = {
+        [&] { SetFlipOfAnyProportions(best, flipped, detection, support); },
+        [&] { SetAlternativeMargin(best, detection); },
+        [&] {
+          support.beam_sigma_yaw_rad =
+              SetSigmas(likelihood_.rays(), best, base_from_table_, prior_, detection);
+          SetChuckMargins(best, detection, support);
+        }};
+    if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
+      return Cancelled();
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);
     return detection;
   }
@@ -155,10 +161,11 @@ class DrillFit {
                           std::size_t count, LocalSearchEffort effort,
                           const RunContext& context) const {
     if (states.size() > count) states.resize(count);
-    for (DrillState& state : states) {
-      if (context.Cancelled()) return Cancelled();
+    const auto climb = [&](int i) {
+      DrillState& state = states[static_cast<std::size_t>(i)];
       state = LocalSearch(likelihood, state, base_from_table_, prior_, effort);
-    }
+    };
+    if (!ParallelFor(static_cast<int>(states.size()), context, climb)) return Cancelled();
     SortBest(states);
     return {};
   }
@@ -323,7 +330,7 @@ Result<DrillDetection> FitDrill(const RaySet& all_rays, const FitDrillOptions& o
     return Fail(ErrorCode::kNoConvergence,
                 "nothing in the region looks like a drill: draw it around one, or scan slower");
   context.Report(0.8, "trying other shapes");
-  DrillDetection detection = fit.Detection(modes);
+  FORESIGHT_TRY(DrillDetection detection, fit.Detection(modes, context));
   detection.origin.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   context.Report(1.0, "drill fitted");

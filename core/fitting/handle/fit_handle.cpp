@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/fitting/gate.h"
 #include "core/fitting/handle/handle_search.h"
 #include "core/fitting/handle/handle_verdict.h"
@@ -78,7 +80,8 @@ class HandleFit {
     const HandleScorer fine{likelihood_, base_from_door_, options_};
     const HandleScorer coarse{coarse_, base_from_door_, options_};
     context.Report(0.1, "looking for bars");
-    std::vector<HandleState> levers = FindLevers(coarse, before_door_, random);
+    std::vector<HandleState> levers = FindLevers(coarse, before_door_, random, context);
+    if (context.Cancelled()) return Cancelled();
     if (levers.empty())
       return Fail(ErrorCode::kNoConvergence,
                   "no lever of {:.0f} to {:.0f} mm stands before the door: draw the region around "
@@ -101,7 +104,7 @@ class HandleFit {
                   "scan slower");
     if (context.Cancelled()) return Cancelled();
     context.Report(0.7, "trying other shapes");
-    return DetectionOf(best, mirrored);
+    return DetectionOf(best, mirrored, context);
   }
 
  private:
@@ -111,24 +114,38 @@ class HandleFit {
 
   static Status SearchAll(const HandleScorer& scorer, HandleEffort effort,
                           std::vector<HandleState>& states, const RunContext& context) {
-    for (HandleState& state : states) {
-      if (context.Cancelled()) return Cancelled();
+    const auto climb = [&](int i) {
+      HandleState& state = states[static_cast<std::size_t>(i)];
       state = LocalSearch(scorer, state, effort);
-    }
+    };
+    if (!ParallelFor(static_cast<int>(states.size()), context, climb)) return Cancelled();
     SortBest(states);
     return {};
   }
 
-  HandleDetection DetectionOf(const HandleState& best, const HandleState& mirrored) const {
+  Result<HandleDetection> DetectionOf(const HandleState& best, const HandleState& mirrored,
+                                      const RunContext& context) const {
     HandleDetection detection;
     detection.best = CandidateOf(best, base_from_door_);
+    detection.door = door_;
     const HandleScorer scorer{likelihood_, base_from_door_, options_};
+    std::vector<HandleAlternative> alternatives;
+    HandleState shorter, longer;
+    const std::function<void()> independent[] = {
+        [&] {
+          alternatives =
+              FitHandleAlternatives(likelihood_, base_from_door_, best, before_door_, context);
+        },
+        [&] { shorter = OtherLength(scorer, best, -kOtherLength_m); },
+        [&] { longer = OtherLength(scorer, best, kOtherLength_m); },
+        [&] { SetSigmas(scorer, best, detection); }};
+    if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
+      return Cancelled();
     std::vector<HandleState> others = {mirrored};
     // Where the options allow no other length none is near.
     double best_length = best.score - kFarBehind_nats;
     bool tried = false;
-    for (const double longer_m : {-kOtherLength_m, kOtherLength_m}) {
-      const HandleState other = OtherLength(scorer, best, longer_m);
+    for (const HandleState& other : {shorter, longer}) {
       if (!std::isfinite(other.score)) continue;
       others.push_back(other);
       best_length = tried ? std::max(best_length, other.score) : other.score;
@@ -137,8 +154,6 @@ class HandleFit {
     SortBest(others);
     for (const HandleState& other : others)
       detection.alternatives.push_back(CandidateOf(other, base_from_door_));
-    detection.door = door_;
-    SetSigmas(scorer, best, detection);
     HandleEvidence& evidence = detection.evidence;
     evidence = GatherEvidence(likelihood_, door_, detection.best);
     const double own = LogLikelihoodOf(
@@ -149,8 +164,7 @@ class HandleFit {
     evidence.alternative_margin_nats = std::numeric_limits<double>::infinity();
     // Half of Schwarz's penalty for each parameter that an alternative has more.
     const double measurements = std::max(2.0, evidence.hits * region_.samples_per_ray);
-    for (const HandleAlternative& alternative :
-         FitHandleAlternatives(likelihood_, base_from_door_, best, before_door_)) {
+    for (const HandleAlternative& alternative : alternatives) {
       const double margin =
           own - alternative.log_likelihood +
           0.5 * (alternative.parameters - kHandleParameters) * std::log(measurements);

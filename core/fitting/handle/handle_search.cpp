@@ -1,11 +1,14 @@
 #include "core/fitting/handle/handle_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/base/quantile.h"
 #include "core/fitting/drill/pattern_search.h"
 #include "core/fitting/drill/solid_tracer.h"
@@ -245,7 +248,7 @@ double BestBox(const BeamLikelihood& likelihood, const DoorFrame& base_from_door
 }  // namespace
 
 std::vector<HandleState> FindLevers(const HandleScorer& scorer, const Points& before_door,
-                                    Random& random) {
+                                    Random& random, const RunContext& context) {
   std::vector<HandleState> found;
   const int count = static_cast<int>(before_door.size());
   for (int trial = 0; count > 1 && trial < scorer.options.pair_trials; ++trial) {
@@ -253,10 +256,14 @@ std::vector<HandleState> FindLevers(const HandleScorer& scorer, const Points& be
     const auto& b = before_door[static_cast<std::size_t>(random.Index(count))];
     const auto bar = BarThrough(before_door, a, b);
     if (!bar || !((bar->to - bar->from).norm() > 0.02)) continue;
-    HandleState state = LeverOn(*bar, scorer.options);
-    state.score = scorer(state);
-    if (std::isfinite(state.score)) found.push_back(state);
+    found.push_back(LeverOn(*bar, scorer.options));
   }
+  const auto score = [&](int i) {
+    HandleState& state = found[static_cast<std::size_t>(i)];
+    state.score = scorer(state);
+  };
+  if (!ParallelFor(static_cast<int>(found.size()), context, score)) return {};
+  std::erase_if(found, [](const HandleState& state) { return !std::isfinite(state.score); });
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
   std::vector<HandleState> kept;
@@ -294,7 +301,8 @@ HandleState OtherLength(const HandleScorer& scorer, const HandleState& lever, do
 std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likelihood,
                                                      const DoorFrame& base_from_door,
                                                      const HandleState& handle,
-                                                     const Points& before_door) {
+                                                     const Points& before_door,
+                                                     const RunContext& context) {
   const HandleStep& h = handle.values;
   const Eigen::Vector2d way(std::cos(h[kHandleTurn]), std::sin(h[kHandleTurn]));
   const Eigen::Vector2d pivot = h.head<2>();
@@ -308,14 +316,22 @@ std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likel
   }
   const Eigen::Vector2d seen = mean + (0.5 * (low + high) - way.dot(mean)) * way;
   const double largest_m = high - low;
-  return {{"knob", 4, BestKnob(likelihood, base_from_door, {pivot, middle, mean})},
-          {"pull bar", 6,
-           std::max(BestPullBar(likelihood, base_from_door, handle, middle, 0.0),
-                    BestPullBar(likelihood, base_from_door, handle, seen, largest_m))},
-          {"bow", 6, BestBow(likelihood, base_from_door, handle, seen, largest_m)},
-          {"box", 6,
-           std::max(BestBox(likelihood, base_from_door, handle, middle, h[kHandleLength]),
-                    BestBox(likelihood, base_from_door, handle, seen, largest_m))}};
+  std::array<double, 6> best{};
+  const std::function<double()> climbs[best.size()] = {
+      [&] {
+        return BestKnob(likelihood, base_from_door, {pivot, middle, mean});
+      },
+      [&] { return BestPullBar(likelihood, base_from_door, handle, middle, 0.0); },
+      [&] { return BestPullBar(likelihood, base_from_door, handle, seen, largest_m); },
+      [&] { return BestBow(likelihood, base_from_door, handle, seen, largest_m); },
+      [&] { return BestBox(likelihood, base_from_door, handle, middle, h[kHandleLength]); },
+      [&] { return BestBox(likelihood, base_from_door, handle, seen, largest_m); }};
+  ParallelFor(static_cast<int>(best.size()), context,
+              [&](int i) { best[static_cast<std::size_t>(i)] = climbs[i](); });
+  return {{"knob", 4, best[0]},
+          {"pull bar", 6, std::max(best[1], best[2])},
+          {"bow", 6, best[3]},
+          {"box", 6, std::max(best[4], best[5])}};
 }
 
 }  // namespace foresight

@@ -4,15 +4,16 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/base/run_context.h"
 #include "core/fitting/handle/handle_state.h"
 
 namespace foresight {
 
 /// Levers worth a local search, the best first and no two alike: bars through two of the points,
-/// which are in the door's frame, with the pivot at either end.
+/// which are in the door's frame, with the pivot at either end. Empty in a cancelled context.
 std::vector<HandleState> FindLevers(const HandleScorer& scorer,
-                                    const std::vector<Eigen::Vector3d>& before_door,
-                                    Random& random);
+                                    const std::vector<Eigen::Vector3d>& before_door, Random& random,
+                                    const RunContext& context);
 
 enum class HandleEffort { kCoarse, kFine };
 
@@ -31,9 +32,10 @@ struct HandleAlternative {
   double log_likelihood = 0.0;
 };
 
-/// The best of each kind in the handle's place, or where the points are.
+/// The best of each kind in the handle's place, or where the points are. Those of a cancelled
+/// context mean nothing.
 std::vector<HandleAlternative> FitHandleAlternatives(
     const BeamLikelihood& likelihood, const DoorFrame& base_from_door, const HandleState& handle,
-    const std::vector<Eigen::Vector3d>& before_door);
+    const std::vector<Eigen::Vector3d>& before_door, const RunContext& context);
 
 }  // namespace foresight

@@ -34,6 +34,13 @@ constexpr double kMaxSeeThrough = 0.15;
 // Of 132 drawn levers 20 pointed the wrong way, by up to 12 nats (seeds 1 to 160).
 constexpr double kMinMirror_nats = 15.0;
 
+// CONFIRMED is wrong once in 70 answers at most. Of those that the probability would have confirmed
+// on the held-out scenes of packaging/refit-verdicts 2 of 66 were, and of the other world's first
+// scenes 2 of 4: docs/evaluation.md, "Door handle fit".
+constexpr const char* kNotYet =
+    "a door handle is never confirmed yet: on new scenes 2 of 66 answers as sure as that were "
+    "wrong";
+
 double Compressed(double nats) {
   return std::copysign(std::log1p(std::abs(nats)), nats);
 }
@@ -180,7 +187,8 @@ Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door
   std::vector<Eigen::Vector2d> on_door;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const RangeRay& ray : likelihood.rays().rays) {
-    if (std::abs(door.Distance(ray.Point())) > BeamModel::kAgreeSigmas * likelihood.Sigma()) continue;
+    if (std::abs(door.Distance(ray.Point())) > BeamModel::kAgreeSigmas * likelihood.Sigma())
+      continue;
     on_door.push_back((object_from_base * ray.Point()).head<2>());
     mean += on_door.back();
   }
@@ -290,7 +298,8 @@ HandleEvidence GatherEvidence(const BeamLikelihood& likelihood, const Plane& doo
     if (!expected || expected->fraction < 0.02) {
       if (!thing.Intersect(ray, kRound_m)) continue;
       ++round;
-      round_before += ray.range_m < DoorRange(ray, door) - BeamModel::kAgreeSigmas * likelihood.Sigma();
+      round_before +=
+          ray.range_m < DoorRange(ray, door) - BeamModel::kAgreeSigmas * likelihood.Sigma();
       continue;
     }
     if (expected->fraction < kOnHandle) continue;
@@ -385,6 +394,11 @@ Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
   verdict.reason =
       ReasonOf(verdict, Verdict::kLikely, support("the other way fits worse"),
                WeightiestFirst(*model, verdict.features, FeatureGates(detection, *model)));
+  if (verdict.level == VerdictLevel::kConfirmed) {
+    verdict.level = VerdictLevel::kLikely;
+    verdict.reason = kNotYet;
+  }
+  verdict.failed_gates.push_back(kNotYet);
   return verdict;
 }
 

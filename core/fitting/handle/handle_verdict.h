@@ -21,11 +21,12 @@ void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDete
 std::vector<std::string> HandleFeatureNames();
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
-/// The probability is the shipped model's (resources/verdicts/handle_*); hard gates keep what no
-/// probability should: a confirmed handle has enough measurements on it, is not seen through, does
-/// not as well point the other way, explains the rays better than a knob, a pull bar, a bow and a
-/// box, lies near the region's centre and has no length at a bound. Without a model, as before its
-/// first weights, the probability is NaN and the verdict LIKELY at most, where no gate failed.
+/// The probability is the shipped model's (resources/verdicts/handle_*); the verdict is LIKELY at
+/// most, as too many of the answers that would have been CONFIRMED were wrong on new scenes. Gates
+/// say what else speaks against it: few measurements on it, beams that went through it, a lever
+/// that points the other way or a knob, a pull bar, a bow or a box that explain the rays as well, a
+/// place far from the region's centre, a length at a bound. Without a model, as before the first
+/// weights, the probability is NaN and what fails a gate UNSURE.
 /// `region` = the rays that it was looked for in.
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
                      const FitHandleOptions& options);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <span>
 
+#include "core/base/parallel.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/valve/lever_search.h"
 #include "core/fitting/valve/local_search.h"
@@ -26,7 +29,7 @@ constexpr int kMinForeground = 25;
 constexpr int kRimPoints = 500;  // of the foreground, for the circle search
 constexpr int kGridRays = 900;   // for the grid of dish and phase
 constexpr int kKeptRims = 2;
-constexpr int kLocallySearched = 2;  // numbers of spokes
+constexpr std::size_t kLocallySearched = 2;  // numbers of spokes
 constexpr int kAlternatives = 3;
 constexpr double kAround = 1.7;  // radii of the valve that a closer look takes in
 constexpr std::size_t kLocallySearchedLevers = 3;
@@ -42,19 +45,33 @@ void SortByLikelihood(std::vector<ValveCandidate>& valves) {
   });
 }
 
+tl::unexpected<Error> Cancelled() {
+  return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
+}
+
+/// Changes each of them, on as many threads as there are.
+Status ForEach(std::span<ValveCandidate> valves, const RunContext& context,
+               const std::function<void(ValveCandidate&)>& change) {
+  if (ParallelFor(static_cast<int>(std::ssize(valves)), context,
+                  [&](int i) { change(valves[static_cast<std::size_t>(i)]); }))
+    return {};
+  return Cancelled();
+}
+
 /// Rims as valves without spokes, fitted to the rays, the best few first.
-std::vector<ValveCandidate> FitRims(const RayLikelihood& likelihood,
-                                    const std::vector<RimHypothesis>& rims) {
+Result<std::vector<ValveCandidate>> FitRims(const RayLikelihood& likelihood,
+                                            const std::vector<RimHypothesis>& rims,
+                                            const RunContext& context) {
   std::vector<ValveCandidate> fitted;
+  for (const RimHypothesis& rim : rims)
+    fitted.push_back(
+        {PoseFromAxis(rim.center, rim.axis), UsualValve(rim.radius_m, kTubeRadius_m, 0, 0.0), 0.0});
   RefineOptions options;
   options.parts = ValveParts::kRim;
-  for (const RimHypothesis& rim : rims) {
-    const ValveCandidate start{PoseFromAxis(rim.center, rim.axis),
-                               UsualValve(rim.radius_m, kTubeRadius_m, 0, 0.0), 0.0};
-    ValveCandidate valve = Refine(likelihood.Footprints(), start, options).valve;
+  FORESIGHT_CHECK(ForEach(fitted, context, [&](ValveCandidate& valve) {
+    valve = Refine(likelihood.Footprints(), valve, options).valve;
     valve.log_likelihood = likelihood(valve, ValveParts::kRim);
-    fitted.push_back(valve);
-  }
+  }));
   SortByLikelihood(fitted);
   if (fitted.size() > kKeptRims) fitted.resize(kKeptRims);
   return fitted;
@@ -98,28 +115,34 @@ std::vector<RimHypothesis> SearchRims(const RaySet& rays, const WallSplit& split
 
 /// The best lever, if there is a bar at all; only roughly placed when it is far behind
 /// `alternative`.
-std::optional<ValveCandidate> FitLever(const RaySet& rays, const WallSplit& split,
-                                       const RayLikelihood& likelihood,
-                                       const std::optional<ValveCandidate>& alternative,
-                                       const FitValveOptions& options) {
+Result<std::optional<ValveCandidate>> FitLever(const RaySet& rays, const WallSplit& split,
+                                               const RayLikelihood& likelihood,
+                                               const std::optional<ValveCandidate>& alternative,
+                                               const FitValveOptions& options,
+                                               const RunContext& context) {
   Random random(options.seed, kLevers);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
   LeverSearchOptions search;
   search.facing = Facing(rays, split);
   search.tolerance_m = 1.5 * rays.sigma_m + 0.012;
-  std::vector<ValveCandidate> levers;
-  for (const ValveCandidate& start : FindLevers(points, search, random)) {
-    levers.push_back(start);
-    levers.push_back(Refine(likelihood.Footprints(), start, {}).valve);
-  }
-  for (ValveCandidate& lever : levers) lever.log_likelihood = likelihood(lever);
+  const std::vector<ValveCandidate> found = FindLevers(points, search, random);
+  // Each as it was found and refined.
+  std::vector<ValveCandidate> levers(2 * found.size());
+  const auto fit = [&](int i) {
+    const ValveCandidate& start = found[static_cast<std::size_t>(i / 2)];
+    ValveCandidate& lever = levers[static_cast<std::size_t>(i)];
+    lever = i % 2 == 0 ? start : Refine(likelihood.Footprints(), start, {}).valve;
+    lever.log_likelihood = likelihood(lever);
+  };
+  if (!ParallelFor(static_cast<int>(levers.size()), context, fit)) return Cancelled();
   SortByLikelihood(levers);
   if (levers.empty()) return std::nullopt;
   if (alternative && levers.front().log_likelihood < alternative->log_likelihood - kHopeless_nats)
     return levers.front();
   // The likelihood has many small peaks along a bar: some of them are climbed.
   if (levers.size() > kLocallySearchedLevers) levers.resize(kLocallySearchedLevers);
-  for (ValveCandidate& lever : levers) lever = LocalSearch(likelihood, lever);
+  FORESIGHT_CHECK(ForEach(levers, context,
+                          [&](ValveCandidate& lever) { lever = LocalSearch(likelihood, lever); }));
   SortByLikelihood(levers);
   return levers.front();
 }
@@ -140,10 +163,9 @@ void SortByPlaceAndLikelihood(const RaySet& region, std::vector<ValveCandidate>&
 /// Runs local search on the leading candidates and puts them back in order.
 Status LocalSearchOfLeaders(const RaySet& region, const RayLikelihood& likelihood,
                             std::vector<ValveCandidate>& valves, const RunContext& context) {
-  for (std::size_t i = 0; i < std::min<std::size_t>(kLocallySearched, valves.size()); ++i) {
-    if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
-    valves[i] = LocalSearch(likelihood, valves[i]);
-  }
+  const std::span leaders(valves.begin(), std::min(kLocallySearched, valves.size()));
+  FORESIGHT_CHECK(ForEach(leaders, context,
+                          [&](ValveCandidate& valve) { valve = LocalSearch(likelihood, valve); }));
   SortByPlaceAndLikelihood(region, valves);
   return {};
 }
@@ -159,22 +181,23 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   few_rays.beams = nullptr;
   rays.beams = ThinnedBeams(all_rays, options.max_rays, kMinRays, thinning);
   const WallSplit split = SplitWall(rays, wall_random);
-  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");
+  if (context.Cancelled()) return Cancelled();
 
   context.Report(0.1, "looking for the rim");
   FORESIGHT_CHECK(CheckForeground(rays, split));
   const std::vector<RimHypothesis> hypotheses = SearchRims(rays, split, options);
   const RayLikelihood likelihood(rays, split.wall);
   const RayLikelihood coarse(few_rays, split.wall);
-  const std::vector<ValveCandidate> rims = FitRims(likelihood, hypotheses);
+  FORESIGHT_TRY(const std::vector<ValveCandidate> rims, FitRims(likelihood, hypotheses, context));
 
   context.Report(0.3, "counting the spokes");
   FORESIGHT_TRY(std::vector<ValveCandidate> valves,
                 FindSpokes(coarse, likelihood, rims, SpokeCounts(options), context));
   std::optional<ValveCandidate> wheel;
   if (!valves.empty()) wheel = valves.front();
-  if (const auto lever = FitLever(rays, split, likelihood, wheel, options))
-    valves.push_back(*lever);
+  FORESIGHT_TRY(const std::optional<ValveCandidate> lever,
+                FitLever(rays, split, likelihood, wheel, options, context));
+  if (lever) valves.push_back(*lever);
   if (valves.empty())
     return Fail(ErrorCode::kNoConvergence,
                 "nothing round of {:.0f} to {:.0f} mm radius and no lever stands in the region: "

@@ -34,6 +34,12 @@ TEST(RayCaster, TurnsTheNormalTowardsTheRaysOriginFromEitherSide) {
   EXPECT_NEAR(back.normal.x(), 1.0, 1e-6);
 }
 
+TEST(RayCaster, SaysWhetherASolidIsHitFromInside) {
+  const RayCaster caster(test::SceneOf(kBallBeforeAWall));
+  EXPECT_FALSE(caster.Cast({{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}}).from_behind);
+  EXPECT_TRUE(caster.Cast({{2.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}}).from_behind);
+}
+
 TEST(RayCaster, SaysNaNWhereThereIsNothing) {
   const RayCaster caster(test::SceneOf(kBallBeforeAWall));
   const SceneHit hit = caster.Cast({{0.0f, 0.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}});
