@@ -298,12 +298,13 @@ TEST(Reasons, OfCylindersFailAsTheyAreStated) {
                       .seen_arc_rad = random.Uniform(0.8, 3.0),
                       .box_margin_nats = random.Uniform(-10.0, 60.0)};
     Assess(rays, {}, found);
-    for (const auto& gate : samples::StatedGates(found.reason)) {
-      EXPECT_TRUE(gate.Fails()) << found.reason;
+    for (const auto& gate : samples::StatedGates(found.verdict.reason)) {
+      EXPECT_TRUE(gate.Fails()) << found.verdict.reason;
       ++stated;
     }
-    EXPECT_EQ(found.level == VerdictLevel::kLikely, samples::StatedGates(found.reason).empty())
-        << found.reason;
+    EXPECT_EQ(found.verdict.level == VerdictLevel::kLikely,
+              samples::StatedGates(found.verdict.reason).empty())
+        << found.verdict.reason;
   }
   EXPECT_GT(stated, kAnswers / 2);
 }

@@ -64,7 +64,7 @@ TEST(RealScan, ALampPostOfAStreetIsACylinderOfItsRadius) {
     const auto post = FitCylinder(*rays, options, {});
     ASSERT_TRUE(post) << post.error().message;
     EXPECT_NEAR(post->model.radius_m, 0.223, 0.020) << box.size_m.transpose();
-    EXPECT_EQ(post->level, VerdictLevel::kLikely) << post->reason;
+    EXPECT_EQ(post->verdict.level, VerdictLevel::kLikely) << post->verdict.reason;
     const Eigen::Vector3d axis = post->base_from_object.Rotate(Eigen::Vector3d::UnitZ());
     EXPECT_GT(axis.z(), 0.995);
     EXPECT_LT(

@@ -170,7 +170,7 @@ TEST(FitCylinder, AWallAndABoxAreNotLikely) {
     const auto found = Fit(RaysOf(view));
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->model.radius_m;
-    EXPECT_FALSE(found->reason.empty());
+    EXPECT_FALSE(found->verdict.reason.empty());
   }
 }
 
