@@ -30,7 +30,7 @@ TEST(Verdict, ShowsNoProbabilityAsCertain) {
   EXPECT_EQ(ProbabilityText(0.948), "94 %");  // and not the 95 % that CONFIRMED would need
   EXPECT_EQ(ProbabilityText(0.29), "29 %");
   EXPECT_EQ(ProbabilityText(0.0), "under 1 %");
-  EXPECT_EQ(ProbabilityText(std::nan("")), "under 1 %");
+  EXPECT_EQ(ProbabilityText(std::nan("")), "no probability");
 }
 
 TEST(VerdictModel, IsLogisticInStandardisedEvidence) {
