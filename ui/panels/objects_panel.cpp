@@ -62,9 +62,9 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
       session_(session),
       fit_(fit),
       list_(new QListWidget),
-      empty_(
-          new QLabel(tr("No objects yet. Choose what it is, as Valve (V), and draw a region over it "
-                        "in the image, the depth map or the cloud."))),
+      empty_(new QLabel(
+          tr("No objects yet. Choose what it is, as Valve (V), and draw a region over it "
+             "in the image, the depth map or the cloud."))),
       card_(new DetectionCard) {
   empty_->setWordWrap(true);
   empty_->setAlignment(Qt::AlignCenter);
