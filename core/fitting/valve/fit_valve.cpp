@@ -31,7 +31,10 @@ constexpr int kGridRays = 900;   // for the grid of dish and phase
 constexpr int kKeptRims = 2;
 constexpr std::size_t kLocallySearched = 2;  // numbers of spokes
 constexpr int kAlternatives = 3;
-constexpr double kAround = 1.7;  // radii of the valve that a closer look takes in
+// Radii of the valve that a closer look takes in, and the largest part of a region that it is worth
+// while for. A map's rays know each other: what suits it was not tried again.
+constexpr double kAround = 1.3, kAroundInMap = 1.7;
+constexpr double kWorthwhile = 0.9, kWorthwhileInMap = 0.5;
 constexpr std::size_t kLocallySearchedLevers = 3;
 constexpr double kHopeless_nats = 200.0;  // more than local search brings
 constexpr double kTubeRadius_m = 0.012;   // where the search starts
@@ -234,7 +237,7 @@ std::optional<RaySet> RaysForCloserLook(const RaySet& region, const ValveCandida
   if (std::ssize(region.rays) <= options.max_rays) return std::nullopt;
   const ValveModel& model = valve.model;
   const double size_m = model.IsLever() ? 0.5 * model.lever_length_m : model.rim_radius_m;
-  const double reach_m = kAround * size_m + 0.03;
+  const double reach_m = (region.dense ? kAroundInMap : kAround) * size_m + 0.03;
   RaySet around = region;
   const auto far_off = [&, middle = MiddleOf(valve)](const RangeRay& ray) {
     return (middle - ray.origin).cross(ray.direction).norm() > reach_m;
@@ -245,7 +248,9 @@ std::optional<RaySet> RaysForCloserLook(const RaySet& region, const ValveCandida
     std::erase_if(beams.rays, far_off);
     around.beams = std::make_shared<const RaySet>(std::move(beams));
   }
-  if (std::ssize(around.rays) < kMinRays || 2 * around.rays.size() >= region.rays.size())
+  if (std::ssize(around.rays) < kMinRays ||
+      static_cast<double>(around.rays.size()) >=
+          (region.dense ? kWorthwhileInMap : kWorthwhile) * static_cast<double>(region.rays.size()))
     return std::nullopt;
   return around;
 }
