@@ -20,7 +20,6 @@ void AddCheckCommand(CLI::App& app, Invocation& invocation);
 void AddCloudCommand(CLI::App& app, Invocation& invocation);
 void AddDepthCommand(CLI::App& app, Invocation& invocation);
 void AddFitCommand(CLI::App& app, Invocation& invocation);
-/// `app` is the command `fit`.
 void AddEvaluateCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateBoardsCommand(CLI::App& app, Invocation& invocation);
