@@ -347,4 +347,25 @@ DoorHardware DrawOtherDoorThing(Random& random, const Material& material, const 
   return hardware;
 }
 
+Rigid<frame::Robot, frame::Object> DoorFacing(const Eigen::Vector3d& position, double yaw_rad,
+                                              double lean_rad) {
+  const Eigen::Vector3d z(-std::cos(yaw_rad) * std::cos(lean_rad),
+                          -std::sin(yaw_rad) * std::cos(lean_rad), std::sin(lean_rad));
+  Eigen::Matrix3d axes;
+  axes.col(0) = Eigen::Vector3d::UnitZ().cross(z).normalized();
+  axes.col(1) = z.cross(axes.col(0));
+  axes.col(2) = z;
+  return {axes, position};
+}
+
+void Hang(std::vector<SceneMesh> parts, const Rigid<frame::Robot, frame::Object>& robot_from_door,
+          Scene& scene) {
+  for (SceneMesh& part : parts) {
+    for (Eigen::Vector3f& vertex : part.vertices)
+      vertex = (robot_from_door * vertex.cast<double>()).cast<float>();
+    part.robot_from_object = robot_from_door;
+    scene.meshes.push_back(std::move(part));
+  }
+}
+
 }  // namespace foresight

@@ -29,6 +29,13 @@ DoorHardware DrawLever(Random& random, const Material& material, const Material&
 /// thumb turn, a cable on clips, a bracket, a light switch, a pipe, a hook, a hinge, a bolt.
 DoorHardware DrawOtherDoorThing(Random& random, const Material& material, const Material& other);
 
+/// A door's frame in robot; `yaw_rad` = the way to it, seen from above, when it is faced squarely.
+Rigid<frame::Robot, frame::Object> DoorFacing(const Eigen::Vector3d& position, double yaw_rad,
+                                              double lean_rad);
+/// Adds meshes that are drawn in a door's frame.
+void Hang(std::vector<SceneMesh> parts, const Rigid<frame::Robot, frame::Object>& robot_from_door,
+          Scene& scene);
+
 /// What a thing on a door is, whoever drew it: measured by rays 3 mm apart from the front and from
 /// the door outwards.
 struct DoorThingMeasures {

@@ -56,14 +56,8 @@ Place RandomPlace(Random& random) {
   const double most_deg = random.Chance(0.5) ? 15.0 : 40.0;
   const double yaw = azimuth + RadiansFromDegrees(random.Uniform(-most_deg, most_deg));
   const double lean = RadiansFromDegrees(0.7 * random.Normal());
-  const Eigen::Vector3d z(-std::cos(yaw) * std::cos(lean), -std::sin(yaw) * std::cos(lean),
-                          std::sin(lean));
-  Eigen::Matrix3d axes;
-  axes.col(0) = Eigen::Vector3d::UnitZ().cross(z).normalized();
-  axes.col(1) = z.cross(axes.col(0));
-  axes.col(2) = z;
   Place place;
-  place.robot_from_door = DoorPose(axes, position);
+  place.robot_from_door = DoorFacing(position, yaw, lean);
   const double drop_m = kHeadHeight_m - height_m;
   place.distance_m = std::hypot(ahead_m, drop_m);
   place.elevation_rad = -std::atan2(drop_m, ahead_m);
@@ -100,15 +94,6 @@ void AddDoor(const Place& place, double hand, Random& random, Scene& scene) {
   box("wall", -backset_m - 2.5, -backset_m - width_m, wall_m, wall);
   box("frame", kLeaf_m - backset_m + 0.003, kLeaf_m - backset_m + width_m, frame_m, frame);
   box("wall", kLeaf_m - backset_m + width_m, kLeaf_m - backset_m + 2.5, wall_m, wall);
-}
-
-void Hang(std::vector<SceneMesh> parts, const DoorPose& robot_from_door, Scene& scene) {
-  for (SceneMesh& part : parts) {
-    for (Eigen::Vector3f& vertex : part.vertices)
-      vertex = (robot_from_door * vertex.cast<double>()).cast<float>();
-    part.robot_from_object = robot_from_door;
-    scene.meshes.push_back(std::move(part));
-  }
 }
 
 /// Things that turn out to be levers are drawn again.

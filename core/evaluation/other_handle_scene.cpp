@@ -50,27 +50,10 @@ void AddDoor(const Pose& door, double hand, Random& random, Scene& scene) {
   box("wall", leaf_m - edge_m, leaf_m - edge_m + 3.0, -1.1, 1.1, frame_m, wall);
 }
 
-std::size_t Hang(std::vector<SceneMesh> parts, const Pose& door, Scene& scene) {
-  const std::size_t first = scene.meshes.size();
-  for (SceneMesh& part : parts) {
-    for (Eigen::Vector3f& vertex : part.vertices)
-      vertex = (door * vertex.cast<double>()).cast<float>();
-    part.robot_from_object = door;
-    scene.meshes.push_back(std::move(part));
-  }
-  return first;
-}
-
 Pose RandomDoor(const Eigen::Vector3d& position, double azimuth, Random& random) {
   const double yaw = azimuth + RadiansFromDegrees(random.Uniform(-45.0, 45.0));
   const double lean = RadiansFromDegrees(1.5 * random.Normal());
-  const Eigen::Vector3d z(-std::cos(yaw) * std::cos(lean), -std::sin(yaw) * std::cos(lean),
-                          std::sin(lean));
-  Eigen::Matrix3d axes;
-  axes.col(0) = Eigen::Vector3d::UnitZ().cross(z).normalized();
-  axes.col(1) = z.cross(axes.col(0));
-  axes.col(2) = z;
-  return Pose(axes, position);
+  return DoorFacing(position, yaw, lean);
 }
 
 }  // namespace
@@ -102,7 +85,8 @@ FitTrialScene OtherHandleScene(std::uint64_t seed) {
   const double hand =
       thing.door_from_handle.Rotate(Eigen::Vector3d::UnitX()).x() < 0.0 ? -1.0 : 1.0;
   AddDoor(door, hand, random, *scene);
-  const std::size_t first = Hang(thing.parts, door, *scene);
+  const std::size_t first = scene->meshes.size();
+  Hang(thing.parts, door, *scene);
   AddObjectPoints(*scene, first, trial);
   trial.focus_m =
       door * (thing.door_from_handle * Eigen::Vector3d(0.5 * thing.model.length_m, 0, 0));
