@@ -8,7 +8,7 @@ namespace foresight {
 namespace {
 
 /// Texts that lupdate finds under this name.
-struct Commands {
+struct ReviewCommands {
   Q_DECLARE_TR_FUNCTIONS(Commands)
 };
 
@@ -61,8 +61,8 @@ void Add(Workbench* bench, const Row& row, std::function<QString()> why_not) {
   bench->commands.Add({.id = row.id,
                        .menu = "review",
                        .icon = row.icon,
-                       .text = Commands::tr(row.text),
-                       .tip = Commands::tr(row.tip),
+                       .text = ReviewCommands::tr(row.text),
+                       .tip = ReviewCommands::tr(row.tip),
                        .keys = QString::fromLatin1(row.keys),
                        .run = [bench, run = row.run] { run(bench); },
                        .why_not = std::move(why_not)});
@@ -74,49 +74,50 @@ void AddReviewCommands(Workbench* bench) {
   const auto in_review = [bench]() -> QString {
     return bench->ShowsReview()
                ? QString()
-               : Commands::tr("The live session is shown. Show the review first (Ctrl+R).");
+               : ReviewCommands::tr("The live session is shown. Show the review first (Ctrl+R).");
   };
   const auto playable = [bench, in_review] {
     const QString live = in_review();
     return live.isEmpty() ? bench->replay.WhyNot() : live;
   };
   for (const Row& row : kReplay) Add(bench, row, playable);
-  bench->commands.Add({.id = "review.skip_idle",
-                       .menu = "review",
-                       .text = Commands::tr("Skip idle time"),
-                       .tip = Commands::tr("Let the replay jump over time in which nothing "
-                                           "happened, to half a second before the next event"),
-                       .keys = QStringLiteral("Ctrl+Shift+Right"),
-                       .run = [bench] { bench->replay.toggleSkipsIdle(); },
-                       .checked = [bench] { return bench->replay.SkipsIdle(); }});
-  bench->commands.Add({.id = "review.whole",
-                       .menu = "review",
-                       .icon = "timeline_whole",
-                       .text = Commands::tr("Leave the replay"),
-                       .tip = Commands::tr("Show all of the scan again, with all that was found"),
-                       .keys = QStringLiteral("Shift+P"),
-                       .run = [bench] { bench->replay.leave(); },
-                       .why_not = [bench, in_review]() -> QString {
-                         const QString live = in_review();
-                         if (!live.isEmpty()) return live;
-                         return bench->replay.Active()
-                                    ? QString()
-                                    : Commands::tr("All of the scan is shown already.");
-                       }});
+  bench->commands.Add(
+      {.id = "review.skip_idle",
+       .menu = "review",
+       .text = ReviewCommands::tr("Skip idle time"),
+       .tip = ReviewCommands::tr("Let the replay jump over time in which nothing "
+                                 "happened, to half a second before the next event"),
+       .keys = QStringLiteral("Ctrl+Shift+Right"),
+       .run = [bench] { bench->replay.toggleSkipsIdle(); },
+       .checked = [bench] { return bench->replay.SkipsIdle(); }});
+  bench->commands.Add(
+      {.id = "review.whole",
+       .menu = "review",
+       .icon = "timeline_whole",
+       .text = ReviewCommands::tr("Leave the replay"),
+       .tip = ReviewCommands::tr("Show all of the scan again, with all that was found"),
+       .keys = QStringLiteral("Shift+P"),
+       .run = [bench] { bench->replay.leave(); },
+       .why_not = [bench, in_review]() -> QString {
+         const QString live = in_review();
+         if (!live.isEmpty()) return live;
+         return bench->replay.Active() ? QString()
+                                       : ReviewCommands::tr("All of the scan is shown already.");
+       }});
   for (const Row& row : kTimeline) Add(bench, row, playable);
-  bench->commands.Add({.id = "review.close",
-                       .menu = "review",
-                       .text = Commands::tr("Close the mission"),
-                       .tip = Commands::tr("Close the mission that is shown for review; what you "
-                                           "found in it is kept beside it"),
-                       .keys = QStringLiteral("Ctrl+W"),
-                       .run = [bench] { bench->reviewer.close(); },
-                       .why_not = [bench, in_review]() -> QString {
-                         const QString live = in_review();
-                         if (!live.isEmpty()) return live;
-                         return bench->reviewer.File() ? QString()
-                                                       : Commands::tr("No mission is open.");
-                       }});
+  bench->commands.Add(
+      {.id = "review.close",
+       .menu = "review",
+       .text = ReviewCommands::tr("Close the mission"),
+       .tip = ReviewCommands::tr("Close the mission that is shown for review; what you "
+                                 "found in it is kept beside it"),
+       .keys = QStringLiteral("Ctrl+W"),
+       .run = [bench] { bench->reviewer.close(); },
+       .why_not = [bench, in_review]() -> QString {
+         const QString live = in_review();
+         if (!live.isEmpty()) return live;
+         return bench->reviewer.File() ? QString() : ReviewCommands::tr("No mission is open.");
+       }});
 }
 
 }  // namespace foresight

@@ -12,7 +12,7 @@ namespace foresight {
 namespace {
 
 constexpr std::size_t kFewestPoseCorners = 4;
-constexpr double kNotShown_px = 200.0;
+constexpr double kHiddenCorner_px = 200.0;
 
 /// Corners moved and scaled so that the linear equations are well conditioned.
 struct CenteredCorners {
@@ -114,7 +114,7 @@ NormalEquations Linearize(const ViewedCorners& view, const CameraModel& camera,
     const Eigen::Vector3d point = rotation * view.corners[i] + pose.translation();
     const auto pixel = camera.Project(point, with_derivatives ? &by_point : nullptr, nullptr);
     if (!pixel) {
-      equations.cost += kNotShown_px * kNotShown_px;
+      equations.cost += kHiddenCorner_px * kHiddenCorner_px;
       continue;
     }
     ++equations.shown;

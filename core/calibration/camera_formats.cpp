@@ -263,7 +263,7 @@ CameraModel FromKalibr(YamlMap& top) {
   return camera;
 }
 
-std::vector<std::string> Words(const std::string& line) {
+std::vector<std::string> WordsOfLine(const std::string& line) {
   std::vector<std::string> words;
   std::size_t begin = line.find_first_not_of(" \t\r");
   while (begin != std::string::npos) {
@@ -336,7 +336,7 @@ Result<CameraModel> FromColmap(const std::string& text, const std::string& sourc
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::vector<std::string> words = Words(text.substr(begin, end - begin));
+    const std::vector<std::string> words = WordsOfLine(text.substr(begin, end - begin));
     begin = end + 1;
     if (!words.empty() && words[0][0] != '#') return ColmapCamera(words, source);
   }

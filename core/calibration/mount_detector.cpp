@@ -12,7 +12,7 @@
 namespace foresight {
 namespace {
 
-using Kind = CalibrationBoard::Kind;
+using BoardKind = CalibrationBoard::Kind;
 
 /// A grid of the image that can be a board.
 struct MountCandidate {
@@ -177,7 +177,8 @@ MountView DetectCheckerboards(const GrayImage& image, const BoardMount& mount,
 }
 
 bool AreCheckerboards(const BoardMount& mount) {
-  return mount.b && mount.a.kind == Kind::kCheckerboard && mount.b->kind == Kind::kCheckerboard;
+  return mount.b && mount.a.kind == BoardKind::kCheckerboard &&
+         mount.b->kind == BoardKind::kCheckerboard;
 }
 
 /// Of a board that no other checkerboard stands beside.
@@ -232,7 +233,8 @@ Status CheckInImages(const BoardMount& mount) {
         "dictionaries",
         b.columns, b.rows);
   }
-  if (a.kind == Kind::kCharuco && b.kind == Kind::kCharuco && a.dictionary == b.dictionary)
+  if (a.kind == BoardKind::kCharuco && b.kind == BoardKind::kCharuco &&
+      a.dictionary == b.dictionary)
     return Fail(
         ErrorCode::kInvalidOptions,
         "both boards of the stand have markers of the dictionary {}: an image does not tell "

@@ -14,7 +14,7 @@
 namespace foresight {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
 ImageField FieldOf(int width, int height, MapSize size,
                    const std::function<double(const Eigen::Vector2d&)>& value) {
@@ -73,14 +73,14 @@ double ImageField::Median() const {
 
 double ImageField::Largest() const {
   const std::vector<double> finite = Finite(values);
-  return finite.empty() ? kNone : *std::max_element(finite.begin(), finite.end());
+  return finite.empty() ? kUnseen : *std::max_element(finite.begin(), finite.end());
 }
 
 ImageField ProjectionUncertainty(const BundleCovariance& covariance, int width, int height,
                                  double distance_m, MapSize size) {
   return FieldOf(width, height, size, [&](const Eigen::Vector2d& pixel) {
     const auto square = covariance.OfProjection(pixel, distance_m);
-    if (!square) return kNone;
+    if (!square) return kUnseen;
     return std::sqrt(std::max(0.0, EigenOf(*square).values[1]));
   });
 }
@@ -118,9 +118,9 @@ ImageField DifferenceOfHalves(const CameraHalves& halves, double distance_m, Map
   const double length = std::isinf(distance_m) ? 1.0 : distance_m;
   return FieldOf(halves.odd.width, halves.odd.height, size, [&](const Eigen::Vector2d& pixel) {
     const auto ray = halves.odd.Unproject(pixel);
-    if (!ray) return kNone;
+    if (!ray) return kUnseen;
     const auto seen = halves.even.Project(even_from_odd * Eigen::Vector3d(length * *ray));
-    return seen ? (*seen - pixel).norm() : kNone;
+    return seen ? (*seen - pixel).norm() : kUnseen;
   });
 }
 

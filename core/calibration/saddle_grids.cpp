@@ -15,7 +15,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kNone = -1;
+constexpr int kNoPoint = -1;
 constexpr double kLeastCosine = 0.93;  // 21 deg: edges of a fisheye image bend
 constexpr int kTries = 4;              // of the nearest points in a direction
 
@@ -29,13 +29,13 @@ class Links {
   }
 
   struct End {
-    int point = kNone;
+    int point = kNoPoint;
     int edge = 0;  ///< of that point
   };
   /// Nothing where the other point's edge leads elsewhere.
   End Of(int point, int edge) const {
     const End end = Raw(point, edge);
-    if (end.point == kNone || Raw(end.point, end.edge).point != point) return {};
+    if (end.point == kNoPoint || Raw(end.point, end.edge).point != point) return {};
     return end;
   }
 
@@ -48,7 +48,7 @@ class Links {
   int EdgeBack(std::size_t point, std::size_t edge, const Eigen::Vector2d& step) const {
     for (std::size_t back = (edge + 1) % 2; back < 4; back += 2)
       if (points_[point].edges[back].dot(step) < -kLeastCosine) return static_cast<int>(back);
-    return kNone;
+    return kNoPoint;
   }
 
   End Follow(std::size_t from, std::size_t edge) const {
@@ -63,7 +63,7 @@ class Links {
       const double length = step.norm();
       if (ahead < kLeastCosine * length || length >= nearest.back().first) continue;
       const int back = EdgeBack(to, edge, step / length);
-      if (back == kNone) continue;
+      if (back == kNoPoint) continue;
       nearest.back() = {length, {static_cast<int>(to), back}};
       for (std::size_t i = nearest.size() - 1; i > 0 && nearest[i].first < nearest[i - 1].first;
            --i)
@@ -71,7 +71,7 @@ class Links {
     }
     const int light = edge % 2 == 0 ? 1 : -1;
     for (const auto& [length, end] : nearest) {
-      if (end.point == kNone) break;
+      if (end.point == kNoPoint) break;
       const SaddlePoint& other = points_[static_cast<std::size_t>(end.point)];
       if (LightSide(image_, start.pixel, other.pixel,
                     kEdgeContrast * std::min(start.contrast, other.contrast)) == light)
@@ -110,7 +110,7 @@ Places PlacesFrom(int start, const Links& links, std::vector<bool>& taken) {
     open.pop();
     for (int step = 0; step < 4; ++step) {
       const auto next = links.Of(here.point, (here.right + step) % 4);
-      if (next.point == kNone) continue;
+      if (next.point == kNoPoint) continue;
       const auto [right, down] = kSteps[static_cast<std::size_t>(step)];
       // Of the next point, the edge back is the one opposite to the step.
       add({next.point,

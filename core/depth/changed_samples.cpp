@@ -5,7 +5,7 @@
 namespace foresight {
 namespace {
 
-bool SameBits(const AlignedSample& a, const AlignedSample& b) {
+bool SameSample(const AlignedSample& a, const AlignedSample& b) {
   static_assert(sizeof(AlignedSample) == 8 * 4, "no padding, so equal samples have equal bytes");
   return std::memcmp(&a, &b, sizeof(AlignedSample)) == 0;
 }
@@ -21,7 +21,7 @@ SampleChange CompareSamples(const MappedSamples& before, const MappedSamples& no
   for (std::size_t q = 0; q < now.map.size(); ++q) {
     const auto source = static_cast<std::size_t>(now.map.sources()[q]);
     const std::int32_t p = source < place.size() ? place[source] : -1;
-    if (p >= 0 && SameBits(before.samples.samples[source], now.samples.samples[source])) {
+    if (p >= 0 && SameSample(before.samples.samples[source], now.samples.samples[source])) {
       change.before[q] = p;
       stayed[static_cast<std::size_t>(p)] = true;
     } else {

@@ -16,7 +16,7 @@ namespace {
 
 /// Rows that a worker filters at a time: enough to share the work of finding their samples, few
 /// enough to keep all workers busy to the end.
-constexpr int kBlockRows = 8;
+constexpr int kFilteredRows = 8;
 
 /// Mean change of each pass over the pixels that have a depth, from the blocks' sums.
 std::vector<double> MeanChanges(std::span<const double> sums,
@@ -68,9 +68,9 @@ Status JointUpsampler::Update(const AlignedSamples& samples, const RunContext& c
   MappedSamples now(samples);
   const SpatialKernel spatial(sigma_px, options_.radius_in_sigmas * sigma_px);
   const SampleChange change = before ? CompareSamples(*before, now) : EverythingNew(now);
-  const std::vector<int> blocks = change.rows.GrownBy(spatial.radius()).Blocks(kBlockRows);
+  const std::vector<int> blocks = change.rows.GrownBy(spatial.radius()).Blocks(kFilteredRows);
   FORESIGHT_CHECK(FilterRowsOf(now.map, spatial, blocks, context));
-  filtered_rows_ = std::min(guide_.height(), static_cast<int>(blocks.size()) * kBlockRows);
+  filtered_rows_ = std::min(guide_.height(), static_cast<int>(blocks.size()) * kFilteredRows);
 
   dense_.nominal_confidence = static_cast<float>(NominalConfidence(options_, spatial, density));
   dense_.max_confidence = 0.0f;
@@ -84,7 +84,8 @@ Status JointUpsampler::Update(const AlignedSamples& samples, const RunContext& c
 
 void JointUpsampler::Reset(double sigma_px) {
   const auto passes = static_cast<std::size_t>(options_.iterations);
-  const auto blocks = static_cast<std::size_t>((guide_.height() + kBlockRows - 1) / kBlockRows);
+  const auto blocks =
+      static_cast<std::size_t>((guide_.height() + kFilteredRows - 1) / kFilteredRows);
   if (gray_.empty()) gray_ = ToGray(guide_);
   dense_ = DenseDepth();
   dense_.sigma_spatial_px = sigma_px;
@@ -112,11 +113,11 @@ Status JointUpsampler::FilterRowsOf(const SparseDepthMap& map, const SpatialKern
   const int count = static_cast<int>(blocks.size());
   std::atomic<int> blocks_done{0};
   const bool finished = ParallelFor(count, context, [&](int i) {
-    const int top = blocks[static_cast<std::size_t>(i)] * kBlockRows;
-    const auto b = static_cast<std::size_t>(top / kBlockRows);
+    const int top = blocks[static_cast<std::size_t>(i)] * kFilteredRows;
+    const auto b = static_cast<std::size_t>(top / kFilteredRows);
     FilterChange change{std::span(change_sums_).subspan(b * passes, passes)};
     std::fill(change.sum_m.begin(), change.sum_m.end(), 0.0);
-    FilterRows(filter, top, std::min(top + kBlockRows, guide_.height()),
+    FilterRows(filter, top, std::min(top + kFilteredRows, guide_.height()),
                {dense_.depth_m, dense_.confidence, dense_.iterations}, change);
     pixels_[b] = change.pixels;
     context.Report(static_cast<double>(++blocks_done) / count, "upsampling");

@@ -18,7 +18,7 @@ Json EvidenceJson(const CylinderEvidence& evidence) {
           {"box_margin_nats", evidence.box_margin_nats}};
 }
 
-CylinderEvidence EvidenceFrom(const Json& value) {
+CylinderEvidence CylinderEvidenceFrom(const Json& value) {
   CylinderEvidence evidence;
   evidence.rays = CountIn(value, "rays");
   evidence.hits = CountIn(value, "hits");
@@ -61,7 +61,7 @@ CylinderDetection CylinderFrom(const Json& value) {
   cylinder.sigma_across_m = NumberFrom(value.at("sigma_across_m"));
   cylinder.sigma_axis_rad = NumberFrom(value.at("sigma_axis_rad"));
   cylinder.covariance = CovarianceFrom(value);
-  cylinder.evidence = EvidenceFrom(value.at("evidence"));
+  cylinder.evidence = CylinderEvidenceFrom(value.at("evidence"));
   return cylinder;
 }
 

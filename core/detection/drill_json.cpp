@@ -44,7 +44,7 @@ Json EvidenceJson(const DrillEvidence& evidence) {
           {"best_alternative", evidence.best_alternative}};
 }
 
-DrillCandidate CandidateFrom(const Json& value) {
+DrillCandidate DrillCandidateFrom(const Json& value) {
   return {PoseFrom(value.at("base_from_object")), DrillModelFrom(value.at("model")),
           NumberFrom(value.at("log_likelihood"))};
 }
@@ -142,7 +142,7 @@ Json ToJson(const DrillDetection& detection,
 
 DrillDetection DrillFrom(const Json& value) {
   DrillDetection detection;
-  detection.best = CandidateFrom(value.at("best"));
+  detection.best = DrillCandidateFrom(value.at("best"));
   detection.sigma_position_m = Vector3From(value.at("sigma_position_m"));
   detection.sigma_yaw_rad = NumberFrom(value.at("sigma_yaw_rad"));
   detection.sigma_axis_rad = NumberFrom(value.at("sigma_axis_rad"));
@@ -151,7 +151,7 @@ DrillDetection DrillFrom(const Json& value) {
     detection.table = Plane{Vector3From(table.at("normal")), NumberFrom(table.at("offset_m"))};
   detection.evidence = DrillEvidenceFrom(value.at("evidence"));
   for (const Json& alternative : AlternativesIn(value))
-    detection.alternatives.push_back(CandidateFrom(alternative));
+    detection.alternatives.push_back(DrillCandidateFrom(alternative));
   return detection;
 }
 

@@ -36,7 +36,7 @@ Json EvidenceJson(const HandleEvidence& evidence) {
           {"best_alternative", evidence.best_alternative}};
 }
 
-HandleEvidence EvidenceFrom(const Json& value) {
+HandleEvidence HandleEvidenceFrom(const Json& value) {
   HandleEvidence evidence;
   evidence.rays = CountIn(value, "rays");
   evidence.hits = CountIn(value, "hits");
@@ -116,7 +116,7 @@ HandleDetection HandleFrom(const Json& value) {
   detection.sigma_normal_rad = NumberFrom(value.at("sigma_normal_rad"));
   detection.sigma_length_m = NumberFrom(value.at("sigma_length_m"));
   detection.covariance = CovarianceFrom(value);
-  detection.evidence = EvidenceFrom(value.at("evidence"));
+  detection.evidence = HandleEvidenceFrom(value.at("evidence"));
   for (const Json& alternative : AlternativesIn(value))
     detection.alternatives.push_back(CandidateFrom(alternative));
   return detection;

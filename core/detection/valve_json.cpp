@@ -38,7 +38,7 @@ ValveModel::Kind KindFrom(const std::string& name) {
   throw std::invalid_argument("valve '" + name + "' is not known");
 }
 
-ValveCandidate CandidateFrom(const Json& value) {
+ValveCandidate ValveCandidateFrom(const Json& value) {
   ValveCandidate valve{PoseFrom(value.at("base_from_object")), ValveModelFrom(value.at("model")),
                        NumberFrom(value.at("log_likelihood"))};
   if (value.contains("brightness")) valve.brightness = NumberFrom(value["brightness"]);
@@ -114,7 +114,7 @@ Json ToJson(const ValveDetection& detection,
 
 ValveDetection ValveFrom(const Json& value) {
   ValveDetection detection;
-  detection.best = CandidateFrom(value.at("best"));
+  detection.best = ValveCandidateFrom(value.at("best"));
   detection.phase_observable = value.at("phase_observable");
   detection.sigma_position_m = Vector3From(value.at("sigma_position_m"));
   detection.sigma_axis_rad = NumberFrom(value.at("sigma_axis_rad"));
@@ -122,7 +122,7 @@ ValveDetection ValveFrom(const Json& value) {
   detection.covariance = CovarianceFrom(value);
   detection.evidence = ValveEvidenceFrom(value.at("evidence"));
   for (const Json& alternative : AlternativesIn(value))
-    detection.alternatives.push_back(CandidateFrom(alternative));
+    detection.alternatives.push_back(ValveCandidateFrom(alternative));
   return detection;
 }
 

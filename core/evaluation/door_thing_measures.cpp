@@ -11,7 +11,7 @@
 namespace foresight {
 namespace {
 
-constexpr double kStep_m = 0.003;
+constexpr double kProbeStep_m = 0.003;
 constexpr double kLifted_m = 0.022;  // off the door: what a hand can go behind
 // What is solid at all of these heights off the door carries what is above: neck and post, and no
 // plate that lies on the door, nor an end that is bent back to it.
@@ -53,8 +53,8 @@ LiftedCells CellsOf(const DoorHardware& hardware) {
     }
   const RayCaster caster(scene);
   LiftedCells cells;
-  for (double x = low.x() + 0.5 * kStep_m; x < high.x(); x += kStep_m)
-    for (double y = low.y() + 0.5 * kStep_m; y < high.y(); y += kStep_m) {
+  for (double x = low.x() + 0.5 * kProbeStep_m; x < high.x(); x += kProbeStep_m)
+    for (double y = low.y() + 0.5 * kProbeStep_m; y < high.y(); y += kProbeStep_m) {
       const Eigen::Vector3d front(x, y, kFront_m);
       const double top_m =
           kFront_m - caster.Cast({front.cast<float>(), {0.0F, 0.0F, -1.0F}}).distance_m;
@@ -96,11 +96,11 @@ DoorThingMeasures MeasureDoorThing(const DoorHardware& hardware) {
     first = std::min(first, s);
     last = std::max(last, s);
   }
-  measures.length_m = high - low + kStep_m;
-  measures.width_m = right - left + kStep_m;
+  measures.length_m = high - low + kProbeStep_m;
+  measures.width_m = right - left + kProbeStep_m;
   if (last < first) return measures;  // nothing reaches the door
   // The carried end is the one that the last carried place is nearer to.
-  const double from_low = last - low + kStep_m, from_high = high - first + kStep_m;
+  const double from_low = last - low + kProbeStep_m, from_high = high - first + kProbeStep_m;
   measures.carried_m = std::min(from_low, from_high);
   measures.free_m = measures.length_m - measures.carried_m;
   return measures;

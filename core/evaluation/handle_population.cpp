@@ -18,7 +18,7 @@ constexpr double kNormalOk_deg = 5.0;
 constexpr double kPivotAllOk_mm = 15.0;
 constexpr double kDirectionAllOk_deg = 8.0;
 constexpr double kLengthAllOk_mm = 20.0;
-constexpr double kFlipped_deg = 90.0;
+constexpr double kHandleFlipped_deg = 90.0;
 
 struct HandleErrors {
   double pivot_mm = 0.0;
@@ -67,7 +67,7 @@ std::vector<FitOutcome> HandlePopulation::Judge(const FitTrial& trial,
                     {"direction_deg", errors.direction_deg},
                     {"normal_deg", errors.normal_deg},
                     {"length_mm", std::abs(errors.length_mm)},
-                    {"flip", errors.direction_deg > kFlipped_deg ? 1.0 : 0.0}};
+                    {"flip", errors.direction_deg > kHandleFlipped_deg ? 1.0 : 0.0}};
   AddSigmaErrors(detection.best.base_from_object.Inverse() * base_from_truth, detection.covariance,
                  2.0 * std::numbers::pi, outcome.errors);
   if (detection.sigma_length_m > 0.0)

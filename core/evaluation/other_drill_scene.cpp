@@ -15,7 +15,7 @@ using Pose = Rigid<frame::Robot, frame::Object>;
 
 constexpr std::uint64_t kOtherDrillStream = 91002;
 
-Pose Upright(const Eigen::Vector3d& position, double yaw_rad) {
+Pose UprightPose(const Eigen::Vector3d& position, double yaw_rad) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), position};
 }
 
@@ -36,18 +36,19 @@ void AddBench(const Eigen::Vector3d& foot, double azimuth_rad, Random& random, S
   const double front = random.Uniform(0.08, 0.5), depth = front + random.Uniform(0.2, 0.9);
   const double thick = random.Uniform(0.015, 0.08);
   AddSolid("bench", BoxShape({depth, random.Uniform(0.6, 2.5), thick}),
-           Upright(foot + (0.5 * depth - front) * away - 0.5 * thick * Eigen::Vector3d::UnitZ(),
-                   azimuth_rad + random.Uniform(-0.5, 0.5)),
+           UprightPose(foot + (0.5 * depth - front) * away - 0.5 * thick * Eigen::Vector3d::UnitZ(),
+                       azimuth_rad + random.Uniform(-0.5, 0.5)),
            random, scene);
-  AddSolid("floor", BoxShape({14.0, 14.0, 0.1}), Upright({0.0, 0.0, -0.05}, 0.0), random, scene);
+  AddSolid("floor", BoxShape({14.0, 14.0, 0.1}), UprightPose({0.0, 0.0, -0.05}, 0.0), random,
+           scene);
   const int count = random.Index(5);
   for (int i = 0; i < count; ++i) {
     const double side = random.Chance(0.5) ? 1.0 : -1.0;
     const Eigen::Vector3d at =
         foot + random.Uniform(-0.10, 0.35) * away + side * random.Uniform(0.18, 0.45) * left;
     const double high = random.Uniform(0.01, 0.30), radius = random.Uniform(0.01, 0.06);
-    const Pose pose = Upright(at + 0.5 * high * Eigen::Vector3d::UnitZ(),
-                              random.Uniform(-std::numbers::pi, std::numbers::pi));
+    const Pose pose = UprightPose(at + 0.5 * high * Eigen::Vector3d::UnitZ(),
+                                  random.Uniform(-std::numbers::pi, std::numbers::pi));
     if (random.Chance(0.5))
       AddSolid("clutter", CylinderShape(radius, high), pose, random, scene);
     else
@@ -63,7 +64,7 @@ DrillTruth Stand(const OtherTool& tool, const Eigen::Vector3d& foot, double yaw_
   const double origin_x = tool.grip_low_m.x() - tool.grip_low_m.z() * along.x() / along.z();
   DrillTruth truth;
   truth.name = tool.name;
-  truth.robot_from_object = Upright(foot, yaw_rad);
+  truth.robot_from_object = UprightPose(foot, yaw_rad);
   truth.body_tilt_rad = {0.0, std::atan2(along.x(), along.z())};
   truth.grip_height_m = 0.5 * (tool.grip_low_m + tool.grip_high_m).z() / along.z();
   const Pose robot_from_tool =

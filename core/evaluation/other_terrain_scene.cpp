@@ -159,7 +159,7 @@ void AddHose(const Ground& ground, Random& random, Scene& scene) {
   scene.meshes.push_back(std::move(mesh));
 }
 
-ScanPlan RandomPlan(Random& random) {
+ScanPlan OtherPlan(Random& random) {
   constexpr double kLinesPerSecond = 40.0;
   ScanPlan plan;
   plan.from_rad = RadiansFromDegrees(random.Uniform(-80.0, -65.0));
@@ -219,7 +219,7 @@ FitTrialScene OtherTerrainScene(std::uint64_t seed) {
   SetOtherConditions(random, trial);
   scene->name = trial.what;
   trial.scene = scene;
-  trial.plan = RandomPlan(random);
+  trial.plan = OtherPlan(random);
   trial.focus_m = {ground.middle_m.x(), ground.middle_m.y(), ground.height_m + 0.2};
   trial.focus_radius_m = 0.25 * std::hypot(rows, columns);
   return trial;

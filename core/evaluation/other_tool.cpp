@@ -264,7 +264,7 @@ namespace {
 
 constexpr double kStep_m = 0.003;
 constexpr int kColumns = 200, kRows = 130;
-constexpr double kFrom_m = -0.25;
+constexpr double kGridFrom_m = -0.25;
 
 /// A silhouette of a tool on the plane of x (or y) and z.
 class Silhouette {
@@ -284,13 +284,13 @@ class Silhouette {
     for (const SceneHit& hit : hits) filled_.push_back(hit.mesh >= 0);
   }
 
-  static double At(int column) { return kFrom_m + kStep_m * (column + 0.5); }
+  static double At(int column) { return kGridFrom_m + kStep_m * (column + 0.5); }
   static double Height(int row) { return kStep_m * (row + 0.5); }
   static int RowAt(double height) {
     return std::clamp(static_cast<int>(height / kStep_m), 0, kRows - 1);
   }
   static int ColumnAt(double x) {
-    return std::clamp(static_cast<int>((x - kFrom_m) / kStep_m), 0, kColumns - 1);
+    return std::clamp(static_cast<int>((x - kGridFrom_m) / kStep_m), 0, kColumns - 1);
   }
   bool Filled(int row, int column) const {
     return filled_[static_cast<std::size_t>(row * kColumns + column)];

@@ -15,7 +15,7 @@ namespace foresight {
 namespace {
 
 constexpr std::uint64_t kTerrainStream = 4343;
-constexpr int kColumns = 3;
+constexpr int kBlockColumns = 3;
 constexpr double kLayer_m = 0.19;
 constexpr int kLayers = 3;
 constexpr double kTilt_rad = RadiansFromDegrees(15.0);
@@ -66,11 +66,11 @@ void AddField(const TerrainLayout& layout, int rows, Random& random, Scene& scen
   const double pitch_m = random.Uniform(0.405, 0.440);
   const Material one = RandomConcrete(random), other = RandomConcrete(random);
   for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < kColumns; ++column) {
+    for (int column = 0; column < kBlockColumns; ++column) {
       const double rise = static_cast<double>(row) / rows * kLayers + random.Uniform(-1.0, 0.6);
       const int layer = std::clamp(static_cast<int>(std::floor(rise)), 0, kLayers - 1);
       const Eigen::Vector2d at((row - 0.5 * (rows - 1)) * pitch_m,
-                               (column - 0.5 * (kColumns - 1)) * pitch_m);
+                               (column - 0.5 * (kBlockColumns - 1)) * pitch_m);
       const Eigen::Quaterniond tilt = BlockTilt(row, column, random);
       AddCell(layout, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random, scene);
     }
@@ -124,7 +124,7 @@ FitTrialScene RandomTerrainScene(std::uint64_t seed) {
     trial.what = "scattered blocks";
   } else if (trial.positive) {
     AddField(layout, rows, random, *scene);
-    trial.what = fmt::format("field of {} x {} blocks", rows, kColumns);
+    trial.what = fmt::format("field of {} x {} blocks", rows, kBlockColumns);
   } else {
     trial.what = AddTerrainDistractor(layout, random, *scene);
   }
@@ -133,7 +133,7 @@ FitTrialScene RandomTerrainScene(std::uint64_t seed) {
   trial.plan = RandomPlan(random);
   trial.world.lidar.sigma_base_m = random.Uniform(0.004, 0.020);
   trial.focus_m = {layout.middle_m.x(), layout.middle_m.y(), layout.ground_m + 0.2};
-  trial.focus_radius_m = 0.5 * std::hypot(0.42 * rows, 0.42 * kColumns);
+  trial.focus_radius_m = 0.5 * std::hypot(0.42 * rows, 0.42 * kBlockColumns);
   return trial;
 }
 

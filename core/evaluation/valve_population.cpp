@@ -79,6 +79,14 @@ std::vector<FitOutcome> ValvePopulation::Judge(const FitTrial& trial,
   outcome.errors = {{"center_mm", errors.center_mm}, {"along_mm", errors.along_mm},
                     {"axis_deg", errors.axis_deg},   {"radius_mm", errors.radius_mm},
                     {"phase_deg", errors.phase_deg}, {"spokes", errors.spokes_right ? 0.0 : 1.0}};
+  if (!truth.model.IsLever()) {
+    const ValveModel& model = detection.best.model;
+    outcome.errors.emplace_back("rim_width_mm",
+                                1000.0 * (model.tube_radius_m - truth.model.tube_radius_m));
+    outcome.errors.emplace_back("rim_depth_mm",
+                                1000.0 * (model.RimDepth() - truth.model.RimDepth()));
+    outcome.errors.emplace_back("brightness", detection.best.brightness);
+  }
   const bool round = truth.model.IsLever() || truth.model.spokes == 0;
   AddSigmaErrors(detection.best.base_from_object.Inverse() *
                      (trial.TrueBaseFromRobot() * truth.robot_from_object),

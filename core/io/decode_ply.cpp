@@ -34,7 +34,7 @@ struct Element {
   }
 };
 
-struct Header {
+struct PlyHeader {
   Format format = Format::kAscii;
   std::vector<std::string> comments;
   std::vector<Element> elements;
@@ -63,7 +63,7 @@ Result<Format> FormatNamed(std::string_view name, const std::string& source) {
   return Fail(ErrorCode::kBadData, "{}: PLY format '{}' is not known", source, name.substr(0, 32));
 }
 
-Status ReadHeaderLine(const std::vector<std::string_view>& words, Header& header,
+Status ReadHeaderLine(const std::vector<std::string_view>& words, PlyHeader& header,
                       const std::string& source) {
   const auto fail = [&] {
     return Fail(ErrorCode::kBadData, "{}: PLY header: '{} ...' makes no sense", source,
@@ -106,8 +106,8 @@ Status ReadHeaderLine(const std::vector<std::string_view>& words, Header& header
 }
 
 /// Leaves `rest` at the first byte after the header.
-Result<Header> ReadHeader(std::string_view& rest, const std::string& source) {
-  Header header;
+Result<PlyHeader> ReadHeaderLines(std::string_view& rest, const std::string& source) {
+  PlyHeader header;
   bool has_format = false;
   TakeLine(rest);
   while (const auto line = TakeLine(rest)) {
@@ -211,7 +211,7 @@ Result<std::vector<NamedColumn>> KnownColumns(const Element& vertex, Format form
 
 /// Calls `read(vertex, format, rest)` with what stands at the vertices.
 template <class Read>
-auto AtVertices(const Header& header, std::string_view bytes, const std::string& source,
+auto AtVertices(const PlyHeader& header, std::string_view bytes, const std::string& source,
                 const Read& read) -> decltype(read(Element(), Format(), bytes)) {
   for (const Element& element : header.elements) {
     if (element.name == "vertex") return read(element, header.format, bytes);
@@ -291,16 +291,16 @@ Result<std::vector<Eigen::Vector3i>> ReadFaces(const Element& face, Format forma
   return triangles;
 }
 
-Result<Header> ReadPlyHeader(std::string_view& bytes, const std::string& source) {
+Result<PlyHeader> ReadPlyHeader(std::string_view& bytes, const std::string& source) {
   if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
     return Fail(ErrorCode::kBadData, "{}: is not a PLY file: it does not start with 'ply'", source);
-  return ReadHeader(bytes, source);
+  return ReadHeaderLines(bytes, source);
 }
 
 }  // namespace
 
 Result<std::vector<Eigen::Vector3d>> DecodePly(std::string_view bytes, const std::string& source) {
-  FORESIGHT_TRY(const Header header, ReadPlyHeader(bytes, source));
+  FORESIGHT_TRY(const PlyHeader header, ReadPlyHeader(bytes, source));
   return AtVertices(header, bytes, source,
                     [&](const Element& vertex, Format format, std::string_view rest) {
                       return ReadVertices(vertex, format, rest, source);
@@ -308,7 +308,7 @@ Result<std::vector<Eigen::Vector3d>> DecodePly(std::string_view bytes, const std
 }
 
 Result<TriangleMesh> DecodePlyMesh(std::string_view bytes, const std::string& source) {
-  FORESIGHT_TRY(const Header header, ReadPlyHeader(bytes, source));
+  FORESIGHT_TRY(const PlyHeader header, ReadPlyHeader(bytes, source));
   TriangleMesh mesh;
   bool has_faces = false;
   for (const Element& element : header.elements) {
@@ -326,7 +326,7 @@ Result<TriangleMesh> DecodePlyMesh(std::string_view bytes, const std::string& so
 }
 
 Result<CloudTable> DecodePlyTable(std::string_view bytes, const std::string& source) {
-  FORESIGHT_TRY(Header header, ReadPlyHeader(bytes, source));
+  FORESIGHT_TRY(PlyHeader header, ReadPlyHeader(bytes, source));
   FORESIGHT_TRY(std::vector<NamedColumn> columns,
                 AtVertices(header, bytes, source,
                            [&](const Element& vertex, Format format, std::string_view rest) {

@@ -16,28 +16,28 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint64_t kMostPixels = 200'000'000;
+constexpr std::uint64_t kJpegMostPixels = 200'000'000;
 // A block of 8 x 8 pixels needs at least a few bits; progressive files may leave whole scans out,
 // so the guard is generous. It keeps a small file from asking for a huge image.
 constexpr std::uint64_t kMostPixelsPerByte = 4096;
 
 /// What libjpeg works on. Errors leave its calls by longjmp, so the functions that set a jump point
 /// own nothing that needs a destructor; everything lives here.
-struct Decoder {
-  Decoder() {
+struct JpegDecoder {
+  JpegDecoder() {
     jpeg.err = jpeg_std_error(&errors);
     errors.error_exit = OnError;
     errors.emit_message = OnMessage;
     jpeg.client_data = this;
   }
-  ~Decoder() {
+  ~JpegDecoder() {
     if (created) jpeg_destroy_decompress(&jpeg);
   }
-  Decoder(const Decoder&) = delete;
-  Decoder& operator=(const Decoder&) = delete;
+  JpegDecoder(const JpegDecoder&) = delete;
+  JpegDecoder& operator=(const JpegDecoder&) = delete;
 
   [[noreturn]] static void OnError(j_common_ptr common) {
-    auto* decoder = static_cast<Decoder*>(common->client_data);
+    auto* decoder = static_cast<JpegDecoder*>(common->client_data);
     common->err->format_message(common, decoder->message.data());
     std::longjmp(decoder->jump, 1);
   }
@@ -53,7 +53,7 @@ struct Decoder {
   std::array<char, JMSG_LENGTH_MAX> message{};
 };
 
-bool Start(Decoder& decoder, std::string_view bytes, J_COLOR_SPACE color_space) {
+bool Start(JpegDecoder& decoder, std::string_view bytes, J_COLOR_SPACE color_space) {
   if (setjmp(decoder.jump) != 0) return false;
   jpeg_create_decompress(&decoder.jpeg);
   decoder.created = true;
@@ -66,7 +66,7 @@ bool Start(Decoder& decoder, std::string_view bytes, J_COLOR_SPACE color_space) 
   return true;
 }
 
-bool ReadRows(Decoder& decoder, JSAMPROW* rows) {
+bool ReadRows(JpegDecoder& decoder, JSAMPROW* rows) {
   if (setjmp(decoder.jump) != 0) return false;
   jpeg_start_decompress(&decoder.jpeg);
   while (decoder.jpeg.output_scanline < decoder.jpeg.output_height)
@@ -79,7 +79,7 @@ bool ReadRows(Decoder& decoder, JSAMPROW* rows) {
 template <class Pixel>
 Result<Image<Pixel>> Decode(std::string_view bytes, const std::string& source,
                             J_COLOR_SPACE color_space, std::uint64_t most_pixels) {
-  Decoder decoder;
+  JpegDecoder decoder;
   const auto fail = [&] {
     return Fail(ErrorCode::kBadData, "{}: damaged JPEG: {}", source, decoder.message.data());
   };
@@ -109,7 +109,7 @@ Result<Image<Pixel>> Decode(std::string_view bytes, const std::string& source,
 }  // namespace
 
 Result<GrayImage> DecodeJpegGray(std::string_view bytes, const std::string& source) {
-  return Decode<std::uint8_t>(bytes, source, JCS_GRAYSCALE, kMostPixels);
+  return Decode<std::uint8_t>(bytes, source, JCS_GRAYSCALE, kJpegMostPixels);
 }
 
 Result<ColorImage> DecodeJpeg(std::string_view bytes, const std::string& source,

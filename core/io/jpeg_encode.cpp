@@ -17,21 +17,21 @@ namespace foresight {
 namespace {
 
 /// See Decoder in jpeg_decode.cpp: libjpeg leaves by longjmp.
-struct Encoder {
-  Encoder() {
+struct JpegEncoder {
+  JpegEncoder() {
     jpeg.err = jpeg_std_error(&errors);
     errors.error_exit = OnError;
     jpeg.client_data = this;
   }
-  ~Encoder() {
+  ~JpegEncoder() {
     if (created) jpeg_destroy_compress(&jpeg);
     std::free(bytes);
   }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
+  JpegEncoder(const JpegEncoder&) = delete;
+  JpegEncoder& operator=(const JpegEncoder&) = delete;
 
   [[noreturn]] static void OnError(j_common_ptr common) {
-    auto* encoder = static_cast<Encoder*>(common->client_data);
+    auto* encoder = static_cast<JpegEncoder*>(common->client_data);
     common->err->format_message(common, encoder->message.data());
     std::longjmp(encoder->jump, 1);
   }
@@ -45,12 +45,12 @@ struct Encoder {
   std::array<char, JMSG_LENGTH_MAX> message{};
 };
 
-struct Layout {
+struct JpegLayout {
   int components;
   J_COLOR_SPACE color_space;
 };
 
-bool WriteRows(Encoder& encoder, int width, int height, int quality, const Layout& layout,
+bool WriteRows(JpegEncoder& encoder, int width, int height, int quality, const JpegLayout& layout,
                JSAMPROW* rows) {
   if (setjmp(encoder.jump) != 0) return false;
   jpeg_create_compress(&encoder.jpeg);
@@ -74,8 +74,8 @@ bool WriteRows(Encoder& encoder, int width, int height, int quality, const Layou
 }
 
 template <class Pixel>
-Result<std::string> Encode(const Image<Pixel>& image, int quality, const Layout& layout) {
-  Encoder encoder;
+Result<std::string> Encode(const Image<Pixel>& image, int quality, const JpegLayout& layout) {
+  JpegEncoder encoder;
   std::vector<JSAMPROW> rows;
   // libjpeg's interface is not const correct; it does not change the rows.
   for (int y = 0; y < image.height(); ++y)

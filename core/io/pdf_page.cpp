@@ -18,7 +18,7 @@ struct Closer {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
 };
 
-cairo_status_t Append(void* closure, const unsigned char* data, unsigned int length) {
+cairo_status_t AppendBytes(void* closure, const unsigned char* data, unsigned int length) {
   static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
   return CAIRO_STATUS_SUCCESS;
 }
@@ -52,7 +52,7 @@ struct PdfPage::Impl {
 
 PdfPage::PdfPage(double width_mm, double height_mm) : impl_(std::make_unique<Impl>()) {
   impl_->surface.reset(cairo_pdf_surface_create_for_stream(
-      Append, &impl_->bytes, width_mm * kPointsPerMm, height_mm * kPointsPerMm));
+      AppendBytes, &impl_->bytes, width_mm * kPointsPerMm, height_mm * kPointsPerMm));
   cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2026-01-01T00:00:00Z");
   impl_->context.reset(cairo_create(impl_->surface.get()));

@@ -11,15 +11,15 @@
 namespace foresight {
 namespace {
 
-bool IsSpace(char c) {
+bool IsPfmSpace(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
 /// Takes the next word of the header; a word ends at exactly one white space.
 std::string_view TakeWord(std::string_view& rest) {
-  while (!rest.empty() && IsSpace(rest.front())) rest.remove_prefix(1);
+  while (!rest.empty() && IsPfmSpace(rest.front())) rest.remove_prefix(1);
   std::size_t length = 0;
-  while (length < rest.size() && length < 64 && !IsSpace(rest[length])) ++length;
+  while (length < rest.size() && length < 64 && !IsPfmSpace(rest[length])) ++length;
   const std::string_view word = rest.substr(0, length);
   rest.remove_prefix(std::min(length + 1, rest.size()));
   return word;

@@ -28,13 +28,13 @@ struct Encoder {
   png_infop info = nullptr;
 };
 
-[[noreturn]] void OnError(png_structp png, png_const_charp message) {
+[[noreturn]] void OnEncodeError(png_structp png, png_const_charp message) {
   auto* encoder = static_cast<Encoder*>(png_get_error_ptr(png));
   std::strncpy(encoder->message.data(), message, encoder->message.size() - 1);
   png_longjmp(png, 1);
 }
 
-void OnWarning(png_structp, png_const_charp) {}
+void OnEncodeWarning(png_structp, png_const_charp) {}
 
 void OnWrite(png_structp png, png_bytep data, std::size_t count) {
   bool written = true;
@@ -49,7 +49,7 @@ void OnWrite(png_structp png, png_bytep data, std::size_t count) {
 
 void OnFlush(png_structp) {}
 
-struct Layout {
+struct EncodedLayout {
   int color_type;
   int bit_depth;
   PngContent content = PngContent::kDrawing;
@@ -68,8 +68,9 @@ void ChooseCompression(png_structp png, PngContent content) {
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_AVG);
 }
 
-bool WriteRows(Encoder& encoder, int width, int height, Layout layout, png_bytepp rows) {
-  encoder.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, OnError, OnWarning);
+bool WriteRows(Encoder& encoder, int width, int height, EncodedLayout layout, png_bytepp rows) {
+  encoder.png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, OnEncodeError, OnEncodeWarning);
   if (encoder.png == nullptr) return false;
   if (setjmp(png_jmpbuf(encoder.png)) != 0) return false;
   encoder.info = png_create_info_struct(encoder.png);
@@ -88,7 +89,7 @@ bool WriteRows(Encoder& encoder, int width, int height, Layout layout, png_bytep
 }
 
 template <class Pixel>
-Result<std::string> Encode(const Image<Pixel>& image, Layout layout) {
+Result<std::string> Encode(const Image<Pixel>& image, EncodedLayout layout) {
   if (image.empty() || image.width() > kMaxImageSide || image.height() > kMaxImageSide)
     return Fail(ErrorCode::kInvalidInput, "an image of {} x {} cannot become a PNG file",
                 image.width(), image.height());

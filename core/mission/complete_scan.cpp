@@ -3,7 +3,7 @@
 namespace foresight {
 namespace {
 
-Status Append(MissionFile& mission, std::int64_t id, const Scan& whole, const Scan& there) {
+Status AppendMissing(MissionFile& mission, std::int64_t id, const Scan& whole, const Scan& there) {
   for (std::size_t i = there.lines.size(); i < whole.lines.size(); ++i)
     FORESIGHT_CHECK(mission.AppendLine(id, whole.lines[i]));
   if (there.given.empty() && !whole.given.empty())
@@ -51,7 +51,7 @@ Result<std::int64_t> CompleteScan(MissionFile& mission, const Scan& whole) {
   } else {
     FORESIGHT_TRY(id, mission.BeginScan(whole));
   }
-  const Status appended = mission.Batch([&] { return Append(mission, id, whole, there); });
+  const Status appended = mission.Batch([&] { return AppendMissing(mission, id, whole, there); });
   if (!appended) {
     static_cast<void>(
         mission.EndScan(id, ScanState::kInterrupted, "not all of it could be written"));

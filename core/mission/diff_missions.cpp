@@ -13,7 +13,7 @@ namespace foresight {
 namespace {
 
 using Differences = std::vector<MissionDifference>;
-using Kind = MissionDifference::Kind;
+using Difference = MissionDifference::Kind;
 
 template <class Record>
 std::map<std::string, Record> ByUuid(const std::vector<Record>& records) {
@@ -30,14 +30,15 @@ Status Match(const char* what, const std::vector<Record>& first, const std::vect
   for (const auto& [uuid, record] : in_first) {
     const auto other = in_second.find(uuid);
     if (other == in_second.end())
-      differences.push_back({Kind::kOnlyInFirst, what, uuid, ""});
+      differences.push_back({Difference::kOnlyInFirst, what, uuid, ""});
     else
       FORESIGHT_CHECK(compare(record, other->second, [&, &uuid = uuid](const std::string& text) {
-        differences.push_back({Kind::kDifferent, what, uuid, text});
+        differences.push_back({Difference::kDifferent, what, uuid, text});
       }));
   }
   for (const auto& [uuid, record] : in_second)
-    if (!in_first.contains(uuid)) differences.push_back({Kind::kOnlyInSecond, what, uuid, ""});
+    if (!in_first.contains(uuid))
+      differences.push_back({Difference::kOnlyInSecond, what, uuid, ""});
   return {};
 }
 
@@ -133,10 +134,10 @@ Status CompareLogs(const MissionFile& first, const MissionFile& second, Differen
   const std::multiset<SettingKey> old_keys = keys(was), new_keys = keys(is);
   for (const SettingKey& key : old_keys)
     if (!new_keys.contains(key))
-      differences.push_back({Kind::kOnlyInFirst, "log", "", std::get<3>(key)});
+      differences.push_back({Difference::kOnlyInFirst, "log", "", std::get<3>(key)});
   for (const SettingKey& key : new_keys)
     if (!old_keys.contains(key))
-      differences.push_back({Kind::kOnlyInSecond, "log", "", std::get<3>(key)});
+      differences.push_back({Difference::kOnlyInSecond, "log", "", std::get<3>(key)});
   return {};
 }
 
@@ -144,11 +145,11 @@ Status CompareLogs(const MissionFile& first, const MissionFile& second, Differen
 
 const char* ToString(MissionDifference::Kind kind) {
   switch (kind) {
-    case Kind::kOnlyInFirst:
+    case Difference::kOnlyInFirst:
       return "only in the first";
-    case Kind::kOnlyInSecond:
+    case Difference::kOnlyInSecond:
       return "only in the second";
-    case Kind::kDifferent:
+    case Difference::kDifferent:
       break;
   }
   return "different";

@@ -7,17 +7,6 @@
 namespace foresight {
 namespace {
 
-/// Circle around z at a height.
-std::vector<Eigen::Vector3d> Circle(double radius, double z) {
-  constexpr int kCorners = 48;
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i <= kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-  }
-  return points;
-}
-
 Wireframe BoxLines(const Eigen::Vector3d& half) {
   const auto corner = [&half](int x, int y, int z) -> Eigen::Vector3d {
     return half.cwiseProduct(Eigen::Vector3d(x, y, z));
@@ -32,7 +21,7 @@ Wireframe BoxLines(const Eigen::Vector3d& half) {
 }
 
 Wireframe CylinderLines(double radius, double half_length) {
-  Wireframe lines = {Circle(radius, -half_length), Circle(radius, half_length)};
+  Wireframe lines = {CircleAroundZ(radius, -half_length), CircleAroundZ(radius, half_length)};
   for (int i = 0; i < 4; ++i) {
     const double angle = 0.5 * std::numbers::pi * i;
     const Eigen::Vector3d side(radius * std::cos(angle), radius * std::sin(angle), 0.0);
@@ -43,6 +32,16 @@ Wireframe CylinderLines(double radius, double half_length) {
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> CircleAroundZ(double radius, double z) {
+  constexpr int kCorners = 64;
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return points;
+}
 
 Status SolidPart::Check() const {
   if (!(size_m.minCoeff() > 0.0) || !size_m.allFinite())

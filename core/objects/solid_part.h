@@ -32,5 +32,7 @@ struct SolidPart {
 /// Closed or open polylines of a template in the object's frame, for drawing.
 using Wireframe = std::vector<std::vector<Eigen::Vector3d>>;
 Wireframe WireframeOf(const SolidPart& part);
+/// A circle of 64 corners around z, closed.
+std::vector<Eigen::Vector3d> CircleAroundZ(double radius, double z);
 
 }  // namespace foresight

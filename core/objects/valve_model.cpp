@@ -57,16 +57,6 @@ double SpokeDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& hub,
   return beyond == 0.0 ? beside : std::hypot(std::max(beside, 0.0), beyond);
 }
 
-std::vector<Eigen::Vector3d> Circle(double radius, double z) {
-  constexpr int kCorners = 64;
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i <= kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-  }
-  return points;
-}
-
 Status CheckLever(const ValveModel& lever) {
   if (!std::isfinite(lever.lever_length_m) || !(lever.tube_radius_m > 0.0) ||
       !(lever.tube_radius_m < lever.lever_length_m))
@@ -103,7 +93,7 @@ Wireframe LeverLines(const ValveModel& lever) {
   outline.emplace_back(0.0, -half, 0.0);
   outline.push_back(outline.front());
   return {outline,
-          Circle(lever.hub_radius_m, 0.0),
+          CircleAroundZ(lever.hub_radius_m, 0.0),
           {{0.0, 0.0, -ValveModel::kLeverStem_m}, {0.0, 0.0, 0.1}}};
 }
 
@@ -159,9 +149,9 @@ double ValveModel::Distance(const Eigen::Vector3d& point) const {
 Wireframe WireframeOf(const ValveModel& model) {
   if (model.IsLever()) return LeverLines(model);
   Wireframe lines;
-  lines.push_back(Circle(model.rim_radius_m + model.tube_radius_m, 0.0));
-  lines.push_back(Circle(model.rim_radius_m - model.tube_radius_m, 0.0));
-  lines.push_back(Circle(model.hub_radius_m, -model.dish_m));
+  lines.push_back(CircleAroundZ(model.rim_radius_m + model.tube_radius_m, 0.0));
+  lines.push_back(CircleAroundZ(model.rim_radius_m - model.tube_radius_m, 0.0));
+  lines.push_back(CircleAroundZ(model.hub_radius_m, -model.dish_m));
   for (int i = 0; i < model.spokes; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / model.spokes;
     lines.push_back(

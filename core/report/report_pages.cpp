@@ -11,21 +11,23 @@
 namespace foresight {
 namespace {
 
-constexpr double kWidth_mm = 210.0, kHeight_mm = 297.0;  // A4
-constexpr double kMargin_mm = 15.0, kTop_mm = 18.0, kBottom_mm = kHeight_mm - 16.0;
-constexpr double kInner_mm = kWidth_mm - 2.0 * kMargin_mm;
-constexpr double kText_mm = 2.9, kLine_mm = 4.0, kPad_mm = 1.2;
-constexpr PdfPage::Color kPale = {0.82, 0.84, 0.87};
+constexpr double kPageWidth_mm = 210.0, kPageHeight_mm = 297.0;  // A4
+constexpr double kPageMargin_mm = 15.0, kTop_mm = 18.0, kBottom_mm = kPageHeight_mm - 16.0;
+constexpr double kInner_mm = kPageWidth_mm - 2.0 * kPageMargin_mm;
+constexpr double kPageText_mm = 2.9, kLine_mm = 4.0, kPad_mm = 1.2;
+constexpr PdfPage::Color kPagePale = {0.82, 0.84, 0.87};
 constexpr PdfPage::Color kHead = {0.92, 0.93, 0.95};
 constexpr int kPictureSide_px = 900;  ///< 10 pixels a millimetre in half a page
 
 class Pages {
  public:
   Pages(const std::string& title, std::filesystem::path folder)
-      : title_(Printable(title)), folder_(std::move(folder)), page_(kWidth_mm, kHeight_mm) {}
+      : title_(Printable(title)),
+        folder_(std::move(folder)),
+        page_(kPageWidth_mm, kPageHeight_mm) {}
 
   void Title(const std::string& summary) {
-    page_.BoldText(kMargin_mm, top_ + 3.0, 6.0, Cut(page_, title_, 6.0, kInner_mm));
+    page_.BoldText(kPageMargin_mm, top_ + 3.0, 6.0, Cut(page_, title_, 6.0, kInner_mm));
     top_ += 10.0;
     Paragraph(summary);
   }
@@ -34,17 +36,17 @@ class Pages {
     Need(size_mm + 4.0 + 3.0 * kLine_mm);  // never alone at the foot of a page
     top_ += size_mm + 3.0;
     page_.SetColor(PdfPage::kBlack);
-    page_.BoldText(kMargin_mm, top_, size_mm, Cut(page_, Printable(text), size_mm, kInner_mm));
+    page_.BoldText(kPageMargin_mm, top_, size_mm, Cut(page_, Printable(text), size_mm, kInner_mm));
     top_ += 2.4;
   }
 
   void Paragraph(const std::string& text) {
     if (text.empty()) return;
     page_.SetColor(PdfPage::kBlack);
-    for (const std::string& line : Wrapped(page_, Printable(text), kText_mm, kInner_mm)) {
+    for (const std::string& line : Wrapped(page_, Printable(text), kPageText_mm, kInner_mm)) {
       Need(kLine_mm);
       top_ += kLine_mm;
-      page_.Text(kMargin_mm, top_, kText_mm, line);
+      page_.Text(kPageMargin_mm, top_, kPageText_mm, line);
     }
     top_ += 1.5;
   }
@@ -81,7 +83,7 @@ class Pages {
       Need(height + 3.0);
       top_ += 2.0;
       for (std::size_t k = i; k < end; ++k) {
-        const double left = kMargin_mm + static_cast<double>(k - i) * (kHalf_mm + kGap_mm);
+        const double left = kPageMargin_mm + static_cast<double>(k - i) * (kHalf_mm + kGap_mm);
         const double image_height = HeightOf(images[k - i], kHalf_mm);
         page_.Picture(left, top_, kHalf_mm, image_height, images[k - i]);
         page_.SetColor(PdfPage::kBlack);
@@ -117,10 +119,10 @@ class Pages {
 
   void Footer() {
     page_.SetColor(PdfPage::kGrey);
-    page_.Text(kMargin_mm, kHeight_mm - 8.0, 2.4, Cut(page_, title_, 2.4, 0.8 * kInner_mm));
+    page_.Text(kPageMargin_mm, kPageHeight_mm - 8.0, 2.4, Cut(page_, title_, 2.4, 0.8 * kInner_mm));
     const std::string number = fmt::format("{}", number_);
-    page_.Text(kWidth_mm - kMargin_mm - page_.TextWidth(2.4, number), kHeight_mm - 8.0, 2.4,
-               number);
+    page_.Text(kPageWidth_mm - kPageMargin_mm - page_.TextWidth(2.4, number), kPageHeight_mm - 8.0,
+               2.4, number);
   }
 
   void NextPage() {
@@ -140,7 +142,7 @@ class Pages {
     const auto widen = [&](std::size_t column, const std::string& text) {
       if (column < columns)
         widths[column] = std::max(
-            widths[column], page_.TextWidth(kText_mm, Printable(text)) * 1.06 + 2.0 * kPad_mm);
+            widths[column], page_.TextWidth(kPageText_mm, Printable(text)) * 1.06 + 2.0 * kPad_mm);
     };
     for (std::size_t i = 0; i < table.header.size(); ++i) widen(i, table.header[i]);
     for (const auto& row : table.rows) {
@@ -170,20 +172,20 @@ class Pages {
     }
     const double height = kLine_mm * static_cast<double>(most) + 1.2;
     Need(height);
-    double left = kMargin_mm;
+    double left = kPageMargin_mm;
     for (std::size_t i = 0; i < widths_.size(); ++i) {
       if (head) {
         page_.SetColor(kHead);
         page_.Fill(left, top_, widths_[i], height);
       }
-      page_.SetColor(kPale);
+      page_.SetColor(kPagePale);
       page_.Frame(left, top_, widths_[i], height);
       page_.SetColor(i == 0 && !head ? PdfPage::kGrey : PdfPage::kBlack);
       if (i < lines.size())
         for (std::size_t k = 0; k < lines[i].size(); ++k) {
           const double y = top_ + kLine_mm * static_cast<double>(k + 1) - 0.7;
-          head ? page_.BoldText(left + kPad_mm, y, kText_mm, lines[i][k])
-               : page_.Text(left + kPad_mm, y, kText_mm, lines[i][k]);
+          head ? page_.BoldText(left + kPad_mm, y, kPageText_mm, lines[i][k])
+               : page_.Text(left + kPad_mm, y, kPageText_mm, lines[i][k]);
         }
       left += widths_[i];
     }
@@ -193,13 +195,13 @@ class Pages {
   /// Wrapped between words; a word that is wider than the column is broken within.
   std::vector<std::string> Broken(const std::string& text, double width_mm) {
     std::vector<std::string> lines;
-    for (std::string line : Wrapped(page_, Printable(text), kText_mm, width_mm)) {
-      while (page_.TextWidth(kText_mm, line) > width_mm && line.size() > 1) {
+    for (std::string line : Wrapped(page_, Printable(text), kPageText_mm, width_mm)) {
+      while (page_.TextWidth(kPageText_mm, line) > width_mm && line.size() > 1) {
         std::size_t fits = line.size();
         const auto begins_letter = [&](std::size_t i) {
           return (static_cast<unsigned char>(line[i]) & 0xC0) != 0x80;
         };
-        while (fits > 1 && (page_.TextWidth(kText_mm, line.substr(0, fits)) > width_mm)) {
+        while (fits > 1 && (page_.TextWidth(kPageText_mm, line.substr(0, fits)) > width_mm)) {
           --fits;
           while (fits > 1 && !begins_letter(fits)) --fits;
         }

@@ -10,13 +10,14 @@ namespace {
 constexpr int kPieces = 32;
 constexpr double kWidestMargin_m = 1.0;
 
-using Pose = Rigid<frame::Robot, frame::Pattern>;
+using StandInRobot = Rigid<frame::Robot, frame::Pattern>;
 
 Eigen::Vector3d MiddleOf(const CalibrationBoard& board) {
   return 0.5 * (board.Corner(0) + board.Corner(board.CornerCount() - 1));
 }
 
-void AddBoard(const std::string& name, const BoardObject& object, const Pose& pose, Scene& scene) {
+void AddBoard(const std::string& name, const BoardObject& object, const StandInRobot& pose,
+              Scene& scene) {
   const auto face = std::make_shared<const BoardFace>(object.board, object.errors);
   SceneMesh mesh;
   mesh.name = name;
@@ -66,8 +67,8 @@ BoardMount BoardStand::Mount() const {
   return mount;
 }
 
-Pose StandPose(const BoardStand& stand, const Eigen::Vector3d& position_m,
-               const Eigen::Quaterniond& rotation) {
+StandInRobot StandPose(const BoardStand& stand, const Eigen::Vector3d& position_m,
+                       const Eigen::Quaterniond& rotation) {
   Eigen::Vector3d middle = MiddleOf(stand.a.board);
   Eigen::Vector3d ahead = Eigen::Vector3d::UnitZ();
   if (stand.b) {
@@ -85,7 +86,7 @@ Pose StandPose(const BoardStand& stand, const Eigen::Vector3d& position_m,
   return {turn, position_m - turn * middle};
 }
 
-void AddStand(const BoardStand& stand, const Pose& robot_from_stand, Scene& scene) {
+void AddStand(const BoardStand& stand, const StandInRobot& robot_from_stand, Scene& scene) {
   AddBoard(stand.name, stand.a, robot_from_stand, scene);
   if (stand.b) AddBoard(stand.name + " b", *stand.b, robot_from_stand * stand.a_from_b, scene);
 }

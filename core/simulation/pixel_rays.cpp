@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kPieces = 512;
+constexpr int kPiecesOfRadius = 512;
 
 /// The cubic through values at t = 0, 1/3, 2/3 and 1.
 std::array<double, 4> CubicThrough(const std::array<double, 4>& v) {
@@ -25,11 +25,11 @@ PixelRays::PixelRays(const CameraModel& camera) : camera_(camera) {
   const double right = std::max(camera.cx + 1.0, camera.width - camera.cx) / camera.fx;
   const double down = std::max(camera.cy + 1.0, camera.height - camera.cy) / camera.fy;
   const double largest_q = right * right + down * down;
-  std::vector<Piece> pieces(kPieces);
-  for (int i = 0; i < kPieces; ++i) {
+  std::vector<Piece> pieces(kPiecesOfRadius);
+  for (int i = 0; i < kPiecesOfRadius; ++i) {
     std::array<double, 4> s{}, c{};
     for (std::size_t j = 0; j < 4; ++j) {
-      const double q = largest_q * (i + static_cast<double>(j) / 3.0) / kPieces;
+      const double q = largest_q * (i + static_cast<double>(j) / 3.0) / kPiecesOfRadius;
       const double r = std::sqrt(q);
       const auto ray = FisheyeRay(fisheye->k, r, 0.0);
       if (!ray) return;  // an image that reaches beyond the lens
@@ -39,7 +39,7 @@ PixelRays::PixelRays(const CameraModel& camera) : camera_(camera) {
     }
     pieces[static_cast<std::size_t>(i)] = {CubicThrough(s), CubicThrough(c)};
   }
-  pieces_per_q_ = kPieces / largest_q;
+  pieces_per_q_ = kPiecesOfRadius / largest_q;
   pieces_ = std::move(pieces);
 }
 

@@ -13,7 +13,7 @@
 namespace foresight {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoRange = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kPacket = 16;
 
@@ -51,7 +51,7 @@ void AttachMesh(RTCDevice device, RTCScene scene, const SceneMesh& mesh, unsigne
 
 SceneHit HitOf(float distance, unsigned mesh, Eigen::Vector3f normal,
                const Eigen::Vector3f& direction) {
-  if (mesh == RTC_INVALID_GEOMETRY_ID) return {kNaN, -1, Eigen::Vector3f::Zero()};
+  if (mesh == RTC_INVALID_GEOMETRY_ID) return {kNoRange, -1, Eigen::Vector3f::Zero()};
   normal.normalize();
   const bool from_behind = normal.dot(direction) > 0.0f;
   if (from_behind) normal = -normal;

@@ -3,12 +3,12 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint64_t kStream = 0x686f6d65;  // "home"
+constexpr std::uint64_t kSwitchStream = 0x686f6d65;  // "home"
 
 }  // namespace
 
 HomeSwitch::HomeSwitch(const HomeSwitchOptions& options, std::uint64_t seed, double angle_rad)
-    : options_(options), random_(seed, kStream), on_(angle_rad > options.edge_rad) {
+    : options_(options), random_(seed, kSwitchStream), on_(angle_rad > options.edge_rad) {
   DrawNextEdge();
 }
 

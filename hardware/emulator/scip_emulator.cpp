@@ -12,7 +12,7 @@
 namespace foresight {
 namespace {
 
-constexpr auto kSendTimeout = std::chrono::seconds(2);
+constexpr auto kScipSendTimeout = std::chrono::seconds(2);
 constexpr auto kIdlePeriod = std::chrono::seconds(60);
 /// A machine that cannot keep up loses scans, as a device does whose client is too slow.
 constexpr double kTooLate_turns = 8.0;
@@ -280,7 +280,7 @@ Status ScipEmulator::Send(TcpSocket& client, std::string_view bytes) {
                                                 : std::max<std::size_t>(1, bytes.size());
   if (piece < bytes.size()) CountEffect();
   for (std::size_t at = 0; at < bytes.size(); at += piece)
-    FORESIGHT_CHECK(client.Send(bytes.substr(at, piece), kSendTimeout));
+    FORESIGHT_CHECK(client.Send(bytes.substr(at, piece), kScipSendTimeout));
   return {};
 }
 

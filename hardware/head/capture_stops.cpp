@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kPoll{5};
+constexpr std::chrono::milliseconds kStopPoll{5};
 /// A plate that moves by more between two captures at one stop is held by nothing.
 constexpr double kStands_rad = 0.0034906585039886592;  // 0.2 deg
 
@@ -87,7 +87,7 @@ CaptureStops::Step CaptureStops::Capture(double target_rad) {
       if (Step end = ReceiveLine(&capture)) return end;
     } else {
       devices_.lidar->Stop();
-      devices_.clock->Sleep(kPoll);
+      devices_.clock->Sleep(kStopPoll);
     }
     if (image_seq_) ReceiveImage(&capture);
   }

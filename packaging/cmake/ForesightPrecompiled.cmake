@@ -14,14 +14,14 @@ function(foresight_compile_quickly target kind)
   endif()
 endfunction()
 
-# Files of one library or test program share much of what their templates make, so eight of them are compiled as one. Two files of one
+# Files of one library or test program share much of what their templates make, so twenty of them are compiled as one. Two files of one
 # batch cannot have the same name in their unnamed namespaces: one of them gets another name, or SKIP_UNITY_BUILD_INCLUSION.
 option(FORESIGHT_UNITY "Compile files in batches (who changes them often wants OFF)" ON)
 
 function(foresight_precompiled target kind)
   foresight_compile_quickly(${target} ${kind})
   if(FORESIGHT_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
   endif()
   if(NOT FORESIGHT_PRECOMPILED)
     return()

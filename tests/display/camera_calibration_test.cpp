@@ -18,7 +18,8 @@
 namespace foresight {
 namespace {
 
-constexpr int kLimit_ms = 180'000;  // eight images are read and solved on a machine that is busy
+constexpr int kCameraWizardLimit_ms =
+    180'000;  // eight images are read and solved on a machine that is busy
 
 struct CalibrationDock : testing::Test {
   QTemporaryDir folder;
@@ -52,7 +53,7 @@ TEST_F(CalibrationDock, GoesFromImagesToAVerdictWhileTheHeadIsFree) {
   const QString pictures = folder.filePath("pictures");
   ASSERT_TRUE(model.SetBoard(WriteBoardPictures(pictures, 8)));
   model.AddFiles({pictures});
-  ASSERT_TRUE(WaitFor([&] { return model.Calibration() && !model.Busy(); }, kLimit_ms))
+  ASSERT_TRUE(WaitFor([&] { return model.Calibration() && !model.Busy(); }, kCameraWizardLimit_ms))
       << model.StateText().toStdString();
   running.Settle();
   EXPECT_EQ(model.UsedCount(), 8);
@@ -67,7 +68,7 @@ TEST_F(CalibrationDock, GoesFromImagesToAVerdictWhileTheHeadIsFree) {
   auto* list = panel->findChild<QListWidget*>();
   list->item(0)->setCheckState(Qt::Unchecked);
   EXPECT_EQ(model.Images()[0].state, CalibrationImageRow::State::kExcluded);
-  ASSERT_TRUE(WaitFor([&] { return !model.Busy(); }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([&] { return !model.Busy(); }, kCameraWizardLimit_ms));
   EXPECT_EQ(model.UsedCount(), 7);
 
   EXPECT_TRUE(running.bench().head.CanScan()) << running.bench().head.WhyNoScan().toStdString();

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 // Of resources/icons: well, warning.
 constexpr Rgb8 kGreen{63, 207, 159}, kAmber{240, 195, 80};
-constexpr int kLimit_ms = 120'000;  // beside other tests
+constexpr int kCheckLampLimit_ms = 120'000;  // beside other tests
 
 /// A room with many edges, scanned once for all tests.
 struct CheckLampWindow : testing::Test {
@@ -51,8 +51,9 @@ struct CheckLampWindow : testing::Test {
   static ScanCheckModel& Live() { return running->bench().live.check; }
   static ScanCheckModel& Review() { return running->bench().review.check; }
   static bool WaitForCheck(ScanCheckModel& check) {
-    const bool done = WaitFor(
-        [&] { return check.Now() == State::kChecked && running->bench().Idle(); }, kLimit_ms);
+    const bool done =
+        WaitFor([&] { return check.Now() == State::kChecked && running->bench().Idle(); },
+                kCheckLampLimit_ms);
     running->Settle();
     return done;
   }
@@ -137,7 +138,7 @@ TEST_F(CheckLampWindow, AKnockedCameraIsAmberAndAClickSaysMoreAndTheReviewShowsI
   const std::string answer = Live().Check()->answer_json;
   running->bench().reviewer.Open(running->bench().recording.Path(),
                                  running->bench().live.session.CurrentScan()->uuid);
-  ASSERT_TRUE(WaitFor([] { return running->bench().ShowsReview(); }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([] { return running->bench().ShowsReview(); }, kCheckLampLimit_ms));
   ASSERT_TRUE(WaitForCheck(Review()));
   EXPECT_EQ(Review().Check()->answer_json, answer) << "it was kept, not made again";
   ASSERT_NE(Lamp(), nullptr);
@@ -153,7 +154,7 @@ TEST_F(CheckLampWindow, ACheckThatIsCancelledSaysSoAndCanBeMadeAgain) {
   EXPECT_EQ(Live().Now(), State::kChecking);
   ASSERT_TRUE(WaitFor([] { return !running->bench().tasks.Tasks().isEmpty(); }));
   Live().cancel();
-  ASSERT_TRUE(WaitFor([] { return Live().Now() != State::kChecking; }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([] { return Live().Now() != State::kChecking; }, kCheckLampLimit_ms));
   EXPECT_EQ(Live().Now(), State::kFailed);
   EXPECT_EQ(Live().Light(), CheckLight::kNotSeen);
   running->Settle();

@@ -24,7 +24,8 @@
 namespace foresight {
 namespace {
 
-constexpr int kLimit_ms = 180'000;  // a session is read and solved on a machine that is busy
+constexpr int kHeadWizardLimit_ms =
+    180'000;  // a session is read and solved on a machine that is busy
 
 struct HeadCalibrationDock : testing::Test {
   QTemporaryDir folder;
@@ -45,12 +46,12 @@ struct HeadCalibrationDock : testing::Test {
     auto* button = Find<QAbstractButton>(name);
     if (button == nullptr) return false;
     const bool possible =
-        WaitFor([&] { return button->isVisible() && button->isEnabled(); }, kLimit_ms);
+        WaitFor([&] { return button->isVisible() && button->isEnabled(); }, kHeadWizardLimit_ms);
     if (possible) Click(button);
     return possible;
   }
   bool Settled() {
-    const bool settled = WaitFor([&] { return !model.Busy(); }, kLimit_ms);
+    const bool settled = WaitFor([&] { return !model.Busy(); }, kHeadWizardLimit_ms);
     running.Settle();
     return settled;
   }
@@ -68,7 +69,7 @@ TEST_F(HeadCalibrationDock, GoesFromASessionToARigInForceAndBackByClicks) {
 
   StallMeter stalls;
   ASSERT_TRUE(ClickOn("openLastSession"));
-  ASSERT_TRUE(WaitFor([&] { return !model.Folder().isEmpty(); }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([&] { return !model.Folder().isEmpty(); }, kHeadWizardLimit_ms));
   ASSERT_TRUE(Settled());
   ASSERT_TRUE(ClickOn("step2"));
   running.Settle();
@@ -80,7 +81,7 @@ TEST_F(HeadCalibrationDock, GoesFromASessionToARigInForceAndBackByClicks) {
 
   ASSERT_TRUE(ClickOn("step3"));
   ASSERT_TRUE(ClickOn("solveHead"));
-  ASSERT_TRUE(WaitFor([&] { return model.Solution() != nullptr; }, kLimit_ms))
+  ASSERT_TRUE(WaitFor([&] { return model.Solution() != nullptr; }, kHeadWizardLimit_ms))
       << model.StateText().toStdString();
   ASSERT_TRUE(Settled());
   // A stall of the GUI thread of over 50 ms would be seen; wall time counts a busy machine too.
@@ -96,12 +97,12 @@ TEST_F(HeadCalibrationDock, GoesFromASessionToARigInForceAndBackByClicks) {
   }));
   EXPECT_FALSE(dialog->isModal()) << "the stop button stays within reach";
   Click(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save));
-  ASSERT_TRUE(WaitFor([&] { return !model.Rig()->SavedFile().isEmpty(); }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([&] { return !model.Rig()->SavedFile().isEmpty(); }, kHeadWizardLimit_ms));
   EXPECT_EQ(RigInForce(), before) << "saved is not in force";
   ASSERT_TRUE(Settled());
 
   ASSERT_TRUE(ClickOn("putInForce"));
-  ASSERT_TRUE(WaitFor([&] { return RigInForce() != before; }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([&] { return RigInForce() != before; }, kHeadWizardLimit_ms));
   const auto saved = LoadSensorRig(model.Rig()->SavedFile().toStdString());
   ASSERT_TRUE(saved) << saved.error().message;
   EXPECT_EQ(RigInForce(), RigId(*saved)) << "read back from the head";
@@ -109,7 +110,7 @@ TEST_F(HeadCalibrationDock, GoesFromASessionToARigInForceAndBackByClicks) {
   ASSERT_TRUE(Settled());
 
   ASSERT_TRUE(ClickOn("rollBack"));
-  ASSERT_TRUE(WaitFor([&] { return RigInForce() == before; }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([&] { return RigInForce() == before; }, kHeadWizardLimit_ms));
 }
 
 TEST_F(HeadCalibrationDock, ShowsTheLidarOnItsBoardsAfterAndOffThemBefore) {
@@ -117,9 +118,9 @@ TEST_F(HeadCalibrationDock, ShowsTheLidarOnItsBoardsAfterAndOffThemBefore) {
   WriteSmallSession(session);
   ASSERT_TRUE(running.bench().commands.Run("view.calibrate_head"));
   model.OpenSession(session);
-  ASSERT_TRUE(WaitFor([&] { return model.Session() != nullptr; }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([&] { return model.Session() != nullptr; }, kHeadWizardLimit_ms));
   model.solve();
-  ASSERT_TRUE(WaitFor([&] { return model.Solution() != nullptr; }, kLimit_ms));
+  ASSERT_TRUE(WaitFor([&] { return model.Solution() != nullptr; }, kHeadWizardLimit_ms));
   panel->GoTo(ChainCalibrationPanel::kSolve);
   int place = 0, stop = 0;
   const auto has_points = [&] { return model.SelectedPoints().size() > 20; };
@@ -153,7 +154,8 @@ TEST_F(HeadCalibrationDock, CapturesAtTheHeadAreLampsAtOnce) {
   plan.step_deg = 5.0;
   plan.lines = 4;
   model.Recorder()->SetPlan(plan);
-  ASSERT_TRUE(WaitFor([&] { return model.Recorder()->WhyNotCapture().isEmpty(); }, kLimit_ms));
+  ASSERT_TRUE(
+      WaitFor([&] { return model.Recorder()->WhyNotCapture().isEmpty(); }, kHeadWizardLimit_ms));
   ASSERT_TRUE(ClickOn("step2"));
   ASSERT_TRUE(ClickOn("captureStops"));
   ASSERT_TRUE(WaitFor(
@@ -161,7 +163,7 @@ TEST_F(HeadCalibrationDock, CapturesAtTheHeadAreLampsAtOnce) {
         return !model.Busy() && model.Places().size() == 1 && model.Places()[0].stops.size() == 2 &&
                model.Places()[0].stops[1].state == StopLamp::State::kNoBoard;
       },
-      kLimit_ms))
+      kHeadWizardLimit_ms))
       << model.StateText().toStdString();
   EXPECT_TRUE(model.Places()[0].stops[0].has_lines);
   EXPECT_EQ(running.bench().live.session.CurrentScan(), nullptr) << "no scan of the mission";

@@ -7,7 +7,7 @@
 namespace foresight {
 namespace {
 
-LidarLine Line(std::int64_t seq) {
+LidarLine NumberedLine(std::int64_t seq) {
   LidarLine line;
   line.seq = seq;
   line.time_s = 0.025 * static_cast<double>(seq);
@@ -20,7 +20,7 @@ void Grow(ScanAssembler& assembler, std::int64_t from, std::int64_t to) {
   for (std::int64_t i = from; i < to; ++i) {
     const MotorSample sample{0.025 * static_cast<double>(i), 0.0};
     assembler.OnMotorSamples({&sample, 1});
-    assembler.OnLine(Line(i));
+    assembler.OnLine(NumberedLine(i));
   }
 }
 
@@ -35,7 +35,7 @@ TEST(ScanAssembler, ASnapshotNeverChanges) {
   EXPECT_EQ(early->track.samples().size(), 10u);
   ASSERT_EQ(late->lines.size(), 100u);
   EXPECT_EQ(&early->lines[5], &late->lines[5]) << "they share what they have in common";
-  EXPECT_EQ(early->lines[9], Line(9));
+  EXPECT_EQ(early->lines[9], NumberedLine(9));
 }
 
 /// The least time of a snapshot that a new line made necessary.

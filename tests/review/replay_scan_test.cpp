@@ -8,7 +8,7 @@ namespace foresight {
 namespace {
 
 /// Two seconds of lines and an image in their middle, in real time.
-ReplayScan TwoSeconds() {
+ReplayScan TwoSecondScan() {
   static const std::shared_ptr<const Scan> kScan = [] {
     Scan scan = WallAndValveScan({.from_rad = -0.1, .to_rad = 0.1, .speed_rad_s = 0.1});
     scan.frames.Edit(0).time_s = scan.lines.front().time_s + 1.0;
@@ -29,7 +29,7 @@ std::int64_t After(const ReplayScan& replay, double seconds) {
 }
 
 TEST(ReplayScan, ALineIsThereOnceItsLastBeamHadBeenMeasured) {
-  const ReplayScan replay = TwoSeconds();
+  const ReplayScan replay = TwoSecondScan();
   const LidarModel& lidar = replay.Whole()->rig.lidar;
   const double one_line_s = lidar.BeamTime(lidar.beams - 1);
   EXPECT_EQ(replay.LinesAt(After(replay, 0.0)), 0);
@@ -40,13 +40,13 @@ TEST(ReplayScan, ALineIsThereOnceItsLastBeamHadBeenMeasured) {
 }
 
 TEST(ReplayScan, AnImageIsThereOnceItWasTaken) {
-  const ReplayScan replay = TwoSeconds();
+  const ReplayScan replay = TwoSecondScan();
   EXPECT_EQ(replay.ImagesAt(After(replay, 0.999)), 0);
   EXPECT_EQ(replay.ImagesAt(After(replay, 1.001)), 1);
 }
 
 TEST(ReplayScan, ThePointsOfTheFirstLinesAreThoseOfAScanThatHasNoOthers) {
-  const ReplayScan replay = TwoSeconds();
+  const ReplayScan replay = TwoSecondScan();
   Scan part = *replay.Whole();
   part.lines.Truncate(33);
   const RegisteredScan expected = RegisterScan(part, {}).value();
@@ -63,7 +63,7 @@ TEST(ReplayScan, ThePointsOfTheFirstLinesAreThoseOfAScanThatHasNoOthers) {
 }
 
 TEST(ReplayScan, APartSharesItsLinesAndPixelsWithTheWhole) {
-  const ReplayScan replay = TwoSeconds();
+  const ReplayScan replay = TwoSecondScan();
   const auto part = replay.Part(50, 1);
   ASSERT_EQ(part->lines.size(), 50u);
   EXPECT_EQ(part->state, ScanState::kRunning);
@@ -73,7 +73,7 @@ TEST(ReplayScan, APartSharesItsLinesAndPixelsWithTheWhole) {
 }
 
 TEST(ReplayScan, AScanThatWasSimulatedTenTimesAsFastIsPlayedThatFast) {
-  ReplayScan replay = TwoSeconds();
+  ReplayScan replay = TwoSecondScan();
   replay.end_utc_ns = After(replay, 0.2);
   EXPECT_NEAR(replay.LinesAt(After(replay, 0.1)), 40, 1);
   EXPECT_EQ(replay.ImagesAt(After(replay, 0.11)), 1);
@@ -81,7 +81,7 @@ TEST(ReplayScan, AScanThatWasSimulatedTenTimesAsFastIsPlayedThatFast) {
 }
 
 TEST(ReplayScan, AnObjectIsThereFromWhenItWasFoundAndStandsAsItStoodThen) {
-  ReplayScan replay = TwoSeconds();
+  ReplayScan replay = TwoSecondScan();
   using Action = DetectionEvent::Action;
   ReviewedObject valve;
   valve.object.uuid = "valve";
@@ -106,7 +106,7 @@ TEST(ReplayScan, AnObjectIsThereFromWhenItWasFoundAndStandsAsItStoodThen) {
 }
 
 TEST(ReplayScan, DepthIsThereFromWhenItWasComputedOrElseFromTheScansEnd) {
-  ReplayScan replay = TwoSeconds();
+  ReplayScan replay = TwoSecondScan();
   EXPECT_FALSE(replay.HasDepthAt(0, replay.end_utc_ns - 1));
   EXPECT_TRUE(replay.HasDepthAt(0, replay.end_utc_ns));
   replay.depth_utc_ns[0] = replay.end_utc_ns + 100;

@@ -5,7 +5,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kMarksSecond = 1'000'000'000;
 
 TimelineEntry Moment(TimelineLane lane, std::int64_t utc_ns) {
   TimelineEntry entry;
@@ -18,10 +18,10 @@ TimelineEntry Moment(TimelineLane lane, std::int64_t utc_ns) {
 std::shared_ptr<const MissionTimeline> Regular(int scans) {
   MissionTimeline timeline;
   for (int i = 0; i < scans; ++i) {
-    TimelineEntry scan = Moment(TimelineLane::kScans, 10 * i * kSecond);
-    scan.end_utc_ns += 5 * kSecond;
+    TimelineEntry scan = Moment(TimelineLane::kScans, 10 * i * kMarksSecond);
+    scan.end_utc_ns += 5 * kMarksSecond;
     timeline.entries.push_back(scan);
-    timeline.entries.push_back(Moment(TimelineLane::kFits, (10 * i + 2) * kSecond));
+    timeline.entries.push_back(Moment(TimelineLane::kFits, (10 * i + 2) * kMarksSecond));
   }
   timeline.end_utc_ns = timeline.entries.back().end_utc_ns;
   return std::make_shared<const MissionTimeline>(std::move(timeline));
@@ -30,14 +30,14 @@ std::shared_ptr<const MissionTimeline> Regular(int scans) {
 TimelineAxis AxisOf(std::int64_t begin, std::int64_t end) {
   TimelineAxis axis;
   axis.SetWidth(1000.0);
-  axis.SetLimits(0, 100'000 * kSecond);
+  axis.SetLimits(0, 100'000 * kMarksSecond);
   axis.ShowSpan(begin, end);
   return axis;
 }
 
 TEST(TimelineMarks, OnlyWhatIsInSightIsMarked) {
   const TimelineMarks marks(Regular(10'000));
-  const TimelineAxis axis = AxisOf(50'000 * kSecond, 50'100 * kSecond);
+  const TimelineAxis axis = AxisOf(50'000 * kMarksSecond, 50'100 * kMarksSecond);
   const auto scans = marks.InSight(TimelineLane::kScans, axis, 1.0);
   ASSERT_GE(scans.size(), 11u);
   EXPECT_LE(scans.size(), 13u);
@@ -50,7 +50,8 @@ TEST(TimelineMarks, OnlyWhatIsInSightIsMarked) {
 
 TEST(TimelineMarks, AScanThatBeginsBeforeWhatIsInSightAndReachesIntoItIsMarked) {
   const TimelineMarks marks(Regular(10));
-  const TimelineAxis axis = AxisOf(32 * kSecond, 34 * kSecond);  // within the scan from 30 to 35
+  const TimelineAxis axis =
+      AxisOf(32 * kMarksSecond, 34 * kMarksSecond);  // within the scan from 30 to 35
   const auto scans = marks.InSight(TimelineLane::kScans, axis, 1.0);
   ASSERT_EQ(scans.size(), 1u);
   EXPECT_LT(scans[0].x, 0.0);
@@ -61,7 +62,7 @@ TEST(TimelineMarks, WhatIsTooCloseTogetherIsOneMarkAndNoneIsLost) {
   const TimelineMarks marks(Regular(10'000));
   TimelineAxis axis;
   axis.SetWidth(1000.0);
-  axis.SetLimits(0, 100'000 * kSecond);
+  axis.SetLimits(0, 100'000 * kMarksSecond);
   const auto found = marks.InSight(TimelineLane::kFits, axis, 20.0);
   EXPECT_LE(found.size(), 51u) << "as many as fit beside each other";
   int count = 0;
@@ -74,9 +75,10 @@ TEST(TimelineMarks, StepsGoFromOneEventToTheNextAndStayAtTheEnds) {
   const TimelineMarks marks(Regular(2));
   std::vector<std::int64_t> steps = {-1};
   for (int i = 0; i < 7; ++i) steps.push_back(marks.NextTime(steps.back()));
-  EXPECT_EQ(steps, (std::vector<std::int64_t>{-1, 0, 2 * kSecond, 5 * kSecond, 10 * kSecond,
-                                              12 * kSecond, 15 * kSecond, 15 * kSecond}));
-  EXPECT_EQ(marks.PreviousTime(10 * kSecond), 5 * kSecond);
+  EXPECT_EQ(steps,
+            (std::vector<std::int64_t>{-1, 0, 2 * kMarksSecond, 5 * kMarksSecond, 10 * kMarksSecond,
+                                       12 * kMarksSecond, 15 * kMarksSecond, 15 * kMarksSecond}));
+  EXPECT_EQ(marks.PreviousTime(10 * kMarksSecond), 5 * kMarksSecond);
   EXPECT_EQ(marks.PreviousTime(0), 0);
 }
 

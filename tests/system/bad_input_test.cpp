@@ -11,11 +11,10 @@
 #include "tests/nasty/png_bomb.h"
 #include "tests/support/run_program.h"
 #include "tests/support/sanitized.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
-
-const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
 
 /// Bad data: exit 3 and a last line on standard error that names `where`. Notes may come before it.
 void ExpectBadData(const ProgramResult& result, const std::string& where) {
@@ -102,7 +101,7 @@ TEST_F(BadInput, AnImageOfFarTooManyPixelsIsRefusedUnderFourGigabytes) {
 }
 
 TEST_F(BadInput, ASceneWithATypoNamesTheLine) {
-  std::string scene = ReadFile(kScene).value();
+  std::string scene = ReadFile(kValveScene).value();
   const auto at = scene.find("lights:");
   ASSERT_NE(at, std::string::npos);
   scene.replace(at, 7, "lihgts:");
@@ -131,7 +130,7 @@ TEST_F(BadInput, APfmWithAWrongHeaderIsRefused) {
 
 TEST_F(BadInput, AMissionFileCutAnywhereIsRefusedOrWhole) {
   const std::string mission = folder_ / "mission.foresight";
-  ASSERT_EQ(RunProgram(FORESIGHTCTL, {"scan", "--scene", kScene, "--from", "-1", "--to", "1",
+  ASSERT_EQ(RunProgram(FORESIGHTCTL, {"scan", "--scene", kValveScene, "--from", "-1", "--to", "1",
                                       "--speed", "40", "--out", mission})
                 .exit_code,
             0);
@@ -154,10 +153,10 @@ TEST_F(BadInput, AMissingFileIsBadDataAndAMissingArgumentIsWrongUsage) {
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"depth"}).exit_code, 2);
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {}).exit_code, 2);
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"upsample", "a", "b", "--threshold", "7"}).exit_code, 2);
-  EXPECT_EQ(
-      RunProgram(FORESIGHTCTL, {"scan", "--scene", kScene, "--out", folder_ / "m", "--speed", "-4"})
-          .exit_code,
-      2);
+  EXPECT_EQ(RunProgram(FORESIGHTCTL,
+                       {"scan", "--scene", kValveScene, "--out", folder_ / "m", "--speed", "-4"})
+                .exit_code,
+            2);
 }
 
 }  // namespace

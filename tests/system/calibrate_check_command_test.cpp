@@ -10,15 +10,12 @@
 #include "core/mission/mission_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
 using testing::HasSubstr;
-
-ProgramResult Ctl(const std::vector<std::string>& arguments) {
-  return RunProgram(FORESIGHTCTL, arguments);
-}
 
 /// A scan of the shipped room, up and down; made once.
 const std::string& RoomMission() {

@@ -8,15 +8,12 @@
 #include "core/sensor/rig_id.h"
 #include "core/sensor/sensor_rig.h"
 #include "tests/support/run_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
 using testing::HasSubstr;
-
-ProgramResult Ctl(const std::vector<std::string>& arguments) {
-  return RunProgram(FORESIGHTCTL, arguments);
-}
 
 TEST(CalibrateCommand, PrintsOneObjectAModelAndWritesARig) {
   const std::string images = std::string(FORESIGHT_TEST_DATA) + "/calibration/opencv_left";

@@ -10,6 +10,7 @@
 #include "core/registration/register_scan.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
@@ -19,10 +20,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 using Json = nlohmann::json;
-
-ProgramResult Ctl(const std::vector<std::string>& arguments) {
-  return RunProgram(FORESIGHTCTL, arguments);
-}
 
 /// A scan of the shipped scene, up and down.
 void ScanScene(const std::string& scene, const std::string& mission, int seed) {

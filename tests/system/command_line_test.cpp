@@ -6,18 +6,13 @@
 
 #include "core/base/atomic_file.h"
 #include "tests/support/run_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
-
-ProgramResult Ctl(const std::vector<std::string>& arguments) {
-  return RunProgram(FORESIGHTCTL, arguments);
-}
 
 /// Wrong usage: exit 2, and one line on standard error that holds `what`.
 void ExpectUsage(const ProgramResult& result, const std::string& what) {
@@ -41,11 +36,11 @@ TEST(CommandLine, AMissingCommandIsToldWhichThereAre) {
 
 TEST(CommandLine, ASeedIsAWholeNumberWithoutASign) {
   for (const char* seed : {"-1", "18446744073709551616", "1.5", "one"})
-    ExpectUsage(Ctl({"render", kScene, "--seed=" + std::string(seed)}), "is no seed");
+    ExpectUsage(Ctl({"render", kValveScene, "--seed=" + std::string(seed)}), "is no seed");
   ExpectUsage(Ctl({"evaluate-fits", "valve", "--first-seed=-1"}), "is no seed");
-  ExpectUsage(
-      RunProgram(FORESIGHT_HEAD, {"--emulate", kScene, "--scan", "p", "--out", "o", "--seed=-1"}),
-      "is no seed");
+  ExpectUsage(RunProgram(FORESIGHT_HEAD,
+                         {"--emulate", kValveScene, "--scan", "p", "--out", "o", "--seed=-1"}),
+              "is no seed");
 }
 
 TEST(CommandLine, ScansCountFromOne) {
@@ -54,8 +49,9 @@ TEST(CommandLine, ScansCountFromOne) {
 }
 
 TEST(CommandLine, NumbersAreFinite) {
-  ExpectUsage(Ctl({"render", kScene, "--angle", "nan"}), "--angle: 'nan' is not a finite number");
-  ExpectUsage(Ctl({"render", kScene, "--angle=inf"}), "--angle");
+  ExpectUsage(Ctl({"render", kValveScene, "--angle", "nan"}),
+              "--angle: 'nan' is not a finite number");
+  ExpectUsage(Ctl({"render", kValveScene, "--angle=inf"}), "--angle");
   ExpectUsage(Ctl({"fit", "drill", "--cloud", "a.ply", "--viewpoint", "0,1e999,0"}), "--viewpoint");
 }
 
@@ -120,7 +116,7 @@ TEST(CommandLine, ControlBytesAndBytesThatAreNoUtf8AreEscaped) {
 TEST(CommandLine, AResultInAFolderOfAnyNameIsStillJson) {
   const TemporaryFolder folder;
   const std::string out = folder / "caf\xe9";
-  const ProgramResult result = Ctl({"render", kScene, "--out", out, "--json"});
+  const ProgramResult result = Ctl({"render", kValveScene, "--out", out, "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_NO_THROW(nlohmann::json::parse(result.output)) << result.output;
 }

@@ -6,17 +6,16 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/run_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
-
-const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
 
 TEST(DemoMission, FindsTheValveOfTheRoomAndWritesAReport) {
   const TemporaryFolder folder;
   const std::string out = folder / "demo";
   const ProgramResult result =
-      RunProgram(FORESIGHTCTL, {"demo", "--scene", kRoom, "--out", out, "--json"});
+      RunProgram(FORESIGHTCTL, {"demo", "--scene", kRoomScene, "--out", out, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const auto json = nlohmann::json::parse(result.output);
   // The bars of the valve scene: 10 mm, 3 deg, the right number of spokes.

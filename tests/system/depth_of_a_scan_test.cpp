@@ -8,16 +8,15 @@
 #include "core/io/pfm.h"
 #include "core/io/png.h"
 #include "tests/support/run_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
-const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
-
 class DepthOfAScan : public testing::Test {
  protected:
   void Scan(const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"scan", "--scene", kScene, "--out", mission_};
+    std::vector<std::string> arguments = {"scan", "--scene", kValveScene, "--out", mission_};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult result = RunProgram(FORESIGHTCTL, arguments);
     ASSERT_EQ(result.exit_code, 0) << result.errors;
@@ -30,7 +29,8 @@ class DepthOfAScan : public testing::Test {
 TEST_F(DepthOfAScan, IsWithinCentimetresOfTheTruthWhereTheMaskKeepsIt) {
   Scan({"--from", "-20", "--to", "20"});
   ASSERT_EQ(RunProgram(FORESIGHTCTL, {"depth", mission_, "--out", folder_ / "depth"}).exit_code, 0);
-  ASSERT_EQ(RunProgram(FORESIGHTCTL, {"render", kScene, "--out", folder_ / "truth"}).exit_code, 0);
+  ASSERT_EQ(RunProgram(FORESIGHTCTL, {"render", kValveScene, "--out", folder_ / "truth"}).exit_code,
+            0);
   const auto depth_mm = ReadPfm(folder_.path() / "depth" / "depth.pfm");
   const auto truth_mm = ReadPfm(folder_.path() / "truth" / "depth.pfm");
   const auto mask = ReadPngGray(folder_.path() / "depth" / "mask.png");

@@ -4,16 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/running_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
-const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
-
 TEST(EmulateCommand, AScanThroughTheNetworkOfTwoProcesses) {
   const TemporaryFolder folder;
   const std::string config = folder / "head.yaml";
-  RunningProgram devices(FORESIGHTCTL, {"emulate", kRoom, "--head-config", config, "--json"});
+  RunningProgram devices(FORESIGHTCTL, {"emulate", kRoomScene, "--head-config", config, "--json"});
   // Printed last, so that it says: they listen.
   ASSERT_TRUE(WaitUntil([&] { return devices.Output().find('}') != std::string::npos; }));
   const auto addresses = nlohmann::json::parse(devices.Output());
@@ -28,7 +27,8 @@ TEST(EmulateCommand, AScanThroughTheNetworkOfTwoProcesses) {
 }
 
 TEST(EmulateCommand, EndsByItselfWhenAsked) {
-  const ProgramResult result = RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--seconds", "0.05"});
+  const ProgramResult result =
+      RunProgram(FORESIGHTCTL, {"emulate", kRoomScene, "--seconds", "0.05"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_THAT(result.output, testing::StartsWith("lidar 127.0.0.1:"));
 }
@@ -56,9 +56,10 @@ TEST(EmulateCommand, RefusesBadAddressesAndFaultPlans) {
   const TemporaryFolder folder;
   const std::string faults = folder / "faults.yaml";
   std::ofstream(faults) << "foresight_faults: 1\nlidar: {stall_ratio: 2}\n";
-  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--lidar", "127.0.0.1:x"}).exit_code, 2);
-  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--lidar", "8.8.8.8:1"}).exit_code, 3);
-  const ProgramResult bad = RunProgram(FORESIGHTCTL, {"emulate", kRoom, "--faults", faults});
+  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoomScene, "--lidar", "127.0.0.1:x"}).exit_code,
+            2);
+  EXPECT_EQ(RunProgram(FORESIGHTCTL, {"emulate", kRoomScene, "--lidar", "8.8.8.8:1"}).exit_code, 3);
+  const ProgramResult bad = RunProgram(FORESIGHTCTL, {"emulate", kRoomScene, "--faults", faults});
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_THAT(bad.errors, testing::HasSubstr("faults.yaml:2"));
 }

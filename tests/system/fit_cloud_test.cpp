@@ -10,15 +10,12 @@
 #include "core/io/read_point_cloud.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
 const std::string kScenes = FORESIGHT_SOURCE_DIR "/resources/scenes/";
-
-ProgramResult Ctl(const std::vector<std::string>& arguments) {
-  return RunProgram(FORESIGHTCTL, arguments);
-}
 
 /// How a cloud's frame lies: the camera's usual one, x right, y down, z ahead.
 Eigen::Matrix3d CameraLikeFromRobot() {
@@ -36,7 +33,7 @@ std::string Box(const Eigen::Vector3d& center, const Eigen::Vector3d& size) {
   return fmt::format("--box={},{}", Numbers(center), Numbers(size));
 }
 
-Eigen::Vector3d PositionIn(const nlohmann::json& frame) {
+Eigen::Vector3d PlaceIn(const nlohmann::json& frame) {
   const auto& p = frame["position_m"];
   return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
 }
@@ -82,8 +79,8 @@ TEST_F(FitOfACloud, ADrillIsFoundWhereTheCloudsUpIsWhatUpSays) {
   const auto there = nlohmann::json::parse(result.output);
   ASSERT_TRUE(there.contains("best")) << result.output;
   EXPECT_NE(there["verdict"], "UNSURE") << there["reason"];
-  const Eigen::Vector3d place = PositionIn(here["best"]["robot_from_object"]);
-  EXPECT_LT((PositionIn(there["best"]["robot_from_object"]) - CameraLikeFromRobot() * place).norm(),
+  const Eigen::Vector3d place = PlaceIn(here["best"]["robot_from_object"]);
+  EXPECT_LT((PlaceIn(there["best"]["robot_from_object"]) - CameraLikeFromRobot() * place).norm(),
             0.010);
   EXPECT_LT(there["best"]["robot_from_object"]["z_axis"][1].get<double>(), -0.99);
 }
@@ -123,10 +120,9 @@ TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
     const auto answer = nlohmann::json::parse(result.output);
     ASSERT_TRUE(answer.contains("best")) << result.output;
     EXPECT_EQ(answer["best"]["model"]["spokes"], 3) << subject.front();
-    EXPECT_LT(
-        (PositionIn(answer["best"]["robot_from_object"]) - Eigen::Vector3d(1.463, 0.031, 1.380))
-            .norm(),
-        0.010)
+    EXPECT_LT((PlaceIn(answer["best"]["robot_from_object"]) - Eigen::Vector3d(1.463, 0.031, 1.380))
+                  .norm(),
+              0.010)
         << subject.front();
     EXPECT_NE(answer["verdict"], "UNSURE") << subject.front() << " " << answer["reason"];
   }
@@ -203,9 +199,8 @@ TEST(FitInALargeBox, TheValveIsNotLostToThePierThatItHangsOn) {
   const auto json = nlohmann::json::parse(answer.output);
   EXPECT_NE(json["verdict"], "UNSURE");
   EXPECT_EQ(json["best"]["model"]["spokes"], 5);
-  EXPECT_LT(
-      (PositionIn(json["best"]["robot_from_object"]) - Eigen::Vector3d(1.42, 0.88, 1.25)).norm(),
-      0.015);
+  EXPECT_LT((PlaceIn(json["best"]["robot_from_object"]) - Eigen::Vector3d(1.42, 0.88, 1.25)).norm(),
+            0.015);
 }
 
 }  // namespace

@@ -15,11 +15,11 @@
 #include "core/sensor/sensor_rig.h"
 #include "tests/support/run_program.h"
 #include "tests/support/small_camera.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
-const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
 const std::string kRegion = "534,413,721,602";  // around the scene's valve
 
 Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
@@ -34,7 +34,7 @@ class FitOfAScan : public testing::Test {
     folder_ = std::make_unique<TemporaryFolder>();
     mission_ = *folder_ / "mission.foresight";
     const ProgramResult scanned =
-        Run({"scan", "--scene", kScene, "--from", "-15", "--to", "15", "--out", mission_});
+        Run({"scan", "--scene", kValveScene, "--from", "-15", "--to", "15", "--out", mission_});
     ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
   }
   static void TearDownTestSuite() { folder_.reset(); }
@@ -51,7 +51,7 @@ class FitOfAScan : public testing::Test {
   static std::string Rendered() {
     const std::string out = *folder_ / "rendered";
     if (!std::filesystem::exists(out)) {
-      EXPECT_EQ(Run({"render", kScene, "--out", out}).exit_code, 0);
+      EXPECT_EQ(Run({"render", kValveScene, "--out", out}).exit_code, 0);
     }
     return out;
   }
@@ -107,8 +107,8 @@ TEST_F(FitOfAScan, TheGallerySetsAllSixSourcesSideBySide) {
   const std::string rig = *folder_ / "small_rig.yaml";
   const std::string mission = *folder_ / "small.foresight";
   ASSERT_TRUE(SaveSensorRig(SmallCameraRig(), rig));
-  const ProgramResult scanned = Run(
-      {"scan", "--scene", kScene, "--rig", rig, "--from", "-15", "--to", "15", "--out", mission});
+  const ProgramResult scanned = Run({"scan", "--scene", kValveScene, "--rig", rig, "--from", "-15",
+                                     "--to", "15", "--out", mission});
   ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
   const ProgramResult result =
       Run({"fit", "valve", mission, "--roi", "133,103,180,150", "--gallery", out.string()});

@@ -13,6 +13,7 @@
 #include "core/mission/pose_json.h"
 #include "core/simulation/scene.h"
 #include "tests/support/run_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
@@ -34,10 +35,6 @@ constexpr const char* kPole =
     "grey}\n"
     "  - {shape: cylinder, radius_m: 0.06, from_m: [1.6, 0.1, 0], to_m: [1.6, 0.1, 2.8], material: "
     "grey}\n";
-
-ProgramResult Ctl(const std::vector<std::string>& arguments) {
-  return RunProgram(FORESIGHTCTL, arguments);
-}
 
 /// A mission with one scan of a scene and what was fitted in a box, in the robot's frame.
 class KeptObject {

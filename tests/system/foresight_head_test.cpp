@@ -12,11 +12,10 @@
 #include "tests/hardware/emulated_head.h"
 #include "tests/support/running_program.h"
 #include "tests/support/sanitized.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
-
-const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
 
 class ForesightHead : public testing::Test {
  protected:
@@ -29,7 +28,7 @@ class ForesightHead : public testing::Test {
   /// The devices live in the test, which so knows what the motor does.
   void StartDevices() {
     EmulationArguments arguments;
-    arguments.scene = kRoom;
+    arguments.scene = kRoomScene;
     arguments.rig = RealTimeRig();
     devices_ = StartEmulation(arguments).value();
     ASSERT_TRUE(SaveHeadConfig(ConfigFor(*devices_), config_));
@@ -64,7 +63,7 @@ class ForesightHead : public testing::Test {
 
 TEST_F(ForesightHead, FliesAPlanThroughItsOwnEmulatedDevices) {
   const ProgramResult result =
-      RunProgram(FORESIGHT_HEAD, {"--emulate", kRoom, "--rig", RealTimeRig(), "--seed", "4",
+      RunProgram(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--rig", RealTimeRig(), "--seed", "4",
                                   "--scan", Plan(-5, 5, 10), "--out", mission_, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const auto json = nlohmann::json::parse(result.output);
@@ -154,7 +153,7 @@ TEST_F(ForesightHead, FarFewerLinesThanPlannedAreInterruptedWithTheCounts) {
   ASSERT_TRUE(WriteFileAtomically(faults, "foresight_faults: 1\nlidar: {corrupt_ratio: 0.5}\n"));
   const ProgramResult result = RunProgram(
       FORESIGHT_HEAD,
-      {"--emulate", kRoom, "--faults", faults, "--scan", Plan(-5, 5, 10), "--out", mission_});
+      {"--emulate", kRoomScene, "--faults", faults, "--scan", Plan(-5, 5, 10), "--out", mission_});
   EXPECT_EQ(result.exit_code, 1) << result.errors;
   const Scan scan = RecordedScan();
   EXPECT_EQ(scan.state, ScanState::kInterrupted);
@@ -196,8 +195,9 @@ ProgramResult RunWithSmallFiles(int blocks, const std::string& program,
 
 TEST_F(ForesightHead, ADiskThatFillsUpEndsTheSweepAndKeepsWhatIsThere) {
   // Room for the image, which is taken at the beginning, and for some of the 401 lines.
-  const ProgramResult result = RunWithSmallFiles(
-      6000, FORESIGHT_HEAD, {"--emulate", kRoom, "--scan", Plan(-5, 60, 6.5), "--out", mission_});
+  const ProgramResult result =
+      RunWithSmallFiles(6000, FORESIGHT_HEAD,
+                        {"--emulate", kRoomScene, "--scan", Plan(-5, 60, 6.5), "--out", mission_});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.errors, testing::ContainsRegex("[0-9]+ of 401 lines were kept"));
   const Scan scan = RecordedScan();
@@ -209,8 +209,8 @@ TEST_F(ForesightHead, ADiskThatFillsUpEndsTheSweepAndKeepsWhatIsThere) {
 }
 
 TEST_F(ForesightHead, ADiskWithoutRoomForAMissionLeavesNothingInTheWay) {
-  const std::vector<std::string> arguments = {"--emulate",       kRoom,   "--scan",
-                                              Plan(-5, 5, 10.0), "--out", mission_};
+  const std::vector<std::string> arguments = {"--emulate",       kRoomScene, "--scan",
+                                              Plan(-5, 5, 10.0), "--out",    mission_};
   const ProgramResult full = RunWithSmallFiles(16, FORESIGHT_HEAD, arguments);
   EXPECT_EQ(full.exit_code, 3);
   EXPECT_FALSE(std::filesystem::exists(mission_)) << full.errors;
@@ -224,7 +224,7 @@ TEST_F(ForesightHead, AnEmptyDatabaseOfAnEarlierFailureIsReplaced) {
   stub[100] = 0x0D;
   ASSERT_TRUE(WriteFileAtomically(mission_, stub));
   const ProgramResult result = RunProgram(
-      FORESIGHT_HEAD, {"--emulate", kRoom, "--scan", Plan(-5, 5, 10), "--out", mission_});
+      FORESIGHT_HEAD, {"--emulate", kRoomScene, "--scan", Plan(-5, 5, 10), "--out", mission_});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(RecordedScan().state, ScanState::kComplete);
 }
@@ -232,7 +232,7 @@ TEST_F(ForesightHead, AnEmptyDatabaseOfAnEarlierFailureIsReplaced) {
 TEST_F(ForesightHead, AFileThatIsNoMissionIsLeftAlone) {
   ASSERT_TRUE(WriteFileAtomically(mission_, "a letter"));
   const ProgramResult result = RunProgram(
-      FORESIGHT_HEAD, {"--emulate", kRoom, "--scan", Plan(-5, 5, 10), "--out", mission_});
+      FORESIGHT_HEAD, {"--emulate", kRoomScene, "--scan", Plan(-5, 5, 10), "--out", mission_});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(ReadFile(mission_).value(), "a letter");
 }
@@ -242,9 +242,9 @@ TEST_F(ForesightHead, PutsAnotherCalibrationInForce) {
   rig.lidar.range_offset_m = 0.0123;
   const std::string file = folder_ / "rig.yaml";
   ASSERT_TRUE(SaveSensorRig(rig, file));
-  const ProgramResult result = RunProgram(
-      FORESIGHT_HEAD,
-      {"--emulate", kRoom, "--calibration", file, "--scan", Plan(-5, 5, 10), "--out", mission_});
+  const ProgramResult result =
+      RunProgram(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--calibration", file, "--scan",
+                                  Plan(-5, 5, 10), "--out", mission_});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_NEAR(RecordedScan().rig.lidar.range_offset_m, 0.0123, 1e-9);
 }
@@ -272,7 +272,7 @@ TEST_F(ForesightHead, SaysWhatIsWrongWithItsArguments) {
     return RunProgram(FORESIGHT_HEAD, arguments);
   };
   EXPECT_EQ(run({"--scan", plan}).exit_code, 2);
-  EXPECT_EQ(run({"--scan", plan, "--emulate", kRoom, "--head-config", config_}).exit_code, 2);
+  EXPECT_EQ(run({"--scan", plan, "--emulate", kRoomScene, "--head-config", config_}).exit_code, 2);
   EXPECT_EQ(run({"--scan", plan, "--head-config", config_, "--seed", "2"}).exit_code, 2);
   ASSERT_TRUE(WriteFileAtomically(config_, "foresight_head: 1\nlidar: {adress: 10.0.0.1}\n"));
   const ProgramResult bad = run({"--scan", plan, "--head-config", config_});

@@ -6,11 +6,10 @@
 
 #include "app/common/emulation.h"
 #include "tests/support/running_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
-
-const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
 
 std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -21,7 +20,7 @@ std::vector<std::string> Lines(const std::string& text) {
 
 TEST(HealthCommand, SaysOnceASecondHowTheDevicesDo) {
   const ProgramResult result =
-      RunProgram(FORESIGHTCTL, {"health", "--emulate", kRoom, "--seconds", "2"});
+      RunProgram(FORESIGHTCTL, {"health", "--emulate", kRoomScene, "--seconds", "2"});
   EXPECT_EQ(result.exit_code, 0) << result.output << result.errors;
   const auto lines = Lines(result.output);
   ASSERT_EQ(lines.size(), 2u);
@@ -32,7 +31,7 @@ TEST(HealthCommand, SaysOnceASecondHowTheDevicesDo) {
 
 TEST(HealthCommand, AsJsonEachLineIsAnObject) {
   const ProgramResult result =
-      RunProgram(FORESIGHTCTL, {"health", "--emulate", kRoom, "--seconds", "2", "--json"});
+      RunProgram(FORESIGHTCTL, {"health", "--emulate", kRoomScene, "--seconds", "2", "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.output << result.errors;
   const auto lines = Lines(result.output);
   ASSERT_EQ(lines.size(), 2u);
@@ -48,7 +47,7 @@ TEST(HealthCommand, ADamagedLineIsADegradedLidar) {
   const std::string faults = folder / "faults.yaml";
   std::ofstream(faults) << "foresight_faults: 1\nlidar: {corrupt_ratio: 0.2}\n";
   const ProgramResult result = RunProgram(
-      FORESIGHTCTL, {"health", "--emulate", kRoom, "--faults", faults, "--seconds", "2"});
+      FORESIGHTCTL, {"health", "--emulate", kRoomScene, "--faults", faults, "--seconds", "2"});
   EXPECT_EQ(result.exit_code, 1) << result.output << result.errors;
   EXPECT_THAT(result.output, testing::HasSubstr("lidar degraded: "));
   EXPECT_THAT(result.output, testing::HasSubstr("damaged replies: "));
@@ -59,7 +58,7 @@ class HealthOfOtherDevices : public testing::Test {
  protected:
   HealthOfOtherDevices() {
     EmulationArguments arguments;
-    arguments.scene = kRoom;
+    arguments.scene = kRoomScene;
     devices_ = StartEmulation(arguments).value();
     config_ = ConfigFor(*devices_);
     config_.lidar.connect_timeout_s = 0.5;

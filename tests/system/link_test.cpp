@@ -7,13 +7,12 @@
 
 #include "core/calibration/session_folder.h"
 #include "tests/support/running_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
 using testing::HasSubstr;
-
-const std::string kRoom = FORESIGHT_SOURCE_DIR "/resources/scenes/room.yaml";
 
 /// Where two documents differ by more than the last digits of a number; "" = nowhere. What crosses
 /// the link is read from JSON and made into rotations again.
@@ -67,8 +66,8 @@ class LinkedPrograms : public testing::Test {
 };
 
 TEST_F(LinkedPrograms, AScanOverTheLinkIsTheOneOfTheHead) {
-  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--plaintext",
-                                       "--scans", folder / "scans", "--json"});
+  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--listen", "127.0.0.1:0",
+                                       "--plaintext", "--scans", folder / "scans", "--json"});
   const std::string address = AddressOf(head);
   ASSERT_NE(address, "");
   const ProgramResult scan =
@@ -87,8 +86,8 @@ TEST_F(LinkedPrograms, AScanOverTheLinkIsTheOneOfTheHead) {
 
 TEST_F(LinkedPrograms, FetchBringsWhatTheHeadKeeps) {
   const std::string scans = folder / "scans";
-  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--plaintext",
-                                       "--scans", scans, "--json"});
+  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--listen", "127.0.0.1:0",
+                                       "--plaintext", "--scans", scans, "--json"});
   const std::vector<std::string> link = {"--head", AddressOf(head), "--plaintext"};
   const auto fetch = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "fetch");
@@ -123,8 +122,8 @@ TEST_F(LinkedPrograms, FetchSaysWhatItNeeds) {
 }
 
 TEST_F(LinkedPrograms, AFitOnTheHeadIsTheFitHere) {
-  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--plaintext",
-                                       "--scans", folder / "scans", "--json"});
+  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--listen", "127.0.0.1:0",
+                                       "--plaintext", "--scans", folder / "scans", "--json"});
   const std::vector<std::string> link = {"--head", AddressOf(head), "--plaintext"};
   const auto run = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -165,8 +164,8 @@ TEST_F(LinkedPrograms, AFitOnTheHeadIsTheFitHere) {
 
 /// The station dies in the middle of a scan, and then the head: nothing is lost, nothing doubled.
 TEST_F(LinkedPrograms, ADeathLosesNothingAndDoublesNothing) {
-  const std::vector<std::string> daemon = {"--emulate",     kRoom,     "--plaintext",
-                                           "--no-announce", "--scans", folder / "scans",
+  const std::vector<std::string> daemon = {"--emulate",     kRoomScene, "--plaintext",
+                                           "--no-announce", "--scans",  folder / "scans",
                                            "--json",        "--listen"};
   const auto start = [&](const std::string& address) {
     std::vector<std::string> arguments = daemon;
@@ -205,8 +204,8 @@ TEST_F(LinkedPrograms, ADeathLosesNothingAndDoublesNothing) {
 }
 
 TEST_F(LinkedPrograms, StopEndsASweepOfWhoeverHasControl) {
-  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--plaintext",
-                                       "--scans", folder / "scans", "--json"});
+  RunningProgram head(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--listen", "127.0.0.1:0",
+                                       "--plaintext", "--scans", folder / "scans", "--json"});
   const std::string address = AddressOf(head);
   ASSERT_NE(address, "");
   RunningProgram station(FORESIGHTCTL, {"scan", "--head", address, "--plaintext", "--from", "-30",
@@ -271,16 +270,16 @@ TEST_F(LinkedPrograms, StopSaysThatNobodyAnswers) {
 }
 
 TEST_F(LinkedPrograms, WithoutEncryptionOnlyThisComputerIsServed) {
-  const ProgramResult head = RunProgram(
-      FORESIGHT_HEAD,
-      {"--emulate", kRoom, "--listen", "0.0.0.0:0", "--plaintext", "--scans", folder / "scans"});
+  const ProgramResult head =
+      RunProgram(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--listen", "0.0.0.0:0", "--plaintext",
+                                  "--scans", folder / "scans"});
   EXPECT_NE(head.exit_code, 0);
   EXPECT_THAT(head.errors, HasSubstr("make keys with foresightctl pki"));
 }
 
 TEST_F(LinkedPrograms, AHeadWithoutKeysSaysWhereTheyAreMissing) {
   const ProgramResult head =
-      RunProgram(FORESIGHT_HEAD, {"--emulate", kRoom, "--listen", "127.0.0.1:0", "--link-keys",
+      RunProgram(FORESIGHT_HEAD, {"--emulate", kRoomScene, "--listen", "127.0.0.1:0", "--link-keys",
                                   folder / "none", "--scans", folder / "scans"});
   EXPECT_EQ(head.exit_code, 3);
   EXPECT_THAT(head.errors, HasSubstr((folder / "none").string()));

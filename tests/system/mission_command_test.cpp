@@ -11,6 +11,7 @@
 #include "core/base/atomic_file.h"
 #include "core/mission/mission_file.h"
 #include "tests/support/run_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
 const std::string kRegion = "534,413,721,602";  // around the scene's valve
 
 /// Two missions, a scan each; a valve was found in the first.
@@ -30,7 +30,7 @@ class MissionCommand : public testing::Test {
     second_ = *folder_ / "second.foresight";
     for (const auto& [file, to] : {std::pair(first_, "12"), std::pair(second_, "8")}) {
       const ProgramResult scanned =
-          Run({"scan", "--scene", kScene, "--from", "-10", "--to", to, "--out", file});
+          Run({"scan", "--scene", kValveScene, "--from", "-10", "--to", to, "--out", file});
       ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
     }
     ASSERT_EQ(Run({"fit", "valve", first_, "--roi", kRegion, "--save"}).exit_code, 0);

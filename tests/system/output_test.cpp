@@ -9,13 +9,13 @@
 #include "core/base/atomic_file.h"
 #include "core/io/png.h"
 #include "tests/support/run_program.h"
+#include "tests/system/ctl.h"
 
 namespace foresight {
 namespace {
 
 using testing::HasSubstr;
 
-const std::string kScene = FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml";
 const std::vector<std::string> kPredict = {"scan", "--predict", "--json"};
 
 /// Exit 3, and a last line on standard error that says `what`; notes may come before it.
@@ -38,8 +38,8 @@ TEST(Output, AClosedStandardOutputIsAnErrorAndNoFileTakesItsPlace) {
   const TemporaryFolder folder;
   const std::string mission = folder / "a.foresight";
   ExpectLost(RunProgram(FORESIGHTCTL,
-                        {"scan", "--scene", kScene, "--from", "-1", "--to", "1", "--speed", "40",
-                         "--out", mission, "--json"},
+                        {"scan", "--scene", kValveScene, "--from", "-1", "--to", "1", "--speed",
+                         "40", "--out", mission, "--json"},
                         {.no_output = true}),
              "standard output");
   EXPECT_EQ(RunProgram(FORESIGHTCTL, {"cloud", mission, "--out", folder / "a.ply"}).exit_code, 0)
@@ -52,8 +52,8 @@ TEST(Output, AReaderThatIsGoneIsAnErrorNotTheEndByASignal) {
 }
 
 TEST(Output, HealthThatNobodyReadsEnds) {
-  const ProgramResult result =
-      RunProgram(FORESIGHTCTL, {"health", "--emulate", kScene}, {.seconds = 60, .no_reader = true});
+  const ProgramResult result = RunProgram(FORESIGHTCTL, {"health", "--emulate", kValveScene},
+                                          {.seconds = 60, .no_reader = true});
   ExpectLost(result, "standard output: cannot write: Broken pipe");
 }
 
@@ -72,8 +72,9 @@ TEST(Output, ATableThatCannotGrowIsAnError) {
 TEST(Output, AFileThatDoesNotFitLeavesTheOldOne) {
   const TemporaryFolder folder;
   ASSERT_TRUE(WriteFileAtomically(folder / "image.png", "old"));
-  const ProgramResult result = RunProgram(
-      FORESIGHTCTL, {"render", kScene, "--out", folder.path().string()}, {.file_bytes = 10'000});
+  const ProgramResult result =
+      RunProgram(FORESIGHTCTL, {"render", kValveScene, "--out", folder.path().string()},
+                 {.file_bytes = 10'000});
   ExpectLost(result, "image.png: cannot write: File too large");
   EXPECT_EQ(ReadFile(folder / "image.png").value(), "old");
   EXPECT_EQ(folder.EntryCount(), 1);
@@ -85,7 +86,7 @@ class OutputFiles : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
     const ProgramResult scanned =
-        RunProgram(FORESIGHTCTL, {"scan", "--scene", kScene, "--from", "-15", "--to", "15",
+        RunProgram(FORESIGHTCTL, {"scan", "--scene", kValveScene, "--from", "-15", "--to", "15",
                                   "--speed", "30", "--out", *folder_ / "a.foresight"});
     ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
   }
@@ -123,11 +124,11 @@ TEST_F(OutputFiles, APipeIsRefusedByEveryWriter) {
   };
   ExpectLost(FitWithPicture(pipe), "pipe: is a pipe");
   ExpectLost(run({"cloud", *folder_ / "a.foresight", "--out", pipe}), "pipe: is a pipe");
-  ExpectLost(run({"emulate", kScene, "--seconds", "0.1", "--head-config", pipe}),
+  ExpectLost(run({"emulate", kValveScene, "--seconds", "0.1", "--head-config", pipe}),
              "pipe: is a pipe");
   EXPECT_FALSE(std::filesystem::exists(pipe + ".rig.yaml"));
   ExpectLost(run({"evaluate-fits", "valve", "--count", "1", "--table", pipe}), "pipe: is a pipe");
-  ExpectLost(run({"scan", "--scene", kScene, "--out", pipe}), "pipe: is not a file");
+  ExpectLost(run({"scan", "--scene", kValveScene, "--out", pipe}), "pipe: is not a file");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 

@@ -19,7 +19,7 @@ namespace foresight {
 namespace {
 
 using testing::HasSubstr;
-using Kind = SessionCapture::Kind;
+using CaptureKind = SessionCapture::Kind;
 
 struct ChainCalibration : testing::Test {
   QTemporaryDir folder;
@@ -88,7 +88,7 @@ TEST_F(ChainCalibration, APlaceThatIsLeftOutIsSolvedWithoutAndUndoTakesItInAgain
   ASSERT_TRUE(Solve());
   ASSERT_TRUE(model.Solution()) << model.StateText().toStdString();
   const std::size_t boards = model.Solution()->boards.size();
-  model.SetExcluded({Kind::kPose, 3, -1}, true);
+  model.SetExcluded({CaptureKind::kPose, 3, -1}, true);
   ASSERT_TRUE(Settled());
   EXPECT_TRUE(model.Places()[3].excluded);
   // Without the fourth place a stop may be loose; then the reason is told and nothing is kept.
@@ -105,7 +105,7 @@ TEST_F(ChainCalibration, APlaceThatIsLeftOutIsSolvedWithoutAndUndoTakesItInAgain
 
 TEST_F(ChainCalibration, AnImageThatIsLeftOutIsStillLeftOutAfterACrash) {
   ASSERT_TRUE(Open());
-  model.SetExcluded({Kind::kIntrinsicImage, -1, 2}, true);
+  model.SetExcluded({CaptureKind::kIntrinsicImage, -1, 2}, true);
   ASSERT_TRUE(Settled());
   EXPECT_EQ(model.BoardImages()[2].state, BoardImageRow::State::kExcluded);
   ChainCalibrationModel again(&head_model, &session, sessions);
@@ -165,14 +165,14 @@ TEST_F(ChainCalibration, TheRigIsAChildOfTheOneInForceAndKeepsItsPlaceOnTheRobot
 }
 
 /// Small, so that a look for boards that are not there takes no time.
-SensorRig RigOfSmallCamera() {
+SensorRig ChainRigOfSmallCamera() {
   SensorRig rig = DefaultSensorRig();
   rig.camera = SmallCamera();
   return rig;
 }
 
 StopCapture DarkCapture(double angle_rad) {
-  const SensorRig rig = RigOfSmallCamera();
+  const SensorRig rig = ChainRigOfSmallCamera();
   StopCapture capture;
   capture.target_rad = angle_rad;
   capture.position = {1.0, angle_rad + 1e-5};
@@ -185,7 +185,7 @@ StopCapture DarkCapture(double angle_rad) {
 }
 
 TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfterACrash) {
-  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  ASSERT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
   StandPlan plan;
   plan.first_deg = 0.0;
   plan.last_deg = 10.0;
@@ -224,7 +224,7 @@ TEST_F(ChainCalibration, CapturesAreOnTheDiskBeforeAnythingIsComputedAndGoOnAfte
 }
 
 TEST_F(ChainCalibration, AnOpenedSessionIsAddedToAtANewPlaceOnceTheOperatorSaysSo) {
-  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  ASSERT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
   CalibrationRecorder* recorder = model.Recorder();
   recorder->captureStops();
   head->DeliverStops(DarkCapture);
@@ -249,7 +249,7 @@ TEST_F(ChainCalibration, AnOpenedSessionIsAddedToAtANewPlaceOnceTheOperatorSaysS
 }
 
 TEST_F(ChainCalibration, AHeadThatRefusesTheStopsLeavesNoEmptyPlace) {
-  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  ASSERT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
   head->SetState(HeadState::kSweeping);  // the window has not heard of it yet
   model.Recorder()->captureStops();
   ASSERT_TRUE(WaitFor([&] { return !model.Recorder()->Writing(); }));
@@ -259,7 +259,7 @@ TEST_F(ChainCalibration, AHeadThatRefusesTheStopsLeavesNoEmptyPlace) {
 }
 
 TEST_F(ChainCalibration, UndoOfAnExclusionGoesBackAlsoWhereTheStopWasCapturedAgain) {
-  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  ASSERT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
   StandPlan plan;
   plan.first_deg = plan.last_deg = 0.0;
   model.Recorder()->SetPlan(plan);
@@ -276,7 +276,7 @@ TEST_F(ChainCalibration, UndoOfAnExclusionGoesBackAlsoWhereTheStopWasCapturedAga
   };
   model.Recorder()->captureStops();
   ASSERT_TRUE(deliver());
-  model.SetExcluded({Kind::kStop, 0, 0}, true);
+  model.SetExcluded({CaptureKind::kStop, 0, 0}, true);
   ASSERT_TRUE(Settled());
   model.Recorder()->CaptureStopAgain(0.0);
   ASSERT_TRUE(deliver());
@@ -300,7 +300,7 @@ TEST_F(ChainCalibration, AHeadThatWasStoppedCapturesNothing) {
 }
 
 TEST_F(ChainCalibration, ASweepGoesThereAndBackAndIsKeptWithThePlace) {
-  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  ASSERT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
   StandPlan plan;
   plan.first_deg = -1.0;
   plan.last_deg = 1.0;
@@ -336,7 +336,7 @@ StopCapture StripedCapture(double angle_rad) {
 }
 
 TEST_F(ChainCalibration, BoardsThatAreInNoImageAreCalledWrong) {
-  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  ASSERT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
   StandPlan plan;
   plan.first_deg = 0.0;
   plan.last_deg = 20.0;
@@ -350,7 +350,7 @@ TEST_F(ChainCalibration, BoardsThatAreInNoImageAreCalledWrong) {
 }
 
 TEST_F(ChainCalibration, DarkImagesAreNotBlamedOnTheBoards) {
-  ASSERT_TRUE(head->SetRig(RigOfSmallCamera()));
+  ASSERT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
   StandPlan plan;
   plan.first_deg = 0.0;
   plan.last_deg = 20.0;
@@ -401,7 +401,7 @@ struct MovingStandCalibration : ChainCalibration {
   CalibrationRecorder* recorder = moving.Recorder();
 
   MovingStandCalibration() {
-    EXPECT_TRUE(head->SetRig(RigOfSmallCamera()));
+    EXPECT_TRUE(head->SetRig(ChainRigOfSmallCamera()));
     StandPlan plan;
     plan.first_deg = 0.0;
     plan.last_deg = 10.0;

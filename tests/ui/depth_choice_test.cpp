@@ -9,7 +9,7 @@ namespace {
 
 using Kind = CompareViewModel::Kind;
 
-std::shared_ptr<const Scan> SmallScan() {
+std::shared_ptr<const Scan> ThinScan() {
   static const auto scan = std::make_shared<const Scan>(
       WallAndValveScan({.from_rad = -0.1, .to_rad = 0.1, .speed_rad_s = 0.2}));
   return scan;
@@ -22,7 +22,7 @@ struct DepthChoice : testing::Test {
 
   void SetUp() override {
     depth.setMethod(DepthMethod::kPaper);  // whichever is the default
-    session.SetScan(SmallScan());
+    session.SetScan(ThinScan());
     ASSERT_TRUE(Idle());
     ASSERT_NE(session.Depth(), nullptr);
   }
@@ -121,7 +121,7 @@ TEST_F(DepthChoice, AFrozenDepthKeepsItsMaskWhileTheThresholdMoves) {
 
 TEST_F(DepthChoice, ANewScanDropsTheFrozenDepthAndComputesTheOtherMethodAgain) {
   compare.compareWithFrozen();
-  session.SetScan(std::make_shared<const Scan>(*SmallScan()));
+  session.SetScan(std::make_shared<const Scan>(*ThinScan()));
   EXPECT_EQ(compare.With(), Kind::kNothing);
   compare.compareWithMethod(DepthMethod::kJointBilateral);
   EXPECT_EQ(compare.Second(), nullptr) << "the first depth comes first";

@@ -15,7 +15,7 @@
 namespace foresight {
 namespace {
 
-std::shared_ptr<const Scan> SharedScan() {
+std::shared_ptr<const Scan> ScanOfSession() {
   // 4 deg/s over 30 deg is dense enough for a fit; made once, as it takes a while.
   static const auto scan = std::make_shared<const Scan>(
       WallAndValveScan({.from_rad = -0.26, .to_rad = 0.26, .speed_rad_s = 0.10}));
@@ -52,14 +52,14 @@ struct SessionTest : testing::Test {
 };
 
 TEST_F(SessionTest, AScanBecomesDepthByItself) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   EXPECT_NE(session.Cloud(), nullptr);
-  EXPECT_EQ(session.Depth()->dense.depth_m.width(), SharedScan()->rig.camera.width);
+  EXPECT_EQ(session.Depth()->dense.depth_m.width(), ScanOfSession()->rig.camera.width);
   EXPECT_TRUE(notices.empty());
 }
 
 TEST_F(SessionTest, OnlyACompleteScanIsAskedForItsImage) {
-  Scan scan = *SharedScan();
+  Scan scan = *ScanOfSession();
   scan.frames.clear();
   scan.state = ScanState::kInterrupted;
   session.SetScan(std::make_shared<const Scan>(scan));
@@ -73,7 +73,7 @@ TEST_F(SessionTest, OnlyACompleteScanIsAskedForItsImage) {
 }
 
 TEST_F(SessionTest, ThresholdChangesTheMaskWithoutComputingDepthAgain) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   const auto before = session.Depth();
   const auto kept_before = Kept();
   depth.setThreshold(0.9);
@@ -84,7 +84,7 @@ TEST_F(SessionTest, ThresholdChangesTheMaskWithoutComputingDepthAgain) {
 }
 
 TEST_F(SessionTest, CancelLeavesTheOldDepth) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   const auto before = session.Depth();
   depth.compute();
   depth.Runner()->cancel();
@@ -95,14 +95,14 @@ TEST_F(SessionTest, CancelLeavesTheOldDepth) {
 }
 
 TEST_F(SessionTest, ANewScanNeverShowsTheDepthOfTheOneBefore) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
-  session.SetScan(std::make_shared<const Scan>(*SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
+  session.SetScan(std::make_shared<const Scan>(*ScanOfSession()));
   EXPECT_EQ(session.Depth(), nullptr);
   EXPECT_EQ(session.Cloud(), nullptr);
 }
 
 TEST_F(SessionTest, NoSignalOfANewScanLetsTheOldImageOrDepthBeSeen) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   int heard = 0;
   for (auto signal : {&SessionModel::scanChanged, &SessionModel::cloudChanged,
                       &SessionModel::roiChanged, &SessionModel::objectsChanged})
@@ -116,7 +116,7 @@ TEST_F(SessionTest, NoSignalOfANewScanLetsTheOldImageOrDepthBeSeen) {
 }
 
 TEST_F(SessionTest, AFailedFitIsReportedAndListedNowhere) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   fit.SetTool(ObjectKind::kValve, true);
   fit.DrawRegion({{20, 20}, {60, 60}});  // nothing but wall
   ASSERT_TRUE(WaitFor([&] { return !fit.Runner()->Busy(); }));
@@ -127,7 +127,7 @@ TEST_F(SessionTest, AFailedFitIsReportedAndListedNowhere) {
 }
 
 TEST_F(SessionTest, DrawingOverAValveWithTheToolFindsIt) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   fit.SetTool(ObjectKind::kValve, true);
   const auto [a, b] = AroundValve();
   fit.DrawRegion({a, b});
@@ -140,13 +140,13 @@ TEST_F(SessionTest, DrawingOverAValveWithTheToolFindsIt) {
 }
 
 TEST_F(SessionTest, AClickIsNotARegion) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   fit.DrawRegion({{100, 100}, {101, 101}});
   EXPECT_FALSE(session.Region());
 }
 
 TEST_F(SessionTest, UndoBringsTheRegionBeforeBack) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   fit.DrawRegion({{10, 10}, {50, 50}});
   const auto first = std::get<ImageRoi>(*session.Region()).polygon;
   fit.DrawRegion({{60, 60}, {90, 90}});
@@ -160,19 +160,19 @@ TEST_F(SessionTest, UndoBringsTheRegionBeforeBack) {
 }
 
 TEST_F(SessionTest, AValveOfAnEarlierScanIsNotCurrent) {
-  session.SetScan(SharedScan());
+  session.SetScan(ScanOfSession());
   FoundObject valve;
-  valve.scan_uuid = SharedScan()->uuid;
+  valve.scan_uuid = ScanOfSession()->uuid;
   session.AddObject(valve);
   EXPECT_TRUE(session.IsCurrent(session.Objects()[0]));
-  Scan another = *SharedScan();
+  Scan another = *ScanOfSession();
   another.uuid = NewUuid();
   session.SetScan(std::make_shared<const Scan>(std::move(another)));
   EXPECT_FALSE(session.IsCurrent(session.Objects()[0]));
 }
 
 struct ScanFlowTest : SessionTest {
-  std::shared_ptr<FakeHead> fake = std::make_shared<FakeHead>(SharedScan()->rig);
+  std::shared_ptr<FakeHead> fake = std::make_shared<FakeHead>(ScanOfSession()->rig);
   HeadViewModel head{fake};
   ScanFlow flow{&head, &session};
 };
@@ -196,7 +196,7 @@ TEST(SessionMemory, TheCloudBeforeIsGivenBackByAnotherThread) {
 
 TEST_F(ScanFlowTest, TheCloudGrowsWhileTheHeadSweeps) {
   head.scan();
-  fake->Deliver(*SharedScan(), 40);
+  fake->Deliver(*ScanOfSession(), 40);
   ASSERT_TRUE(WaitFor([&] { return session.Cloud() != nullptr; }));
   EXPECT_EQ(session.Cloud()->lines, 40);
   EXPECT_EQ(session.CurrentScan(), nullptr);
@@ -204,7 +204,7 @@ TEST_F(ScanFlowTest, TheCloudGrowsWhileTheHeadSweeps) {
 
 TEST_F(ScanFlowTest, AnAbortedScanKeepsWhatItHasAndSaysSo) {
   head.scan();
-  fake->Deliver(*SharedScan(), 40);
+  fake->Deliver(*ScanOfSession(), 40);
   head.abort();
   head.Poll();
   ASSERT_NE(session.CurrentScan(), nullptr);
@@ -214,7 +214,7 @@ TEST_F(ScanFlowTest, AnAbortedScanKeepsWhatItHasAndSaysSo) {
 }
 
 TEST_F(ScanFlowTest, NothingOfTheOldScanStaysWhenANewOneBegins) {
-  ASSERT_TRUE(ComputeDepthOf(SharedScan()));
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   head.scan();
   EXPECT_EQ(session.CurrentScan(), nullptr);
   EXPECT_EQ(session.Cloud(), nullptr);
@@ -223,17 +223,17 @@ TEST_F(ScanFlowTest, NothingOfTheOldScanStaysWhenANewOneBegins) {
 
 TEST_F(ScanFlowTest, AnImageIsShownWhenItIsTakenAndNotAtTheEnd) {
   head.scan();
-  fake->Deliver(*SharedScan(), 40);
-  fake->DeliverFrame(SharedScan()->frames[0]);
+  fake->Deliver(*ScanOfSession(), 40);
+  fake->DeliverFrame(ScanOfSession()->frames[0]);
   ASSERT_TRUE(WaitFor([&] { return session.CurrentImage() != nullptr; }));
   EXPECT_EQ(session.CurrentScan(), nullptr) << "the scan is still on its way";
-  EXPECT_EQ(session.CurrentImage()->image, SharedScan()->frames[0].image);
+  EXPECT_EQ(session.CurrentImage()->image, ScanOfSession()->frames[0].image);
 }
 
 TEST_F(ScanFlowTest, LinesThatComeAfterTheEndAreShownToo) {
   head.scan();
-  fake->Deliver(*SharedScan(), 40);
-  const auto late = fake->FinishButStillSend(*SharedScan(), ScanState::kComplete);
+  fake->Deliver(*ScanOfSession(), 40);
+  const auto late = fake->FinishButStillSend(*ScanOfSession(), ScanState::kComplete);
   head.Poll();
   ASSERT_NE(session.CurrentScan(), nullptr);
   ASSERT_EQ(session.CurrentScan()->lines.size(), 40u);
@@ -254,7 +254,7 @@ TEST_F(ScanFlowTest, AScanThatTheHeadNeverBeginsLeavesTheWindowUsable) {
 }
 
 TEST_F(ScanFlowTest, ScanTimeIsWhenTheScanBeganAndNotWhenTheHeadWasSwitchedOn) {
-  Scan late = *SharedScan();
+  Scan late = *ScanOfSession();
   std::vector<LidarLine> lines(late.lines.begin(), late.lines.end());
   for (LidarLine& line : lines) line.time_s += 300.0;
   late.lines = lines;
@@ -273,14 +273,14 @@ TEST_F(LiveDepthTest, ASecondScanIsPreviewedUnderTheImageOfTheFirst) {
   PlanFields plan = head.Plan();
   plan.image_angles_deg = {0.0};
   head.SetPlan(plan);
-  session.SetScan(SharedScan());
+  session.SetScan(ScanOfSession());
   head.scan();
   EXPECT_EQ(live.Depth(), nullptr);
-  fake->Deliver(*SharedScan(), 60);
+  fake->Deliver(*ScanOfSession(), 60);
   ASSERT_TRUE(WaitFor([&] { return live.Depth() != nullptr; }));
   EXPECT_EQ(live.Lines(), 60);
   EXPECT_EQ(session.Depth(), nullptr) << "nothing can be fitted to a preview";
-  fake->Finish(*SharedScan(), ScanState::kComplete);
+  fake->Finish(*ScanOfSession(), ScanState::kComplete);
   head.Poll();
   EXPECT_EQ(live.Depth(), nullptr);
 }
@@ -289,17 +289,17 @@ TEST_F(LiveDepthTest, GrowsWithTheLinesAndEqualsTheWholeComputation) {
   PlanFields plan = head.Plan();
   plan.image_angles_deg = {0.0};
   head.SetPlan(plan);
-  session.SetScan(SharedScan());
+  session.SetScan(ScanOfSession());
   head.scan();
-  fake->Deliver(*SharedScan(), 60);
+  fake->Deliver(*ScanOfSession(), 60);
   ASSERT_TRUE(WaitFor([&] { return live.Depth() != nullptr; }));
-  fake->Deliver(*SharedScan(), 100);
+  fake->Deliver(*ScanOfSession(), 100);
   ASSERT_TRUE(WaitFor([&] { return live.Lines() == 100; }));
   const auto options =
       FixedForPlan(DefaultsOf(LiveDepthViewModel::Method()), head.Plan().ToPlan(), session.Rig());
   ASSERT_TRUE(options);
-  const auto whole =
-      ComputeDepthInFrame(*session.Cloud(), session.Rig(), SharedScan()->frames[0], *options, {});
+  const auto whole = ComputeDepthInFrame(*session.Cloud(), session.Rig(),
+                                         ScanOfSession()->frames[0], *options, {});
   ASSERT_TRUE(whole);
   EXPECT_EQ(live.Depth()->mask, whole->mask);
   EXPECT_EQ(live.Depth()->dense.confidence, whole->dense.confidence);
@@ -309,9 +309,9 @@ TEST_F(LiveDepthTest, AnImageOfAnotherAngleIsNotUsed) {
   PlanFields plan = head.Plan();
   plan.image_angles_deg = {5.0};
   head.SetPlan(plan);
-  session.SetScan(SharedScan());
+  session.SetScan(ScanOfSession());
   head.scan();
-  fake->Deliver(*SharedScan(), 60);
+  fake->Deliver(*ScanOfSession(), 60);
   ASSERT_TRUE(WaitFor([&] { return session.Cloud() != nullptr; }));
   EXPECT_FALSE(live.Runner()->Busy());
 }
@@ -323,7 +323,7 @@ FoundObject ValveWithTwoAlternatives() {
   valve.alternatives.resize(2);
   FoundObject object;
   object.detection = valve;
-  object.scan_uuid = SharedScan()->uuid;
+  object.scan_uuid = ScanOfSession()->uuid;
   return object;
 }
 
@@ -402,7 +402,7 @@ TEST_F(SessionTest, TerrainIsComparedWithTheLastAcceptedOneOnly) {
     object.scan_uuid = "another";
     return object;
   };
-  session.SetScan(SharedScan());
+  session.SetScan(ScanOfSession());
   session.AddObject(terrain_of_another_scan());
   const auto last = [&] {
     return std::get<FitTerrainOptions>(fit.OptionsFor(ObjectKind::kTerrain)).last;

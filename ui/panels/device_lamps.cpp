@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kSign_px = 18;
+constexpr int kLamp_px = 18;
 
 const char* IconOf(DeviceRow::Lamp lamp) {
   switch (lamp) {
@@ -31,7 +31,7 @@ bool NeedsWords(DeviceRow::Lamp lamp) {
 }  // namespace
 
 QPixmap LampPixmap(DeviceRow::Lamp lamp) {
-  return Icon(IconOf(lamp)).pixmap(kSign_px, kSign_px);
+  return Icon(IconOf(lamp)).pixmap(kLamp_px, kLamp_px);
 }
 
 DeviceLamps::DeviceLamps(HeadViewModel* head, QWidget* parent) : QWidget(parent), head_(head) {

@@ -11,7 +11,7 @@ namespace foresight {
 namespace {
 
 constexpr double kFullColour_m = 0.030;
-constexpr int kLegend_px = 18;
+constexpr int kScale_px = 18;
 
 /// White on the board, full colours from 30 mm on.
 QColor ColorOfResidual(double residual_m) {
@@ -29,7 +29,7 @@ LidarImageView::LidarImageView(QWidget* parent) : QWidget(parent) {
 }
 
 int LidarImageView::heightForWidth(int width) const {
-  return width * height_ / width_ + kLegend_px;
+  return width * height_ / width_ + kScale_px;
 }
 
 void LidarImageView::Show(const GrayImage& image, const MountView* view, int width, int height,
@@ -83,7 +83,7 @@ void LidarImageView::paintEvent(QPaintEvent*) {
 }
 
 void LidarImageView::PaintScale(QPainter& painter) const {
-  const QRect room(0, height() - kLegend_px + 3, width(), kLegend_px - 3);
+  const QRect room(0, height() - kScale_px + 3, width(), kScale_px - 3);
   QFont small = font();
   small.setPointSizeF(0.8 * small.pointSizeF());
   painter.setFont(small);

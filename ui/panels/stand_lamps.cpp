@@ -23,7 +23,7 @@ QString Degrees(double angle_rad) {
   return QString::number(DegreesFromRadians(angle_rad), 'g', 4);
 }
 
-QString InWords(StopLamp::State state) {
+QString WordsOf(StopLamp::State state) {
   using State = StopLamp::State;
   switch (state) {
     case State::kWaiting:
@@ -46,7 +46,7 @@ QString InWords(StopLamp::State state) {
 
 QString TipOf(const StandPlaceRow& row, const StopLamp& lamp) {
   QString text =
-      StandLamps::tr("%1, %2°: %3").arg(row.name, Degrees(lamp.motor_rad), InWords(lamp.state));
+      StandLamps::tr("%1, %2°: %3").arg(row.name, Degrees(lamp.motor_rad), WordsOf(lamp.state));
   if (lamp.has_lines) text += StandLamps::tr(", lidar lines");
   if (std::isfinite(lamp.rms_px)) text += StandLamps::tr(", rms %1 px").arg(lamp.rms_px, 0, 'f', 2);
   if (lamp.stands_out) text += StandLamps::tr("\nIt fits much worse than the others.");

@@ -5,6 +5,11 @@
 
 namespace foresight {
 
+/// The paper's mean error of corners in the image (Section III-B: "a mean projection error of 0.360
+/// pixels"), and what is bad.
+inline constexpr double kPaperError_px = 0.360;
+inline constexpr double kHighError_px = 2.0 * kPaperError_px;
+
 /// One thing of a calibration that was compared with its limit.
 struct CalibrationCheck {
   enum class Level { kGood, kCaution, kBad };

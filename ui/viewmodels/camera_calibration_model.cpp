@@ -23,9 +23,7 @@ const QString kUndoTopic = QStringLiteral("camera calibration");
 constexpr int kThumbnailWidth = 96;
 constexpr int kMinImages = 4;
 
-// Limits of the verdict. Section III-B: "a mean projection error of 0.360 pixels".
-constexpr double kPaperError_px = 0.360;
-constexpr double kHighError_px = 2.0 * kPaperError_px;
+// Limits of the verdict.
 /// Images that were not used are predicted nearly as well as those that were.
 constexpr double kGoodPrediction = 1.10;
 /// Relative standard deviation of the focal length: 1.2 px of 600, and what is hardly of use.

@@ -11,7 +11,7 @@
 namespace foresight {
 namespace {
 
-const QString kUndoTopic = QStringLiteral("head calibration");
+const QString kChainUndoTopic = QStringLiteral("head calibration");
 /// Below this number of places the motor's axis is hardly told.
 constexpr int kMinPlaces = 3;
 
@@ -49,7 +49,7 @@ ChainCalibrationModel::ChainCalibrationModel(HeadViewModel* head, SessionModel* 
 }
 
 ChainCalibrationModel::~ChainCalibrationModel() {
-  documents_->Undo()->Forget(kUndoTopic);
+  documents_->Undo()->Forget(kChainUndoTopic);
 }
 
 QString ChainCalibrationModel::LastSession() const {
@@ -82,7 +82,7 @@ void ChainCalibrationModel::Clear() {
   selected_image_ = std::make_shared<const GrayImage>();
   rig_.SetFolder({});
   rig_.Forget();
-  documents_->Undo()->Forget(kUndoTopic);
+  documents_->Undo()->Forget(kChainUndoTopic);
 }
 
 void ChainCalibrationModel::startNew() {
@@ -143,8 +143,8 @@ void ChainCalibrationModel::SetExcluded(const SessionCapture& capture, bool excl
   // It may have been captured again before this is undone.
   const auto before = recorder_.SetExcluded(capture, excluded);
   documents_->Undo()->Push(
-      text.arg(recorder_.NameOf(capture)), kUndoTopic, [this, before] { recorder_.Swap(before); },
-      [this, before] { recorder_.Swap(before); });
+      text.arg(recorder_.NameOf(capture)), kChainUndoTopic,
+      [this, before] { recorder_.Swap(before); }, [this, before] { recorder_.Swap(before); });
 }
 
 bool ChainCalibrationModel::Busy() const {

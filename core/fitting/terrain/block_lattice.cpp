@@ -25,7 +25,7 @@ constexpr double kFirstJitter_m = 0.010;
 constexpr double kTurnJitter_rad = RadiansFromDegrees(1.0);
 // Beyond the last one rows say less of a block than any edge of its own.
 constexpr std::array kJitters_m = {0.003, 0.004, 0.006, 0.008, 0.010, 0.013, 0.016};
-constexpr int kRounds = 6;
+constexpr int kLatticeRounds = 6;
 
 Rows RowsOf(const Eigen::Vector2d& cell) {
   Rows rows;
@@ -96,7 +96,7 @@ void SearchCells(std::span<const BlockPlace> blocks, const std::vector<bool>& us
 
 /// Robust least squares over origin and step for a given jitter.
 void SolveRows(std::span<const BlockPlace> blocks, const std::vector<bool>& used, Fit& fit) {
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kLatticeRounds; ++round) {
     Eigen::Matrix4d information = 1e-6 * Eigen::Matrix4d::Identity();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < blocks.size(); ++i) {

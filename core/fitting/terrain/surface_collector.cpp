@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-constexpr double kMinCover = 0.40;  // of a block that is offered
+constexpr double kLeastOffered = 0.40;  // of a block that is offered
 constexpr double kMaxSeeThrough = 0.30;
 constexpr double kLargestPatch = 5.0;   // blocks; more is ground or a floor
 constexpr double kMinLeftover = 0.15;   // of a block's area: a surface of its own
@@ -130,10 +130,10 @@ void SurfaceCollector::AddBlocks(const PlaneView& view, std::vector<PlaneView::S
   if (slope > options_.max_tilt_rad) return;
   views_.push_back(view);
   const double blur_m = EdgeBlur(rays_, grid_, view.surface.center);
-  for (const BlockRectangle& rectangle : FitRectangles(view, size_m_, kMinCover, blur_m)) {
+  for (const BlockRectangle& rectangle : FitRectangles(view, size_m_, kLeastOffered, blur_m)) {
     FoundSurface block = BlockAt(static_cast<int>(views_.size()) - 1, rectangle);
     const BlockEvidence& seen = block.surface.evidence;
-    if (seen.cover < kMinCover || seen.see_through > kMaxSeeThrough) continue;
+    if (seen.cover < kLeastOffered || seen.see_through > kMaxSeeThrough) continue;
     std::erase_if(left, [&](const auto& sample) {
       if (rectangle.Inside(sample.at) < -kOwnMargin_m) return false;
       block.points.push_back(sample.point);

@@ -10,7 +10,7 @@ namespace {
 constexpr double kMinLength_m = 0.08;
 constexpr double kMaxLength_m = 0.42;
 constexpr int kMinPoints = 8;
-constexpr double kTubeRadius_m = 0.012;
+constexpr double kLeverStartTubeRadius_m = 0.012;
 
 /// A piece of a straight line with the points that lie along it.
 struct Bar {
@@ -55,8 +55,8 @@ ValveCandidate LeverFrom(const Eigen::Vector3d& pivot, const Eigen::Vector3d& di
   Eigen::Matrix3d rotation;
   rotation << direction, z.cross(direction), z;
   // The returns come from the front of the bar; its middle lies a radius further back.
-  return {Rigid<frame::Base, frame::Object>(rotation, pivot - kTubeRadius_m * z),
-          UsualLever(length_m, kTubeRadius_m), 0.0};
+  return {Rigid<frame::Base, frame::Object>(rotation, pivot - kLeverStartTubeRadius_m * z),
+          UsualLever(length_m, kLeverStartTubeRadius_m), 0.0};
 }
 
 }  // namespace
@@ -88,8 +88,8 @@ std::vector<ValveCandidate> FindLevers(const std::vector<Eigen::Vector3d>& point
   }
   std::vector<ValveCandidate> levers;
   for (const Bar& bar : distinct) {
-    const double length_m = std::max(kMinLength_m, bar.length_m - 2.0 * kTubeRadius_m);
-    const Eigen::Vector3d inset = kTubeRadius_m * bar.direction;
+    const double length_m = std::max(kMinLength_m, bar.length_m - 2.0 * kLeverStartTubeRadius_m);
+    const Eigen::Vector3d inset = kLeverStartTubeRadius_m * bar.direction;
     const Eigen::Vector3d end = bar.begin + bar.length_m * bar.direction;
     levers.push_back(LeverFrom(bar.begin + inset, bar.direction, length_m, options.facing));
     levers.push_back(LeverFrom(end - inset, -bar.direction, length_m, options.facing));

@@ -10,7 +10,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kBins = 24;                 // of the rim's circle
+constexpr int kRimBins = 24;              // of the rim's circle
 constexpr double kPenaltyOutside = 0.15;  // a rim is the outermost part of a wheel
 
 /// The circle through three points, its axis across their plane.
@@ -41,7 +41,7 @@ std::optional<RimHypothesis> CircleThrough(const Eigen::Vector3d& a, const Eigen
 double Score(std::span<const Eigen::Vector3d> points, const RimHypothesis& rim, double tolerance) {
   const Eigen::Vector3d x = rim.axis.unitOrthogonal();
   const Eigen::Vector3d y = rim.axis.cross(x);
-  std::bitset<kBins> covered;
+  std::bitset<kRimBins> covered;
   double support = 0.0;
   int outside = 0;
   for (const Eigen::Vector3d& point : points) {
@@ -55,9 +55,10 @@ double Score(std::span<const Eigen::Vector3d> points, const RimHypothesis& rim, 
     if (ratio >= 1.0) continue;
     support += 1.0 - ratio;
     const double turn = std::atan2(q.dot(y), q.dot(x)) / (2.0 * std::numbers::pi) + 0.5;
-    covered.set(static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kBins), 0, kBins - 1)));
+    covered.set(
+        static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kRimBins), 0, kRimBins - 1)));
   }
-  return support * static_cast<double>(covered.count()) / kBins - kPenaltyOutside * outside;
+  return support * static_cast<double>(covered.count()) / kRimBins - kPenaltyOutside * outside;
 }
 
 bool Similar(const RimHypothesis& a, const RimHypothesis& b) {

@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{20};
+constexpr std::chrono::milliseconds kCancelLook{20};
 constexpr int kLooks = 500;  ///< ten seconds; then it is tried again later
 
 bool IsBeingWritten(const MissionFile& mission, const std::string& uuid) {
@@ -34,7 +34,7 @@ Status MissionArchive::Keep(const Scan& whole) {
   if (!mission) return Fail(ErrorCode::kState, "no mission file takes scans now");
   // The sink of the scan may have more of it on the way to the same file.
   for (int i = 0; i < kLooks && IsBeingWritten(*mission, whole.uuid); ++i)
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kCancelLook);
   FORESIGHT_CHECK(CompleteScan(*mission, whole));
   return {};
 }

@@ -6,7 +6,7 @@ namespace foresight {
 namespace {
 
 /// Within this time the head must have heard it: what the operator looked at is still so.
-constexpr double kGood_s = 8.0;
+constexpr double kOrderGood_s = 8.0;
 /// The head waits 2 s for the robot's answer; a line and its answer take 2.5 s at 9600 bit/s.
 constexpr std::chrono::milliseconds kPoseTry{6000};
 constexpr std::chrono::milliseconds kPosePause{200};
@@ -22,10 +22,10 @@ Result<RobotAnswer> FromMessage(const link::PoseReply& reply) {
 }  // namespace
 
 Result<RobotAnswer> SendPose(LinkSession& session, const std::string& pose_json) {
-  const double end_s = LinkSession::Now() + kGood_s;
+  const double end_s = LinkSession::Now() + kOrderGood_s;
   link::PoseRequest request;
   request.set_pose_json(pose_json);
-  request.set_void_after_s(session.DeskTime() + kGood_s);
+  request.set_void_after_s(session.DeskTime() + kOrderGood_s);
   request.set_boot_id(session.HeadIdentity().boot_id());
   for (;;) {
     request.set_control_token(session.Token());

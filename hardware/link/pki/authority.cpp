@@ -24,7 +24,6 @@ constexpr const char* kMachines = "machines";
 constexpr std::int64_t kDay = 86400;
 /// A machine whose clock is behind by less takes a new certificate at once.
 constexpr std::int64_t kClockTolerance = kDay;
-constexpr std::size_t kLargestPem = 64 << 10;
 
 Status MakePrivateFolder(const fs::path& folder) {
   std::error_code error;
@@ -85,8 +84,8 @@ Result<CertificateAuthority> CertificateAuthority::Open(const fs::path& folder) 
   FORESIGHT_TRY(ca.lock_, Lock(folder));
   const fs::path key = folder / kCaKeyFile;
   const std::string certificate = (folder / kCaFile).string();
-  FORESIGHT_TRY(ca.keys_.certificate_pem, ReadFile(certificate, kLargestPem));
-  FORESIGHT_TRY(ca.keys_.private_key_pem, ReadFile(key, kLargestPem));
+  FORESIGHT_TRY(ca.keys_.certificate_pem, ReadFile(certificate, kLargestPem_bytes));
+  FORESIGHT_TRY(ca.keys_.private_key_pem, ReadFile(key, kLargestPem_bytes));
   FORESIGHT_CHECK(CheckIsPrivate(key));
   FORESIGHT_TRY(ca.validity_, ReadCaCertificate(ca.keys_.certificate_pem, certificate));
   FORESIGHT_CHECK(CheckKeyFits(ca.keys_.certificate_pem, ca.keys_.private_key_pem, key.string()));
@@ -184,7 +183,7 @@ Result<std::vector<IssuedCertificate>> CertificateAuthority::List() const {
   for (fs::directory_iterator file(folder_ / kCertificates, error), end; !error && file != end;
        file.increment(error)) {
     if (file->path().extension() != ".crt") continue;
-    FORESIGHT_TRY(const std::string pem, ReadFile(file->path(), kLargestPem));
+    FORESIGHT_TRY(const std::string pem, ReadFile(file->path(), kLargestPem_bytes));
     FORESIGHT_TRY(LinkCertificate certificate, ReadLinkCertificate(pem, file->path().string()));
     const bool revoked = revocations_.Contains(certificate.serial);
     all.push_back({std::move(certificate), revoked, false});

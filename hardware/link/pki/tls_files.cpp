@@ -10,8 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestPem = 64 << 10;
-
 }  // namespace
 
 fs::path ConfigFolder() {
@@ -39,9 +37,9 @@ Result<TlsFiles> LoadTlsFiles(const fs::path& folder, std::int64_t utc_s) {
   files.folder = folder;
   const fs::path certificate = folder / kCertificateFile;
   const fs::path key = folder / kPrivateKeyFile;
-  FORESIGHT_TRY(files.ca_pem, ReadFile(folder / kCaFile, kLargestPem));
-  FORESIGHT_TRY(files.certificate_pem, ReadFile(certificate, kLargestPem));
-  FORESIGHT_TRY(files.private_key_pem, ReadFile(key, kLargestPem));
+  FORESIGHT_TRY(files.ca_pem, ReadFile(folder / kCaFile, kLargestPem_bytes));
+  FORESIGHT_TRY(files.certificate_pem, ReadFile(certificate, kLargestPem_bytes));
+  FORESIGHT_TRY(files.private_key_pem, ReadFile(key, kLargestPem_bytes));
   FORESIGHT_CHECK(CheckIsPrivate(key));
   FORESIGHT_CHECK(ReadCaCertificate(files.ca_pem, (folder / kCaFile).string()));
   FORESIGHT_TRY(files.certificate,

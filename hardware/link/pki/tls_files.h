@@ -11,6 +11,7 @@ namespace foresight {
 inline constexpr const char* kCaFile = "ca.crt";                        ///< the CA's certificate
 inline constexpr const char* kRevocationsFile = "ca.crl";               ///< what the CA has revoked
 inline constexpr std::size_t kLargestRevocationsFile_bytes = 16 << 20;  ///< a larger one is refused
+inline constexpr std::size_t kLargestPem_bytes = 64 << 10;  ///< of a key or a certificate
 inline constexpr const char* kCertificateFile =
     "link.crt";  ///< this machine's or person's certificate
 inline constexpr const char* kPrivateKeyFile = "link.key";  ///< its private key, 0600

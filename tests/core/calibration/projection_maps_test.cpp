@@ -7,7 +7,7 @@
 namespace foresight {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFarAway = std::numeric_limits<double>::infinity();
 constexpr MapSize kSize = {16, 12};
 
 CameraBundle AdjustedViews(double noise_px, int views = 20) {
@@ -31,7 +31,7 @@ TEST(ProjectionMaps, ACameraIsKnownBestWhereItsBoardsWere) {
   EXPECT_LT(2.0 * near.At(8, 6), near.At(0, 0));
   EXPECT_EQ(near.Largest(), *std::max_element(near.values.begin(), near.values.end()));
   const ImageField far =
-      ProjectionUncertainty(*covariance, camera.width, camera.height, kInfinity, kSize);
+      ProjectionUncertainty(*covariance, camera.width, camera.height, kFarAway, kSize);
   // Boards were 0.5 to 1.2 m away; at infinity the poses' errors count in full.
   EXPECT_GT(far.Median(), near.Median());
 }
@@ -47,17 +47,17 @@ TEST(ProjectionMaps, HalvesOfExactImagesAreOneCamera) {
   ASSERT_TRUE(halves) << halves.error().message;
   // What the solver stops at.
   EXPECT_LT(DifferenceOfHalves(*halves, 1.0, kSize).Largest(), 1e-4);
-  EXPECT_LT(DifferenceOfHalves(*halves, kInfinity, kSize).Largest(), 1e-4);
+  EXPECT_LT(DifferenceOfHalves(*halves, kFarAway, kSize).Largest(), 1e-4);
 }
 
 TEST(ProjectionMaps, HalvesOfNoisyImagesDifferAsTheUncertaintySays) {
   const CameraBundle bundle = AdjustedViews(0.287, 24);
   const auto halves = CalibrateHalves(bundle, false, RunContext());
   ASSERT_TRUE(halves) << halves.error().message;
-  const double difference = DifferenceOfHalves(*halves, kInfinity, kSize).Median();
+  const double difference = DifferenceOfHalves(*halves, kFarAway, kSize).Median();
   const double sigma =
       ProjectionUncertainty(*BundleCovariance::Of(bundle, false), bundle.camera.width,
-                            bundle.camera.height, kInfinity, kSize)
+                            bundle.camera.height, kFarAway, kSize)
           .Median();
   // Each half has half of the images, so that two halves differ by 2 sigma; one draw of it.
   EXPECT_GT(difference, 0.4 * sigma);
@@ -71,7 +71,7 @@ TEST(ProjectionMaps, ATurnOfTheWholeCameraIsNoDifference) {
   for (const BoardView& view : AdjustedViews(0.0).views)
     halves.pixels.insert(halves.pixels.end(), view.pixels.begin(), view.pixels.end());
   // The k lens is nearly equidistant: most of a shift of the principal point is a turn.
-  EXPECT_LT(DifferenceOfHalves(halves, kInfinity, kSize).Median(), 2.0);
+  EXPECT_LT(DifferenceOfHalves(halves, kFarAway, kSize).Median(), 2.0);
 }
 
 TEST(ProjectionMaps, ThreeImagesHaveNoHalves) {

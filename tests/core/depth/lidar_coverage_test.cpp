@@ -9,14 +9,15 @@
 namespace foresight {
 namespace {
 
-constexpr int kWidth = 120;
-constexpr int kHeight = 60;
+constexpr int kCoverWidth = 120;
+constexpr int kCoverHeight = 60;
 
 /// Samples every 4 px along and 8 px between the lines, in the left half of the image only.
 AlignedSamples LeftHalf() {
-  AlignedSamples samples = SamplesOnLattice(kWidth, kHeight, 4, 8, [](int, int) { return 2.0; });
+  AlignedSamples samples =
+      SamplesOnLattice(kCoverWidth, kCoverHeight, 4, 8, [](int, int) { return 2.0; });
   for (std::size_t i = 0; i < samples.samples.size(); ++i)
-    if (samples.samples[i].u > kWidth / 2) samples.reasons[i] = RejectReason::kFlying;
+    if (samples.samples[i].u > kCoverWidth / 2) samples.reasons[i] = RejectReason::kFlying;
   return samples;
 }
 
@@ -31,7 +32,7 @@ TEST(LidarCoverage, IsTheMaskOfAMethodThatKnowsNoConfidence) {
   TgvOptions quick;
   quick.iterations = 5;
   const auto dense =
-      UpsampleTgv(LeftHalf(), ColorImage(kWidth, kHeight, {128, 128, 128}), quick, {});
+      UpsampleTgv(LeftHalf(), ColorImage(kCoverWidth, kCoverHeight, {128, 128, 128}), quick, {});
   ASSERT_TRUE(dense) << dense.error().message;
   EXPECT_FALSE(dense->has_confidence);
   EXPECT_FALSE(std::isnan(dense->depth_m(110, 30))) << "the method fills every pixel";

@@ -139,7 +139,7 @@ void ExpectAWinner(const SamplePlane& fast,
                       << plain[0].slope_x << ", " << plain[0].slope_y;
 }
 
-void ExpectByTheBook(const PlaneProblem& problem, const PlaneReferenceOptions& options) {
+void ExpectPlanesByTheBook(const PlaneProblem& problem, const PlaneReferenceOptions& options) {
   const FilterOf of(problem, options);
   Random random(5);
   std::vector<SlopeCandidates> candidates(of.sparse().size());
@@ -159,7 +159,7 @@ void ExpectByTheBook(const PlaneProblem& problem, const PlaneReferenceOptions& o
   }
 }
 
-PlaneReferenceOptions Window(double sigma_px, double radius_px, int iterations = 4) {
+PlaneReferenceOptions PlaneWindow(double sigma_px, double radius_px, int iterations = 4) {
   PlaneReferenceOptions options;
   options.sigma_spatial_px = sigma_px;
   options.radius_px = radius_px;
@@ -168,18 +168,18 @@ PlaneReferenceOptions Window(double sigma_px, double radius_px, int iterations =
 }
 
 TEST_P(SamplePlaneKernel, IsItsDefinition) {
-  ExpectByTheBook(RandomProblem(64, 48), Window(12.0, 12.0));
+  ExpectPlanesByTheBook(RandomProblem(64, 48), PlaneWindow(12.0, 12.0));
 }
 
 TEST_P(SamplePlaneKernel, IsItsDefinitionOverCurvedRays) {
-  ExpectByTheBook(RandomProblem(64, 48, Rays::kCurved), Window(12.0, 24.0));
+  ExpectPlanesByTheBook(RandomProblem(64, 48, Rays::kCurved), PlaneWindow(12.0, 24.0));
 }
 
 TEST_P(SamplePlaneKernel, HoldsForFewSamplesAndForManyPasses) {
   for (const auto& [width, height, radius_px, iterations] :
        {std::tuple{1, 1, 6.0, 4}, {3, 9, 6.0, 1}, {17, 2, 0.25, 4}, {31, 7, 30.0, 12}}) {
     SCOPED_TRACE(width);
-    ExpectByTheBook(RandomProblem(width, height), Window(6.0, radius_px, iterations));
+    ExpectPlanesByTheBook(RandomProblem(width, height), PlaneWindow(6.0, radius_px, iterations));
   }
 }
 
@@ -191,7 +191,7 @@ TEST_P(SamplePlaneKernel, FindsAPlaneTooSteepForALevelStart) {
   for (FloatImage& channel : problem.colour) channel = FloatImage(40, 60, 50.0f);
   const SparseDepthMap map(problem.samples);
   problem.planes = LevelPlanes(map, problem.samples);  // a lattice is in the map's order already
-  PlaneReferenceOptions options = Window(12.0, 24.0);
+  PlaneReferenceOptions options = PlaneWindow(12.0, 24.0);
   options.ridge = 1e-4;  // a larger one keeps slopes small
   const FilterOf of(problem, options);
   const std::vector<SlopeCandidates> level(map.size());
@@ -214,7 +214,7 @@ TEST_P(SamplePlaneKernel, AFloatingSampleHasLittleSupport) {
   for (FloatImage& channel : problem.colour) channel = FloatImage(80, 60, 50.0f);
   const SparseDepthMap map(problem.samples);
   problem.planes = LevelPlanes(map, problem.samples);
-  const FilterOf of(problem, Window(12.0, 24.0));
+  const FilterOf of(problem, PlaneWindow(12.0, 24.0));
   const auto planes = Fit(of, SlopesOnGrid(map, problem.samples, of.planes()));
   // About forty samples are in its disc; next to it they agree with each other.
   EXPECT_LT(planes[At(map, problem.samples, 10, 2)].support, 0.3f);

@@ -36,7 +36,7 @@ Problem RandomProblem(int width, int height, int step_u, int step_v, double dept
   return problem;
 }
 
-UpsampleOptions Window(double sigma_px, double radius_in_sigmas = 1.0) {
+UpsampleOptions DepthWindow(double sigma_px, double radius_in_sigmas = 1.0) {
   UpsampleOptions options;
   options.sigma_spatial_px = sigma_px;
   options.radius_in_sigmas = radius_in_sigmas;
@@ -63,14 +63,14 @@ void ExpectByTheBook(const Problem& problem, const UpsampleOptions& options) {
 class UpsampleExactness : public OnEveryVectorTarget {};
 
 TEST_P(UpsampleExactness, IsEquationEight) {
-  ExpectByTheBook(RandomProblem(64, 48, 4, 6), Window(8.0));
+  ExpectByTheBook(RandomProblem(64, 48, 4, 6), DepthWindow(8.0));
 }
 
 TEST_P(UpsampleExactness, HoldsForImagesThatDoNotFillARegister) {
   for (const int width : {1, 2, 3, 5, 9, 15, 16, 17, 31})
     for (const int height : {1, 2, 9}) {
       SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
-      ExpectByTheBook(RandomProblem(width, height, 2, 3), Window(4.0));
+      ExpectByTheBook(RandomProblem(width, height, 2, 3), DepthWindow(4.0));
     }
 }
 
@@ -79,19 +79,19 @@ TEST_P(UpsampleExactness, HoldsForSmallAndLargeDiscs) {
   for (const auto& [sigma_px, radius_in_sigmas] :
        {std::pair{0.5, 0.5}, {0.9, 1.0}, {1.5, 1.5}, {5.3, 2.0}, {12.0, 4.0}, {60.0, 1.0}}) {
     SCOPED_TRACE(sigma_px);
-    ExpectByTheBook(problem, Window(sigma_px, radius_in_sigmas));
+    ExpectByTheBook(problem, DepthWindow(sigma_px, radius_in_sigmas));
   }
 }
 
 TEST_P(UpsampleExactness, HoldsFarAway) {
-  ExpectByTheBook(RandomProblem(40, 24, 4, 6, 28.0), Window(8.0));
+  ExpectByTheBook(RandomProblem(40, 24, 4, 6, 28.0), DepthWindow(8.0));
 }
 
 TEST_P(UpsampleExactness, HoldsForAnyNumberOfIterations) {
   const Problem problem = RandomProblem(40, 24, 4, 6);
   for (const int iterations : {0, 1, 12}) {
     SCOPED_TRACE(iterations);
-    UpsampleOptions options = Window(8.0);
+    UpsampleOptions options = DepthWindow(8.0);
     options.iterations = iterations;
     ExpectByTheBook(problem, options);
   }
@@ -99,7 +99,7 @@ TEST_P(UpsampleExactness, HoldsForAnyNumberOfIterations) {
 
 TEST_P(UpsampleExactness, ReportsTheIterationsAsTheyWere) {
   const Problem problem = RandomProblem(37, 21, 4, 6);
-  UpsampleOptions options = Window(8.0);
+  UpsampleOptions options = DepthWindow(8.0);
   options.keep_iterations = true;
   const auto fast = UpsampleDepth(problem.samples, problem.guide, options, {});
   ASSERT_EQ(fast->iterations.size(), 6u);
@@ -132,7 +132,7 @@ TEST_P(UpsampleExactness, LeavesAPixelUnlikeAllSamplesEmpty) {
     return std::lround(s.u) == 13 && std::lround(s.v) == 11;
   });
   problem.samples.reasons.resize(problem.samples.samples.size());
-  const auto dense = UpsampleDepth(problem.samples, problem.guide, Window(8.0), {});
+  const auto dense = UpsampleDepth(problem.samples, problem.guide, DepthWindow(8.0), {});
   EXPECT_TRUE(std::isnan(dense->depth_m(13, 11)));
   EXPECT_EQ(dense->confidence(13, 11), 0.0f);
   EXPECT_FALSE(std::isnan(dense->depth_m(14, 11)));
@@ -140,7 +140,7 @@ TEST_P(UpsampleExactness, LeavesAPixelUnlikeAllSamplesEmpty) {
 
 TEST_P(UpsampleExactness, LiteralWeightsAreEquationEightAsPrinted) {
   const Problem problem = RandomProblem(33, 19, 4, 6);
-  UpsampleOptions options = Window(8.0);
+  UpsampleOptions options = DepthWindow(8.0);
   options.weights = UpsampleOptions::Weights::kLiteral;
   const auto fast = UpsampleDepth(problem.samples, problem.guide, options, {});
   const DenseDepth plain = UpsampleByTheBook(problem.samples, problem.guide, options);
@@ -161,7 +161,7 @@ TEST_P(UpsampleExactness, EveryReadingOfEquationNineIsItsSum) {
         SCOPED_TRACE(testing::Message()
                      << "weights " << static_cast<int>(weights) << ", terms "
                      << static_cast<int>(terms) << ", passes " << static_cast<int>(passes));
-        UpsampleOptions options = Window(8.0);
+        UpsampleOptions options = DepthWindow(8.0);
         options.weights = weights;
         options.confidence_terms = terms;
         options.confidence_passes = passes;

@@ -8,7 +8,7 @@
 namespace foresight {
 namespace {
 
-ColorImage GuideWithAnEdge(int width, int height, int edge_x) {
+ColorImage GuideWithOneEdge(int width, int height, int edge_x) {
   ColorImage guide(width, height, {200, 200, 200});
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < edge_x; ++x) guide(x, y) = {60, 60, 60};
@@ -22,7 +22,7 @@ UpsampleOptions SmallWindow() {
 }
 
 TEST(UpsampleDepth, DoesNotBlurAcrossAnEdgeOfTheGuide) {
-  const ColorImage guide = GuideWithAnEdge(120, 60, 61);
+  const ColorImage guide = GuideWithOneEdge(120, 60, 61);
   const AlignedSamples samples =
       SamplesOnLattice(120, 60, 4, 6, [](int u, int) { return u < 61 ? 1.0 : 2.0; });
   const auto dense = UpsampleDepth(samples, guide, SmallWindow(), {});
@@ -62,7 +62,7 @@ TEST(UpsampleDepth, ConfidenceFallsWhereSamplesAreMissing) {
 
 TEST(UpsampleDepth, TheIterationsConverge) {
   Random random(5);
-  const ColorImage guide = GuideWithAnEdge(120, 60, 57);
+  const ColorImage guide = GuideWithOneEdge(120, 60, 57);
   const AlignedSamples samples = SamplesOnLattice(
       120, 60, 4, 6, [&](int u, int) { return (u < 61 ? 1.0 : 1.2) + 0.01 * random.Normal(); });
   UpsampleOptions options = SmallWindow();
@@ -75,7 +75,7 @@ TEST(UpsampleDepth, TheIterationsConverge) {
 }
 
 TEST(UpsampleDepth, LiteralWeightsMixSurfacesThatTheProductKeepsApart) {
-  const ColorImage guide = GuideWithAnEdge(120, 60, 61);
+  const ColorImage guide = GuideWithOneEdge(120, 60, 61);
   const AlignedSamples samples =
       SamplesOnLattice(120, 60, 4, 6, [](int u, int) { return u < 61 ? 1.0 : 2.0; });
   UpsampleOptions options = SmallWindow();
@@ -86,7 +86,7 @@ TEST(UpsampleDepth, LiteralWeightsMixSurfacesThatTheProductKeepsApart) {
 }
 
 TEST(UpsampleDepth, DoesNotDependOnTheNumberOfThreads) {
-  const ColorImage guide = GuideWithAnEdge(120, 60, 61);
+  const ColorImage guide = GuideWithOneEdge(120, 60, 61);
   const AlignedSamples samples =
       SamplesOnLattice(120, 60, 4, 6, [](int u, int v) { return 1.0 + 0.003 * u + 0.001 * v; });
   RunContext one, four;

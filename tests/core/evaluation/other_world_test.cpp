@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kDrawings = 60;
+constexpr int kWorldDrawings = 60;
 
 /// Our own wheel, which was drawn by other code.
 Shape WheelOf(const ValveModel& model) {
@@ -56,13 +56,13 @@ TEST(OtherWheels, ADiscABarePlateAndARimAloneAreNone) {
 
 TEST(OtherWheels, MostThatAreMeantAsWheelsAreAndNoneOfTheOthers) {
   int wheels = 0;
-  for (std::uint64_t seed = 1; seed <= kDrawings; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kWorldDrawings; ++seed) {
     Random random(seed);
     wheels += MeasureWheel(ShapeOf(DrawWheel(random))).IsHandwheel() ? 1 : 0;
     const OtherWheel thing = DrawRoundThing(random);
     EXPECT_FALSE(MeasureWheel(ShapeOf(thing)).IsHandwheel()) << thing.name << " of seed " << seed;
   }
-  EXPECT_GE(wheels, kDrawings * 8 / 10);
+  EXPECT_GE(wheels, kWorldDrawings * 8 / 10);
 }
 
 TEST(OtherTools, OurOwnDrillIsOneByItsShape) {
@@ -84,7 +84,7 @@ TEST(OtherTools, OurOwnDrillIsOneByItsShape) {
 TEST(OtherTools, WhichOnesAreDrillsIsSaidByTheirShape) {
   int drills = 0;
   std::set<std::string> others;
-  for (std::uint64_t seed = 1; seed <= kDrawings; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kWorldDrawings; ++seed) {
     Random random(seed);
     drills += MeasureTool(DrawDrill(random)).IsDrill() ? 1 : 0;
     const OtherTool tool = DrawOtherTool(random);
@@ -94,7 +94,7 @@ TEST(OtherTools, WhichOnesAreDrillsIsSaidByTheirShape) {
     }
     others.insert(tool.name);
   }
-  EXPECT_GE(drills, kDrawings * 8 / 10);
+  EXPECT_GE(drills, kWorldDrawings * 8 / 10);
   EXPECT_GE(others.size(), 6u);
 }
 

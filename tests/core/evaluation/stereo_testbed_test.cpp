@@ -28,14 +28,14 @@ StereoScene PlateBeforeWall() {
   return scene;
 }
 
-StereoTestbedOptions Exact() {
+StereoTestbedOptions ExactTestbed() {
   StereoTestbedOptions options;
   options.noise_sigma_m = 0.0;
   return options;
 }
 
 TEST(StereoTestbed, SamplesEveryFourthColumnOfEveryTwelfthRow) {
-  const auto trial = MakeStereoTrial(PlateBeforeWall(), Exact());
+  const auto trial = MakeStereoTrial(PlateBeforeWall(), ExactTestbed());
   ASSERT_TRUE(trial);
   EXPECT_EQ(trial->samples.lines, 5);
   EXPECT_EQ(trial->samples.beams, 50);
@@ -43,7 +43,7 @@ TEST(StereoTestbed, SamplesEveryFourthColumnOfEveryTwelfthRow) {
 }
 
 TEST(StereoTestbed, MovesSamplesByTheirDisparity) {
-  const auto trial = MakeStereoTrial(PlateBeforeWall(), Exact());
+  const auto trial = MakeStereoTrial(PlateBeforeWall(), ExactTestbed());
   for (const auto& sample : trial->samples.samples) {
     const float disparity = static_cast<float>(sample.beam) * 4.0f - sample.u;
     EXPECT_NEAR(sample.depth_m, 100.0f / (disparity + 10.0f), 1e-3f);
@@ -93,7 +93,7 @@ TEST(StereoTestbed, TheRightViewsOwnTruthIsTakenAsItIs) {
   StereoScene scene = PlateBeforeWall();
   scene.right_disparity = FloatImage(200, 60, 15.0f);
   scene.right_disparity(5, 5) = NAN;
-  const auto trial = MakeStereoTrial(scene, Exact());
+  const auto trial = MakeStereoTrial(scene, ExactTestbed());
   ASSERT_TRUE(trial);
   // The disocclusion beside the plate, which the left view cannot know.
   EXPECT_NEAR(trial->truth_m(100, 30), 100.0 / 25.0, 1e-6);

@@ -13,7 +13,7 @@
 namespace foresight {
 namespace {
 
-constexpr int kDrawings = 60;
+constexpr int kValveDrawings = 60;
 
 ValveModel Like(std::uint64_t seed) {
   ValveModel model;
@@ -25,7 +25,7 @@ ValveModel Like(std::uint64_t seed) {
 
 TEST(ValvePopulation, WheelsOfOtherSectionsAreHandwheelsByTheirShape) {
   int wheels = 0;
-  for (std::uint64_t seed = 1; seed <= kDrawings; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kValveDrawings; ++seed) {
     Random random(seed);
     const VariedWheel wheel = RandomVariedWheel(Like(seed), random);
     const WheelMeasures measures = MeasureWheel(ShapeOf(wheel));
@@ -35,12 +35,12 @@ TEST(ValvePopulation, WheelsOfOtherSectionsAreHandwheelsByTheirShape) {
     // Rays are up to 3 mm apart, and a rim of 4 mm is seen by one or two of them.
     EXPECT_NEAR(measures.radius_m, wheel.radius_m, 0.004) << wheel.made << " of seed " << seed;
   }
-  EXPECT_GE(wheels, kDrawings * 8 / 10);  // rays along the axis may miss thin rims
+  EXPECT_GE(wheels, kValveDrawings * 8 / 10);  // rays along the axis may miss thin rims
 }
 
 TEST(ValvePopulation, ThingsThatAreAlmostWheelsAreNoneByTheirShape) {
   std::set<std::string> drawn;
-  for (std::uint64_t seed = 1; seed <= kDrawings; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kValveDrawings; ++seed) {
     Random random(seed);
     std::string what;
     const VariedWheel thing = RandomAlmostWheel(Like(seed), random, what);

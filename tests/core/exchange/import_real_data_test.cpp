@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 namespace fs = std::filesystem;
 
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kRealDegree = 0.017453292519943295;
 
 fs::path Data(const std::string& name) {
   return fs::path(FORESIGHT_TEST_DATA) / "scans" / name;
@@ -128,12 +128,12 @@ TEST_F(ImportOfRealData, TheLinesOfATiltingSickAreFound) {
        {"3dtk_sick/scan000.3d", "3dtk_sick/scan001.3d", "3dtk_sick/scan002.3d"}) {
     fs::remove(folder_ / "m.foresight");
     ImportOptions options;
-    options.view = BlankView{0.0, 0.0, 90.0 * kDegree, 320, 240};
+    options.view = BlankView{0.0, 0.0, 90.0 * kRealDegree, 320, 240};
     Import({Data(name)}, options);
     EXPECT_EQ(it_.cloud.lines, 226);
     EXPECT_EQ(it_.cloud.beams, 360);
     EXPECT_GT(NeighbourRatio(), 0.99);
-    EXPECT_NEAR(it_.scan.rig.lidar.angle_step_rad, 0.5 * kDegree, 1e-4);
+    EXPECT_NEAR(it_.scan.rig.lidar.angle_step_rad, 0.5 * kRealDegree, 1e-4);
   }
   EXPECT_TRUE(Depth());
   ExpectExportComesBack();
@@ -142,7 +142,7 @@ TEST_F(ImportOfRealData, TheLinesOfATiltingSickAreFound) {
 TEST_F(ImportOfRealData, TheLinesOfARotatingScannerAreFound) {
   SKIP_WITHOUT("room_scan/room_scan1.pcd");
   ImportOptions options;
-  options.view = BlankView{0.0, 0.0, 90.0 * kDegree, 320, 240};
+  options.view = BlankView{0.0, 0.0, 90.0 * kRealDegree, 320, 240};
   Import({Data("room_scan/room_scan1.pcd")}, options);
   EXPECT_THAT(it_.report.scans[0].grid, StartsWith("recovered: lines"));
   EXPECT_GT(it_.cloud.lines, 600);

@@ -15,7 +15,7 @@
 namespace foresight {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using ReadPoints = std::vector<Eigen::Vector3d>;
 
 /// Written by PCL, which shares no code with the reader.
 pcl::PointCloud<pcl::PointXYZI> PclCloud() {
@@ -33,7 +33,7 @@ pcl::PointCloud<pcl::PointXYZI> PclCloud() {
   return cloud;
 }
 
-void ExpectEqual(const Result<Points>& read, const pcl::PointCloud<pcl::PointXYZI>& cloud) {
+void ExpectEqual(const Result<ReadPoints>& read, const pcl::PointCloud<pcl::PointXYZI>& cloud) {
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->size(), cloud.size());
   EXPECT_TRUE((*read)[3].hasNaN());
@@ -74,7 +74,7 @@ TEST(ReadPointCloud, ReadsOurOwnExports) {
   for (const char* name : {"a.pcd", "a.ply"}) {
     const auto read = ReadPointCloud(folder / name);
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(*read, Points{Eigen::Vector3d(1.5, -2.0, 3.25)});
+    EXPECT_EQ(*read, ReadPoints{Eigen::Vector3d(1.5, -2.0, 3.25)});
   }
 }
 
@@ -90,10 +90,10 @@ TEST(ReadPointCloud, ReadsABigEndianPlyOfDoublesBehindAnotherElement) {
   bytes += std::string("\x3F\xF8\0\0\0\0\0\0", 8);  // 1.5
   const auto read = DecodePly(bytes, "a.ply");
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(*read, Points{Eigen::Vector3d(1.5, -2.0, 3.0)});
+  EXPECT_EQ(*read, ReadPoints{Eigen::Vector3d(1.5, -2.0, 3.0)});
 }
 
-void ExpectRefused(const Result<Points>& read, const std::string& where) {
+void ExpectRefused(const Result<ReadPoints>& read, const std::string& where) {
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::kBadData);
   EXPECT_NE(read.error().message.find(where), std::string::npos) << read.error().message;
@@ -120,7 +120,7 @@ TEST(ReadPointCloud, ACloudCutAnywhereIsRefused) {
   }
 }
 
-/// Points as a Velodyne sweep keeps them: x, y, z, reflectance.
+/// ReadPoints as a Velodyne sweep keeps them: x, y, z, reflectance.
 std::string FloatRecords(const std::vector<std::array<float, 4>>& points) {
   std::string bytes(points.size() * sizeof(points[0]), '\0');
   std::memcpy(bytes.data(), points.data(), bytes.size());

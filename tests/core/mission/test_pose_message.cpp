@@ -156,7 +156,7 @@ TEST(PoseMessage, OfARecordIsAReviewAndAsOldAsItsScan) {
 
 /// What CheckPoseMessage says of the sample with a change.
 template <class Change>
-std::string Fault(const Change& change) {
+std::string MessageFault(const Change& change) {
   PoseMessage message = SamplePose();
   change(message);
   const Status checked = CheckPoseMessage(message);
@@ -164,19 +164,23 @@ std::string Fault(const Change& change) {
 }
 
 TEST(PoseMessageCheck, TakesTheSample) {
-  EXPECT_EQ(Fault([](PoseMessage&) {}), "");
+  EXPECT_EQ(MessageFault([](PoseMessage&) {}), "");
 }
 
 TEST(PoseMessageCheck, NamesTheMemberThatIsNotFinite) {
   const double nan = std::nan("");
-  EXPECT_THAT(Fault([&](auto& m) { m.position_m.y() = nan; }), HasSubstr("'position_m' is nan"));
-  EXPECT_THAT(Fault([&](auto& m) { m.rotation.x() = nan; }), HasSubstr("'quaternion_wxyz'"));
-  EXPECT_THAT(Fault([&](auto& m) { (*m.covariance)(2, 1) = nan; }), HasSubstr("'covariance'"));
-  EXPECT_THAT(Fault([&](auto& m) { m.probability = nan; }), HasSubstr("'probability' is nan"));
-  EXPECT_THAT(Fault([&](auto& m) { m.age_s = nan; }), HasSubstr("'age_s' is nan"));
-  EXPECT_THAT(Fault([&](auto& m) { std::get<ValveParameters>(m.parameters).model.dish_m = nan; }),
-              HasSubstr("'parameters'"));
-  EXPECT_THAT(Fault([&](auto& m) {
+  EXPECT_THAT(MessageFault([&](auto& m) { m.position_m.y() = nan; }),
+              HasSubstr("'position_m' is nan"));
+  EXPECT_THAT(MessageFault([&](auto& m) { m.rotation.x() = nan; }), HasSubstr("'quaternion_wxyz'"));
+  EXPECT_THAT(MessageFault([&](auto& m) { (*m.covariance)(2, 1) = nan; }),
+              HasSubstr("'covariance'"));
+  EXPECT_THAT(MessageFault([&](auto& m) { m.probability = nan; }),
+              HasSubstr("'probability' is nan"));
+  EXPECT_THAT(MessageFault([&](auto& m) { m.age_s = nan; }), HasSubstr("'age_s' is nan"));
+  EXPECT_THAT(
+      MessageFault([&](auto& m) { std::get<ValveParameters>(m.parameters).model.dish_m = nan; }),
+      HasSubstr("'parameters'"));
+  EXPECT_THAT(MessageFault([&](auto& m) {
                 DrillParameters drill;
                 drill.model.body_tilt_rad.x() = nan;
                 m.parameters = drill;
@@ -185,28 +189,34 @@ TEST(PoseMessageCheck, NamesTheMemberThatIsNotFinite) {
 }
 
 TEST(PoseMessageCheck, NamesTheMemberOutOfItsRange) {
-  EXPECT_THAT(Fault([](auto& m) { m.position_m.x() = 2e5; }), HasSubstr("'position_m' is 200000"));
-  EXPECT_THAT(Fault([](auto& m) { m.rotation.w() = 0.6; }), HasSubstr("not 1"));
-  EXPECT_THAT(Fault([](auto& m) { m.probability = 1.01; }), HasSubstr("'probability' is 1.01"));
-  EXPECT_THAT(Fault([](auto& m) { m.age_s = -1.0; }), HasSubstr("'age_s' is -1"));
-  EXPECT_THAT(Fault([](auto& m) { m.sending = 0; }), HasSubstr("'id' is 0"));
-  EXPECT_THAT(Fault([](auto& m) { m.detection_uuid = "a/b"; }), HasSubstr("'id' is 'a/b'"));
-  EXPECT_THAT(Fault([](auto& m) { m.scan_uuid.clear(); }), HasSubstr("'scan'"));
-  EXPECT_THAT(Fault([](auto& m) { m.rig_id = "A"; }), HasSubstr("'rig'"));
-  EXPECT_THAT(Fault([](auto& m) { m.decided_by = "two\nlines"; }), HasSubstr("'decided_by'"));
-  EXPECT_THAT(Fault([](auto& m) { m.scan_begin_utc_ns = -1; }), HasSubstr("before 1970"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.position_m.x() = 2e5; }),
+              HasSubstr("'position_m' is 200000"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.rotation.w() = 0.6; }), HasSubstr("not 1"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.probability = 1.01; }),
+              HasSubstr("'probability' is 1.01"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.age_s = -1.0; }), HasSubstr("'age_s' is -1"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.sending = 0; }), HasSubstr("'id' is 0"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.detection_uuid = "a/b"; }), HasSubstr("'id' is 'a/b'"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.scan_uuid.clear(); }), HasSubstr("'scan'"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.rig_id = "A"; }), HasSubstr("'rig'"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.decided_by = "two\nlines"; }),
+              HasSubstr("'decided_by'"));
+  EXPECT_THAT(MessageFault([](auto& m) { m.scan_begin_utc_ns = -1; }), HasSubstr("before 1970"));
 }
 
 TEST(PoseMessageCheck, ACovarianceIsSymmetricAndPositiveSemiDefinite) {
-  EXPECT_THAT(Fault([](auto& m) { (*m.covariance)(0, 1) = 1e-9; }), HasSubstr("not symmetric"));
-  EXPECT_THAT(Fault([](auto& m) { (*m.covariance)(0, 1) = (*m.covariance)(1, 0) = 1.001e-6; }),
-              HasSubstr("not positive semi-definite"));
-  EXPECT_THAT(Fault([](auto& m) { (*m.covariance)(3, 3) = -1e-12; }), HasSubstr("'covariance'"));
-  EXPECT_EQ(Fault([](auto& m) {  // on the boundary: one direction is known exactly
+  EXPECT_THAT(MessageFault([](auto& m) { (*m.covariance)(0, 1) = 1e-9; }),
+              HasSubstr("not symmetric"));
+  EXPECT_THAT(
+      MessageFault([](auto& m) { (*m.covariance)(0, 1) = (*m.covariance)(1, 0) = 1.001e-6; }),
+      HasSubstr("not positive semi-definite"));
+  EXPECT_THAT(MessageFault([](auto& m) { (*m.covariance)(3, 3) = -1e-12; }),
+              HasSubstr("'covariance'"));
+  EXPECT_EQ(MessageFault([](auto& m) {  // on the boundary: one direction is known exactly
               (*m.covariance)(0, 1) = (*m.covariance)(1, 0) = 1e-6;
             }),
             "");
-  EXPECT_EQ(Fault([](auto& m) { m.covariance->setZero(); }), "");
+  EXPECT_EQ(MessageFault([](auto& m) { m.covariance->setZero(); }), "");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace foresight {
 namespace {
 
-const Plane kWall{Eigen::Vector3d::UnitZ(), 2.0};  // two metres ahead, in base
+const Plane kGrowingWall{Eigen::Vector3d::UnitZ(), 2.0};  // two metres ahead, in base
 
 /// In every bit: NaN equals NaN.
 template <class T>
@@ -43,7 +43,7 @@ Scan PartOf(const Scan& scan, std::size_t lines, double ahead_s) {
 class GrowingScan : public testing::TestWithParam<double> {};
 
 TEST_P(GrowingScan, HasThePointsOfTheWholeInEveryBit) {
-  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  Scan scan = SweptPlane(kGrowingWall, -5, 5, 20);
   scan.uuid = "a";
   GrowingRegistration growing;
   for (const std::size_t lines : {1u, 2u, 3u, 7u, 8u, 8u, 15u, 20u}) {
@@ -62,7 +62,7 @@ TEST_P(GrowingScan, HasThePointsOfTheWholeInEveryBit) {
 INSTANTIATE_TEST_SUITE_P(Tracks, GrowingScan, testing::Values(0.05, 0.025, 0.0));
 
 TEST(GrowingRegistration, PlacesOnlyWhatIsNew) {
-  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  Scan scan = SweptPlane(kGrowingWall, -5, 5, 20);
   scan.uuid = "a";
   GrowingRegistration growing;
   ASSERT_TRUE(growing.Update(PartOf(scan, 10, 0.1), {}));
@@ -74,7 +74,7 @@ TEST(GrowingRegistration, PlacesOnlyWhatIsNew) {
 }
 
 TEST(GrowingRegistration, EarlierResultsStayAsTheyWere) {
-  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  Scan scan = SweptPlane(kGrowingWall, -5, 5, 20);
   scan.uuid = "a";
   GrowingRegistration growing;
   const Scan part = PartOf(scan, 10, 0.1);
@@ -84,7 +84,7 @@ TEST(GrowingRegistration, EarlierResultsStayAsTheyWere) {
 }
 
 TEST(GrowingRegistration, WhileTheScanRunsALineWaitsUntilItsAnglesAreKnown) {
-  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  Scan scan = SweptPlane(kGrowingWall, -5, 5, 20);
   scan.uuid = "a";
   GrowingRegistration growing;
   for (const std::size_t lines : {5u, 12u, 20u}) {
@@ -102,7 +102,7 @@ TEST(GrowingRegistration, WhileTheScanRunsALineWaitsUntilItsAnglesAreKnown) {
 }
 
 TEST(GrowingRegistration, PointsAreNotCopiedAtEachUpdate) {
-  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  Scan scan = SweptPlane(kGrowingWall, -5, 5, 20);
   scan.uuid = "a";
   GrowingRegistration growing;
   std::vector<RegisteredScan> kept;
@@ -118,7 +118,7 @@ TEST(GrowingRegistration, PointsAreNotCopiedAtEachUpdate) {
 }
 
 TEST(GrowingRegistration, AnotherScanBeginsAnew) {
-  Scan one = SweptPlane(kWall, -5, 5, 20);
+  Scan one = SweptPlane(kGrowingWall, -5, 5, 20);
   Scan other = SweptPlane({Eigen::Vector3d::UnitZ(), 3.0}, -5, 5, 20);
   one.uuid = "a";
   other.uuid = "b";
@@ -128,7 +128,7 @@ TEST(GrowingRegistration, AnotherScanBeginsAnew) {
 }
 
 TEST(GrowingRegistration, RefusesLinesOfAnotherLidarAndGoesOnWithGoodOnes) {
-  const Scan good = SweptPlane(kWall, -5, 5, 20);
+  const Scan good = SweptPlane(kGrowingWall, -5, 5, 20);
   Scan bad = good;
   bad.lines.Edit(3).range_mm.pop_back();
   GrowingRegistration growing;

@@ -7,7 +7,7 @@
 namespace foresight {
 namespace {
 
-const Plane kWall{Eigen::Vector3d::UnitZ(), 2.0};  // two metres ahead, in base
+const Plane kRegisteredWall{Eigen::Vector3d::UnitZ(), 2.0};  // two metres ahead, in base
 
 double WorstDistance(const RegisteredScan& scan, const Plane& plane) {
   double worst = 0.0;
@@ -22,14 +22,14 @@ double WorstDistance(const RegisteredScan& scan, const Plane& plane) {
 TEST(RegisterScan, AWallStaysFlatWhileThePlateTurnsFast) {
   // At 60 deg/s the plate turns 1.1 deg within a line; one angle a line would bend the wall by
   // centimetres.
-  const auto scan = RegisterScan(SweptPlane(kWall, -20, 20, 60), {});
+  const auto scan = RegisterScan(SweptPlane(kRegisteredWall, -20, 20, 60), {});
   ASSERT_TRUE(scan);
   // Ranges are rounded to 1 mm; float points add 1e-6.
-  EXPECT_LT(WorstDistance(*scan, kWall), 0.00051);
+  EXPECT_LT(WorstDistance(*scan, kRegisteredWall), 0.00051);
 }
 
 TEST(RegisterScan, KeepsTheGridOfLinesAndBeams) {
-  const Scan scan = SweptPlane(kWall, -5, 5, 20);
+  const Scan scan = SweptPlane(kRegisteredWall, -5, 5, 20);
   const auto registered = RegisterScan(scan, {});
   ASSERT_TRUE(registered);
   EXPECT_EQ(registered->lines, static_cast<int>(scan.lines.size()));
@@ -41,7 +41,7 @@ TEST(RegisterScan, KeepsTheGridOfLinesAndBeams) {
 }
 
 TEST(RegisterScan, AddsTheCalibratedRangeOffset) {
-  Scan scan = SweptPlane(kWall, -1, 1, 20);
+  Scan scan = SweptPlane(kRegisteredWall, -1, 1, 20);
   const auto before = RegisterScan(scan, {});
   scan.rig.lidar.range_offset_m = 0.05;
   const auto after = RegisterScan(scan, {});
@@ -50,20 +50,21 @@ TEST(RegisterScan, AddsTheCalibratedRangeOffset) {
 }
 
 TEST(RegisterScan, UsesTheAngleCorrection) {
-  Scan scan = SweptPlane(kWall, -20, 20, 20);
+  Scan scan = SweptPlane(kRegisteredWall, -20, 20, 20);
   const double shift = RadiansFromDegrees(1.0);
   scan.rig.angle_correction =
       AngleCorrection::FromKnots({{-1.0, -1.0 + shift}, {1.0, 1.0 + shift}}).value();
   const auto registered = RegisterScan(scan, {});
   // The whole wall turns with the plate by the correction: at its upper edge, 0.7 m up, one degree
   // is 12 mm.
-  EXPECT_GT(WorstDistance(*registered, kWall), 0.01);
+  EXPECT_GT(WorstDistance(*registered, kRegisteredWall), 0.01);
   const Eigen::Matrix3d turn = HeadFromBase(shift).Inverse().RotationMatrix();
-  EXPECT_LT(WorstDistance(*registered, {turn * kWall.normal, kWall.offset}), 0.00051);
+  EXPECT_LT(WorstDistance(*registered, {turn * kRegisteredWall.normal, kRegisteredWall.offset}),
+            0.00051);
 }
 
 TEST(RegisterScan, LeavesOutLinesWithoutAMotorAngle) {
-  Scan scan = SweptPlane(kWall, -5, 5, 20);
+  Scan scan = SweptPlane(kRegisteredWall, -5, 5, 20);
   std::vector<MotorSample> early;
   for (const auto& sample : scan.track.samples())
     if (sample.time_s < 0.25) early.push_back(sample);
@@ -75,7 +76,7 @@ TEST(RegisterScan, LeavesOutLinesWithoutAMotorAngle) {
 }
 
 TEST(RegisterScan, RefusesLinesOfAnotherLidar) {
-  Scan scan = SweptPlane(kWall, -1, 1, 20);
+  Scan scan = SweptPlane(kRegisteredWall, -1, 1, 20);
   scan.lines.Edit(1).range_mm.pop_back();
   const auto registered = RegisterScan(scan, {});
   ASSERT_FALSE(registered);
@@ -84,7 +85,7 @@ TEST(RegisterScan, RefusesLinesOfAnotherLidar) {
 }
 
 TEST(RegisterScan, AnEmptyScanHasTooFewPoints) {
-  Scan scan = SweptPlane(kWall, -1, 1, 20);
+  Scan scan = SweptPlane(kRegisteredWall, -1, 1, 20);
   scan.lines.clear();
   EXPECT_EQ(RegisterScan(scan, {}).error().code, ErrorCode::kTooFewPoints);
 }
@@ -94,7 +95,7 @@ TEST(RegisterScan, CanBeCancelled) {
   stop.request_stop();
   RunContext context;
   context.stop = stop.get_token();
-  EXPECT_EQ(RegisterScan(SweptPlane(kWall, -1, 1, 20), context).error().code,
+  EXPECT_EQ(RegisterScan(SweptPlane(kRegisteredWall, -1, 1, 20), context).error().code,
             ErrorCode::kCancelled);
 }
 

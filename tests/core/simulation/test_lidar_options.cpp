@@ -16,7 +16,7 @@ using test::SceneOf;
 using test::SmallRig;
 using test::Still;
 
-constexpr int kForward = 540;  ///< the beam at 0 deg
+constexpr int kStraightAhead = 540;  ///< the beam at 0 deg
 
 /// Planes across the beam at 0 deg, each of a material written as YAML; the first is the nearest.
 std::string Planes(const std::vector<std::pair<double, std::string>>& planes) {
@@ -45,8 +45,8 @@ WorldOptions WithoutNoise() {
 }
 
 double Forward(const World& world) {
-  return world.MeasureLine(0, 0.0, Still).RawRange(kForward) +
-         BeamOf(SmallRig(), kForward, 0.0).origin.x();
+  return world.MeasureLine(0, 0.0, Still).RawRange(kStraightAhead) +
+         BeamOf(SmallRig(), kStraightAhead, 0.0).origin.x();
 }
 
 TEST(LidarOptions, ABlackWallReadsLongerThanAWhiteOne) {
@@ -102,7 +102,7 @@ std::pair<double, double> SpreadAndTail(int degrees) {
   std::vector<double> errors;
   for (int line = 0; line < 60; ++line) {
     const LidarLine measured = world.MeasureLine(line, 0.0, Still);
-    for (int beam = kForward - 30; beam <= kForward + 30; ++beam) {
+    for (int beam = kStraightAhead - 30; beam <= kStraightAhead + 30; ++beam) {
       const test::Beam ray = BeamOf(SmallRig(), beam, 0.0);
       errors.push_back(
           std::abs(measured.RawRange(beam) - (3.0 - ray.origin.x()) / ray.direction.x()));

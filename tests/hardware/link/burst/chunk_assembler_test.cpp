@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-constexpr std::uint32_t kStride = 100;
+constexpr std::uint32_t kAssembledStride = 100;
 constexpr std::uint64_t kTag = 77;
 
 Chunk RandomChunk(Random& random, std::int64_t item, int bytes) {
@@ -23,7 +23,7 @@ struct Piece {
   ChunkFragment Fragment() const { return ReadFragment(content).value(); }
 };
 
-std::vector<Piece> PiecesOf(const Chunk& chunk, std::uint32_t stride = kStride) {
+std::vector<Piece> PiecesOf(const Chunk& chunk, std::uint32_t stride = kAssembledStride) {
   std::vector<Piece> pieces(FragmentCount(chunk, stride));
   for (std::uint32_t i = 0; i < pieces.size(); ++i)
     WriteFragment(kTag, chunk, stride, i, pieces[i].content);
@@ -41,7 +41,7 @@ TEST(ChunkFragment, SaysWhatItIsOf) {
   EXPECT_EQ(last.item_crc, chunk.item_crc);
   EXPECT_EQ(last.crc, chunk.crc);
   EXPECT_EQ(last.bytes.size(), 50u);
-  EXPECT_EQ(pieces[0].content.size(), kFragmentHeadBytes + kStride);
+  EXPECT_EQ(pieces[0].content.size(), kFragmentHeadBytes + kAssembledStride);
 }
 
 TEST(ChunkFragment, CutOrLengthenedIsRefused) {

@@ -62,7 +62,7 @@ class SlowSink final : public ScanSink {
   const std::shared_future<Status> outcome_ = kept_.get_future().share();
 };
 
-class Archive final : public ScanArchive {
+class RemoteArchive final : public ScanArchive {
  public:
   Status Keep(const Scan& whole) override {
     const std::lock_guard lock(mutex_);
@@ -214,7 +214,7 @@ TEST_F(RemoteHeadTest, AHeadThatDiesInBetweenLosesNothing) {
 }
 
 TEST_F(RemoteHeadTest, AStationThatDiesInBetweenGetsTheRestForItsArchive) {
-  const auto archive = std::make_shared<Archive>();
+  const auto archive = std::make_shared<RemoteArchive>();
   auto remote = Ready(archive);
   const auto sink = std::make_shared<Collector>();
   ASSERT_TRUE(remote->StartScan(ScanPlan(), sink));
@@ -231,7 +231,7 @@ TEST_F(RemoteHeadTest, AStationThatDiesInBetweenGetsTheRestForItsArchive) {
 }
 
 TEST_F(RemoteHeadTest, AScanMayBeginBeforeTheOneBeforeHasCome) {
-  const auto archive = std::make_shared<Archive>();
+  const auto archive = std::make_shared<RemoteArchive>();
   const auto remote = Ready(archive);
   const auto first = std::make_shared<Collector>();
   ASSERT_TRUE(remote->StartScan(ScanPlan(), first));
@@ -259,7 +259,7 @@ TEST_F(RemoteHeadTest, AScanMayBeginBeforeTheOneBeforeHasCome) {
 }
 
 TEST_F(RemoteHeadTest, AScanThatAnotherStationMadeIsListedAndComesWhenItIsAskedFor) {
-  const auto archive = std::make_shared<Archive>();
+  const auto archive = std::make_shared<RemoteArchive>();
   ASSERT_TRUE(head->Home());
   ASSERT_TRUE(head->StartScan(ScanPlan(), bench.shelf().Begin("scan-of-another", {}).value()));
   head->Play(SampleScan(6));

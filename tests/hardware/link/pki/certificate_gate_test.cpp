@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::int64_t kNow = 1'790'000'000;
+constexpr std::int64_t kGateNow = 1'790'000'000;
 
 class Gate : public testing::Test {
  protected:
@@ -26,7 +26,8 @@ class Gate : public testing::Test {
   ~Gate() override { SetLogListener({}); }
 
   std::shared_ptr<CertificateGate> Open(const std::filesystem::path& folder) {
-    auto gate = CertificateGate::Open(LoadTlsFiles(folder, kNow).value(), [this] { return now_; });
+    auto gate =
+        CertificateGate::Open(LoadTlsFiles(folder, kGateNow).value(), [this] { return now_; });
     EXPECT_TRUE(gate) << gate.error().message;
     return *gate;
   }
@@ -34,10 +35,10 @@ class Gate : public testing::Test {
     return ReadFile(folder / kCertificateFile).value();
   }
 
-  LinkKeys keys_{kNow};
+  LinkKeys keys_{kGateNow};
   std::filesystem::path head_ = keys_.Head();
   std::string anna_ = Pem(keys_.Operator());
-  std::int64_t now_ = kNow;
+  std::int64_t now_ = kGateNow;
   std::string log_;
 };
 
@@ -60,7 +61,7 @@ TEST_F(Gate, TakesANewListWithoutARestart) {
   const auto gate = Open(head_);
   ASSERT_TRUE(gate->Admit(anna_));
   ASSERT_TRUE(gate->CheckStillGood(anna_));
-  ASSERT_TRUE(keys_.ca().Revoke("anna", kNow));  // writes into the folder of the head
+  ASSERT_TRUE(keys_.ca().Revoke("anna", kGateNow));  // writes into the folder of the head
   const auto admitted = gate->Admit(anna_);
   ASSERT_FALSE(admitted);
   EXPECT_THAT(admitted.error().message, HasSubstr("was revoked"));
@@ -68,7 +69,7 @@ TEST_F(Gate, TakesANewListWithoutARestart) {
 }
 
 TEST_F(Gate, ADamagedListIsLoggedAndTheOneBeforeHolds) {
-  ASSERT_TRUE(keys_.ca().Revoke("anna", kNow));
+  ASSERT_TRUE(keys_.ca().Revoke("anna", kGateNow));
   const auto gate = Open(head_);
   ASSERT_TRUE(WriteFileAtomically(head_ / kRevocationsFile, "nothing"));
   EXPECT_FALSE(gate->Admit(anna_));
@@ -81,7 +82,7 @@ TEST_F(Gate, ADamagedListIsLoggedAndTheOneBeforeHolds) {
 
 TEST_F(Gate, AnOlderListIsNotTaken) {
   const std::string before = ReadFile(head_ / kRevocationsFile).value();
-  ASSERT_TRUE(keys_.ca().Revoke("anna", kNow));
+  ASSERT_TRUE(keys_.ca().Revoke("anna", kGateNow));
   const auto gate = Open(head_);
   ASSERT_TRUE(WriteFileAtomically(head_ / kRevocationsFile, before));
   EXPECT_FALSE(gate->Admit(anna_));
@@ -89,8 +90,8 @@ TEST_F(Gate, AnOlderListIsNotTaken) {
 }
 
 TEST_F(Gate, AListOfAnotherCaIsNotTaken) {
-  LinkKeys foreign(kNow);
-  ASSERT_TRUE(keys_.ca().Revoke("anna", kNow));
+  LinkKeys foreign(kGateNow);
+  ASSERT_TRUE(keys_.ca().Revoke("anna", kGateNow));
   const auto gate = Open(head_);
   foreign.DeliverRevocations(head_);
   EXPECT_FALSE(gate->Admit(anna_));
@@ -98,8 +99,8 @@ TEST_F(Gate, AListOfAnotherCaIsNotTaken) {
 }
 
 TEST_F(Gate, AnOverdueListHoldsAndIsWarnedAbout) {
-  ASSERT_TRUE(keys_.ca().MakeRevocationsAnew(10, kNow));
-  now_ = kNow + 11 * kDayS;
+  ASSERT_TRUE(keys_.ca().MakeRevocationsAnew(10, kGateNow));
+  now_ = kGateNow + 11 * kDayS;
   const auto gate = Open(head_);
   EXPECT_THAT(log_, HasSubstr("was to be made anew by 2026-10-01"));
   EXPECT_TRUE(gate->Admit(anna_));
@@ -108,7 +109,7 @@ TEST_F(Gate, AnOverdueListHoldsAndIsWarnedAbout) {
 TEST_F(Gate, AConnectionThatLastsBeyondTheCertificateIsRefused) {
   const auto gate = Open(head_);
   ASSERT_TRUE(gate->CheckStillGood(anna_));
-  now_ = kNow + (kDaysOfCertificate + 1) * kDayS;
+  now_ = kGateNow + (kDaysOfCertificate + 1) * kDayS;
   const auto late = gate->CheckStillGood(anna_);
   ASSERT_FALSE(late);
   EXPECT_THAT(late.error().message, HasSubstr("foresight:operator:anna: expired on"));
@@ -124,17 +125,17 @@ TEST_F(Gate, IsAskedFromManyThreadsWhileListsChange) {
       for (int k = 0; k < 100; ++k)
         if (!gate->Admit(otto) || !gate->CheckStillGood(otto)) ++refused;
     });
-  for (int i = 0; i < 20; ++i) EXPECT_TRUE(keys_.ca().MakeRevocationsAnew(30, kNow + i));
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(keys_.ca().MakeRevocationsAnew(30, kGateNow + i));
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(refused, 0);
 }
 
 TEST_F(Gate, DoesNotOpenWithoutAListOrForARevokedCertificate) {
-  const TlsFiles files = LoadTlsFiles(keys_.folder("anna"), kNow).value();
-  const TlsFiles of_head = LoadTlsFiles(head_, kNow).value();
+  const TlsFiles files = LoadTlsFiles(keys_.folder("anna"), kGateNow).value();
+  const TlsFiles of_head = LoadTlsFiles(head_, kGateNow).value();
   ASSERT_TRUE(std::filesystem::remove(head_ / kRevocationsFile));
   EXPECT_EQ(CertificateGate::Open(of_head).error().code, ErrorCode::kIo);
-  ASSERT_TRUE(keys_.ca().Revoke("anna", kNow));
+  ASSERT_TRUE(keys_.ca().Revoke("anna", kGateNow));
   std::filesystem::create_directories(files.folder);  // anna has not heard of it yet
   keys_.DeliverRevocations(files.folder);
   const auto gate = CertificateGate::Open(files);

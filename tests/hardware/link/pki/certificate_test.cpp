@@ -9,18 +9,18 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::int64_t kNow = 1'790'000'000;
+constexpr std::int64_t kIssueNow = 1'790'000'000;
 
 class Certificate : public testing::Test {
  protected:
   std::string Pem(const std::filesystem::path& folder) const {
     return ReadFile(folder / kCertificateFile).value();
   }
-  Status Check(const std::filesystem::path& folder, LinkRole role, std::int64_t utc_s = kNow) {
+  Status Check(const std::filesystem::path& folder, LinkRole role, std::int64_t utc_s = kIssueNow) {
     return CheckSignedBy(keys_.Keys().certificate_pem, Pem(folder), role, utc_s, "peer");
   }
 
-  LinkKeys keys_{kNow};
+  LinkKeys keys_{kIssueNow};
 };
 
 TEST_F(Certificate, SaysRoleAndName) {
@@ -39,18 +39,18 @@ TEST_F(Certificate, OfAnOperatorIsNoneOfAServerAndOfAHeadNoneOfAClient) {
 
 TEST_F(Certificate, HoldsBetweenItsDatesOnly) {
   const auto anna = keys_.Operator();
-  EXPECT_TRUE(Check(anna, LinkRole::kOperator, kNow + kDaysOfCertificate * kDayS - 1));
-  const auto late = Check(anna, LinkRole::kOperator, kNow + kDaysOfCertificate * kDayS + 1);
+  EXPECT_TRUE(Check(anna, LinkRole::kOperator, kIssueNow + kDaysOfCertificate * kDayS - 1));
+  const auto late = Check(anna, LinkRole::kOperator, kIssueNow + kDaysOfCertificate * kDayS + 1);
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().message, "peer: expired on 2028-09-20");
-  keys_.Rewrite(anna, {LinkRole::kOperator, "anna"}, {kNow + 3600, kNow + kDayS});
+  keys_.Rewrite(anna, {LinkRole::kOperator, "anna"}, {kIssueNow + 3600, kIssueNow + kDayS});
   const auto early = Check(anna, LinkRole::kOperator);
   ASSERT_FALSE(early);
   EXPECT_THAT(early.error().message, HasSubstr("not valid before 2026-09-21"));
 }
 
 TEST_F(Certificate, OfAnotherCaIsRefused) {
-  LinkKeys foreign(kNow);
+  LinkKeys foreign(kIssueNow);
   const auto status = Check(foreign.Operator(), LinkRole::kOperator);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().message, "peer: signed by another CA");
@@ -65,12 +65,13 @@ TEST_F(Certificate, AnOperatorsCertificateCannotSignAnother) {
   const KeyPair as_ca{Pem(anna), ReadFile(anna / kPrivateKeyFile).value()};
   const auto eve = SignCertificate({{LinkRole::kOperator, "eve"},
                                     {},
-                                    {kNow, kNow + kDayS},
+                                    {kIssueNow, kIssueNow + kDayS},
                                     PublicKeyOf(as_ca.private_key_pem).value()},
                                    as_ca);
   ASSERT_TRUE(eve) << eve.error().message;
-  EXPECT_FALSE(CheckSignedBy(keys_.Keys().certificate_pem, *eve, LinkRole::kOperator, kNow, "eve"));
-  EXPECT_FALSE(CheckSignedBy(as_ca.certificate_pem, *eve, LinkRole::kOperator, kNow, "eve"));
+  EXPECT_FALSE(
+      CheckSignedBy(keys_.Keys().certificate_pem, *eve, LinkRole::kOperator, kIssueNow, "eve"));
+  EXPECT_FALSE(CheckSignedBy(as_ca.certificate_pem, *eve, LinkRole::kOperator, kIssueNow, "eve"));
   EXPECT_FALSE(ReadCaCertificate(as_ca.certificate_pem, "ca.crt"));
 }
 
@@ -78,7 +79,8 @@ TEST_F(Certificate, AByteThatWasChangedBreaksIt) {
   std::string pem = Pem(keys_.Operator());
   const std::size_t middle = pem.size() / 2;
   pem[middle] = pem[middle] == 'A' ? 'B' : 'A';
-  EXPECT_FALSE(CheckSignedBy(keys_.Keys().certificate_pem, pem, LinkRole::kOperator, kNow, "peer"));
+  EXPECT_FALSE(
+      CheckSignedBy(keys_.Keys().certificate_pem, pem, LinkRole::kOperator, kIssueNow, "peer"));
 }
 
 TEST_F(Certificate, IdentitiesAreReadBackAndNothingElseIs) {

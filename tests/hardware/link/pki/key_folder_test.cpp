@@ -10,11 +10,11 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::int64_t kNow = 1'790'000'000;
+constexpr std::int64_t kFolderNow = 1'790'000'000;
 
 class KeyFolder : public testing::Test {
  protected:
-  std::string Check(std::int64_t utc_s = kNow) const {
+  std::string Check(std::int64_t utc_s = kFolderNow) const {
     const auto report = CheckKeyFolder(folder_, utc_s);
     EXPECT_TRUE(report) << report.error().message;
     std::string text = report->IsUsable() ? "usable" : "unusable";
@@ -23,45 +23,45 @@ class KeyFolder : public testing::Test {
     return text;
   }
 
-  LinkKeys keys_{kNow};
+  LinkKeys keys_{kFolderNow};
   std::filesystem::path folder_ = keys_.Head();
 };
 
 TEST_F(KeyFolder, AsItWasMadeIsUsable) {
   EXPECT_EQ(Check(), "usable");
-  const auto files = LoadTlsFiles(folder_, kNow);
+  const auto files = LoadTlsFiles(folder_, kFolderNow);
   ASSERT_TRUE(files) << files.error().message;
   EXPECT_EQ(files->certificate.identity, (LinkIdentity{LinkRole::kHead, "left"}));
 }
 
 TEST_F(KeyFolder, OfAHeadIsNoneForAStationAndTheOtherWayRound) {
   const auto anna = keys_.Operator();
-  EXPECT_TRUE(LoadTlsFilesOfHead(folder_, kNow));
-  EXPECT_TRUE(LoadTlsFilesOfStation(anna, kNow));
-  EXPECT_TRUE(LoadTlsFilesOfStation(keys_.Observer(), kNow));
-  EXPECT_THAT(LoadTlsFilesOfStation(folder_, kNow).error().message,
+  EXPECT_TRUE(LoadTlsFilesOfHead(folder_, kFolderNow));
+  EXPECT_TRUE(LoadTlsFilesOfStation(anna, kFolderNow));
+  EXPECT_TRUE(LoadTlsFilesOfStation(keys_.Observer(), kFolderNow));
+  EXPECT_THAT(LoadTlsFilesOfStation(folder_, kFolderNow).error().message,
               HasSubstr("link.crt: is of the head left; a station needs the keys of a person"));
-  EXPECT_THAT(LoadTlsFilesOfHead(anna, kNow).error().message,
+  EXPECT_THAT(LoadTlsFilesOfHead(anna, kFolderNow).error().message,
               HasSubstr("link.crt: is of the operator anna; a head needs the keys of a head"));
 }
 
 TEST_F(KeyFolder, AKeyThatOthersMayReadIsRefused) {
   ASSERT_EQ(chmod((folder_ / kPrivateKeyFile).c_str(), 0644), 0);
   EXPECT_THAT(Check(), HasSubstr("others may read this private key (permissions 644)"));
-  EXPECT_FALSE(LoadTlsFiles(folder_, kNow));
+  EXPECT_FALSE(LoadTlsFiles(folder_, kFolderNow));
 }
 
 TEST_F(KeyFolder, AKeyOfAnotherCertificateIsRefused) {
   ASSERT_TRUE(WritePrivateFile(folder_ / kPrivateKeyFile, MakePrivateKey().value()));
   EXPECT_THAT(Check(), HasSubstr("link.key: is not the key of the certificate beside it"));
-  EXPECT_FALSE(LoadTlsFiles(folder_, kNow));
+  EXPECT_FALSE(LoadTlsFiles(folder_, kFolderNow));
 }
 
 TEST_F(KeyFolder, ACertificateOfAnotherCaIsRefused) {
-  LinkKeys foreign(kNow);
+  LinkKeys foreign(kFolderNow);
   ASSERT_TRUE(WriteFileAtomically(folder_ / kCaFile, foreign.Keys().certificate_pem));
   EXPECT_THAT(Check(), HasSubstr("link.crt: signed by another CA"));
-  EXPECT_FALSE(LoadTlsFiles(folder_, kNow));
+  EXPECT_FALSE(LoadTlsFiles(folder_, kFolderNow));
 }
 
 TEST_F(KeyFolder, EachFileThatIsMissingIsNamed) {
@@ -71,11 +71,11 @@ TEST_F(KeyFolder, EachFileThatIsMissingIsNamed) {
     EXPECT_THAT(Check(), HasSubstr(path.string() + ": cannot open"));
     std::filesystem::rename(keys_ / "away", path);
   }
-  EXPECT_EQ(CheckKeyFolder(folder_ / "none", kNow).error().code, ErrorCode::kIo);
+  EXPECT_EQ(CheckKeyFolder(folder_ / "none", kFolderNow).error().code, ErrorCode::kIo);
 }
 
 TEST_F(KeyFolder, WarnsAMonthBeforeTheEndAndIsRefusedAfterIt) {
-  const std::int64_t end = kNow + kDaysOfCertificate * kDayS;
+  const std::int64_t end = kFolderNow + kDaysOfCertificate * kDayS;
   EXPECT_EQ(Check(end - 31 * kDayS), "usable");
   EXPECT_THAT(Check(end - 29 * kDayS), HasSubstr("usable; link.crt: ends on 2028-09-20"));
   EXPECT_THAT(Check(end + 1), HasSubstr("unusable; link.crt: expired on 2028-09-20"));
@@ -84,14 +84,14 @@ TEST_F(KeyFolder, WarnsAMonthBeforeTheEndAndIsRefusedAfterIt) {
 
 TEST_F(KeyFolder, SaysThatTheCertificateWasRevoked) {
   const std::string own = ReadFile(folder_ / kCertificateFile).value();
-  ASSERT_TRUE(keys_.ca().Issue({LinkRole::kHead, "left"}, {{"h"}, 30, true}, kNow));
+  ASSERT_TRUE(keys_.ca().Issue({LinkRole::kHead, "left"}, {{"h"}, 30, true}, kFolderNow));
   ASSERT_TRUE(WriteFileAtomically(folder_ / kCertificateFile, own));
   EXPECT_THAT(Check(), HasSubstr("link.crt: was revoked"));
 }
 
 TEST_F(KeyFolder, SaysWhenTheListIsOverdue) {
-  ASSERT_TRUE(keys_.ca().MakeRevocationsAnew(10, kNow));
-  EXPECT_THAT(Check(kNow + 11 * kDayS), HasSubstr("usable; ca.crl: was to be made anew by"));
+  ASSERT_TRUE(keys_.ca().MakeRevocationsAnew(10, kFolderNow));
+  EXPECT_THAT(Check(kFolderNow + 11 * kDayS), HasSubstr("usable; ca.crl: was to be made anew by"));
 }
 
 TEST(KeyFolders, OfAStationFollowTheConfigurationsFolder) {

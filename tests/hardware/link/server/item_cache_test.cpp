@@ -7,11 +7,11 @@
 namespace foresight {
 namespace {
 
-constexpr char kScan[] = "a-scan";
+constexpr char kCachedScan[] = "a-scan";
 
 class ItemCacheTest : public ::testing::Test {
  protected:
-  ItemCacheTest() { Record(kScan, 5); }
+  ItemCacheTest() { Record(kCachedScan, 5); }
 
   void Record(const std::string& id, int seed) {
     Scan scan = samples::RandomScan(seed, 60, 3);
@@ -24,7 +24,7 @@ class ItemCacheTest : public ::testing::Test {
     head.Play(scan);
     EXPECT_TRUE(Eventually([&] { return shelf->Find(id).value().state != ScanState::kRunning; }));
   }
-  ScanToSend Source(const std::string& id = kScan) {
+  ScanToSend Source(const std::string& id = kCachedScan) {
     return {*shelf->Snapshot(id).value(), shelf->DeviceHealthJson(id)};
   }
   /// Waits until no more is made.
@@ -47,13 +47,13 @@ class ItemCacheTest : public ::testing::Test {
 
 TEST_F(ItemCacheTest, WhatAStationWantsIsMadeBeforeItIsAskedFor) {
   ItemCache cache(*shelf);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   EXPECT_TRUE(Settled(cache, AllBytes()));
 }
 
 TEST_F(ItemCacheTest, TheItemsAreThoseOfTheEncoder) {
   ItemCache cache(*shelf);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   const ScanToSend source = Source();
   ChunkSource plain(source, {});
   while (const auto chunk = plain.Next().value()) {
@@ -66,7 +66,7 @@ TEST_F(ItemCacheTest, TheItemsAreThoseOfTheEncoder) {
 
 TEST_F(ItemCacheTest, MadeAheadIsOnlySoMuch) {
   ItemCache cache(*shelf, 1);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   ASSERT_TRUE(Settled(cache, 1));
   const std::int64_t one_item = cache.Bytes();
   EXPECT_LT(one_item, AllBytes());
@@ -76,31 +76,31 @@ TEST_F(ItemCacheTest, MadeAheadIsOnlySoMuch) {
 
 TEST_F(ItemCacheTest, WhatTheStationHasIsLetGoOf) {
   ItemCache cache(*shelf);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   const std::int64_t all = AllBytes();
   ASSERT_TRUE(Settled(cache, all));
   const ScanToSend source = Source();
   ChunkSource chunks(source, {});
-  while (const auto chunk = chunks.Next().value()) cache.Acknowledged(kScan, chunk->id);
+  while (const auto chunk = chunks.Next().value()) cache.Acknowledged(kCachedScan, chunk->id);
   EXPECT_EQ(cache.Bytes(), 0);
 }
 
 TEST_F(ItemCacheTest, AStationThatComesBackHasWhatItSays) {
   ItemCache cache(*shelf);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   ASSERT_TRUE(Settled(cache, AllBytes()));
   ChunkSet have;
   const ScanToSend source = Source();
   ChunkSource chunks(source, {});
   while (const auto chunk = chunks.Next().value()) have.AddPart(*chunk);
-  cache.Prepare(kScan, have, {});
+  cache.Prepare(kCachedScan, have, {});
   EXPECT_EQ(cache.Bytes(), 0);
 }
 
 TEST_F(ItemCacheTest, AnotherScanTakesThePlaceOfTheFirst) {
   Record("another", 6);
   ItemCache cache(*shelf);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   ASSERT_TRUE(Settled(cache, AllBytes()));
   ChunkSet all;
   const ScanToSend source = Source("another");
@@ -115,7 +115,7 @@ TEST_F(ItemCacheTest, AnotherScanTakesThePlaceOfTheFirst) {
 
 TEST_F(ItemCacheTest, AnItemThatCannotBeMadeSaysWhy) {
   ItemCache cache(*shelf);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   EXPECT_FALSE(cache.Get(Source(), {ChunkKind::kImage, 1000}));
 }
 
@@ -138,7 +138,7 @@ TEST_F(ItemCacheTest, AStreamDoesNotWaitForAMakerThatGetsNoCore) {
   HeldEncoder encoder;
   encoder.held = 2;  // both makers
   ItemCache cache(*shelf, ItemCache::kUsualBytes, encoder.Encode());
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   ASSERT_TRUE(Eventually([&] { return encoder.calls == 2; }));
   const ScanToSend source = Source();
   const auto first = NextItem(source, ItemsOf(source), {}, {});
@@ -146,9 +146,9 @@ TEST_F(ItemCacheTest, AStreamDoesNotWaitForAMakerThatGetsNoCore) {
   EXPECT_TRUE(parts);
   EXPECT_EQ(encoder.calls, 3);
   const std::int64_t one_item = cache.Bytes();
-  for (const Chunk& chunk : **parts) cache.Acknowledged(kScan, chunk.id);
+  for (const Chunk& chunk : **parts) cache.Acknowledged(kCachedScan, chunk.id);
   EXPECT_LT(cache.Bytes(), one_item);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   encoder.released = true;
   EXPECT_TRUE(Settled(cache, AllBytes())) << "the makers go on";
 }
@@ -157,12 +157,12 @@ TEST_F(ItemCacheTest, WhatTwoMakeIsKeptOnce) {
   HeldEncoder encoder;
   encoder.held = 2;
   ItemCache cache(*shelf, ItemCache::kUsualBytes, encoder.Encode());
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   ASSERT_TRUE(Eventually([&] { return encoder.calls == 2; }));
   const ScanToSend source = Source();
   ChunkSource chunks(source, {},
                      [&](const ScanToSend& now, const ItemId& id) { return cache.Get(now, id); });
-  while (const auto chunk = chunks.Next().value()) cache.Acknowledged(kScan, chunk->id);
+  while (const auto chunk = chunks.Next().value()) cache.Acknowledged(kCachedScan, chunk->id);
   encoder.released = true;
   EXPECT_FALSE(Eventually([&] { return cache.Bytes() > 0; }, 0.3)) << "nobody would ask for it";
 }
@@ -173,7 +173,7 @@ TEST_F(ItemCacheTest, WhileAScanIsRecordedOneMakerWaitsForTheSweep) {
   ASSERT_TRUE(head.StartScan(ScanPlan(), shelf->Begin("another", {}).value()));
   HeldEncoder encoder;
   ItemCache cache(*shelf, ItemCache::kUsualBytes, encoder.Encode());
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   ASSERT_TRUE(Eventually([&] { return encoder.calls == 1; }));
   EXPECT_FALSE(Eventually([&] { return encoder.calls == 2; }, 0.3));
   shelf->Withdraw("another");
@@ -183,9 +183,9 @@ TEST_F(ItemCacheTest, WhileAScanIsRecordedOneMakerWaitsForTheSweep) {
 
 TEST_F(ItemCacheTest, AForgottenScanLeavesNothing) {
   ItemCache cache(*shelf);
-  cache.Prepare(kScan, {}, {});
+  cache.Prepare(kCachedScan, {}, {});
   ASSERT_TRUE(Settled(cache, AllBytes()));
-  cache.Forget(kScan);
+  cache.Forget(kCachedScan);
   EXPECT_EQ(cache.Bytes(), 0);
 }
 
