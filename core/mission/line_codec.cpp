@@ -2,7 +2,9 @@
 
 #include <zlib.h>
 
+#include <optional>
 #include <span>
+#include <utility>
 
 namespace foresight {
 namespace {
@@ -45,6 +47,35 @@ std::vector<std::uint16_t> ValuesFromPlanes(std::string_view planes) {
   return values;
 }
 
+/// zlib's state of a thread, a quarter of a megabyte: to make it anew takes longer than to pack a
+/// line.
+class Deflater {
+ public:
+  Deflater() : good_(deflateInit(&stream_, kZlibLevel) == Z_OK) {}
+  ~Deflater() {
+    if (good_) deflateEnd(&stream_);
+  }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  /// What compress2 would give; nothing where zlib fails.
+  std::optional<std::string> Pack(std::string& bytes) {
+    if (!good_ || deflateReset(&stream_) != Z_OK) return std::nullopt;
+    std::string packed(deflateBound(&stream_, bytes.size()), '\0');
+    stream_.next_in = reinterpret_cast<Bytef*>(bytes.data());
+    stream_.avail_in = static_cast<uInt>(bytes.size());
+    stream_.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream_.avail_out = static_cast<uInt>(packed.size());
+    if (deflate(&stream_, Z_FINISH) != Z_STREAM_END) return std::nullopt;
+    packed.resize(stream_.total_out);
+    return packed;
+  }
+
+ private:
+  z_stream stream_{};
+  bool good_ = false;
+};
+
 }  // namespace
 
 Result<PackedLine> PackLine(const LidarLine& line) {
@@ -61,14 +92,10 @@ Result<PackedLine> PackLine(const LidarLine& line) {
   PackedLine packed;
   packed.beams = static_cast<std::int64_t>(line.range_mm.size());
   packed.has_intensity = !line.intensity.empty();
-  uLongf size = compressBound(planes.size());
-  packed.bytes.resize(size);
-  const int status =
-      compress2(reinterpret_cast<Bytef*>(packed.bytes.data()), &size,
-                reinterpret_cast<const Bytef*>(planes.data()), planes.size(), kZlibLevel);
-  if (status != Z_OK)
-    return Fail(ErrorCode::kInvalidInput, "lidar line {}: zlib error {}", line.seq, status);
-  packed.bytes.resize(size);
+  thread_local Deflater deflater;
+  std::optional<std::string> bytes = deflater.Pack(planes);
+  if (!bytes) return Fail(ErrorCode::kInvalidInput, "lidar line {}: zlib cannot pack it", line.seq);
+  packed.bytes = std::move(*bytes);
   return packed;
 }
 

@@ -57,9 +57,7 @@ struct ReportedScan {
 };
 
 /// Those about a scan, or with an empty uuid those about the mission; without the deleted ones.
-Result<std::vector<NoteRecord>> NotesAbout(const std::string& scan_uuid, const MissionFile& mission,
-                                           const MissionFile* review) {
-  FORESIGHT_TRY(std::vector<NoteRecord> notes, NotesOfMission(mission, review));
+std::vector<NoteRecord> NotesAbout(const std::string& scan_uuid, std::vector<NoteRecord> notes) {
   std::erase_if(
       notes, [&](const NoteRecord& note) { return note.deleted || note.scan_uuid != scan_uuid; });
   return notes;
@@ -84,7 +82,7 @@ std::int64_t ImageToShow(const ReportedScan& reported) {
 }
 
 Result<ReportedScan> Read(const MissionFile& mission, const MissionFile* review,
-                          const ScanSummary& summary) {
+                          const ScanSummary& summary, const std::vector<NoteRecord>& notes) {
   ReportedScan reported;
   reported.summary = summary;
   FORESIGHT_TRY(reported.scan, mission.LoadScan(summary.id));
@@ -101,7 +99,7 @@ Result<ReportedScan> Read(const MissionFile& mission, const MissionFile* review,
         {record, std::move(*detection), provenance ? std::optional(*provenance) : std::nullopt});
   }
   FORESIGHT_TRY(reported.side_results, SideResultsOf(mission, review, summary.uuid));
-  FORESIGHT_TRY(reported.notes, NotesAbout(summary.uuid, mission, review));
+  reported.notes = NotesAbout(summary.uuid, notes);
   reported.image = ImageToShow(reported);
   FORESIGHT_TRY(reported.options, OriginalDepthOptions(mission, summary.id, reported.image));
   return reported;
@@ -381,15 +379,16 @@ Result<MissionReportFiles> WriteMissionReport(const MissionFile& mission, const 
   report.title =
       options.scan ? fmt::format("Scan {} of {}", *options.scan, name) : "Mission " + name;
   report.tables = {MissionTable(mission, review, scans, shown), ScansTable(shown)};
-  FORESIGHT_TRY(const std::vector<NoteRecord> notes, NotesAbout({}, mission, review));
-  if (!notes.empty()) report.tables.push_back(NotesTable(notes));
+  FORESIGHT_TRY(const std::vector<NoteRecord> notes, NotesOfMission(mission, review));
+  if (const auto about = NotesAbout({}, notes); !about.empty())
+    report.tables.push_back(NotesTable(about));
   const double all = static_cast<double>(shown.size());
   for (const ScanSummary& scan : shown) {
     if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the report was cancelled");
     const double done = static_cast<double>(files.scans);
     const RunContext part = context.Part(0.9 * done / all, 0.9 * (done + 1.0) / all);
     part.Report(0.0, "writing the report");
-    FORESIGHT_TRY(const ReportedScan reported, Read(mission, review, scan));
+    FORESIGHT_TRY(const ReportedScan reported, Read(mission, review, scan, notes));
     FORESIGHT_TRY(HtmlReport::Section section, SectionOf(reported, folder, files, part));
     report.sections.push_back(std::move(section));
     ++files.scans;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kHubPerRim = 0.20;
 constexpr double kSpokePerTube = 0.67;
 constexpr double kLeastDepth_m = 0.002;  // half of it, of any section
-constexpr double kMostDepth_m = 0.025;
+constexpr double kMostDepth_m = 0.020;
 
 /// By what a tilt against the wall's normal is multiplied to count as a residual of the prior.
 double SquareWeight(double tilt2) {
@@ -103,7 +103,8 @@ Eigen::Vector3d SectionResiduals(const ValveModel& model) {
   const auto residual = [](double size_m, double usual_m) {
     return std::log(size_m / usual_m) / ValvePrior::kSectionSigma;
   };
-  const double rim = residual(model.RimDepth(), ValvePrior::kRimDepth_m);
+  const double rim =
+      std::log(model.RimDepth() / ValvePrior::kRimDepth_m) / ValvePrior::kRimDepthSigma;
   if (model.spokes == 0) return {rim, 0.0, 0.0};
   return {rim, residual(model.spoke_radius_m, ValvePrior::kSpokeRadius_m),
           residual(model.SpokeDepth(), ValvePrior::kSpokeDepth_m)};

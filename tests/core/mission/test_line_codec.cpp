@@ -39,6 +39,14 @@ TEST(LineCodec, ASmoothLineTakesLessThanHalfItsBytes) {
   EXPECT_LT(PackLine(line).value().bytes.size(), 2 * line.range_mm.size() / 2);
 }
 
+TEST(LineCodec, ALineIsPackedTheSameWhateverWasPackedBefore) {
+  const Scan scan = SampleScan(1);
+  const std::string first = PackLine(scan.lines[0]).value().bytes;
+  ASSERT_TRUE(PackLine(scan.lines[1]));
+  ASSERT_TRUE(PackLine(LidarLine()));
+  EXPECT_EQ(PackLine(scan.lines[0]).value().bytes, first);
+}
+
 TEST(LineCodec, IntensitiesThatDoNotFitAreRefused) {
   LidarLine line;
   line.range_mm = {1, 2, 3};
