@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "core/fitting/beam_model.h"
 #include "core/fitting/valve/fit_valve.h"
 #include "core/fitting/valve/local_search.h"
