@@ -6,7 +6,11 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
+
+#include "core/mission/deflater.h"
 
 namespace foresight {
 namespace {
@@ -56,14 +60,11 @@ Result<PackedGivenLine> PackGivenLine(const GivenCloud& cloud, int line) {
     packed.parts |= PackedGivenLine::kHasTime;
     for (std::size_t i = begin; i < begin + beams; ++i) Append(bytes, cloud.time_s[i]);
   }
-  uLongf size = compressBound(bytes.size());
-  packed.bytes.resize(size);
-  const int status =
-      compress2(reinterpret_cast<Bytef*>(packed.bytes.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), kGivenZlibLevel);
-  if (status != Z_OK)
-    return Fail(ErrorCode::kInvalidInput, "line {} of a cloud: zlib error {}", line, status);
-  packed.bytes.resize(size);
+  thread_local Deflater deflater(kGivenZlibLevel);
+  std::optional<std::string> deflated = deflater.Pack(bytes);
+  if (!deflated)
+    return Fail(ErrorCode::kInvalidInput, "line {} of a cloud: zlib cannot pack it", line);
+  packed.bytes = std::move(*deflated);
   return packed;
 }
 

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "core/mission/deflater.h"
+
 namespace foresight {
 namespace {
 
@@ -47,35 +49,6 @@ std::vector<std::uint16_t> ValuesFromPlanes(std::string_view planes) {
   return values;
 }
 
-/// zlib's state of a thread, a quarter of a megabyte: to make it anew takes longer than to pack a
-/// line.
-class Deflater {
- public:
-  Deflater() : good_(deflateInit(&stream_, kZlibLevel) == Z_OK) {}
-  ~Deflater() {
-    if (good_) deflateEnd(&stream_);
-  }
-  Deflater(const Deflater&) = delete;
-  Deflater& operator=(const Deflater&) = delete;
-
-  /// What compress2 would give; nothing where zlib fails.
-  std::optional<std::string> Pack(std::string& bytes) {
-    if (!good_ || deflateReset(&stream_) != Z_OK) return std::nullopt;
-    std::string packed(deflateBound(&stream_, bytes.size()), '\0');
-    stream_.next_in = reinterpret_cast<Bytef*>(bytes.data());
-    stream_.avail_in = static_cast<uInt>(bytes.size());
-    stream_.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream_.avail_out = static_cast<uInt>(packed.size());
-    if (deflate(&stream_, Z_FINISH) != Z_STREAM_END) return std::nullopt;
-    packed.resize(stream_.total_out);
-    return packed;
-  }
-
- private:
-  z_stream stream_{};
-  bool good_ = false;
-};
-
 }  // namespace
 
 Result<PackedLine> PackLine(const LidarLine& line) {
@@ -92,7 +65,7 @@ Result<PackedLine> PackLine(const LidarLine& line) {
   PackedLine packed;
   packed.beams = static_cast<std::int64_t>(line.range_mm.size());
   packed.has_intensity = !line.intensity.empty();
-  thread_local Deflater deflater;
+  thread_local Deflater deflater(kZlibLevel);
   std::optional<std::string> bytes = deflater.Pack(planes);
   if (!bytes) return Fail(ErrorCode::kInvalidInput, "lidar line {}: zlib cannot pack it", line.seq);
   packed.bytes = std::move(*bytes);
