@@ -230,8 +230,8 @@ Result<std::regex> PatternFrom(const std::string& text) {
 }
 
 Result<std::unique_ptr<FitPopulation>> PopulationFrom(const EvaluateFitsArguments& arguments) {
-  const FitWorld world = arguments.world == "other" ? FitWorld::kOther : FitWorld::kHome;
-  if (!arguments.like_home.empty() && world == FitWorld::kHome)
+  FORESIGHT_TRY(const FitWorld world, FitWorldFromString(arguments.world));
+  if (!arguments.like_home.empty() && world != FitWorld::kOther)
     return Fail(ErrorCode::kInvalidOptions, "--like-home changes --world other; at home all is so");
   FORESIGHT_TRY(std::unique_ptr<FitPopulation> population,
                 MakeFitPopulation(arguments.kind, world));
@@ -275,9 +275,10 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
       ->check(CLI::IsMember(FitPopulationKinds()));
   command
       ->add_option("--world", arguments->world,
-                   "home, whose constants the fits know, or other, which shares none of them: it "
-                   "judges only, nothing is ever fitted to it")
-      ->check(CLI::IsMember({"home", "other"}))
+                   "home, whose constants the fits know; varied, the same things under drawn "
+                   "conditions, for weights; or other, which shares none of them: it judges "
+                   "only, nothing is ever fitted to it")
+      ->check(CLI::IsMember({"home", "varied", "other"}))
       ->capture_default_str();
   command
       ->add_option("--like-home", arguments->like_home,

@@ -72,6 +72,8 @@ Result<SampleSpacing> MeasureSpacing(const AlignedSamples& samples) {
   const Image<std::int32_t> grid = GridOf(samples, false);
   std::vector<float> along;
   std::vector<float> between;
+  along.reserve(samples.samples.size());
+  between.reserve(samples.samples.size());
   const auto distance = [&](std::int32_t a, std::int32_t b) {
     const AlignedSample& p = samples.samples[static_cast<std::size_t>(a)];
     const AlignedSample& q = samples.samples[static_cast<std::size_t>(b)];
@@ -94,7 +96,10 @@ Result<SampleSpacing> MeasureSpacing(const AlignedSamples& samples) {
 }
 
 double LocalDensity(const AlignedSamples& samples) {
-  const auto spacing = MeasureSpacing(samples);
+  return LocalDensity(samples, MeasureSpacing(samples));
+}
+
+double LocalDensity(const AlignedSamples& samples, const Result<SampleSpacing>& spacing) {
   if (!spacing) return samples.Density();
   const double area_px = spacing->along_line_px * spacing->between_lines_px;
   return std::max(samples.Density(), std::min(1.0, 1.0 / std::max(1.0, area_px)));

@@ -83,6 +83,8 @@ Result<SampleSpacing> MeasureSpacing(const AlignedSamples& samples);
 /// filter needs to know is how far its next sample is. The paper's proportion of measured points,
 /// Fig. 6(a).
 double LocalDensity(const AlignedSamples& samples);
+/// The same where the spacing was measured already.
+double LocalDensity(const AlignedSamples& samples, const Result<SampleSpacing>& spacing);
 
 /// Section IV: projects the scan into the image taken at `motor_rad`. Points behind the camera or
 /// outside the image are left out. Fails with kTooFewPoints when none is left. O(points).

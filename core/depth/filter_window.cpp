@@ -20,6 +20,9 @@ SparseDepthMap::SparseDepthMap(const AlignedSamples& samples)
   for (std::size_t y = 1; y < first_.size(); ++y) first_[y] += first_[y - 1];
   const auto count = static_cast<std::size_t>(first_.back());
   sources_.resize(count);
+  rows_.reserve(count);
+  columns_.reserve(count);
+  depths_m_.reserve(count);
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t i = 0; i < samples.samples.size(); ++i) {
     if (samples.reasons[i] != RejectReason::kKept) continue;

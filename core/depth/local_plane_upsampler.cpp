@@ -38,13 +38,14 @@ struct BlockImages {
         iterations(kept_iterations, depth_m) {}
 };
 
-Result<SampleSpacing> SpacingOf(const AlignedSamples& samples, const LocalPlaneOptions& options) {
+Result<SampleSpacing> SpacingOf(const Result<SampleSpacing>& measured,
+                                const LocalPlaneOptions& options) {
   SampleSpacing spacing{options.along_line_px, options.between_lines_px};
   if (spacing.along_line_px > 0.0 && spacing.between_lines_px > 0.0) return spacing;
-  FORESIGHT_TRY(const SampleSpacing measured, MeasureSpacing(samples));
-  if (spacing.along_line_px == 0.0) spacing.along_line_px = std::max(1.0, measured.along_line_px);
+  if (!measured) return measured;
+  if (spacing.along_line_px == 0.0) spacing.along_line_px = std::max(1.0, measured->along_line_px);
   if (spacing.between_lines_px == 0.0)
-    spacing.between_lines_px = std::max(1.0, measured.between_lines_px);
+    spacing.between_lines_px = std::max(1.0, measured->between_lines_px);
   return spacing;
 }
 
@@ -131,7 +132,7 @@ Status LocalPlaneUpsampler::Update(const AlignedSamples& samples, const RunConte
   if (lab_.channels[0].empty()) {
     FORESIGHT_TRY(lab_, ToLab(guide_, context));
   }
-  FORESIGHT_TRY(Cached now, Describe(samples));
+  FORESIGHT_TRY(Cached now, Describe(samples, context));
   const Cached* before = last && last->SameWindow(now) ? &*last : nullptr;
   const SampleChange change =
       before ? CompareSamples(before->samples, now.samples) : EverythingNew(now.samples);
@@ -144,17 +145,21 @@ Status LocalPlaneUpsampler::Update(const AlignedSamples& samples, const RunConte
 }
 
 Result<LocalPlaneUpsampler::Cached> LocalPlaneUpsampler::Describe(
-    const AlignedSamples& samples) const {
-  FORESIGHT_TRY(const SampleSpacing spacing, SpacingOf(samples, options_));
+    const AlignedSamples& samples, const RunContext& context) const {
+  const bool given = options_.along_line_px > 0.0 && options_.between_lines_px > 0.0 &&
+                     options_.sigma_spatial_px > 0.0;
+  const Result<SampleSpacing> measured = given ? SampleSpacing() : MeasureSpacing(samples);
+  FORESIGHT_TRY(const SampleSpacing spacing, SpacingOf(measured, options_));
   const double sigma_px = options_.sigma_spatial_px > 0.0
                               ? options_.sigma_spatial_px
-                              : LocalPlaneSigmaForDensity(LocalDensity(samples));
+                              : LocalPlaneSigmaForDensity(LocalDensity(samples, measured));
   Cached cached{MappedSamples(samples), spacing, sigma_px,
                 SpatialKernel(sigma_px, options_.radius_in_sigmas * sigma_px)};
   for (std::size_t c = 0; c < cached.sample_lab.size(); ++c)
     cached.sample_lab[c] = cached.samples.map.ValuesAt(lab_.channels[c]);
-  cached.planes = LevelPlanes(cached.samples.map, samples);
-  cached.slopes = SlopesOnGrid(cached.samples.map, samples, cached.planes);
+  cached.planes = LevelPlanes(cached.samples.map, samples, context);
+  cached.slopes = SlopesOnGrid(cached.samples.map, samples, cached.planes, context);
+  if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");
   return cached;
 }
 

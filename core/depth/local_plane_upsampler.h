@@ -62,7 +62,7 @@ class LocalPlaneUpsampler {
     bool SameWindow(const Cached& other) const;
   };
 
-  Result<Cached> Describe(const AlignedSamples& samples) const;
+  Result<Cached> Describe(const AlignedSamples& samples, const RunContext& context) const;
   PlaneFilter FilterOf(const Cached& cached) const;
   Status FindPlanes(const Cached* before, const SampleChange& change, Cached& now,
                     const RunContext& context) const;

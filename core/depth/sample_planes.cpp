@@ -2,9 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "core/base/parallel.h"
 
 namespace foresight {
 namespace {
+
+constexpr std::size_t kBlockSamples = 4096;
+
+/// Calls body(q) for every sample of the map, on the context's threads.
+void ForEachSample(const SparseDepthMap& map, const RunContext& context,
+                   const std::function<void(std::size_t)>& body) {
+  const std::size_t blocks = (map.size() + kBlockSamples - 1) / kBlockSamples;
+  ParallelFor(static_cast<int>(blocks), context, [&](int block) {
+    const std::size_t first = static_cast<std::size_t>(block) * kBlockSamples;
+    const std::size_t last = std::min(first + kBlockSamples, map.size());
+    for (std::size_t q = first; q < last; ++q) body(q);
+  });
+}
 
 /// Change of inverse depth from one sample to another.
 struct Step {
@@ -95,28 +111,30 @@ Image<std::int32_t> MapGrid(const SparseDepthMap& map, const AlignedSamples& sam
   return grid;
 }
 
-std::vector<SamplePlane> LevelPlanes(const SparseDepthMap& map, const AlignedSamples& samples) {
+std::vector<SamplePlane> LevelPlanes(const SparseDepthMap& map, const AlignedSamples& samples,
+                                     const RunContext& context) {
   std::vector<SamplePlane> planes(map.size());
-  for (std::size_t q = 0; q < map.size(); ++q) {
+  ForEachSample(map, context, [&](std::size_t q) {
     const AlignedSample& s = samples.samples[static_cast<std::size_t>(map.sources()[q])];
     SamplePlane& plane = planes[q];
     plane.x = samples.rays ? s.point.x() / s.point.z() : s.u;
     plane.y = samples.rays ? s.point.y() / s.point.z() : s.v;
     plane.unit = samples.rays ? UnitAt(*samples.rays, map.columns()[q], map.rows()[q]) : 1.0f;
     plane.inverse_depth = 1.0f / s.depth_m;
-  }
+  });
   return planes;
 }
 
 std::vector<SlopeCandidates> SlopesOnGrid(const SparseDepthMap& map, const AlignedSamples& samples,
-                                          std::span<const SamplePlane> planes) {
+                                          std::span<const SamplePlane> planes,
+                                          const RunContext& context) {
   const Image<std::int32_t> grid = MapGrid(map, samples);
   const GridNeighbours neighbours(map, planes, grid);
   std::vector<SlopeCandidates> slopes(map.size());
-  for (std::size_t q = 0; q < map.size(); ++q) {
+  ForEachSample(map, context, [&](std::size_t q) {
     const AlignedSample& s = samples.samples[static_cast<std::size_t>(map.sources()[q])];
     slopes[q] = SlopesAt(neighbours, static_cast<std::int32_t>(q), s.line, s.beam, planes[q].unit);
-  }
+  });
   return slopes;
 }
 

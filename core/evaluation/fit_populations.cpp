@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "core/evaluation/other_populations.h"
+#include "core/evaluation/varied_world.h"
 
 namespace foresight {
 namespace {
@@ -37,7 +38,10 @@ std::vector<std::string> FitPopulationKinds() {
 Result<std::unique_ptr<FitPopulation>> MakeFitPopulation(const std::string& kind, FitWorld world) {
   std::string known;
   for (const Entry& entry : Entries()) {
-    if (entry.kind == kind) return world == FitWorld::kOther ? entry.make_other() : entry.make();
+    if (entry.kind == kind) {
+      if (world == FitWorld::kOther) return entry.make_other();
+      return world == FitWorld::kVaried ? MakeVaried(entry.make()) : entry.make();
+    }
     known += (known.empty() ? "" : ", ") + entry.kind;
   }
   return Fail(ErrorCode::kInvalidOptions, "object '{}' is not one of: {}", kind, known);

@@ -56,13 +56,14 @@ void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const s
 }  // namespace
 
 const char* ToString(FitWorld world) {
-  return world == FitWorld::kOther ? "other" : "home";
+  constexpr const char* kNames[] = {"home", "varied", "other"};
+  return kNames[static_cast<int>(world)];
 }
 
 Result<FitWorld> FitWorldFromString(const std::string& name) {
-  for (const FitWorld world : {FitWorld::kHome, FitWorld::kOther})
+  for (const FitWorld world : {FitWorld::kHome, FitWorld::kVaried, FitWorld::kOther})
     if (name == ToString(world)) return world;
-  return Fail(ErrorCode::kBadData, "world '{}' is neither home nor other", name);
+  return Fail(ErrorCode::kBadData, "world '{}' is none of home, varied, other", name);
 }
 
 bool FitTrialOptions::NeedsImage() const {

@@ -16,10 +16,11 @@ namespace foresight {
 
 /// Where scenes come from.
 enum class FitWorld {
-  kHome,   ///< whose constants the fits know: for tuning and weights, and for tests on other seeds
-  kOther,  ///< which shares none of them: it judges only, other_world.h
+  kHome,    ///< whose constants the fits know: for tuning and weights, and for tests on other seeds
+  kVaried,  ///< the same things under drawn conditions: for weights, varied_world.h
+  kOther,   ///< which shares none of them: it judges only, other_world.h
 };
-/// "home", "other".
+/// "home", "varied", "other".
 const char* ToString(FitWorld world);
 /// Fails with kBadData for any other word.
 Result<FitWorld> FitWorldFromString(const std::string& name);

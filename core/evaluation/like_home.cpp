@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/evaluation/remeasured_population.h"
+
 namespace foresight {
 namespace {
 
@@ -52,31 +54,6 @@ void Reset(OtherCondition condition, FitTrialScene& trial) {
   }
 }
 
-class LikeHomePopulation : public FitPopulation {
- public:
-  LikeHomePopulation(std::unique_ptr<FitPopulation> population,
-                     std::vector<OtherCondition> conditions)
-      : population_(std::move(population)), conditions_(std::move(conditions)) {}
-
-  ObjectKind Kind() const override { return population_->Kind(); }
-  FitWorld World() const override { return population_->World(); }
-  FitTrialScene MakeScene(std::uint64_t seed) const override {
-    FitTrialScene scene = population_->MakeScene(seed);
-    for (const OtherCondition condition : conditions_) Reset(condition, scene);
-    return scene;
-  }
-  FitOptions Options(const SensorRig& rig) const override { return population_->Options(rig); }
-  std::vector<FitOutcome> Judge(const FitTrial& trial,
-                                const Result<Detection>& found) const override {
-    return population_->Judge(trial, found);
-  }
-  std::vector<std::string> FeatureNames() const override { return population_->FeatureNames(); }
-
- private:
-  std::unique_ptr<FitPopulation> population_;
-  std::vector<OtherCondition> conditions_;
-};
-
 }  // namespace
 
 std::vector<std::string> OtherConditionNames() {
@@ -93,7 +70,12 @@ Result<OtherCondition> OtherConditionFromString(const std::string& name) {
 
 std::unique_ptr<FitPopulation> MakeLikeHome(std::unique_ptr<FitPopulation> population,
                                             std::vector<OtherCondition> conditions) {
-  return std::make_unique<LikeHomePopulation>(std::move(population), std::move(conditions));
+  const FitWorld world = population->World();
+  return std::make_unique<RemeasuredPopulation>(
+      std::move(population), world,
+      [conditions = std::move(conditions)](std::uint64_t, FitTrialScene& scene) {
+        for (const OtherCondition condition : conditions) Reset(condition, scene);
+      });
 }
 
 }  // namespace foresight

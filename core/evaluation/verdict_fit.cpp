@@ -140,7 +140,7 @@ Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
                                      const VerdictFitOptions& options) {
   FORESIGHT_CHECK(options.Check());
   for (const FitOutcome& outcome : outcomes)
-    if (outcome.world != FitWorld::kHome)
+    if (outcome.world == FitWorld::kOther)
       return Fail(ErrorCode::kInvalidInput,
                   "verdict of {}: seed {} is of the {} world, which judges only: nothing is ever "
                   "fitted to it",

@@ -1,12 +1,12 @@
 #include "tests/workstation/hundred_scans.h"
 
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <QElapsedTimer>
 #include <QTemporaryDir>
 #include <fstream>
 
+#include "core/base/memory.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/simulate_scan.h"
 #include "tests/ui/fake_head.h"
@@ -63,7 +63,7 @@ void RecordHundredScans(const std::function<std::unique_ptr<QObject>(Workbench*)
     if (i == 10) after_ten_MB = Resident_MB();
     if (i % 10 == 0) std::printf("after %d scans: %.0f MB\n", i, Resident_MB());
   }
-  malloc_trim(0);
+  GiveMemoryBack();
   std::printf("most: %.0f MB; at the end, without free memory: %.0f MB\n", most_MB, Resident_MB());
   EXPECT_LT(most_MB, 800.0);
   EXPECT_LT(Resident_MB(), after_ten_MB + 100.0) << "scans before the last one are let go";

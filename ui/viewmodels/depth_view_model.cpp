@@ -105,7 +105,7 @@ void DepthViewModel::compute() {
   const auto scan = session_->CurrentScan();
   if (!scan) return;
   if (session_->Cloud()) {
-    ComputeOn(scan, session_->ImageIndex());
+    ComputeOn(scan, session_->Cloud(), session_->ImageIndex());
     return;
   }
   runner_.Run<RegisteredScan>(
@@ -117,12 +117,15 @@ void DepthViewModel::compute() {
           session_->Report(NoticeOf(tr("Placing points"), cloud.error()));
           return;
         }
-        session_->SetCloud(std::make_shared<const RegisteredScan>(std::move(*cloud)), scan->rig);
-        ComputeOn(scan, session_->ImageIndex());
+        const auto placed = std::make_shared<const RegisteredScan>(std::move(*cloud));
+        // First, for this thread draws the cloud next.
+        ComputeOn(scan, placed, session_->ImageIndex());
+        session_->SetCloud(placed, scan->rig);
       });
 }
 
-void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan, int image) {
+void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan,
+                               const std::shared_ptr<const RegisteredScan>& cloud, int image) {
   if (image < 0) {
     // Why an interrupted scan has none has been said, with what to do.
     if (scan->state == ScanState::kComplete)
@@ -132,7 +135,7 @@ void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan, int imag
     return;
   }
   runner_.Run<DepthResult>(tr("Computing depth"),
-                           MakeDepthTask(scan, session_->Cloud(), image, options_),
+                           MakeDepthTask(scan, cloud, image, options_),
                            [this, scan, image, used = options_](Result<DepthResult> depth) {
                              if (scan != session_->CurrentScan() || image != session_->ImageIndex())
                                return;

@@ -60,7 +60,8 @@ class DepthViewModel : public QObject {
   void methodChanged();
 
  private:
-  void ComputeOn(const std::shared_ptr<const Scan>& scan, int image);
+  void ComputeOn(const std::shared_ptr<const Scan>& scan,
+                 const std::shared_ptr<const RegisteredScan>& cloud, int image);
   void Accept(const DepthOptions& used, Result<DepthResult> depth);
   void ReturnToShown();
   void Use(const DepthOptions& options);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+
+#include "core/base/random.h"
+#include "core/evaluation/fit_trial.h"
+
+namespace foresight {
+
+/// What a head in the field does not know of its own lidar, drawn for one scene: each of these is as
+/// at home in two scenes of five. Footprint (half to twice ours a side, even or Gaussian), pulse
+/// (0.06 to 1.2 m, its range up to three fifths of the way to the leading edge), noise of 4 to
+/// 24 mm, the tails of Student's t of 3 to 8 degrees of freedom, strays (up to 0.5 %), range walk
+/// (up to 15 mm of weak and of black returns), motor errors (up to 2.5 times ours), a rig off by up
+/// to 0.15 deg and 4 mm, regions (rectangles and tight boxes), and one scan in ten interrupted.
+void DrawConditions(Random& random, FitTrialScene& trial);
+
+/// A population's own things under drawn conditions. It is for training, beside home: a verdict
+/// that knows only one lidar's noise calls every other lidar's beams liars. The things of the other
+/// world are in neither.
+std::unique_ptr<FitPopulation> MakeVaried(std::unique_ptr<FitPopulation> population);
+
+}  // namespace foresight

@@ -1,0 +1,73 @@
+// Weights are fitted to our own things under conditions that no fit knows.
+#include <gtest/gtest.h>
+
+#include "core/evaluation/fit_populations.h"
+#include "core/evaluation/verdict_fit.h"
+
+namespace foresight {
+namespace {
+
+TEST(VariedScenes, HoldTheThingsOfHome) {
+  for (const std::string& kind : FitPopulationKinds()) {
+    const auto home = MakeFitPopulation(kind, FitWorld::kHome);
+    const auto varied = MakeFitPopulation(kind, FitWorld::kVaried);
+    ASSERT_TRUE(home && varied);
+    EXPECT_EQ((*varied)->World(), FitWorld::kVaried);
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const FitTrialScene a = (*home)->MakeScene(seed);
+      const FitTrialScene b = (*varied)->MakeScene(seed);
+      EXPECT_EQ(a.what, b.what);
+      ASSERT_EQ(a.scene->meshes.size(), b.scene->meshes.size()) << kind;
+      EXPECT_EQ(a.scene->meshes.back().vertices, b.scene->meshes.back().vertices);
+      EXPECT_TRUE(b.world.Check());
+    }
+  }
+}
+
+TEST(VariedScenes, AreMeasuredUnderDrawnConditions) {
+  constexpr int kScenes = 200;
+  const auto varied = MakeFitPopulation("drill", FitWorld::kVaried);
+  ASSERT_TRUE(varied);
+  int footprints = 0, pulses = 0, tails = 0, rigs = 0, regions = 0, interrupted = 0;
+  const LidarNoise ours;
+  for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+    const FitTrialScene scene = (*varied)->MakeScene(seed);
+    const LidarNoise& lidar = scene.world.lidar;
+    footprints += lidar.footprint_vertical_rad != ours.footprint_vertical_rad ? 1 : 0;
+    pulses += lidar.pulse_length_m != ours.pulse_length_m ? 1 : 0;
+    tails += lidar.tail_degrees > 0 ? 1 : 0;
+    rigs += scene.rig_error ? 1 : 0;
+    regions += scene.region != FitTrialScene::Region::kCircle ? 1 : 0;
+    interrupted += scene.scanned < 1.0 ? 1 : 0;
+    EXPECT_GE(lidar.footprint_vertical_rad, 0.5 * ours.footprint_vertical_rad);
+    EXPECT_LE(lidar.footprint_vertical_rad, 2.0 * ours.footprint_vertical_rad);
+    EXPECT_LE(lidar.sigma_base_m, 0.024);
+  }
+  for (const int drawn : {footprints, pulses, tails, rigs, regions})
+    EXPECT_NEAR(drawn, 0.6 * kScenes, 0.12 * kScenes);
+  EXPECT_NEAR(interrupted, 0.1 * kScenes, 0.07 * kScenes);
+}
+
+TEST(VariedScenes, WeightsMayBeFittedToThem) {
+  std::vector<FitOutcome> outcomes(40);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    outcomes[i].world = i % 3 == 0 ? FitWorld::kHome : FitWorld::kVaried;
+    outcomes[i].found = true;
+    outcomes[i].all_ok = i % 2 == 0;
+    outcomes[i].seed = i;
+    outcomes[i].verdict.features = {static_cast<double>(i)};
+  }
+  VerdictFitOptions options;
+  options.object = "valve";
+  options.features = {"one"};
+  EXPECT_TRUE(FitVerdictModel(outcomes, options));
+}
+
+TEST(VariedScenes, TheirWorldComesBackFromItsName) {
+  for (const FitWorld world : {FitWorld::kHome, FitWorld::kVaried, FitWorld::kOther})
+    EXPECT_EQ(FitWorldFromString(ToString(world)).value(), world);
+  EXPECT_FALSE(FitWorldFromString("mars"));
+}
+
+}  // namespace
+}  // namespace foresight
