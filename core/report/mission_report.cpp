@@ -177,14 +177,18 @@ Table ObjectTable(const ReportedObject& object, const SensorRig& rig, std::size_
   return table;
 }
 
+/// A row for each group of options, so that the page of a scan stays one.
 Table SettingsTable(const DepthOptions& options) {
   Table table{"Settings of the depth map", {}};
   table.rows.push_back({"method", InfoOf(options.method).title});
   for (const Option<DepthOptions>& option : DepthOptionTable()) {
     if (!option.AppliesTo(options)) continue;
     const OptionInfo& info = option.info;
-    table.rows.push_back({info.group.empty() ? info.title : info.group + ": " + info.title,
-                          OptionInWords(info, option.get(options))});
+    const std::string said = info.title + ": " + OptionInWords(info, option.get(options));
+    if (table.rows.back().name == info.group)
+      table.rows.back().value += "; " + said;
+    else
+      table.rows.push_back({info.group, said});
   }
   return table;
 }

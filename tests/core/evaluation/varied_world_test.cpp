@@ -1,4 +1,5 @@
 // Weights are fitted to our own things under conditions that no fit knows.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/evaluation/fit_populations.h"
@@ -6,6 +7,8 @@
 
 namespace foresight {
 namespace {
+
+using testing::AnyOf;
 
 TEST(VariedScenes, HoldTheThingsOfHome) {
   for (const std::string& kind : FitPopulationKinds()) {
@@ -17,8 +20,11 @@ TEST(VariedScenes, HoldTheThingsOfHome) {
       const FitTrialScene a = (*home)->MakeScene(seed);
       const FitTrialScene b = (*varied)->MakeScene(seed);
       EXPECT_EQ(a.what, b.what);
-      ASSERT_EQ(a.scene->meshes.size(), b.scene->meshes.size()) << kind;
-      EXPECT_EQ(a.scene->meshes.back().vertices, b.scene->meshes.back().vertices);
+      // But for a bar in front of it.
+      const std::size_t things = a.scene->meshes.size();
+      ASSERT_THAT(b.scene->meshes.size(), AnyOf(things, things + 1)) << kind;
+      for (std::size_t i = 0; i < things; ++i)
+        EXPECT_EQ(a.scene->meshes[i].vertices, b.scene->meshes[i].vertices);
       EXPECT_TRUE(b.world.Check());
     }
   }
@@ -28,7 +34,8 @@ TEST(VariedScenes, AreMeasuredUnderDrawnConditions) {
   constexpr int kScenes = 200;
   const auto varied = MakeFitPopulation("drill", FitWorld::kVaried);
   ASSERT_TRUE(varied);
-  int footprints = 0, pulses = 0, tails = 0, rigs = 0, regions = 0, interrupted = 0;
+  int footprints = 0, pulses = 0, tails = 0, rigs = 0, regions = 0, interrupted = 0,
+      occluded = 0;
   const LidarNoise ours;
   for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
     const FitTrialScene scene = (*varied)->MakeScene(seed);
@@ -39,12 +46,14 @@ TEST(VariedScenes, AreMeasuredUnderDrawnConditions) {
     rigs += scene.rig_error ? 1 : 0;
     regions += scene.region != FitTrialScene::Region::kCircle ? 1 : 0;
     interrupted += scene.scanned < 1.0 ? 1 : 0;
+    occluded += scene.scene->meshes.back().name == "bar in front" ? 1 : 0;
     EXPECT_GE(lidar.footprint_vertical_rad, 0.5 * ours.footprint_vertical_rad);
     EXPECT_LE(lidar.footprint_vertical_rad, 2.0 * ours.footprint_vertical_rad);
     EXPECT_LE(lidar.sigma_base_m, 0.024);
   }
   for (const int drawn : {footprints, pulses, tails, rigs, regions})
-    EXPECT_NEAR(drawn, 0.6 * kScenes, 0.12 * kScenes);
+    EXPECT_NEAR(drawn, 0.8 * kScenes, 0.1 * kScenes);
+  EXPECT_NEAR(occluded, 0.4 * kScenes, 0.12 * kScenes);
   EXPECT_NEAR(interrupted, 0.1 * kScenes, 0.07 * kScenes);
 }
 

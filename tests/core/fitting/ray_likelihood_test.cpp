@@ -145,12 +145,15 @@ TEST(LocalSearch, NeverLosesLikelihood) {
 TEST(Refine, ComesBackFromACentimetre) {
   const ValveScene scene = FourSpokes();
   const BeamFootprints footprints(scene.rays, WallOf(scene.rays));
+  // To the end: the four steps a round of a fit, which looks on by itself, leave up to 6.6 mm.
+  RefineOptions options;
+  options.steps = 16;
   double best_m = 1.0, worst_m = 0.0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const ValveCandidate found = Refine(footprints, Displaced(scene, seed), {}).valve;
-    // Mixed returns pull at the edges, and this round rim is deeper than most: up to 6.6 mm.
+    const ValveCandidate found = Refine(footprints, Displaced(scene, seed), options).valve;
+    // Mixed returns pull at the edges, and this round rim is deeper than most: up to 5.9 mm.
     const double off_m = CompareValves(found, scene.truth).center_m;
-    EXPECT_LT(off_m, 0.007) << seed;
+    EXPECT_LT(off_m, 0.006) << seed;
     worst_m = std::max(worst_m, off_m);
     best_m = std::min(best_m, off_m);
   }
