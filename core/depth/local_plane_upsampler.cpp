@@ -144,8 +144,8 @@ Status LocalPlaneUpsampler::Update(const AlignedSamples& samples, const RunConte
   return {};
 }
 
-Result<LocalPlaneUpsampler::Cached> LocalPlaneUpsampler::Describe(
-    const AlignedSamples& samples, const RunContext& context) const {
+Result<LocalPlaneUpsampler::Cached> LocalPlaneUpsampler::Describe(const AlignedSamples& samples,
+                                                                  const RunContext& context) const {
   const bool given = options_.along_line_px > 0.0 && options_.between_lines_px > 0.0 &&
                      options_.sigma_spatial_px > 0.0;
   const Result<SampleSpacing> measured = given ? SampleSpacing() : MeasureSpacing(samples);

@@ -46,8 +46,8 @@ void DrawLidar(Random& random, LidarNoise& lidar) {
 
 void DrawRegion(Random& random, FitTrialScene& trial) {
   if (random.Chance(kDrawn))
-    trial.region = random.Chance(0.5) ? FitTrialScene::Region::kRectangle
-                                      : FitTrialScene::Region::kTightBox;
+    trial.region =
+        random.Chance(0.5) ? FitTrialScene::Region::kRectangle : FitTrialScene::Region::kTightBox;
 }
 
 void ChangeMaterial(Random& random, Material& material) {
@@ -86,8 +86,7 @@ SceneMesh Occluder(const FitTrialScene& trial, Random& random) {
                          0.5 * pieces * piece_m * along +
                          random.Uniform(-1.0, 1.0) * trial.focus_radius_m * across;
   for (int i = 0; i < pieces; ++i) {
-    const Eigen::Vector3d to = from + piece_m * along +
-                               random.Uniform(-0.1, 0.1) * across +
+    const Eigen::Vector3d to = from + piece_m * along + random.Uniform(-0.1, 0.1) * across +
                                random.Uniform(-0.03, 0.03) * towards;
     AppendShape(CapsuleShape(radius_m, (to - from).norm()),
                 Rigid<frame::Robot, frame::Object>() * PoseAlong(from, to), mesh);
@@ -118,19 +117,19 @@ void DrawConditions(Random& random, FitTrialScene& trial) {
     motor.backlash_rad *= times;
   }
   if (random.Chance(kDrawn))
-    trial.rig_error = CalibrationError{RadiansFromDegrees(random.Uniform(0.0, 0.15)),
-                                       random.Uniform(0.0, 0.004)};
+    trial.rig_error =
+        CalibrationError{RadiansFromDegrees(random.Uniform(0.0, 0.15)), random.Uniform(0.0, 0.004)};
   DrawRegion(random, trial);
   if (random.Chance(0.1)) trial.scanned = random.Uniform(0.5, 0.95);
   trial.scene = Changed(trial, random);
 }
 
 std::unique_ptr<FitPopulation> MakeVaried(std::unique_ptr<FitPopulation> population) {
-  return std::make_unique<RemeasuredPopulation>(
-      std::move(population), FitWorld::kVaried, [](std::uint64_t seed, FitTrialScene& trial) {
-        Random random(seed, kConditionStream);
-        DrawConditions(random, trial);
-      });
+  return std::make_unique<RemeasuredPopulation>(std::move(population), FitWorld::kVaried,
+                                                [](std::uint64_t seed, FitTrialScene& trial) {
+                                                  Random random(seed, kConditionStream);
+                                                  DrawConditions(random, trial);
+                                                });
 }
 
 }  // namespace foresight

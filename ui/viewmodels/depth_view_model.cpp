@@ -134,8 +134,7 @@ void DepthViewModel::ComputeOn(const std::shared_ptr<const Scan>& scan,
                         tr("Scan again with an image angle within the scope."), kScanTopic});
     return;
   }
-  runner_.Run<DepthResult>(tr("Computing depth"),
-                           MakeDepthTask(scan, cloud, image, options_),
+  runner_.Run<DepthResult>(tr("Computing depth"), MakeDepthTask(scan, cloud, image, options_),
                            [this, scan, image, used = options_](Result<DepthResult> depth) {
                              if (scan != session_->CurrentScan() || image != session_->ImageIndex())
                                return;

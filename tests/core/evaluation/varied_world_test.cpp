@@ -34,8 +34,7 @@ TEST(VariedScenes, AreMeasuredUnderDrawnConditions) {
   constexpr int kScenes = 200;
   const auto varied = MakeFitPopulation("drill", FitWorld::kVaried);
   ASSERT_TRUE(varied);
-  int footprints = 0, pulses = 0, tails = 0, rigs = 0, regions = 0, interrupted = 0,
-      occluded = 0;
+  int footprints = 0, pulses = 0, tails = 0, rigs = 0, regions = 0, interrupted = 0, occluded = 0;
   const LidarNoise ours;
   for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
     const FitTrialScene scene = (*varied)->MakeScene(seed);
