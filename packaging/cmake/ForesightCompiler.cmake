@@ -5,8 +5,12 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 # The same for programs and libraries, so that they can share precompiled headers.
 add_compile_options(-fPIC)
-# gcc looks for memory to give back when it has twice what it had; when it has a few gigabytes is soon enough, and a tenth faster.
-add_compile_options("$<$<COMPILE_LANG_AND_ID:CXX,GNU>:SHELL:--param ggc-min-expand=1000 --param ggc-min-heapsize=2000000>")
+# gcc looks for memory to give back when it has twice what it had; when it has a few gigabytes is soon enough, and a tenth faster. Where two
+# compilers of that size find no room it stays careful.
+cmake_host_system_information(RESULT FORESIGHT_MEMORY_MB QUERY TOTAL_PHYSICAL_MEMORY)
+if(FORESIGHT_MEMORY_MB GREATER 12000)
+  add_compile_options("$<$<COMPILE_LANG_AND_ID:CXX,GNU>:SHELL:--param ggc-min-expand=1000 --param ggc-min-heapsize=2000000>")
+endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 if(NOT CMAKE_BUILD_TYPE)

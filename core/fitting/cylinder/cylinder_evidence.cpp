@@ -22,6 +22,7 @@ constexpr double kLeastSigma_m = 0.003, kLargestSigma_m = 0.060;
 constexpr int kLeastHits = 12;
 constexpr double kShapeError_m = 0.005;  // no real pole is smooth and straight
 constexpr double kEdgeError_m = 0.003;
+constexpr double kOnMantle = 0.999;  // of the radius
 
 constexpr double kLikelyHits = 30.0;  // independent measurements
 constexpr double kLikelyInliers = 0.6;
@@ -87,7 +88,9 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
     if (std::abs(behind) > agree_m) continue;
     ++inliers;
     const Eigen::Vector3d at = cylinder.FromAxis(ray.origin + intersection.range_m * ray.direction);
-    angles.push_back(std::atan2(y.dot(at), x.dot(at)));
+    // A hit on an end is at any angle.
+    if (at.norm() > kOnMantle * cylinder.radius_m)
+      angles.push_back(std::atan2(y.dot(at), x.dot(at)));
   }
   if (evidence.hits == 0) return evidence;
   evidence.inlier_ratio = static_cast<double>(inliers) / evidence.hits;

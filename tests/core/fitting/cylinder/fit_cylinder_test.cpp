@@ -105,6 +105,20 @@ TEST(FitCylinder, APoleOnTheGroundBeforeAWall) {
   EXPECT_NEAR(found->evidence.range_sigma_m, view.sigma_m, 0.005);
 }
 
+TEST(FitCylinder, ALidSaysNothingOfItsGirth) {
+  // Half of a barrel is seen from one place at most, and its lid as well from above.
+  View view;
+  view.shape = CylinderShape(0.28, 0.85);
+  view.at = At(2.2, 0.0, -0.80);
+  view.ground_m = -1.225;
+  view.half_rad = 0.30;
+  const auto found = Fit(RaysOf(view));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->model.radius_m, 0.28, 0.02);
+  EXPECT_LT(DegreesFromRadians(found->evidence.seen_arc_rad), 180.0);
+  EXPECT_GT(DegreesFromRadians(found->evidence.seen_arc_rad), 120.0);
+}
+
 TEST(FitCylinder, ALeaningPipeAndOneThatLiesAlongAWall) {
   View leaning;
   leaning.shape = CylinderShape(0.05, 1.2);
