@@ -2,8 +2,10 @@
 
 #include <QObject>
 #include <memory>
+#include <thread>
 
 #include "app/workstation/desk.h"
+#include "core/depth/lab_image.h"
 #include "ui/viewmodels/camera_calibration_model.h"
 #include "ui/viewmodels/chain_calibration_model.h"
 #include "ui/viewmodels/command_table.h"
@@ -81,7 +83,8 @@ class Workbench : public QObject {
   void KeepCommandsCurrent();
 
   bool shows_review_ = false;
-  QString opened_beside_;  ///< mission that a running scan stays on the screen for
+  QString opened_beside_;               ///< mission that a running scan stays on the screen for
+  std::jthread preparing_{PrepareLab};  ///< what the first depth map would wait for
 };
 
 }  // namespace foresight

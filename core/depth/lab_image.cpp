@@ -24,6 +24,12 @@ void ConvertRows(const ColorImage& image, int top, LabImage& lab_image) {
 
 }  // namespace
 
+void PrepareLab() {
+  LabImage lab;
+  for (auto& channel : lab.channels) channel = FloatImage(1, 1);
+  ConvertRows(ColorImage(1, 1), 0, lab);
+}
+
 Result<LabImage> ToLab(const ColorImage& image, const RunContext& context) {
   LabImage lab;
   for (auto& channel : lab.channels) channel = FloatImage(image.width(), image.height());

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/sensor/camera_model.h"
 
 namespace foresight {
@@ -17,12 +18,13 @@ std::shared_ptr<const RayField> MakeRays(const CameraModel& camera) {
   auto rays = std::make_shared<RayField>();
   rays->x = FloatImage(camera.width, camera.height, kNaN);
   rays->y = rays->x;
-  for (int v = 0; v < camera.height; ++v)
+  ParallelFor(camera.height, {}, [&](int v) {
     for (int u = 0; u < camera.width; ++u)
       if (const auto ray = camera.UnprojectToPlane({u, v})) {
         rays->x(u, v) = static_cast<float>(ray->x());
         rays->y(u, v) = static_cast<float>(ray->y());
       }
+  });
   return rays;
 }
 
