@@ -276,7 +276,7 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
   command
       ->add_option("--world", arguments->world,
                    "home, whose constants the fits know; varied, the same things under drawn "
-                   "conditions, for weights; or other, which shares none of them: it judges "
+                   "conditions, to choose by; or other, which shares none of them: it judges "
                    "only, nothing is ever fitted to it")
       ->check(CLI::IsMember({"home", "varied", "other"}))
       ->capture_default_str();

@@ -17,7 +17,7 @@ namespace foresight {
 /// Where scenes come from.
 enum class FitWorld {
   kHome,    ///< whose constants the fits know: for tuning and weights, and for tests on other seeds
-  kVaried,  ///< the same things under drawn conditions: for weights, varied_world.h
+  kVaried,  ///< the same things under drawn conditions: for choices, varied_world.h
   kOther,   ///< which shares none of them: it judges only, other_world.h
 };
 /// "home", "varied", "other".

@@ -17,9 +17,9 @@ namespace foresight {
 /// scan in ten interrupted, and in two scenes of five a bent bar is between head and thing.
 void DrawConditions(Random& random, FitTrialScene& trial);
 
-/// A population's own things under drawn conditions. It is for training, beside home: a verdict
-/// that knows only one lidar's noise calls every other lidar's beams liars. The things of the other
-/// world are in neither.
+/// A population's own things under drawn conditions: what may be looked at while something is
+/// chosen, where home is too kind and the other world judges only. The things of the other world are
+/// in neither.
 std::unique_ptr<FitPopulation> MakeVaried(std::unique_ptr<FitPopulation> population);
 
 }  // namespace foresight

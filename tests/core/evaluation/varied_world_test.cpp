@@ -1,4 +1,4 @@
-// Weights are fitted to our own things under conditions that no fit knows.
+// Our own things under conditions that no fit knows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
