@@ -11,8 +11,8 @@ struct LabImage {
   FloatImage channels[3];
 };
 
-/// OpenCV makes its tables at the first conversion, for a tenth of a second: a program that can make
-/// them before there is an image calls this, on any thread.
+/// OpenCV makes its tables at the first conversion, for a tenth of a second: a program that can
+/// make them before there is an image calls this, on any thread.
 void PrepareLab();
 
 /// Converts from sRGB. Fails with kCancelled. O(pixels).

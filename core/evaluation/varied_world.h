@@ -18,8 +18,8 @@ namespace foresight {
 void DrawConditions(Random& random, FitTrialScene& trial);
 
 /// A population's own things under drawn conditions: what may be looked at while something is
-/// chosen, where home is too kind and the other world judges only. The things of the other world are
-/// in neither.
+/// chosen, where home is too kind and the other world judges only. The things of the other world
+/// are in neither.
 std::unique_ptr<FitPopulation> MakeVaried(std::unique_ptr<FitPopulation> population);
 
 }  // namespace foresight
