@@ -7,10 +7,11 @@
 
 namespace foresight {
 
-/// Another population's scenes, with what a scene says of its measurement changed.
+/// Another population's scenes, looked at in another way.
 class RemeasuredPopulation : public FitPopulation {
  public:
-  /// `change` may alter everything of a scene but what stands in it; the seed is the scene's.
+  /// `change` alters a scene, whose seed it gets, but neither the thing in it nor what is true of
+  /// it.
   using Change = std::function<void(std::uint64_t seed, FitTrialScene& scene)>;
 
   RemeasuredPopulation(std::unique_ptr<FitPopulation> population, FitWorld world, Change change)

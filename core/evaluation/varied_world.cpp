@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/random.h"
 #include "core/evaluation/remeasured_population.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/shapes.h"
@@ -104,8 +105,6 @@ std::shared_ptr<const Scene> Changed(const FitTrialScene& trial, Random& random)
   return scene;
 }
 
-}  // namespace
-
 void DrawConditions(Random& random, FitTrialScene& trial) {
   DrawLidar(random, trial.world.lidar);
   if (random.Chance(kDrawn)) {
@@ -123,6 +122,8 @@ void DrawConditions(Random& random, FitTrialScene& trial) {
   if (random.Chance(0.1)) trial.scanned = random.Uniform(0.5, 0.95);
   trial.scene = Changed(trial, random);
 }
+
+}  // namespace
 
 std::unique_ptr<FitPopulation> MakeVaried(std::unique_ptr<FitPopulation> population) {
   return std::make_unique<RemeasuredPopulation>(std::move(population), FitWorld::kVaried,

@@ -9,9 +9,9 @@
 #include "core/evaluation/other_terrain_scene.h"
 #include "core/evaluation/other_tool.h"
 #include "core/evaluation/other_wheel.h"
-#include "core/evaluation/verdict_fit.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/scene_objects.h"
+#include "tests/core/evaluation/half_right_outcomes.h"
 
 namespace foresight {
 namespace {
@@ -169,19 +169,10 @@ TEST(OtherScenes, ATightBoxHoldsTheObjectAndLittleElse) {
 }
 
 TEST(OtherScenes, NothingIsFittedToThem) {
-  std::vector<FitOutcome> outcomes(40);
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    outcomes[i].found = true;
-    outcomes[i].all_ok = i % 2 == 0;
-    outcomes[i].seed = i;
-    outcomes[i].verdict.features = {static_cast<double>(i)};
-  }
-  VerdictFitOptions options;
-  options.object = "valve";
-  options.features = {"one"};
-  ASSERT_TRUE(FitVerdictModel(outcomes, options));
+  std::vector<FitOutcome> outcomes = HalfRightOutcomes();
+  ASSERT_TRUE(FitVerdictModel(outcomes, OneFeature()));
   outcomes.back().world = FitWorld::kOther;
-  const auto model = FitVerdictModel(outcomes, options);
+  const auto model = FitVerdictModel(outcomes, OneFeature());
   ASSERT_FALSE(model);
   EXPECT_THAT(model.error().message, HasSubstr("judges only"));
 }

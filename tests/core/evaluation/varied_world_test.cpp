@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/evaluation/fit_populations.h"
-#include "core/evaluation/verdict_fit.h"
+#include "tests/core/evaluation/half_right_outcomes.h"
 
 namespace foresight {
 namespace {
@@ -57,18 +57,10 @@ TEST(VariedScenes, AreMeasuredUnderDrawnConditions) {
 }
 
 TEST(VariedScenes, WeightsMayBeFittedToThem) {
-  std::vector<FitOutcome> outcomes(40);
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    outcomes[i].world = i % 3 == 0 ? FitWorld::kHome : FitWorld::kVaried;
-    outcomes[i].found = true;
-    outcomes[i].all_ok = i % 2 == 0;
-    outcomes[i].seed = i;
-    outcomes[i].verdict.features = {static_cast<double>(i)};
-  }
-  VerdictFitOptions options;
-  options.object = "valve";
-  options.features = {"one"};
-  EXPECT_TRUE(FitVerdictModel(outcomes, options));
+  std::vector<FitOutcome> outcomes = HalfRightOutcomes();
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (i % 3 != 0) outcomes[i].world = FitWorld::kVaried;
+  EXPECT_TRUE(FitVerdictModel(outcomes, OneFeature()));
 }
 
 TEST(VariedScenes, TheirWorldComesBackFromItsName) {
