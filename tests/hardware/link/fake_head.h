@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -29,6 +30,7 @@ class FakeHead final : public SensorHead {
     return {};
   }
   foresight::Status Home() override {
+    if (may_home.valid()) may_home.wait();
     ++homings;
     SetState(HeadState::kReady);
     return {};
@@ -113,6 +115,7 @@ class FakeHead final : public SensorHead {
     SetState(HeadState::kReady);
   }
 
+  std::shared_future<void> may_home;  ///< where it is given, Home() waits for it
   std::atomic<int> homings{0};
   std::atomic<int> scans{0};
   std::atomic<int> stops{0};

@@ -125,8 +125,11 @@ TEST_F(RemoteHeadTest, KnowsTheHeadAndItsRig) {
 TEST_F(RemoteHeadTest, ACommandShowsInTheStatus) {
   const auto remote = bench.Connect().value();
   EXPECT_TRUE(Eventually([&] { return remote->Health().connected; }));
+  std::promise<void> may_home;
+  head->may_home = may_home.get_future().share();
   ASSERT_TRUE(remote->Home());
   EXPECT_EQ(remote->Status().state, HeadState::kHoming) << "before the head has answered";
+  may_home.set_value();
   EXPECT_TRUE(Eventually([&] { return remote->Status().state == HeadState::kReady; }));
   EXPECT_EQ(head->homings, 1);
 }
