@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/fitting/beam_model.h"
+#include "core/fitting/line_covariance.h"
 #include "core/fitting/line_normals.h"
 #include "core/fitting/wall.h"
 
@@ -119,13 +120,24 @@ double BeamLikelihood::DensityOf(std::size_t i, const ExpectedBeam& expected) co
          (1.0 - good - missed) * BeamModel::kUniform;
 }
 
+double BeamLikelihood::LogOfRay(std::size_t i, const IntersectBeam& object) const {
+  const auto expected = Expect(i, object);
+  return expected ? std::log(DensityOf(i, *expected)) : beams_[i].log_background;
+}
+
 double BeamLikelihood::OfRays(const IntersectBeam& object) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < beams_.size(); ++i) {
-    const auto expected = Expect(i, object);
-    sum += expected ? std::log(DensityOf(i, *expected)) : beams_[i].log_background;
-  }
+  for (std::size_t i = 0; i < beams_.size(); ++i) sum += LogOfRay(i, object);
   return rays_.samples_per_ray * sum;
+}
+
+double BeamLikelihood::DeviationsAhead(const IntersectBeam& first,
+                                       const IntersectBeam& second) const {
+  if (behind_map_) return behind_map_->DeviationsAhead(first, second);
+  Eigen::VectorXd differences(std::ssize(beams_));
+  for (std::size_t i = 0; i < beams_.size(); ++i)
+    differences[static_cast<Eigen::Index>(i)] = LogOfRay(i, first) - LogOfRay(i, second);
+  return DeviationsOverLines(rays_.rays, differences);
 }
 
 double BeamLikelihood::operator()(const IntersectBeam& object) const {

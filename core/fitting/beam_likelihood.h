@@ -73,6 +73,11 @@ class BeamLikelihood {
   /// The same with nothing there but the planes.
   double Nothing() const;
 
+  /// How many deviations the first object is ahead of the second when the lines of the scan, not
+  /// its beams, are independent (DeviationsOverLines). Of the beams behind a map where they are
+  /// known.
+  double DeviationsAhead(const IntersectBeam& first, const IntersectBeam& second) const;
+
   /// nullopt for a ray whose footprint does not reach the object.
   std::optional<ExpectedBeam> Expect(std::size_t ray, const IntersectBeam& object) const;
 
@@ -86,6 +91,7 @@ class BeamLikelihood {
   };
 
   double OfRays(const IntersectBeam& object) const;
+  double LogOfRay(std::size_t ray, const IntersectBeam& object) const;
   double OfNothing() const;
   double DensityOf(std::size_t ray, const ExpectedBeam& expected) const;
 

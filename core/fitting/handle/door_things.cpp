@@ -92,9 +92,12 @@ DoorThing ThingOf(const HandleModel& model,
   return DoorThing(BarsOf(model), plate, base_from_object);
 }
 
+IntersectBeam IntersectionWith(const DoorThing& thing) {
+  return [&thing](const RangeRay& ray, double reach_m) { return thing.Intersect(ray, reach_m); };
+}
+
 double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood) {
-  return likelihood(
-      [&thing](const RangeRay& ray, double reach_m) { return thing.Intersect(ray, reach_m); });
+  return likelihood(IntersectionWith(thing));
 }
 
 }  // namespace foresight

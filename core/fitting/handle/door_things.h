@@ -46,6 +46,9 @@ class DoorThing {
 DoorThing ThingOf(const HandleModel& model,
                   const Rigid<frame::Base, frame::Object>& base_from_object);
 
+/// How rays pass a thing, which must outlive what is returned.
+IntersectBeam IntersectionWith(const DoorThing& thing);
+
 /// Log likelihood of all rays with that thing on the door.
 double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood);
 

@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/fitting/gate.h"
+#include "core/fitting/handle/door_surface.h"
 #include "core/fitting/handle/handle_search.h"
 #include "core/fitting/handle/handle_verdict.h"
 #include "core/fitting/ray_selection.h"
@@ -52,17 +53,29 @@ Eigen::Vector3d MeanOf(const RaySet& rays) {
   return mean;
 }
 
-/// One handle's fit while it lasts.
+/// The door first: footprints mix with that.
+std::vector<Plane> PlanesOf(const DoorSurface& surface) {
+  std::vector<Plane> planes = {surface.door};
+  if (surface.beside) planes.push_back(*surface.beside);
+  return planes;
+}
+
+/// A lever and the best one that points the other way.
+struct TwoWays {
+  HandleState best, mirrored;
+};
+
+/// One handle's fit on one door while it lasts.
 class HandleFit {
  public:
-  HandleFit(const RaySet& region, const RaySet& rays, const RaySet& few_rays, const Plane& door,
-            const FitHandleOptions& options)
+  HandleFit(const RaySet& region, const RaySet& rays, const RaySet& few_rays,
+            const DoorSurface& surface, const FitHandleOptions& options)
       : region_(region),
         options_(options),
-        door_(door),
-        base_from_door_(DoorFrameOf(door, MeanOf(rays))),
-        likelihood_(rays, {&door, 1}, HandleBeams()),
-        coarse_(few_rays, {&door, 1}, HandleBeams()) {
+        door_(surface.door),
+        base_from_door_(DoorFrameOf(surface.door, MeanOf(rays))),
+        likelihood_(rays, PlanesOf(surface), HandleBeams()),
+        coarse_(few_rays, PlanesOf(surface), HandleBeams()) {
     const auto door_from_base = base_from_door_.Inverse();
     const double least_m = std::max(kLeastBefore_m, kBeforeSigmas * region.sigma_m);
     for (const RangeRay& ray : region.rays) {
@@ -71,7 +84,10 @@ class HandleFit {
     }
   }
 
-  Result<HandleDetection> Fit(Random& random, const RunContext& context) const {
+  const DoorFrame& base_from_door() const { return base_from_door_; }
+
+  /// The best levers of the region.
+  Result<TwoWays> Search(Random& random, const RunContext& context) const {
     if (before_door_.size() < kMinBefore)
       return Fail(ErrorCode::kNoConvergence,
                   "only {} measurements lie 20 to 110 mm before the door: draw the region around "
@@ -92,19 +108,32 @@ class HandleFit {
     if (levers.size() > kFine) levers.resize(kFine);
     FORESIGHT_CHECK(SearchAll(fine, HandleEffort::kFine, levers, context));
     // The dangerous error is a lever that points the other way: that one is tried with equal care.
-    HandleState mirrored = LocalSearch(fine, Mirrored(levers.front()), HandleEffort::kFine);
+    TwoWays found{levers.front(), LocalSearch(fine, Mirrored(levers.front()), HandleEffort::kFine)};
     for (const HandleState& lever : levers)
-      if (PointsTheOtherWay(lever, levers.front()) && lever.score > mirrored.score)
-        mirrored = lever;
-    HandleState best = levers.front();
-    if (mirrored.score > best.score) std::swap(best, mirrored);
-    if (!(best.score > likelihood_.Nothing()))
+      if (PointsTheOtherWay(lever, levers.front()) && lever.score > found.mirrored.score)
+        found.mirrored = lever;
+    if (found.mirrored.score > found.best.score) std::swap(found.best, found.mirrored);
+    return found;
+  }
+
+  /// The levers of another door's search on this one.
+  Result<TwoWays> SearchFrom(const TwoWays& found, const DoorFrame& base_from_other,
+                             const RunContext& context) const {
+    const HandleScorer fine{likelihood_, base_from_door_, options_};
+    std::vector<HandleState> levers = {OnDoor(found.best, base_from_other, base_from_door_),
+                                       OnDoor(found.mirrored, base_from_other, base_from_door_)};
+    FORESIGHT_CHECK(SearchAll(fine, HandleEffort::kFine, levers, context));
+    return TwoWays{levers.front(), levers.back()};
+  }
+
+  Result<HandleDetection> Fit(const TwoWays& found, const RunContext& context) const {
+    if (!(found.best.score > likelihood_.Nothing()))
       return Fail(ErrorCode::kNoConvergence,
                   "nothing before the door looks like a handle: draw the region around one, or "
                   "scan slower");
     if (context.Cancelled()) return Cancelled();
     context.Report(0.7, "trying other shapes");
-    return DetectionOf(best, mirrored, context);
+    return DetectionOf(found.best, found.mirrored, context);
   }
 
  private:
@@ -156,8 +185,9 @@ class HandleFit {
       detection.alternatives.push_back(CandidateOf(other, base_from_door_));
     HandleEvidence& evidence = detection.evidence;
     evidence = GatherEvidence(likelihood_, door_, detection.best);
-    const double own = LogLikelihoodOf(
-        ThingOf(detection.best.model, detection.best.base_from_object), likelihood_);
+    const DoorThing thing = ThingOf(detection.best.model, detection.best.base_from_object);
+    const DoorThing mirror = ThingOf(mirrored.Model(), mirrored.Pose(base_from_door_));
+    const double own = LogLikelihoodOf(thing, likelihood_);
     evidence.mirror_margin_nats = best.score - mirrored.score;
     evidence.length_margin_nats = best.score - best_length;
     evidence.gain_nats = own - likelihood_.Nothing();
@@ -172,7 +202,11 @@ class HandleFit {
       evidence.alternative_margin_nats = margin;
       evidence.best_alternative = alternative.name;
     }
-    detection.verdict = AssessHandle(likelihood_.rays(), detection, options_);
+    HandleSupport support;
+    support.proportions_nats = best.score - own;
+    support.mirror_line_sigmas =
+        likelihood_.DeviationsAhead(IntersectionWith(thing), IntersectionWith(mirror));
+    detection.verdict = AssessHandle(likelihood_.rays(), detection, options_, support);
     return detection;
   }
 
@@ -216,8 +250,14 @@ Result<HandleDetection> FitHandle(const RaySet& all_rays, const FitHandleOptions
   RaySet few_rays = Thinned(rays, kCoarseRays, thinning);
   few_rays.beams = nullptr;
   rays.beams = ThinnedBeams(region, options.max_rays, kMinRays, thinning);
-  const HandleFit fit(region, rays, few_rays, *split.wall, options);
-  FORESIGHT_TRY(HandleDetection detection, fit.Fit(random, context));
+  const HandleFit first(region, rays, few_rays, {.door = *split.wall}, options);
+  FORESIGHT_TRY(TwoWays levers, first.Search(random, context));
+  context.Report(0.6, "looking at the door again");
+  const DoorSurface surface =
+      DoorRound(rays, *split.wall, CandidateOf(levers.best, first.base_from_door()));
+  const HandleFit fit(region, rays, few_rays, surface, options);
+  FORESIGHT_TRY(levers, fit.SearchFrom(levers, first.base_from_door(), context));
+  FORESIGHT_TRY(HandleDetection detection, fit.Fit(levers, context));
   detection.origin.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   context.Report(1.0, "door handle fitted");

@@ -52,6 +52,18 @@ double HandleScorer::operator()(const HandleState& state) const {
   return prior + LogLikelihoodOf(ThingOf(state.Model(), state.Pose(base_from_door)), likelihood);
 }
 
+HandleState OnDoor(const HandleState& state, const DoorFrame& base_from_door,
+                   const DoorFrame& base_from_other) {
+  const auto other_from_handle = base_from_other.Inverse() * state.Pose(base_from_door);
+  const Eigen::Vector3d along = other_from_handle.rotation() * Eigen::Vector3d::UnitX();
+  HandleState moved = state;
+  moved.values[kHandleX] = other_from_handle.translation().x();
+  moved.values[kHandleY] = other_from_handle.translation().y();
+  moved.values[kHandleStandoff] = other_from_handle.translation().z();
+  moved.values[kHandleTurn] = std::atan2(along.y(), along.x());
+  return moved;
+}
+
 HandleState Mirrored(const HandleState& state) {
   HandleState mirrored = state;
   const double turn = state.values[kHandleTurn];

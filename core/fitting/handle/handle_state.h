@@ -55,6 +55,10 @@ struct HandleScorer {
   double operator()(const HandleState& state) const;
 };
 
+/// The same handle, as nearly as may be, on another door.
+HandleState OnDoor(const HandleState& state, const DoorFrame& base_from_door,
+                   const DoorFrame& base_from_other);
+
 /// The lever that covers the same place and points the other way.
 HandleState Mirrored(const HandleState& state);
 

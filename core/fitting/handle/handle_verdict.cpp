@@ -47,15 +47,12 @@ double Compressed(double nats) {
   return std::copysign(std::log1p(std::abs(nats)), nats);
 }
 
-IntersectBeam IntersectionWith(const DoorThing& thing) {
-  return [&thing](const RangeRay& ray, double reach_m) { return thing.Intersect(ray, reach_m); };
-}
-
 double Hits(const RaySet& rays, const HandleEvidence& evidence) {
   return evidence.hits * std::min(1.0, rays.samples_per_ray);
 }
 
-std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detection) {
+std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detection,
+                               const HandleSupport& support) {
   const HandleEvidence& evidence = detection.evidence;
   const double hits = std::max(1.0, Hits(rays, evidence));
   return {Compressed(evidence.mirror_margin_nats),
@@ -68,7 +65,10 @@ std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detect
           evidence.beside,
           std::log(hits),
           std::log(std::max(1e-3, detection.beam_sigma_turn_rad)),
-          std::abs(std::log(detection.best.model.length_m / HandlePrior::kLength_m))};
+          std::abs(std::log(detection.best.model.length_m / HandlePrior::kLength_m)),
+          support.mirror_line_sigmas,
+          support.proportions_nats,
+          std::log(std::max(1e-3, detection.sigma_normal_rad))};
 }
 
 Gate SeeThroughGate(const HandleEvidence& evidence, double limit) {
@@ -374,18 +374,21 @@ std::vector<std::string> HandleFeatureNames() {
           "beside",
           "log_hits",
           "log_sigma_turn",
-          "abs_log_length"};
+          "abs_log_length",
+          "mirror_line_sigmas",
+          "proportions",
+          "log_sigma_normal"};
 }
 
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
-                     const FitHandleOptions& options) {
-  constexpr const char* kSupport = "{} beams on the handle, {:.0f} % of them agree; {}";
+                     const FitHandleOptions& options, const HandleSupport& support) {
+  constexpr const char* kInWords = "{} beams on the handle, {:.0f} % of them agree; {}";
   const HandleEvidence& evidence = detection.evidence;
-  const auto support = [&](const char* rest) {
-    return fmt::format(fmt::runtime(kSupport), evidence.hits, 100.0 * evidence.inlier_ratio, rest);
+  const auto in_words = [&](const char* rest) {
+    return fmt::format(fmt::runtime(kInWords), evidence.hits, 100.0 * evidence.inlier_ratio, rest);
   };
   Verdict verdict;
-  verdict.features = FeaturesOf(region, detection);
+  verdict.features = FeaturesOf(region, detection, support);
   const std::vector<std::string> none = FailedExistenceGates(evidence);
   verdict.failed_gates = none;
   for (std::string& gate : FailedGates(region, detection, options))
@@ -395,7 +398,7 @@ Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
     verdict.probability = std::nan("");
     verdict.level = verdict.failed_gates.empty() ? VerdictLevel::kLikely : VerdictLevel::kUnsure;
     verdict.reason = verdict.failed_gates.empty()
-                         ? support("never confirmed, as no probability was calibrated for it")
+                         ? in_words("never confirmed, as no probability was calibrated for it")
                          : verdict.failed_gates.front();
     return verdict;
   }
@@ -404,7 +407,7 @@ Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
   if (!none.empty()) verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
   verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
   verdict.reason =
-      ReasonOf(verdict, Verdict::kLikely, support("the other way fits worse"),
+      ReasonOf(verdict, Verdict::kLikely, in_words("the other way fits worse"),
                WeightiestFirst(*model, verdict.features, FeatureGates(detection, *model)));
   if (verdict.level == VerdictLevel::kConfirmed) {
     verdict.level = VerdictLevel::kLikely;

@@ -20,6 +20,15 @@ void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDete
 /// What Verdict::features holds, in its order.
 std::vector<std::string> HandleFeatureNames();
 
+/// What else the probability is made of.
+struct HandleSupport {
+  /// Ahead of the lever that points the other way in deviations, when scan lines and not beams are
+  /// independent.
+  double mirror_line_sigmas = 0.0;
+  /// Log of the prior's density: how usual a handle of this build is.
+  double proportions_nats = 0.0;
+};
+
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
 /// The probability is the shipped model's (resources/verdicts/handle_*); the verdict is LIKELY at
 /// most, as too many of the answers that would have been CONFIRMED were wrong on new scenes, and
@@ -30,6 +39,6 @@ std::vector<std::string> HandleFeatureNames();
 /// first weights, the probability is NaN and what fails a gate UNSURE. `region` = the rays that it
 /// was looked for in.
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
-                     const FitHandleOptions& options);
+                     const FitHandleOptions& options, const HandleSupport& support);
 
 }  // namespace foresight

@@ -162,7 +162,7 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
                       .see_through = random.Uniform(0.0, 0.3),
                       .blocked_gaps = random.Uniform(0.0, 0.5),
                       .rms_m = 0.008,
-                      .arc_coverage = random.Uniform(0.4, 1.0),
+                      .arc_coverage = random.Uniform(0.3, 1.0),
                       .margin_nats = random.Uniform(-50.0, 500.0),
                       .gain_nats = random.Uniform(0.0, 2000.0),
                       .weakest_spoke = random.Uniform(0.2, 1.0)};
@@ -176,6 +176,31 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
     }
   }
   EXPECT_GT(stated, kAnswers / 2);
+}
+
+TEST(Reasons, SpokesWithoutARimAreNotConfirmed) {
+  RaySet rays = Fan();
+  ValveDetection found;
+  found.best.model.rim_radius_m = 0.16;
+  found.best.model.spokes = 4;
+  found.best.base_from_object = {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.2}};
+  found.sigma_axis_rad = 0.01;
+  found.sigma_position_m = Eigen::Vector3d::Constant(0.001);
+  found.sigma_phase_rad = 0.005;
+  found.evidence = {.rays = 441,
+                    .hits = 300,
+                    .inlier_ratio = 1.0,
+                    .rms_m = 0.008,
+                    .arc_coverage = 0.45,
+                    .margin_nats = 500.0,
+                    .gain_nats = 1500.0,
+                    .weakest_spoke = 1.0};
+  EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
+  found.evidence.arc_coverage = 0.35;
+  const Verdict verdict = AssessValve(rays, rays, found, {});
+  EXPECT_EQ(verdict.level, VerdictLevel::kLikely);
+  EXPECT_EQ(verdict.reason,
+            "35 % of the rim is seen (at least 40 %): spokes without a rim look like this");
 }
 
 TEST(Reasons, OfDrillsFailAsTheyAreStated) {
@@ -278,7 +303,7 @@ TEST(Reasons, OfDoorHandlesFailAsTheyAreStated) {
                       .gain_nats = random.Uniform(10.0, 500.0),
                       .alternative_margin_nats = random.Uniform(-20.0, 100.0),
                       .best_alternative = "knob"};
-    ExpectStatedGatesFail(AssessHandle(rays, found, {}), &stated);
+    ExpectStatedGatesFail(AssessHandle(rays, found, {}, {}), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
 }

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "core/fitting/handle/handle_detection.h"
+#include "core/fitting/ray_set.h"
+
+namespace foresight {
+
+/// What a handle sits on: a plane, or two parallel ones with an edge between them, a door's leaf
+/// and its frame.
+struct DoorSurface {
+  Plane door;  ///< in base, where the handle's pivot is; its normal to the viewer
+  std::optional<Plane> beside = std::nullopt;  ///< beyond the edge
+};
+
+/// The door again, once it is known which rays may end on the handle: least squares over all other
+/// rays near the `rough` plane, and where two parallel planes 5 to 60 mm apart with a straight edge
+/// between them explain the rays clearly better (Schwarz's criterion), those. A plane through a
+/// leaf and its frame is several degrees off. Where too few rays are left `rough` stays.
+/// O(rays x edges that are tried).
+DoorSurface DoorRound(const RaySet& rays, const Plane& rough, const HandleCandidate& handle);
+
+}  // namespace foresight
