@@ -61,8 +61,7 @@ std::vector<FitOutcome> DrillPopulation::Judge(const FitTrial& trial,
   outcome.found = true;
   outcome.verdict = detection.verdict;
   outcome.reason = detection.verdict.reason;
-  // Half a drill has a truth, but nobody may bet a robot on what is seen of it.
-  if (!trial.scene.positive) return {outcome};
+  if (trial.scene.scene->drills.empty()) return {outcome};
   const DrillTruth& truth = trial.scene.scene->drills.front();
   const DrillErrors errors =
       Compare(detection.best, trial.TrueBaseFromRobot() * truth.robot_from_object, truth);

@@ -47,7 +47,9 @@ void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const s
     outcome.seed = trial.seed;
     outcome.source = source;
     outcome.what = trial.scene.what;
-    outcome.positive = trial.scene.positive;
+    // Where a region shows a part of an object and that was enough to tell all of it, there was
+    // something to find.
+    outcome.positive = trial.scene.positive || outcome.all_ok;
     outcome.seconds = seconds;
     outcomes.push_back(std::move(outcome));
   }

@@ -28,6 +28,9 @@ constexpr double kMinHead_nats = 10.0;
 // chooses them.
 constexpr double kMinFlipLines_sigmas = 1.0;
 constexpr double kMinChuck_nats = -5.0;  // a chuck may be hidden; work lights on a grip lie at -15
+constexpr double kBeside_m = 0.03;       // from the drill to a ray that passes it
+constexpr double kSolidNear_m = 0.05;    // along such a ray: something solid beside the drill
+constexpr double kLeastHeight_m = 0.03;  // over the table
 constexpr double kBound = 0.01;          // of the range of a scale
 
 double Compressed(double nats) {
@@ -52,7 +55,16 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           std::log(hits),
           std::log(std::max(1e-3, support.beam_sigma_yaw_rad)),
           std::abs(std::log(detection.best.model.scale)),
-          detection.best.model.body_tilt_rad.norm()};
+          detection.best.model.body_tilt_rad.norm(),
+          Compressed(support.any_flip_margin_nats),
+          Compressed(support.any_way_margin_nats),
+          support.flip_line_sigmas,
+          Compressed(support.chuck_nats),
+          Compressed(support.blunt_margin_nats),
+          std::log(std::max(
+              1e-3, std::sqrt(std::max(detection.covariance(3, 3), detection.covariance(4, 4))))),
+          support.proportions_nats,
+          support.solid_beside};
 }
 
 Gate SeeThroughGate(const DrillEvidence& evidence, double limit) {
@@ -251,6 +263,21 @@ DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill) {
   return evidence;
 }
 
+double SolidBeside(const RaySet& rays, const DrillCandidate& drill) {
+  const SolidTracer tracer(drill.model.parts, drill.base_from_object);
+  const auto object_from_base = drill.base_from_object.Inverse();
+  int passing = 0, solid = 0;
+  for (const RangeRay& ray : rays.rays) {
+    const SolidIntersection intersection = tracer.Intersect(ray, kBeside_m);
+    if (intersection.part < 0 || intersection.Hits()) continue;
+    const Eigen::Vector3d passes = ray.origin + intersection.range_m * ray.direction;
+    if ((object_from_base * passes).z() < kLeastHeight_m) continue;
+    ++passing;
+    if (std::abs(ray.range_m - intersection.range_m) < kSolidNear_m) ++solid;
+  }
+  return solid / static_cast<double>(std::max(1, passing));
+}
+
 std::vector<std::string> DrillFeatureNames() {
   return {"log_yaw_margin",
           "log_head",
@@ -262,7 +289,15 @@ std::vector<std::string> DrillFeatureNames() {
           "log_hits",
           "log_sigma_yaw",
           "abs_log_scale",
-          "body_tilt_rad"};
+          "body_tilt_rad",
+          "log_any_flip",
+          "log_any_way",
+          "flip_line_sigmas",
+          "log_chuck",
+          "log_blunt_margin",
+          "log_sigma_tilt",
+          "proportions",
+          "solid_beside"};
 }
 
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,

@@ -16,6 +16,10 @@ inline constexpr double kMinAnyFlipMargin_nats = 20.0;
 /// Counts what the rays of a region say about a drill; the likelihoods are left at 0.
 DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill);
 
+/// Of the rays that pass the drill within 30 mm and 30 mm over its table, the fraction that end
+/// where they pass it: on something that the drill does not explain. 0 where none passes.
+double SolidBeside(const RaySet& rays, const DrillCandidate& drill);
+
 /// What Verdict::features holds, in its order.
 std::vector<std::string> DrillFeatureNames();
 
@@ -25,12 +29,17 @@ struct DrillSupport {
   double beam_sigma_yaw_rad = 0.0;
   /// Log likelihood, without priors, ahead of the drill turned by 180 deg with any proportions.
   double any_flip_margin_nats = 0.0;
+  /// The same of two drills of any proportions, the one that points its way and the turned one.
+  double any_way_margin_nats = 0.0;
   /// Ahead of that drill in deviations, when scan lines and not beams are independent.
   double flip_line_sigmas = 0.0;
   /// Ahead of a head that stays as wide to its end, and of the drill without its chuck; 0 for a
   /// kind without chuck.
   double blunt_margin_nats = 0.0;
   double chuck_nats = 0.0;
+  /// Log of the prior's density: how usual a drill of this place, size and build is.
+  double proportions_nats = 0.0;
+  double solid_beside = 0.0;  ///< SolidBeside
 };
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.

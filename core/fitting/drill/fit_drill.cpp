@@ -136,6 +136,8 @@ class DrillFit {
     DrillSupport support;
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
+    support.proportions_nats = prior_(best);
+    support.solid_beside = SolidBeside(likelihood_.rays(), detection.best);
     const std::function<void()> independent[] = {
         [&] { SetFlipOfAnyProportions(best, flipped, detection, support); },
         [&] { SetAlternativeMargin(best, detection); },
@@ -207,14 +209,19 @@ class DrillFit {
   /// points the other way: the flipped one may take any proportions, at no cost.
   void SetFlipOfAnyProportions(const DrillState& best, DrillState flipped,
                                const DrillDetection& detection, DrillSupport& support) const {
-    // A nearer flip fails the gate by the template's own proportions already.
-    if (detection.evidence.flip_margin_nats >= kMinAnyFlipMargin_nats)
-      flipped = LocalSearch(likelihood_, Flipped(best), base_from_table_, AnyProportions(prior_),
-                            LocalSearchEffort::kFine);
+    const auto freed = [&](const DrillState& state) {
+      return LocalSearch(likelihood_, state, base_from_table_, AnyProportions(prior_),
+                         LocalSearchEffort::kFine);
+    };
+    flipped = freed(Flipped(best));
+    const DrillState own_way = freed(best);
     const DrillModel model = flipped.Model();
     const auto pose = flipped.Pose(base_from_table_);
     const double margin = best.log_likelihood - prior_(best) - likelihood_(model.parts, pose);
     support.any_flip_margin_nats = std::min(margin, detection.evidence.flip_margin_nats);
+    support.any_way_margin_nats =
+        likelihood_(own_way.Model().parts, own_way.Pose(base_from_table_)) -
+        likelihood_(model.parts, pose);
     support.flip_line_sigmas = likelihood_.DeviationsAhead(
         detection.best.model.parts, detection.best.base_from_object, model.parts, pose);
   }
