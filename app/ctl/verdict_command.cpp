@@ -38,10 +38,18 @@ Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&
   options.source = *source;
   options.population = arguments.population;
   options.features = population->FeatureNames();
-  FORESIGHT_TRY(const VerdictModel model, FitVerdictModel(outcomes, options));
+  FORESIGHT_TRY(const VerdictFit fit, FitVerdictModel(outcomes, options));
+  const VerdictModel& model = fit.model;
   FORESIGHT_CHECK(WriteFileAtomically(arguments.out, model.ToYaml()));
   PrintLine(fmt::format("{}: {} fits, {} right; AUC {:.3f}, ECE {:.3f} (cross-validated)",
                         arguments.out, model.fits, model.right, model.auc, model.ece));
+  for (const SureAnswers& sure : fit.sure)
+    PrintLine(
+        fmt::format("  {}: of {} right answers {} are called as sure as CONFIRMED by weights that "
+                    "have not seen "
+                    "them, and {} that are not, {} of these where there was nothing",
+                    ToString(sure.world), sure.right_answers, sure.sure_right,
+                    sure.sure - sure.sure_right, sure.sure_negatives));
   return ExitCode::kDone;
 }
 

@@ -17,6 +17,8 @@ constexpr double kLeastDeviation = 1e-9;
 struct Example {
   std::vector<double> values;
   bool right = false;
+  bool positive = false;
+  FitWorld world = FitWorld::kHome;
   std::uint64_t seed = 0;
   double weight = 1.0;
 };
@@ -40,8 +42,8 @@ std::vector<Example> ExamplesFrom(std::span<const FitOutcome> outcomes,
     if (!outcome.found || values.size() != options.features.size()) continue;
     if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
       continue;
-    examples.push_back({values, outcome.positive && outcome.all_ok, outcome.seed,
-                        outcome.positive ? 1.0 : of_negatives});
+    examples.push_back({values, outcome.positive && outcome.all_ok, outcome.positive, outcome.world,
+                        outcome.seed, outcome.positive ? 1.0 : of_negatives});
   }
   return examples;
 }
@@ -122,6 +124,27 @@ std::vector<double> CrossValidated(const std::vector<Example>& examples,
   return probabilities;
 }
 
+std::vector<SureAnswers> CountSure(const std::vector<Example>& examples,
+                                   const std::vector<double>& probabilities) {
+  std::vector<SureAnswers> counts;
+  for (const FitWorld world : {FitWorld::kHome, FitWorld::kVaried}) {
+    SureAnswers count{world};
+    bool any = false;
+    for (std::size_t i = 0; i < examples.size(); ++i) {
+      const Example& example = examples[i];
+      if (example.world != world) continue;
+      any = true;
+      count.right_answers += example.right;
+      if (probabilities[i] < Verdict::kConfirmed) continue;
+      ++count.sure;
+      count.sure_right += example.right;
+      count.sure_negatives += !example.positive;
+    }
+    if (any) counts.push_back(count);
+  }
+  return counts;
+}
+
 }  // namespace
 
 Status VerdictFitOptions::Check() const {
@@ -136,8 +159,8 @@ Status VerdictFitOptions::Check() const {
   return {};
 }
 
-Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
-                                     const VerdictFitOptions& options) {
+Result<VerdictFit> FitVerdictModel(std::span<const FitOutcome> outcomes,
+                                   const VerdictFitOptions& options) {
   FORESIGHT_CHECK(options.Check());
   for (const FitOutcome& outcome : outcomes)
     if (outcome.world == FitWorld::kOther)
@@ -170,7 +193,7 @@ Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
   }
   blank.auc = AreaUnderRoc(left_out, labels);
   blank.ece = CalibrationErrorOf(left_out, labels, weights);
-  return Fitted(examples, options.ridge, blank);
+  return VerdictFit{Fitted(examples, options.ridge, blank), CountSure(examples, left_out)};
 }
 
 }  // namespace foresight

@@ -23,12 +23,27 @@ struct VerdictFitOptions {
   Status Check() const;
 };
 
+/// What weights that have not seen an answer's scene would call as sure as CONFIRMED, in one world.
+/// Hard gates are not asked.
+struct SureAnswers {
+  FitWorld world = FitWorld::kHome;
+  int right_answers = 0;  ///< in the world, sure or not
+  int sure = 0;           ///< with at least Verdict::kConfirmed
+  int sure_right = 0;
+  int sure_negatives = 0;  ///< where there was nothing to find
+};
+
+struct VerdictFit {
+  VerdictModel model;
+  std::vector<SureAnswers> sure;  ///< a world that has answers
+};
+
 /// Weights of the probability that an answer is right in every respect, from judged answers (those
 /// found, negatives too), by penalised maximum likelihood on standardised evidence. AUC and ECE are
 /// those of folds that were left out; answers of one scene stay in one fold. Fails with
 /// kInvalidOptions, kInvalidInput (answers of the other world) and kTooFewPoints (fewer than 10
 /// right or 10 wrong answers, no evidence).
-Result<VerdictModel> FitVerdictModel(std::span<const FitOutcome> outcomes,
-                                     const VerdictFitOptions& options);
+Result<VerdictFit> FitVerdictModel(std::span<const FitOutcome> outcomes,
+                                   const VerdictFitOptions& options);
 
 }  // namespace foresight

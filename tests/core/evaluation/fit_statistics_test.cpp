@@ -101,8 +101,9 @@ TEST(VerdictFit, FindsTheLogisticThatTheAnswersWereDrawnFrom) {
   options.object = "valve";
   options.population = "drawn";
   options.features = {"margin", "noise"};
-  const auto model = FitVerdictModel(DrawnFromALogistic(4000), options);
-  ASSERT_TRUE(model) << model.error().message;
+  const auto fit = FitVerdictModel(DrawnFromALogistic(4000), options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const VerdictModel* model = &fit->model;
   // One nat of margin is one nat of log odds; a deviation of margin is 2. Four standard errors.
   EXPECT_NEAR(model->features[0].weight, 2.0, 0.3);
   EXPECT_NEAR(model->features[1].weight, 0.0, 0.2);
@@ -110,6 +111,28 @@ TEST(VerdictFit, FindsTheLogisticThatTheAnswersWereDrawnFrom) {
   EXPECT_GT(model->auc, 0.8);
   const double middle[] = {5.0, 0.0};
   EXPECT_NEAR(model->Probability(middle), 0.5, 0.05);
+}
+
+TEST(VerdictFit, CountsWhatWouldBeSureByWorld) {
+  VerdictFitOptions options;
+  options.object = "valve";
+  options.features = {"margin", "noise"};
+  std::vector<FitOutcome> outcomes = DrawnFromALogistic(8000);
+  for (std::size_t i = 0; i < outcomes.size(); i += 4) outcomes[i].world = FitWorld::kVaried;
+  const auto fit = FitVerdictModel(outcomes, options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  ASSERT_EQ(fit->sure.size(), 2u);
+  int right = 0;
+  for (const SureAnswers& sure : fit->sure) {
+    right += sure.right_answers;
+    ASSERT_GT(sure.sure, 100);
+    EXPECT_LT(sure.sure_right, sure.right_answers);
+    EXPECT_GT(sure.sure_right, 0.95 * sure.sure) << ToString(sure.world);
+    EXPECT_LE(sure.sure_negatives, sure.sure - sure.sure_right);
+  }
+  EXPECT_EQ(right, std::count_if(outcomes.begin(), outcomes.end(), [](const FitOutcome& outcome) {
+              return outcome.positive && outcome.all_ok;
+            }));
 }
 
 TEST(VerdictFit, ExtraNegativesDoNotMakeTheObjectRare) {
@@ -130,7 +153,7 @@ TEST(VerdictFit, ExtraNegativesDoNotMakeTheObjectRare) {
   const auto few = with_negatives(400), many = with_negatives(4000);  // one in six, two in three
   ASSERT_TRUE(few && many);
   const double good[] = {9.0, 0.0};
-  EXPECT_NEAR(many->Probability(good), few->Probability(good), 0.04);
+  EXPECT_NEAR(many->model.Probability(good), few->model.Probability(good), 0.04);
 }
 
 TEST(VerdictFit, RefusesAPopulationWithoutWrongAnswers) {
