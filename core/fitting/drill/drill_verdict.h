@@ -9,16 +9,8 @@
 
 namespace foresight {
 
-/// A confirmed drill is at least so far ahead of one that points the other way with any
-/// proportions.
-inline constexpr double kMinAnyFlipMargin_nats = 20.0;
-
 /// Counts what the rays of a region say about a drill; the likelihoods are left at 0.
 DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill);
-
-/// Of the rays that pass the drill within 30 mm and 30 mm over its table, the fraction that end
-/// where they pass it: on something that the drill does not explain. 0 where none passes.
-double SolidBeside(const RaySet& rays, const DrillCandidate& drill);
 
 /// What Verdict::features holds, in its order.
 std::vector<std::string> DrillFeatureNames();
@@ -39,7 +31,6 @@ struct DrillSupport {
   double chuck_nats = 0.0;
   /// Log of the prior's density: how usual a drill of this place, size and build is.
   double proportions_nats = 0.0;
-  double solid_beside = 0.0;  ///< SolidBeside
 };
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.

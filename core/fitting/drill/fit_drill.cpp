@@ -137,9 +137,8 @@ class DrillFit {
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
     support.proportions_nats = prior_(best);
-    support.solid_beside = SolidBeside(likelihood_.rays(), detection.best);
     const std::function<void()> independent[] = {
-        [&] { SetFlipOfAnyProportions(best, flipped, detection, support); },
+        [&] { SetFlipOfAnyProportions(best, detection, support); },
         [&] { SetAlternativeMargin(best, detection); },
         [&] {
           support.beam_sigma_yaw_rad =
@@ -207,14 +206,13 @@ class DrillFit {
 
   /// No drill is its template, and a head that is longer behind than the template's is a drill that
   /// points the other way: the flipped one may take any proportions, at no cost.
-  void SetFlipOfAnyProportions(const DrillState& best, DrillState flipped,
-                               const DrillDetection& detection, DrillSupport& support) const {
+  void SetFlipOfAnyProportions(const DrillState& best, const DrillDetection& detection,
+                               DrillSupport& support) const {
     const auto freed = [&](const DrillState& state) {
       return LocalSearch(likelihood_, state, base_from_table_, AnyProportions(prior_),
                          LocalSearchEffort::kFine);
     };
-    flipped = freed(Flipped(best));
-    const DrillState own_way = freed(best);
+    const DrillState flipped = freed(Flipped(best)), own_way = freed(best);
     const DrillModel model = flipped.Model();
     const auto pose = flipped.Pose(base_from_table_);
     const double margin = best.log_likelihood - prior_(best) - likelihood_(model.parts, pose);
