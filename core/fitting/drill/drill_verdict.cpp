@@ -22,9 +22,9 @@ constexpr double kMinHead_nats = 10.0;
 // The probability weighs how far behind a turned drill and another tool are. These limits keep what
 // is hardly behind; chosen by hand on the training scenes of home and of varied conditions, with
 // what they cost in docs/evaluation.md, "The drill a third time".
-constexpr double kMinYawMargin_nats = 5.0;
-constexpr double kMinAnyFlipMargin_nats = 10.0;
-constexpr double kMinFlipLines_sigmas = 0.5;
+constexpr double kMinYawMargin_nats = 3.0;
+constexpr double kMinAnyFlipMargin_nats = 5.0;
+constexpr double kMinFlipLines_sigmas = 0.3;
 constexpr double kMinChuck_nats = -5.0;  // a chuck may be hidden; work lights on a grip lie at -15
 constexpr double kBound = 0.01;          // of the range of a scale
 
