@@ -68,5 +68,21 @@ TEST(DrillPopulation, ToolsThatCameNearestAreNotConfirmed) {
   }
 }
 
+// Of both a region shows the end alone. Of one that was enough to tell where the drill is, the other
+// was taken for one that points the other way.
+TEST(DrillPopulation, HalfADrillThatTellsTheWholeIsSomethingToFind) {
+  const auto right = RunFitTrial(DrillPopulation(), 1066, {}, {});
+  const auto turned = RunFitTrial(DrillPopulation(), 612, {}, {});
+  ASSERT_TRUE(right && turned);
+  for (const auto* outcomes : {&right, &turned}) {
+    EXPECT_EQ((*outcomes)->front().what, "a drill's end");
+    EXPECT_TRUE((*outcomes)->front().found);
+  }
+  EXPECT_TRUE(right->front().all_ok);
+  EXPECT_TRUE(right->front().positive);
+  EXPECT_FALSE(turned->front().all_ok);
+  EXPECT_FALSE(turned->front().positive);
+}
+
 }  // namespace
 }  // namespace foresight
