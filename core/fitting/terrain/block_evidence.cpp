@@ -25,7 +25,8 @@ constexpr double kAround_m = 0.120;
 // footprint is stretched over the plane.
 constexpr double kEdgeFloor_m = 0.004, kEdgeFloorAlongSight_m = 0.0075;
 constexpr double kFootprintRatio = 0.25;  // of a stretched footprint's length
-constexpr double kHeightFloor_m = 0.001;
+// A head that is not quite where it is believed to be and ranges that walk move all tops alike.
+constexpr double kHeightFloor_m = 0.0015;
 constexpr double kTiltFloor_rad = RadiansFromDegrees(0.15);
 constexpr double kUnknownPlace_m = 0.030;
 constexpr double kUnknownYaw_rad = RadiansFromDegrees(6.0);
@@ -164,6 +165,9 @@ PoseCovariance BlockCovariance(const SurfaceGrid& grid, const PlaneView& view,
           of_plane(r, c);
   covariance(2, 2) += kHeightFloor_m * kHeightFloor_m;
   for (const int row : {3, 4}) covariance(row, row) += kTiltFloor_rad * kTiltFloor_rad;
+  const Eigen::Vector3d factors(1.0, kTiltSigmaFactor, kTiltSigmaFactor);
+  covariance.block<3, 3>(2, 2) =
+      (factors.asDiagonal() * covariance.block<3, 3>(2, 2) * factors.asDiagonal()).eval();
 
   const Eigen::Vector3d sight = view.InBase(rectangle.center) - grid.viewpoint();
   const Eigen::Vector2d flat_sight(view.x.dot(sight), view.y.dot(sight));
