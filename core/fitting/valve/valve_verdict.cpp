@@ -16,8 +16,8 @@ constexpr double kMaxSeeThrough = 0.15;
 constexpr double kAbsurdSeeThrough = 0.25;
 constexpr double kMaxBlockedGaps = 0.4;
 constexpr double kMinMargin_nats = 10.0;
-// Of 247 wheels that are right and CONFIRMED on the seeds of `evaluate-fits valve --world varied` in
-// docs/evaluation.md the least seen is 42 % of its rim; of a cross, which has none, 0 to 75 %.
+// Of 247 wheels that are right and CONFIRMED on the seeds of `evaluate-fits valve --world varied`
+// in docs/evaluation.md the least seen is 42 % of its rim; of a cross, which has none, 0 to 75 %.
 constexpr double kMinRimSeen = 0.4;
 
 /// "3 spokes", "a disc", "a lever".

@@ -68,8 +68,8 @@ TEST(DrillPopulation, ToolsThatCameNearestAreNotConfirmed) {
   }
 }
 
-// Of both a region shows the end alone. Of one that was enough to tell where the drill is, the other
-// was taken for one that points the other way.
+// Of both a region shows the end alone. Of one that was enough to tell where the drill is, the
+// other was taken for one that points the other way.
 TEST(DrillPopulation, HalfADrillThatTellsTheWholeIsSomethingToFind) {
   const auto right = RunFitTrial(DrillPopulation(), 1066, {}, {});
   const auto turned = RunFitTrial(DrillPopulation(), 612, {}, {});
