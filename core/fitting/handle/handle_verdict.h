@@ -30,8 +30,9 @@ struct HandleSupport {
 };
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
-/// The probability is the shipped model's (resources/verdicts/handle_*); UNSURE where a lever that
-/// points the other way or another thing is less than 150 : 1 behind.
+/// The probability is the shipped model's (resources/verdicts/handle_*); the verdict is LIKELY at
+/// most, as too many of the answers that would have been CONFIRMED were wrong in the other world,
+/// and UNSURE where a lever that points the other way or another thing is less than 150 : 1 behind.
 /// Gates say what else speaks against it: few measurements on it, beams that went through it, a
 /// lever that points the other way or a knob, a pull bar, a bow or a box that explain the rays as
 /// well, a place far from the region's centre, a length at a bound. Without a model, as before the
