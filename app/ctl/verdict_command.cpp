@@ -46,8 +46,7 @@ Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&
   for (const SureAnswers& sure : fit.sure)
     PrintLine(
         fmt::format("  {}: of {} right answers {} are called as sure as CONFIRMED by weights that "
-                    "have not seen "
-                    "them, and {} that are not, {} of these where there was nothing",
+                    "have not seen them, and {} that are not, {} of these where there was nothing",
                     ToString(sure.world), sure.right_answers, sure.sure_right,
                     sure.sure - sure.sure_right, sure.sure_negatives));
   return ExitCode::kDone;

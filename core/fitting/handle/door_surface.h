@@ -15,10 +15,10 @@ struct DoorSurface {
 };
 
 /// The door again, once it is known which rays may end on the handle: least squares over all other
-/// rays near the `rough` plane, and where two parallel planes 5 to 60 mm apart with a straight edge
-/// between them explain the rays clearly better (Schwarz's criterion), those. A plane through a
-/// leaf and its frame is several degrees off. Where too few rays are left `rough` stays.
-/// O(rays x edges that are tried).
+/// rays near the `rough` plane, and where two parallel planes 5 to 60 mm apart explain the rays
+/// clearly better (Schwarz's criterion), those. Their edge is straight, within 10 deg of a right
+/// angle to the lever and beside it, as a leaf's is. A plane through a leaf and its frame is
+/// several degrees off. Where too few rays are left `rough` stays. O(rays x edges that are tried).
 DoorSurface DoorRound(const RaySet& rays, const Plane& rough, const HandleCandidate& handle);
 
 }  // namespace foresight

@@ -23,8 +23,8 @@ constexpr double kRound_m = 0.03;  // beside the handle
 // What no beam tells, that handles are no template and a door no plane, along and about x, y and z,
 // and of the length: a factor on what the beams say, and what is added to it, as errors hardly grow
 // with what the beams say but for the door's normal. Chosen so that the spreads over predicted that
-// packaging/refit-verdicts prints of its training scenes are near 1 (docs/evaluation.md, "Door
-// handle fit").
+// packaging/refit-verdicts prints of its training scenes are near 1 (docs/evaluation.md, "The door
+// again").
 constexpr std::array<double, 6> kSigmaFactors = {1.0, 4.0, 1.0, 2.0, 2.0, 1.0};
 constexpr std::array<double, 6> kSigmaAdded = {0.0035, 0.0018, 0.0055, 0.0, 0.0, 0.019};  // m, rad
 constexpr double kLengthAdded_m = 0.009;
