@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/fitting/beam_model.h"
+#include "core/fitting/compressed_nats.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/gate.h"
@@ -27,10 +28,6 @@ constexpr double kMinAnyFlipMargin_nats = 5.0;
 constexpr double kMinFlipLines_sigmas = 0.3;
 constexpr double kMinChuck_nats = -5.0;  // a chuck may be hidden; work lights on a grip lie at -15
 constexpr double kBound = 0.01;          // of the range of a scale
-
-double Compressed(double nats) {
-  return std::copysign(std::log1p(std::abs(nats)), nats);
-}
 
 double Hits(const RaySet& rays, const DrillEvidence& evidence) {
   return evidence.hits * std::min(1.0, rays.samples_per_ray);
@@ -200,11 +197,6 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
                .advice = "draw the region around it"},
               failed);
   return failed;
-}
-
-/// The nats that Compressed made a value of.
-double Expanded(double value) {
-  return std::copysign(std::expm1(std::abs(value)), value);
 }
 
 /// What may be unusual about it.

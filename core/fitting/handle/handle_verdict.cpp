@@ -8,6 +8,7 @@
 
 #include "core/base/squared.h"
 #include "core/fitting/beam_model.h"
+#include "core/fitting/compressed_nats.h"
 #include "core/fitting/gate.h"
 #include "core/fitting/line_covariance.h"
 #include "core/fitting/region_place.h"
@@ -41,10 +42,6 @@ constexpr double kLeastAhead_nats = 5.0;  // 150 : 1, of what is LIKELY
 constexpr const char* kNotYet =
     "a door handle is never confirmed yet: on scenes unlike those that it was fitted to 3 of 10 "
     "answers as sure as that were wrong";
-
-double Compressed(double nats) {
-  return std::copysign(std::log1p(std::abs(nats)), nats);
-}
 
 double Hits(const RaySet& rays, const HandleEvidence& evidence) {
   return evidence.hits * std::min(1.0, rays.samples_per_ray);
@@ -135,11 +132,6 @@ std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection
   length.limit = options.max_length_m - kBound_m;
   AddIfFailed(length, failed);
   return failed;
-}
-
-/// The nats that Compressed made a value of.
-double Expanded(double value) {
-  return std::copysign(std::expm1(std::abs(value)), value);
 }
 
 /// What may be unusual about it.
