@@ -24,7 +24,7 @@ constexpr int kCameraWizardLimit_ms =
 struct CalibrationDock : testing::Test {
   QTemporaryDir folder;
   bool kept_in_folder = qputenv("XDG_DATA_HOME", folder.path().toUtf8());
-  RunningWindow running;
+  RunningWindow running{DefaultSensorRig()};
   CameraCalibrationModel& model = running.bench().camera_calibration;
   CameraCalibrationPanel* panel = running.window().Calibration();
 

@@ -31,7 +31,7 @@ struct HeadCalibrationDock : testing::Test {
   QTemporaryDir folder;
   bool kept_in_folder = qputenv("XDG_DATA_HOME", folder.path().toUtf8());
   QString session = CameraCalibrationModel::DefaultFolder() + "/head-2026-01-01-000000";
-  RunningWindow running;
+  RunningWindow running{DefaultSensorRig()};
   ChainCalibrationModel& model = running.bench().head_calibration;
   ChainCalibrationPanel* panel = running.window().HeadCalibration();
 

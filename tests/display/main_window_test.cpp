@@ -84,7 +84,7 @@ TEST_F(Workstation, TheScanButtonStaysInItsPlaceWhenAPlanIsWarnedOf) {
   ASSERT_TRUE(head.Prediction().warning.isEmpty());
   const QPoint before = button->mapToGlobal({0, 0});
   PlanFields fast = plan;
-  fast.speed_deg_s = 100.0;
+  fast.speed_deg_s = 150.0;  // more than a motor does
   head.SetPlan(fast);
   ASSERT_FALSE(head.Prediction().warning.isEmpty());
   running->Settle();

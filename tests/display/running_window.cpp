@@ -13,21 +13,23 @@ namespace {
 
 constexpr int kScanLimit_ms = 180'000;  // the simulated camera and the depth take seconds each
 
-std::shared_ptr<const World> RoomWithTheValve() {
+std::shared_ptr<const World> RoomWithTheValve(const SensorRig& rig) {
   Scene scene = LoadScene(FORESIGHT_SOURCE_DIR "/resources/scenes/valve.yaml").value();
-  return std::make_shared<const World>(std::make_shared<const Scene>(std::move(scene)),
-                                       DefaultSensorRig(), WorldOptions());
+  return std::make_shared<const World>(std::make_shared<const Scene>(std::move(scene)), rig,
+                                       WorldOptions());
 }
 
-SimulatedHeadOptions AsFastAsPossible() {
+SimulatedHeadOptions AsFastAsPossible(const SensorRig& rig) {
   SimulatedHeadOptions options;
   options.speed = SimulationSpeed::kAsFastAsPossible;
+  options.true_rig = options.believed_rig = rig;
   return options;
 }
 
 }  // namespace
 
-RunningWindow::RunningWindow() : RunningWindow(RoomWithTheValve(), AsFastAsPossible()) {}
+RunningWindow::RunningWindow(const SensorRig& rig)
+    : RunningWindow(RoomWithTheValve(rig), AsFastAsPossible(rig)) {}
 
 RunningWindow::RunningWindow(std::shared_ptr<const World> world,
                              const SimulatedHeadOptions& options)

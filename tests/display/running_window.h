@@ -7,13 +7,14 @@
 #include "app/workstation/main_window.h"
 #include "hardware/simulated/simulated_head.h"
 #include "tests/display/stall_meter.h"
+#include "tests/support/small_camera.h"
 
 namespace foresight {
 
 /// The main window on a fast simulated head that looks at resources/scenes/valve.yaml.
 class RunningWindow {
  public:
-  RunningWindow();
+  explicit RunningWindow(const SensorRig& rig = HalfCameraRig());
   /// On another world; the world's rig and options count, not those of `options`.
   RunningWindow(std::shared_ptr<const World> world, const SimulatedHeadOptions& options);
   ~RunningWindow();

@@ -42,10 +42,10 @@ Eigen::Vector3d PlaceIn(const nlohmann::json& frame) {
 class FitOfACloud : public testing::Test {
  protected:
   void Scan(const std::string& scene) {
-    ASSERT_EQ(
-        Ctl({"scan", "--scene", kScenes + scene, "--from", "-45", "--to", "15", "--out", mission_})
-            .exit_code,
-        0);
+    ASSERT_EQ(Ctl({"scan", "--scene", kScenes + scene, "--rig", HalfCameraFile(folder_), "--from",
+                   "-45", "--to", "15", "--speed", "20", "--out", mission_})
+                  .exit_code,
+              0);
     ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
     const auto points = ReadPointCloud(cloud_);
     ASSERT_TRUE(points) << points.error().message;
@@ -105,8 +105,8 @@ TEST_F(FitOfACloud, BlocksAreFoundWhereTheCloudsUpIsWhatUpSays) {
 }
 
 TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
-  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-15", "--to", "15", "--out",
-                 mission_})
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--rig", HalfCameraFile(folder_),
+                 "--from", "-15", "--to", "15", "--out", mission_})
                 .exit_code,
             0);
   ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
@@ -131,8 +131,8 @@ TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
 TEST_F(FitOfACloud, IsTrustedAboutAsMuchAsItsMission) {
   // At the default speed, six times as dense, they differ by 0.21: docs/evaluation.md, "The valve
   // again".
-  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-15", "--to", "15",
-                 "--speed", "60", "--out", mission_})
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--rig", HalfCameraFile(folder_),
+                 "--from", "-15", "--to", "15", "--speed", "60", "--out", mission_})
                 .exit_code,
             0);
   ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
@@ -154,8 +154,8 @@ TEST_F(FitOfACloud, IsTrustedAboutAsMuchAsItsMission) {
 }
 
 TEST_F(FitOfACloud, SaysSoWhereTheGridOfItsPointsIsLost) {
-  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--from", "-4", "--to", "4", "--out",
-                 mission_})
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--rig", HalfCameraFile(folder_),
+                 "--from", "-4", "--to", "4", "--out", mission_})
                 .exit_code,
             0);
   ASSERT_EQ(Ctl({"cloud", mission_, "--out", cloud_}).exit_code, 0);
@@ -189,8 +189,8 @@ TEST_F(FitOfACloud, SaysSoWhereTheGridOfItsPointsIsLost) {
 TEST(FitInALargeBox, TheValveIsNotLostToThePierThatItHangsOn) {
   const TemporaryFolder folder;
   const std::string mission = folder / "room.foresight";
-  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "room.yaml", "--seed", "711", "--from", "-30", "--to",
-                 "60", "--images", "0", "--out", mission})
+  ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "room.yaml", "--rig", HalfCameraFile(folder),
+                 "--seed", "711", "--from", "-30", "--to", "60", "--images", "0", "--out", mission})
                 .exit_code,
             0);
   const ProgramResult answer =

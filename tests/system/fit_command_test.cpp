@@ -20,7 +20,7 @@
 namespace foresight {
 namespace {
 
-const std::string kRegion = "534,413,721,602";  // around the scene's valve
+const std::string kRegion = "267,206,360,301";  // around the scene's valve
 
 Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
   const auto& p = answer["best"]["robot_from_object"]["position_m"];
@@ -34,7 +34,8 @@ class FitOfAScan : public testing::Test {
     folder_ = std::make_unique<TemporaryFolder>();
     mission_ = *folder_ / "mission.foresight";
     const ProgramResult scanned =
-        Run({"scan", "--scene", kValveScene, "--from", "-15", "--to", "15", "--out", mission_});
+        Run({"scan", "--scene", kValveScene, "--rig", HalfCameraFile(*folder_), "--from", "-15",
+             "--to", "15", "--out", mission_});
     ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
   }
   static void TearDownTestSuite() { folder_.reset(); }
@@ -51,7 +52,9 @@ class FitOfAScan : public testing::Test {
   static std::string Rendered() {
     const std::string out = *folder_ / "rendered";
     if (!std::filesystem::exists(out)) {
-      EXPECT_EQ(Run({"render", kValveScene, "--out", out}).exit_code, 0);
+      EXPECT_EQ(
+          Run({"render", kValveScene, "--rig", HalfCameraFile(*folder_), "--out", out}).exit_code,
+          0);
     }
     return out;
   }
@@ -68,8 +71,8 @@ TEST_F(FitOfAScan, EveryWayToDrawTheRegionFindsTheSameValve) {
   const Eigen::Vector3d at = PositionIn(reference);
   const std::string box = fmt::format("{},{},{},0.5,0.5,0.5", at.x(), at.y(), at.z());
   for (const auto& region :
-       std::vector<std::vector<std::string>>{{"--polygon", "534,413,721,413,721,602,534,602"},
-                                             {"--two-clicks", "556,508,699,508"},
+       std::vector<std::vector<std::string>>{{"--polygon", "267,206,360,206,360,301,267,301"},
+                                             {"--two-clicks", "278,254,349,254"},
                                              {"--box", box}}) {
     const ProgramResult result = Fit({region[0], region[1], "--json"});
     ASSERT_EQ(result.exit_code, 0) << region[0] << result.errors << result.output;
@@ -93,12 +96,12 @@ TEST_F(FitOfAScan, TheImageShowsTheAnswer) {
   ASSERT_EQ(Fit({"--roi", kRegion, "--picture", file}).exit_code, 0);
   const auto image = ReadPng(file);
   ASSERT_TRUE(image) << image.error().message;
-  EXPECT_EQ(image->width(), 1288);
+  EXPECT_EQ(image->width(), 644);
   // Green or orange lines: saturated, which nothing in this grey scene of bricks is at this level.
   int strong = 0;
   for (const Rgb8& p : image->values())
     strong += std::max({p.r, p.g, p.b}) - std::min({p.r, p.g, p.b}) > 150 ? 1 : 0;
-  EXPECT_GT(strong, 200);
+  EXPECT_GT(strong, 100);
 }
 
 TEST_F(FitOfAScan, TheGallerySetsAllSixSourcesSideBySide) {
@@ -296,7 +299,7 @@ TEST_F(FitOfAScan, InALargeBoxTheWheelIsNotLostToAConduitAtItsEdge) {
 TEST_F(FitOfAScan, ARegionMuchLargerThanTheWheelIsLookedAtAgainCloser) {
   // With 77 beams of it on the wheel three of these seeds were UNSURE.
   for (const char* seed : {"2", "4", "5"}) {
-    const ProgramResult result = Fit({"--roi", "462,371,804,654", "--seed", seed, "--json"});
+    const ProgramResult result = Fit({"--roi", "231,185,402,327", "--seed", seed, "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.output << result.errors;
     EXPECT_EQ(nlohmann::json::parse(result.output)["best"]["model"]["spokes"], 3) << seed;
   }

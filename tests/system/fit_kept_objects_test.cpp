@@ -39,10 +39,11 @@ constexpr const char* kPole =
 /// A mission with one scan of a scene and what was fitted in a box, in the robot's frame.
 class KeptObject {
  public:
-  KeptObject(const std::string& scene, const char* kind, const char* box, const char* speed = "10")
+  KeptObject(const std::string& scene, const char* kind, const char* box, const char* speed = "20")
       : mission_(folder_ / "mission.foresight") {
-    const ProgramResult scanned = Ctl({"scan", "--scene", scene, "--from", "-35", "--to", "15",
-                                       "--speed", speed, "--out", mission_});
+    const ProgramResult scanned =
+        Ctl({"scan", "--scene", scene, "--rig", HalfCameraFile(folder_), "--from", "-35", "--to",
+             "15", "--speed", speed, "--out", mission_});
     EXPECT_EQ(scanned.exit_code, 0) << scanned.errors;
     fit_ = Ctl({"fit", kind, mission_, "--box", box, "--save", "--json"});
     EXPECT_LE(fit_.exit_code, 1) << fit_.errors;
