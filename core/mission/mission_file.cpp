@@ -287,7 +287,7 @@ struct MissionFile::Impl {
       }
       TellWhatWasLeftRunning(row, recorded_before);
       const auto count = objects.find(row.id);
-      FORESIGHT_TRY(const double begin_s, Rows().FirstLineTime(row.id));
+      FORESIGHT_TRY(const double begin_s, Rows().FirstTime(row.id));
       const std::int64_t begin_utc_ns = row.start_utc_ns + static_cast<std::int64_t>(1e9 * begin_s);
       scans.push_back({row.id, row.uuid, row.start_utc_ns, begin_utc_ns, row.source, row.simulated,
                        row.plan, row.state, row.reason, given.contains(row.id), row.lines,

@@ -15,7 +15,7 @@ struct ScanSummary {
   std::int64_t id = 0;
   std::string uuid;
   std::int64_t start_utc_ns = 0;  ///< when the head's clock began
-  std::int64_t begin_utc_ns = 0;  ///< when the scan's first line was measured
+  std::int64_t begin_utc_ns = 0;  ///< of its first line; as BeginUtc_ns() without one
   std::string source;
   bool simulated = false;
   ScanPlan plan;

@@ -385,20 +385,37 @@ Result<std::int64_t> ScanRows::CountFrames(std::int64_t scan_id) const {
   return Query("SELECT count(*) FROM image WHERE scan_id = ?", scan_id);
 }
 
-Result<double> ScanRows::FirstLineTime(std::int64_t scan_id) const {
+Result<double> ScanRows::FirstTime(std::int64_t scan_id) const {
   FORESIGHT_TRY(SqliteStatement first,
                 database_.Prepare("SELECT time_s FROM line WHERE scan_id = ? "
                                   "ORDER BY seq LIMIT 1"));
   first.Bind(scan_id);
   FORESIGHT_TRY(const bool row, first.Step());
   FORESIGHT_TRY(const bool given, HasGivenTable());
-  if (row || !given) return row ? first.Number(0) : 0.0;
+  if (row) return first.Number(0);
+  if (!given) return FirstMotorTime(scan_id);
   FORESIGHT_TRY(SqliteStatement timed,
                 database_.Prepare("SELECT time_s FROM given_line WHERE scan_id = ? AND time_s IS "
                                   "NOT NULL ORDER BY line LIMIT 1"));
   timed.Bind(scan_id);
   FORESIGHT_TRY(const bool any, timed.Step());
-  return any ? timed.Number(0) : 0.0;
+  return any ? timed.Number(0) : FirstMotorTime(scan_id);
+}
+
+Result<double> ScanRows::FirstMotorTime(std::int64_t scan_id) const {
+  FORESIGHT_TRY(SqliteStatement first,
+                database_.Prepare("SELECT batch, data, crc32 FROM motor WHERE scan_id = ? "
+                                  "ORDER BY batch LIMIT 1"));
+  first.Bind(scan_id);
+  FORESIGHT_TRY(const bool row, first.Step());
+  if (!row) return 0.0;
+  const std::string data = first.Blob(1);
+  MotorSample sample;
+  if (data.size() < sizeof(sample) ||
+      first.Integer(2) != MotorChecksum(scan_id, first.Integer(0), data))
+    return 0.0;  // what reads the track says that it is damaged
+  std::memcpy(&sample, data.data(), sizeof(sample));
+  return sample.time_s;
 }
 
 Result<std::vector<ScanRow>> ScanRows::ReadScanRows() const {

@@ -59,8 +59,10 @@ class ScanRows {
   /// Those of a given cloud too: a scan has one or the other.
   Result<std::int64_t> CountLines(std::int64_t scan_id) const;
   Result<std::int64_t> CountFrames(std::int64_t scan_id) const;
-  /// On the scan's clock; 0 where it has no line yet, or none with a time.
-  Result<double> FirstLineTime(std::int64_t scan_id) const;
+  /// On the scan's clock: its first line with a time or, without one, its first motor sample; 0
+  /// where it has neither.
+  Result<double> FirstTime(std::int64_t scan_id) const;
+  Result<double> FirstMotorTime(std::int64_t scan_id) const;
   /// Everything but lines, track and frames.
   Result<Scan> ReadHeader(const ScanRow& row) const;
   Result<Scan> ReadScan(const ScanRow& row) const;

@@ -23,6 +23,14 @@ QString TextFor(const ScanSummary& scan) {
     if (scan.objects > 0) text += ScanList::tr(", objects: %1").arg(scan.objects);
     return text;
   }
+  if (scan.state == ScanState::kRunning) {
+    // Its first line says when it began, and may be yet to come.
+    return ScanList::tr("Now\n%2° to %3°, %4 °/s\n%1")
+        .arg(QString::fromUtf8(ToString(scan.state)))
+        .arg(DegreesFromRadians(scan.plan.from_rad), 0, 'f', 0)
+        .arg(DegreesFromRadians(scan.plan.to_rad), 0, 'f', 0)
+        .arg(DegreesFromRadians(scan.plan.speed_rad_s), 0, 'f', 1);
+  }
   QString text = ScanList::tr("%1\n%3° to %4°, %5 °/s, %6 lines\n%2")
                      .arg(begin.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")),
                           QString::fromUtf8(ToString(scan.state)))

@@ -30,6 +30,19 @@ TEST(MissionFile, AScanComesBackBitForBit) {
   EXPECT_TRUE(SameButForTheRig(mission->LoadScan(id).value(), scan));
 }
 
+TEST(MissionFile, AScanWithoutALineBeganWithItsMotorAndNotWithTheHeadsClock) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = mission->BeginScan(scan).value();
+  const MotorSample late{.time_s = 120.5, .angle_rad = 0.1};
+  ASSERT_TRUE(mission->AppendMotorSamples(id, std::span(&late, 1)));
+  ASSERT_TRUE(mission->EndScan(id, ScanState::kInterrupted, "the lidar was lost"));
+  EXPECT_EQ(mission->ListScans().value()[0].begin_utc_ns, scan.start_utc_ns + 120'500'000'000);
+  EXPECT_EQ(mission->ListScans().value()[0].begin_utc_ns,
+            BeginUtc_ns(mission->LoadScan(id).value()));
+}
+
 TEST(MissionFile, AScanThatEndedTooEarlyIsContinuedToTheWhole) {
   const TemporaryFolder folder;
   const Scan scan = SampleScan(1);
