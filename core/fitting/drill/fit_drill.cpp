@@ -137,8 +137,10 @@ class DrillFit {
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
     support.proportions_nats = prior_(best);
+    DrillState any_flipped, any_own_way;
     const std::function<void()> independent[] = {
-        [&] { SetFlipOfAnyProportions(best, detection, support); },
+        [&] { any_flipped = OfAnyProportions(Flipped(best)); },
+        [&] { any_own_way = OfAnyProportions(best); },
         [&] { SetAlternativeMargin(best, detection); },
         [&] {
           support.beam_sigma_yaw_rad =
@@ -147,6 +149,7 @@ class DrillFit {
         }};
     if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
       return Cancelled();
+    SetFlipOfAnyProportions(best, any_flipped, any_own_way, detection, support);
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);
     return detection;
   }
@@ -204,15 +207,16 @@ class DrillFit {
         best.log_likelihood - prior_(best) - likelihood_(headless, detection.best.base_from_object);
   }
 
+  DrillState OfAnyProportions(const DrillState& state) const {
+    return LocalSearch(likelihood_, state, base_from_table_, AnyProportions(prior_),
+                       LocalSearchEffort::kFine);
+  }
+
   /// No drill is its template, and a head that is longer behind than the template's is a drill that
   /// points the other way: the flipped one may take any proportions, at no cost.
-  void SetFlipOfAnyProportions(const DrillState& best, const DrillDetection& detection,
+  void SetFlipOfAnyProportions(const DrillState& best, const DrillState& flipped,
+                               const DrillState& own_way, const DrillDetection& detection,
                                DrillSupport& support) const {
-    const auto freed = [&](const DrillState& state) {
-      return LocalSearch(likelihood_, state, base_from_table_, AnyProportions(prior_),
-                         LocalSearchEffort::kFine);
-    };
-    const DrillState flipped = freed(Flipped(best)), own_way = freed(best);
     const DrillModel model = flipped.Model();
     const auto pose = flipped.Pose(base_from_table_);
     const double margin = best.log_likelihood - prior_(best) - likelihood_(model.parts, pose);

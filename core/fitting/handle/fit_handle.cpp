@@ -70,14 +70,13 @@ struct TwoWays {
 /// One handle's fit on one door while it lasts.
 class HandleFit {
  public:
-  HandleFit(const RaySet& region, const RaySet& rays, const RaySet& few_rays,
-            const DoorSurface& surface, const FitHandleOptions& options)
+  HandleFit(const RaySet& region, const RaySet& rays, const DoorSurface& surface,
+            const FitHandleOptions& options)
       : region_(region),
         options_(options),
         door_(surface.door),
         base_from_door_(DoorFrameOf(surface.door, MeanOf(rays))),
-        likelihood_(rays, PlanesOf(surface), HandleBeams()),
-        coarse_(few_rays, PlanesOf(surface), HandleBeams()) {
+        likelihood_(rays, PlanesOf(surface), HandleBeams()) {
     const auto door_from_base = base_from_door_.Inverse();
     const double least_m = std::max(kLeastBefore_m, kBeforeSigmas * region.sigma_m);
     for (const RangeRay& ray : region.rays) {
@@ -88,15 +87,16 @@ class HandleFit {
 
   const DoorFrame& base_from_door() const { return base_from_door_; }
 
-  /// The best levers of the region.
-  Result<TwoWays> Search(Random& random, const RunContext& context) const {
+  /// The best levers of the region, looked for by a few of its rays first.
+  Result<TwoWays> Search(const RaySet& few_rays, Random& random, const RunContext& context) const {
     if (before_door_.size() < kMinBefore)
       return Fail(ErrorCode::kNoConvergence,
                   "only {} measurements lie 20 to 110 mm before the door: draw the region around "
                   "the handle, or scan slower",
                   before_door_.size());
     const HandleScorer fine{likelihood_, base_from_door_, options_};
-    const HandleScorer coarse{coarse_, base_from_door_, options_};
+    const BeamLikelihood few(few_rays, std::vector<Plane>{door_}, HandleBeams());
+    const HandleScorer coarse{few, base_from_door_, options_};
     context.Report(0.1, "looking for bars");
     std::vector<HandleState> levers = FindLevers(coarse, before_door_, random, context);
     if (context.Cancelled()) return Cancelled();
@@ -241,7 +241,7 @@ class HandleFit {
   const FitHandleOptions& options_;
   Plane door_;
   DoorFrame base_from_door_;
-  BeamLikelihood likelihood_, coarse_;
+  BeamLikelihood likelihood_;
   std::vector<Eigen::Vector3d> before_door_;  ///< in the door's frame
 };
 
@@ -277,12 +277,12 @@ Result<HandleDetection> FitHandle(const RaySet& all_rays, const FitHandleOptions
   RaySet few_rays = Thinned(rays, kCoarseRays, thinning);
   few_rays.beams = nullptr;
   rays.beams = ThinnedBeams(region, options.max_rays, kMinRays, thinning);
-  const HandleFit first(region, rays, few_rays, {.door = *split.wall}, options);
-  FORESIGHT_TRY(TwoWays levers, first.Search(random, context));
+  const HandleFit first(region, rays, {.door = *split.wall}, options);
+  FORESIGHT_TRY(TwoWays levers, first.Search(few_rays, random, context));
   context.Report(0.6, "looking at the door again");
   const DoorSurface surface =
       DoorRound(rays, *split.wall, CandidateOf(levers.best, first.base_from_door()));
-  const HandleFit fit(region, rays, few_rays, surface, options);
+  const HandleFit fit(region, rays, surface, options);
   FORESIGHT_TRY(levers, fit.SearchFrom(levers, first.base_from_door(), context));
   FORESIGHT_TRY(HandleDetection detection, fit.Fit(levers, context));
   detection.origin.seconds =

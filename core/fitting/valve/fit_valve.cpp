@@ -72,7 +72,7 @@ Result<std::vector<ValveCandidate>> FitRims(const RayLikelihood& likelihood,
   RefineOptions options;
   options.parts = ValveParts::kRim;
   FORESIGHT_CHECK(ForEach(fitted, context, [&](ValveCandidate& valve) {
-    valve = Refine(likelihood.Footprints(), valve, options).valve;
+    valve = Refine(likelihood.Footprints(), valve, options);
     valve.log_likelihood = likelihood(valve, ValveParts::kRim);
   }));
   SortByLikelihood(fitted);
@@ -134,7 +134,7 @@ Result<std::optional<ValveCandidate>> FitLever(const RaySet& rays, const WallSpl
   const auto fit = [&](int i) {
     const ValveCandidate& start = found[static_cast<std::size_t>(i / 2)];
     ValveCandidate& lever = levers[static_cast<std::size_t>(i)];
-    lever = i % 2 == 0 ? start : Refine(likelihood.Footprints(), start, {}).valve;
+    lever = i % 2 == 0 ? start : Refine(likelihood.Footprints(), start, {});
     lever.log_likelihood = likelihood(lever);
   };
   if (!ParallelFor(static_cast<int>(levers.size()), context, fit)) return Cancelled();
@@ -218,9 +218,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
                 "nothing in the region looks like a wheel: draw it around one, or scan slower");
   for (std::size_t i = 1; i < valves.size() && i <= kAlternatives; ++i)
     detection.alternatives.push_back(WithUpwardSpoke(valves[i]));
-  RefineOptions at_end;
-  at_end.rounds = at_end.steps = 1;
-  SetSigmas(Refine(likelihood.Footprints(), detection.best, at_end).information, detection);
+  SetSigmas(InformationAt(likelihood.Footprints(), detection.best, {}), detection);
   detection.evidence = GatherEvidence(likelihood.Footprints(), detection.best);
   detection.evidence.margin_nats =
       valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;

@@ -16,19 +16,19 @@ struct RefineOptions {
   bool free_space = true;  ///< rays that went through the template push it away
   int max_rays = 500;      ///< thinned evenly
   int rounds = 4;          ///< of deciding what each ray saw
-  int steps = 4;           ///< of Levenberg-Marquardt in a round
+  int steps = 4;           ///< at most, of Levenberg-Marquardt in a round
 };
 
-struct RefinedValve {
-  ValveCandidate valve;
-  ValveInformation information;  ///< J^T J at the end: the inverse of the covariance
-};
+/// Ceres's Levenberg-Marquardt on all parameters (docs/adr/0026-solvers-of-the-fits.md). A ray
+/// whose range agrees with the template pulls its surface along the ray and towards it across; a
+/// ray that ended behind the template pushes it aside. The result depends on a start within a few
+/// centimetres; its likelihood is not set.
+ValveCandidate Refine(const BeamFootprints& footprints, const ValveCandidate& start,
+                      const RefineOptions& options);
 
-/// Levenberg-Marquardt on all parameters. A ray whose range agrees with the template pulls its
-/// surface along the ray and towards it across; a ray that ended behind the template pushes it
-/// aside. The result depends on a start within a few centimetres.
-RefinedValve Refine(const BeamFootprints& footprints, const ValveCandidate& start,
-                    const RefineOptions& options);
+/// J^T J with robust weights at an answer: the inverse of the covariance of rays that err alone.
+ValveInformation InformationAt(const BeamFootprints& footprints, const ValveCandidate& valve,
+                               const RefineOptions& options);
 
 /// What each ray says of the parameters at an answer, for its covariance.
 struct ValveScores {

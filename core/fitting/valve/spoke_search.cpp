@@ -49,7 +49,7 @@ Result<std::vector<ValveCandidate>> FindSpokes(const RayLikelihood& coarse,
     ValveCandidate& valve = refined[index];
     valve = start;
     valve.log_likelihood = fine(start);
-    ValveCandidate tried = Refine(fine.Footprints(), start, {}).valve;
+    ValveCandidate tried = Refine(fine.Footprints(), start, {});
     tried.log_likelihood = fine(tried);
     if (tried.log_likelihood > valve.log_likelihood) valve = tried;
   });
