@@ -25,6 +25,7 @@ struct EvaluateCheckArguments {
   bool depth = false;  ///< check the depth too
   bool rig = true;     ///< try the damages
   bool json = false;
+  std::string world = "home";
 };
 
 nlohmann::ordered_json ToJson(const CheckOutcome& outcome) {
@@ -128,6 +129,10 @@ double Ratio(double measured, double truth) {
 
 nlohmann::ordered_json ToJson(const DepthCheckOutcome& outcome) {
   const DepthCheck& c = outcome.check;
+  nlohmann::ordered_json classes = nlohmann::ordered_json::array();
+  for (const ConfidenceTruth& one : outcome.confidence)
+    classes.push_back(
+        {{"pixels", one.pixels}, {"promised_sum", one.promised}, {"right", one.right}});
   return {{"seed", outcome.seed},
           {"scene", outcome.scene},
           {"state", ToString(c.state)},
@@ -141,7 +146,8 @@ nlohmann::ordered_json ToJson(const DepthCheckOutcome& outcome) {
           {"true_m", {outcome.true_q50_m, outcome.true_q80_m, outcome.true_q95_m}},
           {"promised", c.promise.promised},
           {"right", c.promise.right},
-          {"true_right", outcome.true_right}};
+          {"true_right", outcome.true_right},
+          {"confidence", classes}};
 }
 
 /// How near the check's quantiles come to the true ones: the median of the ratios, and how many are
@@ -173,6 +179,33 @@ void Print(const std::vector<DepthCheckOutcome>& outcomes) {
       [](const auto& o) { return o.true_right; });
 }
 
+/// Whether 0.9 means 0.9: what the map promised and what was right, over the pixels of all scans;
+/// and over scans the median of a class, since pixels of one scan are right or wrong together.
+void PrintReliability(const std::vector<DepthCheckOutcome>& outcomes) {
+  constexpr std::int64_t kLeastPixels = 200;  // of a scan in a class
+  PrintLine(fmt::format("{:<14}{:>12}{:>10}{:>8}{:>8}{:>26}", "confidence", "pixels", "promised",
+                        "right", "scans", "right of a scan, median"));
+  for (std::size_t i = 0; i < ConfidenceTruth::kClasses; ++i) {
+    ConfidenceTruth all;
+    std::vector<double> of_scans;
+    for (const DepthCheckOutcome& outcome : outcomes) {
+      const ConfidenceTruth& one = outcome.confidence[i];
+      all.pixels += one.pixels;
+      all.promised += one.promised;
+      all.right += one.right;
+      if (one.pixels >= kLeastPixels)
+        of_scans.push_back(static_cast<double>(one.right) / static_cast<double>(one.pixels));
+    }
+    if (all.pixels == 0) continue;
+    const auto pixels = static_cast<double>(all.pixels);
+    const double from = static_cast<double>(i) / ConfidenceTruth::kClasses;
+    PrintLine(fmt::format("{:<14}{:>12}{:>10.3f}{:>8.3f}{:>8}{:>26.3f}",
+                          fmt::format("{:.1f} to {:.1f}", from, from + 0.1), all.pixels,
+                          all.promised / pixels, static_cast<double>(all.right) / pixels,
+                          of_scans.size(), Quantile(of_scans, 0.5)));
+  }
+}
+
 /// Checks of the same damage that share a rig, as one.
 std::vector<CheckOutcome> Gathered(const std::vector<CheckOutcome>& outcomes,
                                    const std::vector<RigDamage>& damages) {
@@ -200,6 +233,7 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
     FORESIGHT_TRY(Scene scene, LoadScene(file));
     scenes.push_back(std::make_shared<const Scene>(std::move(scene)));
   }
+  FORESIGHT_TRY(const FitWorld world, FitWorldFromString(arguments.world));
   const auto damages =
       UsualDamages(RadiansFromDegrees(arguments.turn_deg), 1e-3 * arguments.stamp_ms);
   std::vector<CheckOutcome> all;
@@ -208,6 +242,7 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
     CheckTrialOptions options;
     options.calibration_error = {RadiansFromDegrees(arguments.calibration_deg),
                                  1e-3 * arguments.calibration_mm};
+    options.world = world;
     options.rig_seed = arguments.first_seed + static_cast<std::uint64_t>(first);
     std::vector<CheckOutcome> of_rig;
     for (int i = first; i < std::min(first + arguments.gather, arguments.count); ++i) {
@@ -235,7 +270,10 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
       Print(all, damages);
       PrintSmallest(all);
     }
-    if (arguments.depth) Print(depths);
+    if (arguments.depth) {
+      Print(depths);
+      PrintReliability(depths);
+    }
     return ExitCode::kDone;
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -254,6 +292,12 @@ void AddEvaluateCheckCommand(CLI::App& app, Invocation& invocation) {
       "Try the checks of scans on simulated ones: rigs that drifted, and depth with its truth");
   command->add_option("--scenes", arguments->scenes, "Scene files beside the random scenes")
       ->delimiter(',');
+  command
+      ->add_option("--world", arguments->world,
+                   "Where random scenes and their noise come from: home, varied, or other, which "
+                   "judges only")
+      ->check(CLI::IsMember({"home", "varied", "other"}))
+      ->capture_default_str();
   AddSeedOption(*command, "--first-seed", arguments->first_seed, "Seed of the first scan")
       ->capture_default_str();
   command->add_option("--count", arguments->count, "Number of scans")

@@ -1,13 +1,12 @@
 #include "core/evaluation/check_trial.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/quantile.h"
 #include "core/calibration/tangent.h"
-#include "core/evaluation/drill_scene.h"
-#include "core/evaluation/terrain_scene.h"
-#include "core/evaluation/valve_scene.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/noise_stream.h"
 #include "core/simulation/simulate_scan.h"
@@ -15,15 +14,19 @@
 namespace foresight {
 namespace {
 
-FitTrialScene RandomScene(std::uint64_t seed) {
-  switch (seed % 3) {
-    case 0:
-      return RandomValveScene(seed);
-    case 1:
-      return RandomDrillScene(seed);
-    default:
-      return RandomTerrainScene(seed);
-  }
+Result<FitTrialScene> RandomScene(std::uint64_t seed, FitWorld world) {
+  constexpr const char* kKinds[] = {"valve", "drill", "terrain"};
+  FORESIGHT_TRY(const auto population, MakeFitPopulation(kKinds[seed % std::size(kKinds)], world));
+  return population->MakeScene(seed);
+}
+
+void Add(double confidence, bool right, DepthCheckOutcome& outcome) {
+  const int of_class = std::clamp(static_cast<int>(ConfidenceTruth::kClasses * confidence), 0,
+                                  ConfidenceTruth::kClasses - 1);
+  ConfidenceTruth& truth = outcome.confidence[static_cast<std::size_t>(of_class)];
+  ++truth.pixels;
+  truth.promised += confidence;
+  truth.right += right ? 1 : 0;
 }
 
 }  // namespace
@@ -67,7 +70,7 @@ Result<CheckTrial> MakeCheckTrial(std::shared_ptr<const Scene> scene, std::uint6
   WorldOptions world_options;
   world_options.seed = seed;
   if (scene == nullptr) {
-    FitTrialScene random = RandomScene(seed);
+    FORESIGHT_TRY(const FitTrialScene random, RandomScene(seed, options.world));
     scene = random.scene;
     world_options = random.world;
   }
@@ -123,10 +126,14 @@ Result<DepthCheckOutcome> CheckDepthOfTrial(const CheckTrial& trial, const Depth
   std::size_t right = 0;
   for (std::size_t i = 0; i < truth_m.size(); ++i) {
     const double truth = truth_m.values()[i];
-    if (std::isnan(truth) || whole.mask.values()[i] == 0) continue;
-    const double error = std::abs(whole.dense.depth_m.values()[i] - truth);
+    const double depth_m = whole.dense.depth_m.values()[i];
+    if (std::isnan(truth) || std::isnan(depth_m)) continue;
+    const double error = std::abs(depth_m - truth);
+    const bool is_right = error <= RightWithin_m(truth);
+    Add(whole.dense.confidence.values()[i], is_right, outcome);
+    if (whole.mask.values()[i] == 0) continue;
     errors_m.push_back(error);
-    right += error <= RightWithin_m(truth) ? 1 : 0;
+    right += is_right ? 1 : 0;
   }
   outcome.true_q50_m = Quantile(errors_m, 0.50);
   outcome.true_q80_m = Quantile(errors_m, 0.80);

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/evaluation/simulated_trial.h"
+#include "core/evaluation/fit_populations.h"
 #include "core/selfcheck/check_scan.h"
 
 namespace foresight {
@@ -27,6 +28,9 @@ std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s);
 SensorRig RigBefore(const RigDamage& damage, const SensorRig& true_rig);
 
 struct CheckTrialOptions {
+  /// Where random scenes come from, with their noise; rigs are off as this says, whatever a world
+  /// says of them.
+  FitWorld world = FitWorld::kHome;
   /// Up and down at 20 deg/s from -30 to 30 deg, with three images.
   ScanPlan plan = CheckPlan();
   /// What a calibration leaves of each rig.
@@ -49,6 +53,15 @@ struct CheckOutcome {
   double seconds = 0.0;
 };
 
+/// Pixels to which a map gives about the same confidence, masked or not, and how they are.
+struct ConfidenceTruth {
+  static constexpr int kClasses = 10;  ///< of 0.1 each, the last with 1
+
+  std::int64_t pixels = 0;
+  double promised = 0.0;   ///< sum of their confidence
+  std::int64_t right = 0;  ///< within 50 mm or 1 %
+};
+
 /// What the check of a scan's depth says, and what is true.
 struct DepthCheckOutcome {
   std::uint64_t seed = 0;
@@ -60,6 +73,8 @@ struct DepthCheckOutcome {
   double true_q80_m = 0.0;
   double true_q95_m = 0.0;
   double true_right = 0.0;  ///< fraction of these pixels within 50 mm or 1 %
+  /// Of all pixels with a depth that the lidar could see.
+  std::array<ConfidenceTruth, ConfidenceTruth::kClasses> confidence;
 };
 
 /// A simulated scan as the head brings it home, and the world that it was taken in.
@@ -69,8 +84,8 @@ struct CheckTrial {
   Scan scan;  ///< its rig is off as a calibration leaves it
 };
 
-/// One scan of a scene, drawn by the seed from valves, drills and terrains (`scene` null) or with
-/// its noise drawn by the seed.
+/// One scan of a scene, drawn by the seed from the world's valves, drills and terrains (`scene`
+/// null) or with its noise drawn by the seed.
 Result<CheckTrial> MakeCheckTrial(std::shared_ptr<const Scene> scene, std::uint64_t seed,
                                   const CheckTrialOptions& options, const RunContext& context);
 

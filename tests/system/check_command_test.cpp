@@ -142,5 +142,26 @@ TEST(EvaluateHoldOut, ComparesMethodsOnTheLinesThatTheyWereNotGiven) {
   EXPECT_EQ(rows[0]["our_mask"]["coverage"], rows[1]["our_mask"]["coverage"]);
 }
 
+TEST(EvaluateCheck, SaysWhetherAConfidenceMeansWhatItSays) {
+  const ProgramResult result = Ctl({"evaluate-check", "--depth", "--no-rig", "--world", "varied",
+                                    "--first-seed", "3", "--count", "1", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const Json classes = Json::parse(result.output).at(0).at("confidence");
+  ASSERT_EQ(classes.size(), 10u);
+  double pixels = 0.0, right = 0.0;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const double of_class = classes[i]["pixels"].get<double>();
+    const double promised = classes[i]["promised_sum"].get<double>();
+    EXPECT_GE(promised, 0.1 * static_cast<double>(i) * of_class - 1e-6);
+    EXPECT_LE(promised, 0.1 * static_cast<double>(i + 1) * of_class + 1e-6);
+    EXPECT_LE(classes[i]["right"].get<double>(), of_class);
+    pixels += of_class;
+    right += classes[i]["right"].get<double>();
+  }
+  EXPECT_GT(pixels, 100'000.0);
+  EXPECT_GT(right, 0.5 * pixels);
+  EXPECT_EQ(Ctl({"evaluate-check", "--world", "mars"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace foresight
