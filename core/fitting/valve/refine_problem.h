@@ -19,7 +19,7 @@ class RefineProblem {
 
   using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, kValveParameters>;
 
-  /// Both outlive this.
+  /// `footprints` must outlive this.
   RefineProblem(const BeamFootprints& footprints, const RefineOptions& options);
 
   /// Rays that are looked at.
@@ -51,7 +51,7 @@ class RefineProblem {
   Eigen::VectorXd WeightsOf(const Eigen::VectorXd& residuals) const;
 
   const RaySet& rays_;
-  const RefineOptions& options_;
+  const RefineOptions options_;
   const BeamFootprints& footprints_;
   std::vector<RoledRay> roled_;
   double weight_ = 1.0;
