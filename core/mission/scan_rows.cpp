@@ -391,8 +391,8 @@ Result<double> ScanRows::FirstTime(std::int64_t scan_id) const {
                                   "ORDER BY seq LIMIT 1"));
   first.Bind(scan_id);
   FORESIGHT_TRY(const bool row, first.Step());
-  FORESIGHT_TRY(const bool given, HasGivenTable());
   if (row) return first.Number(0);
+  FORESIGHT_TRY(const bool given, HasGivenTable());
   if (!given) return FirstMotorTime(scan_id);
   FORESIGHT_TRY(SqliteStatement timed,
                 database_.Prepare("SELECT time_s FROM given_line WHERE scan_id = ? AND time_s IS "

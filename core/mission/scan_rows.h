@@ -62,7 +62,6 @@ class ScanRows {
   /// On the scan's clock: its first line with a time or, without one, its first motor sample; 0
   /// where it has neither.
   Result<double> FirstTime(std::int64_t scan_id) const;
-  Result<double> FirstMotorTime(std::int64_t scan_id) const;
   /// Everything but lines, track and frames.
   Result<Scan> ReadHeader(const ScanRow& row) const;
   Result<Scan> ReadScan(const ScanRow& row) const;
@@ -84,6 +83,7 @@ class ScanRows {
                                                              bool strict) const;
 
  private:
+  Result<double> FirstMotorTime(std::int64_t scan_id) const;
   Result<std::vector<ScanRow>> ReadScanRows(std::optional<std::int64_t> id) const;
   Status Update(const ScanRow& row, std::int64_t scan_id);
   Result<std::int64_t> CalibrationId(const std::string& rig_yaml);

@@ -4,8 +4,8 @@
 // COUNT (60) wheels of tests/support/valve_rays.h from FIRST_SEED (1) on; starts 10 mm, 3 deg and
 // 10 % of the sizes off.
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 
+#include <Eigen/Cholesky>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>

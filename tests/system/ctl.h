@@ -22,6 +22,9 @@ inline std::string HalfCameraFile(const TemporaryFolder& folder) {
   return file;
 }
 
+/// Around the valve of kValveScene, in the image of that camera.
+inline const std::string kValveRegion = "267,206,360,301";
+
 /// Runs foresightctl to its end.
 inline ProgramResult Ctl(const std::vector<std::string>& arguments) {
   return RunProgram(FORESIGHTCTL, arguments);

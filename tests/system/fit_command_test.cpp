@@ -20,8 +20,6 @@
 namespace foresight {
 namespace {
 
-const std::string kRegion = "267,206,360,301";  // around the scene's valve
-
 Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
   const auto& p = answer["best"]["robot_from_object"]["position_m"];
   return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
@@ -64,7 +62,7 @@ class FitOfAScan : public testing::Test {
 };
 
 TEST_F(FitOfAScan, EveryWayToDrawTheRegionFindsTheSameValve) {
-  const ProgramResult rectangle = Fit({"--roi", kRegion, "--json"});
+  const ProgramResult rectangle = Fit({"--roi", kValveRegion, "--json"});
   ASSERT_EQ(rectangle.exit_code, 0) << rectangle.errors << rectangle.output;
   const auto reference = nlohmann::json::parse(rectangle.output);
   EXPECT_EQ(reference["source"], "raw");
@@ -82,18 +80,18 @@ TEST_F(FitOfAScan, EveryWayToDrawTheRegionFindsTheSameValve) {
 }
 
 TEST_F(FitOfAScan, TheSourceIsNotedAndDepthIsAnOldNameOfTheDefaultMethod) {
-  const ProgramResult paper = Fit({"--roi", kRegion, "--source", "paper", "--json"});
+  const ProgramResult paper = Fit({"--roi", kValveRegion, "--source", "paper", "--json"});
   ASSERT_LE(paper.exit_code, 1) << paper.errors;
   EXPECT_EQ(nlohmann::json::parse(paper.output)["source"], "paper");
-  const ProgramResult depth = Fit({"--roi", kRegion, "--source", "depth", "--json"});
+  const ProgramResult depth = Fit({"--roi", kValveRegion, "--source", "depth", "--json"});
   ASSERT_LE(depth.exit_code, 1) << depth.errors;
   EXPECT_EQ(nlohmann::json::parse(depth.output)["source"], "foresight");
-  EXPECT_EQ(Fit({"--roi", kRegion, "--source", "guess"}).exit_code, 2);
+  EXPECT_EQ(Fit({"--roi", kValveRegion, "--source", "guess"}).exit_code, 2);
 }
 
 TEST_F(FitOfAScan, TheImageShowsTheAnswer) {
   const std::string file = *folder_ / "answer.png";
-  ASSERT_EQ(Fit({"--roi", kRegion, "--picture", file}).exit_code, 0);
+  ASSERT_EQ(Fit({"--roi", kValveRegion, "--picture", file}).exit_code, 0);
   const auto image = ReadPng(file);
   ASSERT_TRUE(image) << image.error().message;
   EXPECT_EQ(image->width(), 644);
@@ -127,7 +125,7 @@ TEST_F(FitOfAScan, TheGallerySetsAllSixSourcesSideBySide) {
 TEST_F(FitOfAScan, AnAnswerThatIsSavedStaysInTheMission) {
   const std::string copy = *folder_ / "copy.foresight";
   std::filesystem::copy_file(mission_, copy);
-  EXPECT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
+  EXPECT_EQ(Run({"fit", "valve", copy, "--roi", kValveRegion, "--save"}).exit_code, 0);
   const auto detections = MissionFile::OpenReadOnly(copy).value()->ListDetections();
   ASSERT_TRUE(detections) << detections.error().message;
   ASSERT_EQ(detections->size(), 1U);
@@ -138,7 +136,7 @@ TEST_F(FitOfAScan, AnAnswerThatIsSavedStaysInTheMission) {
 TEST_F(FitOfAScan, AnObjectThatIsSavedIsShownAsARobotWouldGetIt) {
   const std::string copy = *folder_ / "pose.foresight";
   std::filesystem::copy_file(mission_, copy);
-  ASSERT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
+  ASSERT_EQ(Run({"fit", "valve", copy, "--roi", kValveRegion, "--save"}).exit_code, 0);
   const ProgramResult shown = Run({"mission", "pose", copy, "--detection", "1", "--json"});
   ASSERT_EQ(shown.exit_code, 0) << shown.errors;
   EXPECT_EQ(std::count(shown.output.begin(), shown.output.end(), '\n'), 1) << shown.output;
@@ -166,7 +164,7 @@ TEST_F(FitOfAScan, AnObjectThatIsSavedIsShownAsARobotWouldGetIt) {
 TEST_F(FitOfAScan, ATerrainWithoutASurfaceHasNoPoseAndTheOthersAreShown) {
   const std::string copy = *folder_ / "poses.foresight";
   std::filesystem::copy_file(mission_, copy);
-  ASSERT_EQ(Run({"fit", "valve", copy, "--roi", kRegion, "--save"}).exit_code, 0);
+  ASSERT_EQ(Run({"fit", "valve", copy, "--roi", kValveRegion, "--save"}).exit_code, 0);
   {
     const auto mission = MissionFile::Open(copy).value();
     DetectionRecord terrain = mission->ListDetections()->front();
@@ -186,11 +184,11 @@ TEST_F(FitOfAScan, WhatIsSavedIsMadeAgainWithoutADifferenceAndAChangeOfItIsNamed
   const std::string copy = *folder_ / "again.foresight";
   std::filesystem::copy_file(mission_, copy);
   const auto recheck = [&] { return Run({"mission", "check", "--recompute", "--json", copy}); };
-  EXPECT_LE(
-      Run({"fit", "valve", copy, "--roi", kRegion, "--source", "paper", "--sigma-spatial", "9.3",
-           "--threshold", "0.4", "--seed", "18446744073709551615", "--max-spokes", "5", "--save"})
-          .exit_code,
-      1)
+  EXPECT_LE(Run({"fit", "valve", copy, "--roi", kValveRegion, "--source", "paper",
+                 "--sigma-spatial", "9.3", "--threshold", "0.4", "--seed", "18446744073709551615",
+                 "--max-spokes", "5", "--save"})
+                .exit_code,
+            1)
       << "an UNSURE answer is kept too";
   EXPECT_EQ(
       Run({"depth", copy, "--save", "--flying", "adaptive", "--out", *folder_ / "d"}).exit_code, 0);
@@ -228,13 +226,13 @@ TEST_F(FitOfAScan, TheMissionListsItsScans) {
 TEST_F(FitOfAScan, ADepthMapIsFittedWithItsCamera) {
   const std::string out = Rendered();
   const std::vector<std::string> fit = {"fit",    "valve",           "--depth", out + "/depth.pfm",
-                                        "--rig",  out + "/rig.yaml", "--roi",   kRegion,
+                                        "--rig",  out + "/rig.yaml", "--roi",   kValveRegion,
                                         "--json", "--density",       "0.2"};
   const ProgramResult result = Run(fit);
   ASSERT_LE(result.exit_code, 1) << result.errors;
   const auto answer = nlohmann::json::parse(result.output);
   ASSERT_TRUE(answer.contains("best")) << result.output;
-  const auto scanned = nlohmann::json::parse(Fit({"--roi", kRegion, "--json"}).output);
+  const auto scanned = nlohmann::json::parse(Fit({"--roi", kValveRegion, "--json"}).output);
   // The true depth of the same scene against a noisy scan of it.
   EXPECT_LT((PositionIn(answer) - PositionIn(scanned)).norm(), 0.020);
 }
@@ -326,20 +324,20 @@ void ExpectRefused(const ProgramResult& result, int exit_code, const std::string
 
 TEST_F(FitOfAScan, ARegionThatIsNoneIsWrongUsage) {
   ExpectRefused(Fit({}), 2, "region");
-  ExpectRefused(Fit({"--roi", kRegion, "--two-clicks", "1,1,9,9"}), 2, "one region");
+  ExpectRefused(Fit({"--roi", kValveRegion, "--two-clicks", "1,1,9,9"}), 2, "one region");
   ExpectRefused(Fit({"--roi", "500,500,501,501"}), 2, "too small");
   ExpectRefused(Fit({"--roi", "5000,5000,6000,6000"}), 2, "outside the image");
   ExpectRefused(Fit({"--box", "1,0,1,-1,1,1"}), 2, "box");
   ExpectRefused(Fit({"--polygon", "1,1,9,9,1,9,4"}), 2, "x,y pairs");
-  ExpectRefused(Run({"fit", "valve", "--roi", kRegion}), 2, "mission");
+  ExpectRefused(Run({"fit", "valve", "--roi", kValveRegion}), 2, "mission");
 }
 
 TEST_F(FitOfAScan, TheLastAnswerOfAnotherObjectOrOfNoneIsBadData) {
   const std::string valve = *folder_ / "valve.json";
-  const ProgramResult answer = Fit({"--roi", kRegion, "--json"});
+  const ProgramResult answer = Fit({"--roi", kValveRegion, "--json"});
   ASSERT_TRUE(WriteFileAtomically(valve, answer.output));
   const auto terrain = [](const std::string& last) {
-    return Run({"fit", "terrain", mission_, "--roi", kRegion, "--last", last});
+    return Run({"fit", "terrain", mission_, "--roi", kValveRegion, "--last", last});
   };
   EXPECT_EQ(terrain(valve).exit_code, 3);
   EXPECT_NE(terrain(valve).errors.find("holds a valve, not a terrain"), std::string::npos);
@@ -357,8 +355,8 @@ TEST_F(FitOfAScan, ADepthMapWithoutANumberIsANegativeAnswer) {
   const SensorRig rig = LoadSensorRig(out + "/rig.yaml").value();
   ASSERT_TRUE(WritePfm(file, FloatImage(rig.camera.width, rig.camera.height,
                                         std::numeric_limits<float>::quiet_NaN())));
-  const ProgramResult result = Run(
-      {"fit", "valve", "--depth", file, "--rig", out + "/rig.yaml", "--roi", kRegion, "--json"});
+  const ProgramResult result = Run({"fit", "valve", "--depth", file, "--rig", out + "/rig.yaml",
+                                    "--roi", kValveRegion, "--json"});
   EXPECT_EQ(result.exit_code, 1) << result.errors;
   EXPECT_EQ(nlohmann::json::parse(result.output)["verdict"], "UNSURE");
 }
@@ -380,7 +378,7 @@ TEST_F(FitOfAScan, DamagedFilesAndACameraThatMirrorsAreBadData) {
   const std::string mirrored = rig.substr(0, at + 4).append("-").append(rig.substr(at + 4));
   ASSERT_TRUE(WriteFileAtomically(*folder_ / "mirrored.yaml", mirrored));
   ExpectRefused(Run({"fit", "valve", "--depth", out + "/depth.pfm", "--rig",
-                     *folder_ / "mirrored.yaml", "--roi", kRegion}),
+                     *folder_ / "mirrored.yaml", "--roi", kValveRegion}),
                 3, "mirrored.yaml");
 }
 

@@ -39,11 +39,11 @@ constexpr const char* kPole =
 /// A mission with one scan of a scene and what was fitted in a box, in the robot's frame.
 class KeptObject {
  public:
-  KeptObject(const std::string& scene, const char* kind, const char* box, const char* speed = "20")
+  KeptObject(const std::string& scene, const char* kind, const char* box)
       : mission_(folder_ / "mission.foresight") {
     const ProgramResult scanned =
         Ctl({"scan", "--scene", scene, "--rig", HalfCameraFile(folder_), "--from", "-35", "--to",
-             "15", "--speed", speed, "--out", mission_});
+             "15", "--speed", "20", "--out", mission_});
     EXPECT_EQ(scanned.exit_code, 0) << scanned.errors;
     fit_ = Ctl({"fit", kind, mission_, "--box", box, "--save", "--json"});
     EXPECT_LE(fit_.exit_code, 1) << fit_.errors;
@@ -113,7 +113,7 @@ TEST(FitCylinderInAScan, IsKeptMadeAgainAndToldToARobotWithoutAProbability) {
   const TemporaryFolder folder;
   const std::string scene = folder / "pole.yaml";
   ASSERT_TRUE(WriteFileAtomically(scene, kPole));
-  const KeptObject kept(scene, "cylinder", "1.6,0.1,1.2,0.4,0.5,0.5", "20");
+  const KeptObject kept(scene, "cylinder", "1.6,0.1,1.2,0.4,0.5,0.5");
   EXPECT_EQ(kept.Record().kind, "cylinder");
   const auto answer = kept.Answer();
   EXPECT_NEAR(answer["radius_m"].get<double>(), 0.060, 0.008);

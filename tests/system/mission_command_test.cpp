@@ -19,8 +19,6 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string kRegion = "267,206,360,301";  // around the scene's valve
-
 /// Two missions, a scan each; a valve was found in the first.
 class MissionCommand : public testing::Test {
  protected:
@@ -34,7 +32,7 @@ class MissionCommand : public testing::Test {
                "--to", to, "--out", file});
       ASSERT_EQ(scanned.exit_code, 0) << scanned.errors;
     }
-    ASSERT_EQ(Run({"fit", "valve", first_, "--roi", kRegion, "--save"}).exit_code, 0);
+    ASSERT_EQ(Run({"fit", "valve", first_, "--roi", kValveRegion, "--save"}).exit_code, 0);
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
@@ -150,7 +148,7 @@ TEST_F(MissionCommand, RunGivesWhatFitGives) {
   const auto files = FilesOf(In("again"));
   ASSERT_EQ(files.size(), 1u);
   const auto again = nlohmann::json::parse(files.begin()->second);
-  const auto fitted = Json(Run({"fit", "valve", first_, "--roi", kRegion, "--json"}));
+  const auto fitted = Json(Run({"fit", "valve", first_, "--roi", kValveRegion, "--json"}));
   EXPECT_EQ(again["fits"][0]["answer"]["best"], fitted["best"]);
   EXPECT_EQ(again["fits"][0]["source"], "raw");
   EXPECT_EQ(again["depth_maps"].size(), 1u);

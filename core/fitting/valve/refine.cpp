@@ -75,7 +75,7 @@ ValveCandidate Refine(const BeamFootprints& footprints, const ValveCandidate& st
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     solver.max_num_iterations = options.steps;
-    solver.function_tolerance = 1e-4;  // the next round asks anew what each ray saw
+    solver.function_tolerance = 1e-5;  // the next round asks anew what each ray saw
     solver.num_threads = 1;
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;

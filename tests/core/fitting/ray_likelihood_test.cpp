@@ -151,9 +151,9 @@ TEST(Refine, ComesBackFromACentimetre) {
   double best_m = 1.0, worst_m = 0.0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const ValveCandidate found = Refine(footprints, Displaced(scene, seed), options);
-    // Mixed returns pull at the edges, and this round rim is deeper than most: 3.8 to 6.1 mm.
+    // Mixed returns pull at the edges, and this round rim is deeper than most: 4.0 to 5.8 mm.
     const double off_m = CompareValves(found, scene.truth).center_m;
-    EXPECT_LT(off_m, 0.0065) << seed;
+    EXPECT_LT(off_m, 0.006) << seed;
     worst_m = std::max(worst_m, off_m);
     best_m = std::min(best_m, off_m);
   }
