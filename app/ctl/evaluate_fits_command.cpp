@@ -14,6 +14,7 @@
 #include "core/evaluation/fit_populations.h"
 #include "core/evaluation/fit_statistics.h"
 #include "core/evaluation/like_home.h"
+#include "core/evaluation/plain_cloud.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -38,6 +39,10 @@ Result<FitTrialOptions> TrialOptionsFrom(const EvaluateFitsArguments& arguments)
   FitTrialOptions options;
   options.sources.clear();
   for (const std::string& name : arguments.sources) {
+    if (name == kCloudSource) {
+      options.plain_cloud = true;
+      continue;
+    }
     FORESIGHT_TRY(const NamedSource source, FitSourceFromName(name));
     options.sources.push_back(source);
   }
@@ -299,8 +304,9 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
   command
       ->add_option(
           "--source", arguments->sources,
-          "What to fit to: raw, or depth methods (with the returns behind the map, or with "
-          "-alone after the name, without them): " +
+          "What to fit to: raw, cloud (the same returns as a file of points alone has them), or "
+          "depth methods (with the returns behind the map, or with -alone after the name, without "
+          "them): " +
               MethodNames())
       ->delimiter(',')
       ->capture_default_str();

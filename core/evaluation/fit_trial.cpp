@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/evaluation/drawn_region.h"
+#include "core/evaluation/plain_cloud.h"
 #include "core/registration/register_scan.h"
 #include "core/simulation/simulate_scan.h"
 
@@ -74,7 +75,8 @@ bool FitTrialOptions::NeedsImage() const {
 }
 
 Status FitTrialOptions::Check() const {
-  if (sources.empty()) return Fail(ErrorCode::kInvalidOptions, "trial of fits: no source is named");
+  if (sources.empty() && !plain_cloud)
+    return Fail(ErrorCode::kInvalidOptions, "trial of fits: no source is named");
   return rig_error ? rig_error->Check() : Status();
 }
 
@@ -122,6 +124,13 @@ Result<std::vector<FitOutcome>> RunFitTrial(const FitPopulation& population, std
     const Result<Detection> found =
         FitInScan(scan, source.source, trial.roi, population.Options(trial.rig), one_thread);
     AddOutcomes(population, trial, NameOf(source), found, CpuSeconds() - begin, outcomes);
+  }
+  if (options.plain_cloud) {
+    const double begin = CpuSeconds();
+    const auto found = FitInPlainCloud(PlainCloudOf(trial.cloud), trial.rig, trial.roi,
+                                       population.Options(trial.rig), one_thread);
+    AddOutcomes(population, trial, std::string(kCloudSource), found, CpuSeconds() - begin,
+                outcomes);
   }
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the trial of a fit was cancelled");
   return outcomes;

@@ -105,6 +105,7 @@ class FitPopulation {
 
 struct FitTrialOptions {
   std::vector<NamedSource> sources = {{}};    ///< what is fitted to; the lidar's returns
+  bool plain_cloud = false;                   ///< and, as kCloudSource, a cloud without its scan
   std::optional<CalibrationError> rig_error;  ///< of the believed rig; none = perfect
 
   bool NeedsImage() const;

@@ -211,6 +211,7 @@ Result<RaySet> RaysFromCloud(std::span<const Eigen::Vector3d> points,
     return Fail(ErrorCode::kTooFewPoints, "no point of the cloud lies inside the region");
   const double neighbour_rad = MedianNeighbourAngle(set.rays);
   if (std::isfinite(neighbour_rad)) set.footprint_rad = neighbour_rad;
+  if (on_grid && places->IsOfAFan()) set.footprint_height_rad = kFootprintHeight_rad;
   return set;
 }
 

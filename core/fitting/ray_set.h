@@ -68,7 +68,8 @@ Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& 
 /// Points of a cloud in base inside the region, seen from one viewpoint: ranges of a scanner, or a
 /// cloud from elsewhere. Points that are not finite are left out. `places`, where the points were
 /// measured on a grid, has an entry for each point; null or kScattered = they have no grid.
-/// `footprint_rad` is set to the median angle from a point to its nearest neighbour. Fails with
+/// `footprint_rad` is set to the median angle from a point to its nearest neighbour; where the grid
+/// is that of a fan that was turned, footprints are as high as in RaysFromScan. Fails with
 /// kInvalidInput (the region, an ImageRoi without `rig`; a viewpoint that is not finite) and
 /// kTooFewPoints. O(points).
 /// @pre places == nullptr or places->line.size() == points.size()

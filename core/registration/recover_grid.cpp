@@ -52,10 +52,6 @@ double Median(std::vector<double> values) {
   return values.empty() ? 0.0 : UpperMedian(std::move(values));
 }
 
-double Azimuth(const Eigen::Vector3d& direction) {
-  return std::atan2(direction.y(), direction.x());
-}
-
 /// In (-pi, pi].
 double Wrapped(double angle_rad) {
   return std::remainder(angle_rad, kTurn_rad);
@@ -100,25 +96,28 @@ double StepOf(const std::vector<Line>& lines) {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-/// Gives each sight of the lines a beam: by its angle, and never two the same.
-std::optional<GridPlaces> PlaceOnBeams(std::vector<Line>& lines, std::size_t points,
+void SortByAngle(Line& line) {
+  std::vector<std::size_t> order(line.sights.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&line](std::size_t a, std::size_t b) {
+    return line.angle_rad[a] < line.angle_rad[b];
+  });
+  Line sorted;
+  for (const std::size_t i : order) {
+    sorted.sights.push_back(line.sights[i]);
+    sorted.angle_rad.push_back(line.angle_rad[i]);
+  }
+  line = std::move(sorted);
+}
+
+/// Gives each sight of the lines a beam: by its angle, after that of the sight before, and never
+/// two the same.
+std::optional<GridPlaces> PlaceOnBeams(const std::vector<Line>& lines, std::size_t points,
                                        std::size_t sights) {
   GridPlaces places = NoPlaces(points);
   double first = std::numeric_limits<double>::infinity();
-  for (Line& line : lines) {
-    std::vector<std::size_t> order(line.sights.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&line](std::size_t a, std::size_t b) {
-      return line.angle_rad[a] < line.angle_rad[b];
-    });
-    Line sorted;
-    for (const std::size_t i : order) {
-      sorted.sights.push_back(line.sights[i]);
-      sorted.angle_rad.push_back(line.angle_rad[i]);
-    }
-    line = std::move(sorted);
-    if (!line.angle_rad.empty()) first = std::min(first, line.angle_rad.front());
-  }
+  for (const Line& line : lines)
+    for (const double angle : line.angle_rad) first = std::min(first, angle);
   places.step_rad = StepOf(lines);
   if (!(places.step_rad > 1e-6)) return std::nullopt;
   std::int64_t most = 0;
@@ -140,55 +139,119 @@ std::optional<GridPlaces> PlaceOnBeams(std::vector<Line>& lines, std::size_t poi
   return places;
 }
 
+/// The way that directions turn from one sight to the next, as the sum of their cross products;
+/// jumps are left out.
+Eigen::Vector3d TurnOf(const std::vector<Sight>& sights) {
+  constexpr double kJumpPerStep = 8.0;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < sights.size(); ++i)
+    steps.push_back(AngleBetween(sights[i - 1].direction, sights[i].direction));
+  const double jump_rad = kJumpPerStep * Median(steps);
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i < sights.size(); ++i)
+    if (steps[i - 1] <= jump_rad) turn += sights[i - 1].direction.cross(sights[i].direction);
+  return turn;
+}
+
+/// That as an axis; nullopt where they turn no way.
+std::optional<Eigen::Vector3d> AxisOfTurn(const Eigen::Vector3d& turn) {
+  if (!(turn.norm() > 1e-6)) return std::nullopt;
+  return turn.normalized();
+}
+
+/// Angle of each sight about an axis, in (-pi, pi].
+std::vector<double> AnglesAbout(const Eigen::Vector3d& axis, const std::vector<Sight>& sights) {
+  const Eigen::Vector3d zero = axis.unitOrthogonal();
+  const Eigen::Vector3d ninety = axis.cross(zero);
+  std::vector<double> angles;
+  angles.reserve(sights.size());
+  for (const Sight& sight : sights)
+    angles.push_back(std::atan2(sight.direction.dot(ninety), sight.direction.dot(zero)));
+  return angles;
+}
+
+/// Where angles are not, all round: the widest of these gaps.
+struct Gap {
+  double middle_rad = 0.0;
+  double width_rad = 0.0;
+};
+Gap WidestGap(std::vector<double> angles) {
+  std::sort(angles.begin(), angles.end());
+  Gap widest;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles.front() + kTurn_rad;
+    if (next - angles[i] > widest.width_rad) widest = {0.5 * (angles[i] + next), next - angles[i]};
+  }
+  return widest;
+}
+
 /// Turns of a spinning lidar whose lasers stand one after the other in the file.
-std::optional<std::vector<Line>> SplitTurns(const std::vector<Sight>& sights) {
+std::optional<std::vector<Line>> SplitTurns(const std::vector<Sight>& sights,
+                                            const std::vector<double>& angles,
+                                            const Eigen::Vector3d& axis) {
   constexpr double kOneWay = 0.98;  ///< of the steps
   constexpr double kLeastTurns = 1.5;
-  std::vector<double> azimuth;  // unwrapped
+  std::vector<double> unwrapped = {angles.front()};
   std::size_t forward = 0, backward = 0;
-  for (const Sight& sight : sights) {
-    const double now = Azimuth(sight.direction);
-    if (azimuth.empty()) {
-      azimuth.push_back(now);
-      continue;
-    }
-    const double step = Wrapped(now - azimuth.back());
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    const double step = Wrapped(angles[i] - unwrapped.back());
     if (step > 0.0) ++forward;
     if (step < 0.0) ++backward;
-    azimuth.push_back(azimuth.back() + step);
+    unwrapped.push_back(unwrapped.back() + step);
   }
-  const double turns = std::abs(azimuth.back() - azimuth.front()) / kTurn_rad;
-  const auto steps = static_cast<double>(forward + backward);
-  if (turns < kLeastTurns || static_cast<double>(std::max(forward, backward)) < kOneWay * steps)
+  const double turns = std::abs(unwrapped.back() - unwrapped.front()) / kTurn_rad;
+  if (turns < kLeastTurns ||
+      static_cast<double>(forward) < kOneWay * static_cast<double>(forward + backward))
     return std::nullopt;
-  if (backward > forward)
-    for (double& angle : azimuth) angle = -angle;
   // A turn begins where the file goes on to the next laser: there the elevation jumps.
   const auto jump_of = [&](double begin) {
     double jump = 0.0;
     for (std::size_t i = 1; i < sights.size(); ++i)
-      if (std::floor((azimuth[i] - begin) / kTurn_rad) !=
-          std::floor((azimuth[i - 1] - begin) / kTurn_rad))
-        jump += std::abs(sights[i].direction.z() - sights[i - 1].direction.z());
+      if (std::floor((unwrapped[i] - begin) / kTurn_rad) !=
+          std::floor((unwrapped[i - 1] - begin) / kTurn_rad))
+        jump += std::abs(axis.dot(sights[i].direction - sights[i - 1].direction));
     return jump;
   };
-  double begin = azimuth.front() - 1e-9;
+  double begin = unwrapped.front() - 1e-9;
   for (const double other : {0.0, std::numbers::pi})
     if (jump_of(other) > jump_of(begin)) begin = other;
   std::vector<Line> lines;
   double turn = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < sights.size(); ++i) {
-    const double now = std::floor((azimuth[i] - begin) / kTurn_rad);
+    const double now = std::floor((unwrapped[i] - begin) / kTurn_rad);
     if (now != turn) lines.emplace_back();
     turn = now;
     lines.back().sights.push_back(sights[i]);
-    lines.back().angle_rad.push_back(azimuth[i] - begin - turn * kTurn_rad);
+    lines.back().angle_rad.push_back(unwrapped[i] - begin - turn * kTurn_rad);
   }
   return lines;
 }
 
-/// Lines that each begin where the one before began: cut where the direction goes back.
-std::vector<std::vector<Sight>> CutWhereItGoesBack(const std::vector<Sight>& sights) {
+using Cut = std::vector<std::vector<Sight>>;
+
+/// Lines of a fan that turns by less than half a turn: cut where the angle goes back. Angles grow
+/// from the gap's middle on.
+Cut CutWhereTheAngleGoesBack(const std::vector<Sight>& sights, const std::vector<double>& angles,
+                             const Gap& gap) {
+  // Where a thing stands before a wall, and the lidar was not quite at the viewpoint, the angle
+  // goes back by a few beams.
+  constexpr double kReturn = 0.2;  // of all that is seen
+  constexpr double kMostReturn_rad = 0.1;
+  const double least = std::min(kMostReturn_rad, kReturn * (kTurn_rad - gap.width_rad));
+  Cut lines;
+  double last = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    const double past = std::remainder(angles[i] - gap.middle_rad - std::numbers::pi, kTurn_rad);
+    if (past < last - least) lines.emplace_back();
+    last = past;
+    lines.back().push_back(sights[i]);
+  }
+  return lines;
+}
+
+/// Lines of a fan that turns any far, whose planes have no way in common: cut where the direction
+/// goes back to where the line before began.
+Cut CutWhereItBeginsAnew(const std::vector<Sight>& sights) {
   constexpr double kLeastReturn_rad = 0.1;
   constexpr double kReturnPerStep = 8.0;
   constexpr double kNearBegin = 0.3;  ///< of the way back
@@ -196,7 +259,7 @@ std::vector<std::vector<Sight>> CutWhereItGoesBack(const std::vector<Sight>& sig
   for (std::size_t i = 1; i < sights.size(); ++i)
     steps.push_back(AngleBetween(sights[i - 1].direction, sights[i].direction));
   const double least = std::max(kLeastReturn_rad, kReturnPerStep * Median(steps));
-  std::vector<std::vector<Sight>> lines(1);
+  Cut lines(1);
   for (std::size_t i = 0; i < sights.size(); ++i) {
     if (i > 0 && steps[i - 1] > least &&
         AngleBetween(sights[i].direction, lines.back().front().direction) <
@@ -213,8 +276,7 @@ std::optional<Eigen::Vector3d> NormalOf(const std::vector<Sight>& line) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 1; i < line.size(); ++i)
     normal += line[i - 1].direction.cross(line[i].direction);
-  if (!(normal.norm() > 1e-6)) return std::nullopt;
-  return normal.normalized();
+  return AxisOfTurn(normal);
 }
 
 /// The axis that a scanner turns its plane about: it lies in all of them.
@@ -231,10 +293,10 @@ Eigen::Vector3d AxisOf(const std::vector<std::optional<Eigen::Vector3d>>& normal
   return axis.dot(ahead) < 0.0 ? Eigen::Vector3d(-axis) : axis;
 }
 
-std::optional<std::vector<Line>> SplitSweeps(const std::vector<Sight>& sights) {
+/// The lines with their angles; nullopt where the sights of a line do not follow each other.
+std::optional<std::vector<Line>> SweepsOf(const Cut& cut, const std::vector<Sight>& sights) {
   constexpr std::size_t kLeastLines = 2;
   constexpr std::size_t kLeastPoints = 4;  ///< of the usual line
-  const std::vector<std::vector<Sight>> cut = CutWhereItGoesBack(sights);
   if (cut.size() < kLeastLines || sights.size() < kLeastPoints * cut.size()) return std::nullopt;
   std::vector<std::optional<Eigen::Vector3d>> normals;
   for (const std::vector<Sight>& line : cut) normals.push_back(NormalOf(line));
@@ -263,14 +325,21 @@ std::optional<std::vector<Line>> SplitSweeps(const std::vector<Sight>& sights) {
   return lines;
 }
 
-std::vector<Line> SplitRings(const std::vector<Sight>& sights,
-                             std::span<const std::int32_t> rings) {
+std::optional<std::vector<Line>> SplitRings(const std::vector<Sight>& sights,
+                                            std::span<const std::int32_t> rings) {
   std::vector<Line> lines;
   for (const Sight& sight : sights) {
     const auto ring = static_cast<std::size_t>(rings[sight.point]);
     if (ring >= lines.size()) lines.resize(ring + 1);
     lines[ring].sights.push_back(sight);
-    lines[ring].angle_rad.push_back(Azimuth(sight.direction));
+  }
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  for (const Line& line : lines) turn += TurnOf(line.sights);
+  const auto axis = AxisOfTurn(turn);
+  if (!axis) return std::nullopt;
+  for (Line& line : lines) {
+    line.angle_rad = AnglesAbout(*axis, line.sights);
+    SortByAngle(line);
   }
   return lines;
 }
@@ -306,17 +375,30 @@ GridPlaces RecoverGrid(std::span<const Eigen::Vector3d> points, const Eigen::Vec
   const std::vector<Sight> sights = SightsOf(points, viewpoint);
   constexpr std::size_t kLeast = 16;
   if (sights.size() < kLeast) return Scatter(points.size(), sights);
-  const auto with = [&](std::vector<Line> lines, GridPlaces::Kind kind) {
+  const auto with = [&](const std::vector<Line>& lines, GridPlaces::Kind kind) {
     auto places = PlaceOnBeams(lines, points.size(), sights.size());
     if (places) places->kind = kind;
     return places;
   };
   if (AreRings(sights, rings, points.size()))
-    if (auto places = with(SplitRings(sights, rings), GridPlaces::Kind::kRings)) return *places;
-  if (auto turns = SplitTurns(sights))
-    if (auto places = with(std::move(*turns), GridPlaces::Kind::kRings)) return *places;
-  if (auto sweeps = SplitSweeps(sights))
-    if (auto places = with(std::move(*sweeps), GridPlaces::Kind::kSweeps)) return *places;
+    if (const auto lines = SplitRings(sights, rings))
+      if (auto places = with(*lines, GridPlaces::Kind::kRings)) return *places;
+  std::vector<Cut> cuts;
+  if (const auto axis = AxisOfTurn(TurnOf(sights))) {
+    const std::vector<double> angles = AnglesAbout(*axis, sights);
+    const Gap gap = WidestGap(angles);
+    // A fan leaves out what is behind the scanner, a spinning lidar nothing.
+    constexpr double kLeastGap_rad = 0.2;
+    if (gap.width_rad > kLeastGap_rad) {
+      cuts.push_back(CutWhereTheAngleGoesBack(sights, angles, gap));
+    } else if (const auto turns = SplitTurns(sights, angles, *axis)) {
+      if (auto places = with(*turns, GridPlaces::Kind::kRings)) return *places;
+    }
+  }
+  cuts.push_back(CutWhereItBeginsAnew(sights));
+  for (const Cut& cut : cuts)
+    if (const auto sweeps = SweepsOf(cut, sights))
+      if (auto places = with(*sweeps, GridPlaces::Kind::kSweeps)) return *places;
   return Scatter(points.size(), sights);
 }
 

@@ -27,6 +27,10 @@ struct GridPlaces {
   std::vector<std::int32_t> line;  ///< of each point; -1 = the point is none
   std::vector<std::int32_t> beam;
   double step_rad = 0.0;  ///< between neighbouring beams; 0 = not known
+
+  /// Whether a fan that is turned measured it, line after line, and not a spinning lidar or a
+  /// camera.
+  bool IsOfAFan() const { return kind == Kind::kSweeps || kind == Kind::kNumbers; }
 };
 
 /// The order of a cloud's points: a scanner writes a line after the other, and within a line the

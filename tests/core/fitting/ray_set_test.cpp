@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "core/registration/recover_grid.h"
+
 namespace foresight {
 namespace {
 
@@ -136,6 +138,27 @@ TEST(RaysFromCloud, KnowsHowFarApartItsRaysAreAndLeavesOutWhatWasNotMeasured) {
   ASSERT_TRUE(set);
   EXPECT_EQ(set->rays.size(), 599U);
   EXPECT_NEAR(set->footprint_rad, 0.01, 0.001);  // towards the wall's ends a little less
+}
+
+TEST(RaysFromCloud, FootprintsOfAFanAreAsHighAsThoseOfAScan) {
+  const Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+  const BoxRoi all{{}, Eigen::Vector3d::Constant(10.0)};
+  const std::vector<Eigen::Vector3d> points = WallOfPoints(viewpoint);
+  GridPlaces places;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    places.line.push_back(static_cast<std::int32_t>(i / 30));
+    places.beam.push_back(static_cast<std::int32_t>(i % 30));
+  }
+  const auto height_of = [&](GridPlaces::Kind kind) {
+    places.kind = kind;
+    const auto set =
+        RaysFromCloud(points, viewpoint, nullptr, all, 0.01, BoxRays::kEndInside, &places);
+    return set.value().footprint_height_rad;
+  };
+  EXPECT_EQ(height_of(GridPlaces::Kind::kSweeps), 0.012);
+  EXPECT_EQ(height_of(GridPlaces::Kind::kNumbers), 0.012);
+  EXPECT_EQ(height_of(GridPlaces::Kind::kRings), 0.0);
+  EXPECT_EQ(height_of(GridPlaces::Kind::kRows), 0.0);
 }
 
 TEST(RaysFromCloud, ARegionInAnImageNeedsTheCalibration) {
