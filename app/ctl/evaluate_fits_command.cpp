@@ -175,6 +175,9 @@ void PrintTable(const FitStatistics& s) {
   if (std::isfinite(s.false_area))
     PrintLine(fmt::format("  false area        {:.2f} % of what is LIKELY or CONFIRMED",
                           100.0 * s.false_area));
+  if (s.compared > 0)
+    PrintLine(fmt::format("  same verdict as the first source in {} of {} scenes", s.same_verdict,
+                          s.compared));
   PrintLine(fmt::format("  AUC {:.3f}, ECE {:.3f}", s.auc, s.ece));
   for (const ErrorSpread& error : s.errors)
     PrintLine(
@@ -213,6 +216,8 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"negatives", s.negatives},
           {"negatives_confirmed", s.negatives_confirmed},
           {"negatives_likely", s.negatives_likely},
+          {"compared", s.compared},
+          {"same_verdict", s.same_verdict},
           {"auc", Finite(s.auc)},
           {"ece", Finite(s.ece)},
           {"errors", errors},

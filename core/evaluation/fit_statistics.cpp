@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -161,6 +162,28 @@ FitStatistics StatisticsOfSource(const std::string& source, std::span<const FitO
   return statistics;
 }
 
+/// Of each scene, by its seed: how many answers are not there, UNSURE, LIKELY and CONFIRMED.
+std::map<std::uint64_t, std::array<int, 4>> LevelsOf(const std::string& source,
+                                                     std::span<const FitOutcome> outcomes) {
+  std::map<std::uint64_t, std::array<int, 4>> levels;
+  for (const FitOutcome& outcome : outcomes)
+    if (outcome.source == source)
+      ++levels[outcome.seed]
+              [outcome.found ? 1 + static_cast<std::size_t>(outcome.verdict.level) : 0];
+  return levels;
+}
+
+void CompareVerdicts(const std::string& first, std::span<const FitOutcome> outcomes,
+                     FitStatistics& statistics) {
+  const auto levels_of_first = LevelsOf(first, outcomes);
+  for (const auto& [seed, levels] : LevelsOf(statistics.source, outcomes)) {
+    const auto there = levels_of_first.find(seed);
+    if (there == levels_of_first.end()) continue;
+    ++statistics.compared;
+    if (there->second == levels) ++statistics.same_verdict;
+  }
+}
+
 }  // namespace
 
 std::vector<FitStatistics> StatisticsOf(std::span<const FitOutcome> outcomes) {
@@ -171,6 +194,8 @@ std::vector<FitStatistics> StatisticsOf(std::span<const FitOutcome> outcomes) {
   std::vector<FitStatistics> statistics;
   for (const std::string& source : sources)
     statistics.push_back(StatisticsOfSource(source, outcomes));
+  for (FitStatistics& of_source : statistics)
+    if (of_source.source != sources.front()) CompareVerdicts(sources.front(), outcomes, of_source);
   return statistics;
 }
 

@@ -55,6 +55,10 @@ struct FitStatistics {
   double ece = 0.0;             ///< expected calibration error, ten bins
   double seconds_median = 0.0;  ///< CPU of a fit
   double seconds_p95 = 0.0;
+  /// Scenes that both this and the first source were tried on, and those of them in which as many
+  /// answers are CONFIRMED, LIKELY, UNSURE and not there; 0 for the first source itself.
+  int compared = 0;
+  int same_verdict = 0;
 };
 
 /// One entry a source, in the order they first appear.

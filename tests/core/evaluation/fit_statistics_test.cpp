@@ -39,6 +39,23 @@ TEST(FitStatistics, AConfirmedNegativeIsNoRightAnswer) {
   EXPECT_EQ(statistics[0].negatives_confirmed, 1);
 }
 
+TEST(FitStatistics, ASourceHasTheVerdictsOfTheFirstWhereItsAnswersHaveTheSameLevels) {
+  std::vector<FitOutcome> outcomes = {Answer(1, true, 0.99), Answer(2, true, 0.99),
+                                      Answer(3, true, 0.99), Answer(4, true, 0.99)};
+  for (const FitOutcome& outcome : std::vector<FitOutcome>(outcomes)) {
+    outcomes.push_back(outcome);
+    outcomes.back().source = "cloud";
+  }
+  outcomes.pop_back();                                // seed 4 was not tried
+  outcomes[5].verdict.level = VerdictLevel::kLikely;  // seed 2
+  outcomes[6].found = false;                          // seed 3
+  const auto statistics = StatisticsOf(outcomes);
+  ASSERT_EQ(statistics.size(), 2u);
+  EXPECT_EQ(statistics[0].compared, 0);
+  EXPECT_EQ(statistics[1].compared, 3);
+  EXPECT_EQ(statistics[1].same_verdict, 1);
+}
+
 TEST(FitStatistics, ErrorsAreThoseOfRightAnswers) {
   const std::vector<FitOutcome> outcomes = {Answer(1, true, 0.99), Answer(2, false, 0.3)};
   const auto statistics = StatisticsOf(outcomes);
