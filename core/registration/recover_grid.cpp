@@ -238,12 +238,18 @@ Cut CutWhereTheAngleGoesBack(const std::vector<Sight>& sights, const std::vector
   constexpr double kReturn = 0.2;  // of all that is seen
   constexpr double kMostReturn_rad = 0.1;
   const double least = std::min(kMostReturn_rad, kReturn * (kTurn_rad - gap.width_rad));
-  Cut lines;
-  double last = std::numeric_limits<double>::infinity();
+  std::vector<double> past;  // the gap
+  for (const double angle : angles)
+    past.push_back(std::remainder(angle - gap.middle_rad - std::numbers::pi, kTurn_rad));
+  // A stray return close to the viewpoint lies anywhere: two sights on both sides must say so.
+  const auto goes_back = [&](std::size_t i) {
+    const double before = i > 1 ? std::min(past[i - 1], past[i - 2]) : past[i - 1];
+    const double after = i + 1 < past.size() ? std::max(past[i], past[i + 1]) : past[i];
+    return after < before - least;
+  };
+  Cut lines(1);
   for (std::size_t i = 0; i < sights.size(); ++i) {
-    const double past = std::remainder(angles[i] - gap.middle_rad - std::numbers::pi, kTurn_rad);
-    if (past < last - least) lines.emplace_back();
-    last = past;
+    if (i > 0 && goes_back(i)) lines.emplace_back();
     lines.back().push_back(sights[i]);
   }
   return lines;

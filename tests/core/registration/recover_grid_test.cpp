@@ -141,6 +141,16 @@ TEST(RecoverGrid, FindsTheLinesOfAHeadWhoseFanReturnsLittleFromItsSides) {
   ExpectNoPlaceTwice(places);
 }
 
+TEST(RecoverGrid, AStrayReturnBesideTheViewpointDoesNotCutItsLine) {
+  std::vector<std::pair<int, int>> truth;
+  Points points = Head(60, &truth);
+  for (std::size_t i = 50; i + 50 < points.size(); i += 1000) points[i] *= 0.05;
+  // The viewpoint is told to a few centimetres.
+  const GridPlaces places = RecoverGrid(points, Eigen::Vector3d(0.03, 0.0, -0.04));
+  EXPECT_EQ(places.lines, 60);
+  for (std::size_t i = 0; i < truth.size(); ++i) ASSERT_EQ(places.line[i], truth[i].first) << i;
+}
+
 TEST(RecoverGrid, FindsTheLinesOfASpinningLidarThatSeesItsRobotInASector) {
   std::vector<std::pair<int, int>> all, truth;
   const Points whole = Spinning(16, 900, 0.1, &all);
