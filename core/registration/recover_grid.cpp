@@ -47,6 +47,14 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
 }
 
+/// Angle from each sight to the next one: entry i is that from i to i + 1.
+std::vector<double> StepsBetween(const std::vector<Sight>& sights) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < sights.size(); ++i)
+    steps.push_back(AngleBetween(sights[i - 1].direction, sights[i].direction));
+  return steps;
+}
+
 /// 0 where there is none.
 double Median(std::vector<double> values) {
   return values.empty() ? 0.0 : UpperMedian(std::move(values));
@@ -143,9 +151,7 @@ std::optional<GridPlaces> PlaceOnBeams(const std::vector<Line>& lines, std::size
 /// jumps are left out.
 Eigen::Vector3d TurnOf(const std::vector<Sight>& sights) {
   constexpr double kJumpPerStep = 8.0;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < sights.size(); ++i)
-    steps.push_back(AngleBetween(sights[i - 1].direction, sights[i].direction));
+  const std::vector<double> steps = StepsBetween(sights);
   const double jump_rad = kJumpPerStep * Median(steps);
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   for (std::size_t i = 1; i < sights.size(); ++i)
@@ -261,9 +267,7 @@ Cut CutWhereItBeginsAnew(const std::vector<Sight>& sights) {
   constexpr double kLeastReturn_rad = 0.1;
   constexpr double kReturnPerStep = 8.0;
   constexpr double kNearBegin = 0.3;  ///< of the way back
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < sights.size(); ++i)
-    steps.push_back(AngleBetween(sights[i - 1].direction, sights[i].direction));
+  const std::vector<double> steps = StepsBetween(sights);
   const double least = std::max(kLeastReturn_rad, kReturnPerStep * Median(steps));
   Cut lines(1);
   for (std::size_t i = 0; i < sights.size(); ++i) {
@@ -389,22 +393,22 @@ GridPlaces RecoverGrid(std::span<const Eigen::Vector3d> points, const Eigen::Vec
   if (AreRings(sights, rings, points.size()))
     if (const auto lines = SplitRings(sights, rings))
       if (auto places = with(*lines, GridPlaces::Kind::kRings)) return *places;
-  std::vector<Cut> cuts;
+  const auto with_sweeps = [&](const Cut& cut) -> std::optional<GridPlaces> {
+    const auto sweeps = SweepsOf(cut, sights);
+    return sweeps ? with(*sweeps, GridPlaces::Kind::kSweeps) : std::nullopt;
+  };
   if (const auto axis = AxisOfTurn(TurnOf(sights))) {
     const std::vector<double> angles = AnglesAbout(*axis, sights);
     const Gap gap = WidestGap(angles);
     // A fan leaves out what is behind the scanner, a spinning lidar nothing.
     constexpr double kLeastGap_rad = 0.2;
     if (gap.width_rad > kLeastGap_rad) {
-      cuts.push_back(CutWhereTheAngleGoesBack(sights, angles, gap));
+      if (auto places = with_sweeps(CutWhereTheAngleGoesBack(sights, angles, gap))) return *places;
     } else if (const auto turns = SplitTurns(sights, angles, *axis)) {
       if (auto places = with(*turns, GridPlaces::Kind::kRings)) return *places;
     }
   }
-  cuts.push_back(CutWhereItBeginsAnew(sights));
-  for (const Cut& cut : cuts)
-    if (const auto sweeps = SweepsOf(cut, sights))
-      if (auto places = with(*sweeps, GridPlaces::Kind::kSweeps)) return *places;
+  if (auto places = with_sweeps(CutWhereItBeginsAnew(sights))) return *places;
   return Scatter(points.size(), sights);
 }
 

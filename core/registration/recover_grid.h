@@ -28,8 +28,8 @@ struct GridPlaces {
   std::vector<std::int32_t> beam;
   double step_rad = 0.0;  ///< between neighbouring beams; 0 = not known
 
-  /// Whether a fan that is turned measured it, line after line, and not a spinning lidar or a
-  /// camera.
+  /// Whether it is taken for the grid of a fan that is turned, line after line, and not for that of
+  /// a spinning lidar or a camera. Who writes lines and beams, as our own clouds do, has a fan.
   bool IsOfAFan() const { return kind == Kind::kSweeps || kind == Kind::kNumbers; }
 };
 
