@@ -18,10 +18,11 @@ struct Distance {
   double value_m = 0.0;
   double sigma_m = 0.0;
   Row by_drift;
-  Eigen::Vector3d by_plane;  ///< by two tilts and the offset
+  Eigen::Vector4d by_plane;  ///< by two tilts, the offset and its ranges
 };
 
-Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal) {
+Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal, const Eigen::Vector3d& across,
+            const Eigen::Vector2d& beam_rad) {
   const auto base_from_head = HeadFromBase(cell.plate_rad).Inverse();
   const Eigen::Vector3d n = base_from_head.Inverse().Rotate(normal);  // in head
   const Eigen::Vector3d by_turn = cell.in_head.cross(n);  // n . (turn x p) = turn . (p x n)
@@ -31,6 +32,11 @@ Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal) {
   row[PlateCheck::kShiftY] = n.y();
   row[PlateCheck::kShiftZ] = n.z();
   row[PlateCheck::kRange] = n.dot(cell.direction);
+  // The beam's half length on the surface, along its direction, is half_length * (n.u) / (n.d).
+  const Eigen::Vector3d along = across.cross(cell.direction);
+  row[PlateCheck::kNearEnd] =
+      0.5 * cell.in_head.norm() *
+      std::hypot(beam_rad.x() * n.dot(along), beam_rad.y() * n.dot(across));
   // A positive angle looks up: base_from_head = Rot_x(angle).
   row[PlateCheck::kStamp] =
       cell.speed_rad_s * normal.dot(Eigen::Vector3d::UnitX().cross(cell.center));
@@ -39,6 +45,7 @@ Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal) {
 
 std::vector<Distance> DistancesOf(const std::vector<FlatCell>& cells,
                                   const std::vector<CoplanarCells>& planes,
+                                  const Eigen::Vector3d& across,
                                   const PlateCheckOptions& options) {
   std::vector<Distance> distances;
   for (std::size_t p = 0; p < planes.size(); ++p) {
@@ -48,10 +55,11 @@ std::vector<Distance> DistancesOf(const std::vector<FlatCell>& cells,
     for (const std::size_t i : plane.cells) {
       const FlatCell& cell = cells[i];
       const Eigen::Vector3d off = cell.center - plane.center;
+      const Row by_drift = ByDrift(cell, plane.normal, across, options.beam_rad);
       distances.push_back({p, plane.normal.dot(off),
                            std::hypot(cell.rms_m / std::sqrt(cell.points), options.floor_m),
-                           ByDrift(cell, plane.normal),
-                           Eigen::Vector3d(off.dot(first), off.dot(second), 1.0)});
+                           by_drift, Eigen::Vector4d(off.dot(first), off.dot(second), 1.0,
+                                                     by_drift[PlateCheck::kRange])});
     }
   }
   return distances;
@@ -63,7 +71,7 @@ class PlaneAdjustment {
   PlaneAdjustment(const std::vector<Distance>& distances, std::size_t planes, bool up_and_down,
                   const PlateCheckOptions& options)
       : distances_(distances), options_(options), up_and_down_(up_and_down) {
-    unknowns_ = PlateCheck::kUnknowns + 3 * static_cast<Eigen::Index>(planes);
+    unknowns_ = PlateCheck::kUnknowns + 4 * static_cast<Eigen::Index>(planes);
   }
 
   void Solve() {
@@ -100,7 +108,7 @@ class PlaneAdjustment {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns_);
     row.head<PlateCheck::kUnknowns>() = d.by_drift;
     if (!up_and_down_) row[PlateCheck::kStamp] = 0.0;
-    row.segment<3>(PlateCheck::kUnknowns + 3 * static_cast<Eigen::Index>(d.plane)) = d.by_plane;
+    row.segment<4>(PlateCheck::kUnknowns + 4 * static_cast<Eigen::Index>(d.plane)) = d.by_plane;
     return row;
   }
   double Residual(const Distance& d) const { return d.value_m + RowOf(d).dot(answer_); }
@@ -126,6 +134,9 @@ class PlaneAdjustment {
     sigmas[PlateCheck::kTurnY] = sigmas[PlateCheck::kTurnZ] = kAnyTurn_rad;
     sigmas[PlateCheck::kShiftY] = sigmas[PlateCheck::kShiftZ] = options_.shift_prior_m;
     sigmas[PlateCheck::kRange] = options_.range_prior_m;
+    sigmas[PlateCheck::kNearEnd] = options_.near_end_prior;
+    for (Eigen::Index i = PlateCheck::kUnknowns + 3; i < unknowns_; i += 4)
+      sigmas[i] = options_.color_prior_m;
     sigmas[PlateCheck::kStamp] = kAnyStamp_s;
     return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
   }
@@ -164,7 +175,8 @@ Result<PlateCheck> CheckPlate(const Scan& scan, const RegisteredScan& cloud,
                 "{} planes in the scan, {} are needed: scan where walls, floor or ceiling are in "
                 "view",
                 planes.size(), options.least_planes);
-  const std::vector<Distance> distances = DistancesOf(cells, planes, options);
+  const std::vector<Distance> distances = DistancesOf(
+      cells, planes, scan.rig.HeadFromLidar().Rotate(Eigen::Vector3d::UnitZ()), options);
   PlateCheck check;
   check.up_and_down = UpAndDown(cells, planes);
   PlaneAdjustment adjustment(distances, planes.size(), check.up_and_down, options);

@@ -13,6 +13,10 @@ struct PlateCheckOptions {
   double floor_m = 0.001;        ///< what a cell's mean is not better than: surfaces are not ideal
   double shift_prior_m = 0.005;  ///< of the lidar against the plate
   double range_prior_m = 0.010;  ///< of its ranges
+  double color_prior_m = 0.015;  ///< of the ranges of one plane: lidars read black and white unlike
+  /// Of the beam's half length on a surface, as ranges of it read: 0 = the middle, 1 = the near end.
+  double near_end_prior = 0.5;
+  Eigen::Vector2d beam_rad{0.005, 0.012};  ///< along the line and across
   double huber_sigmas = 2.0;
   double tukey_sigmas = 4.7;
   int least_planes = 2;
@@ -21,7 +25,7 @@ struct PlateCheckOptions {
 /// What the planes of one scan say of the way from the motor to the lidar: how the rig must be
 /// changed to make them flat, and both directions of the motor agree.
 struct PlateCheck {
-  enum Unknown { kTurnY, kTurnZ, kShiftY, kShiftZ, kRange, kStamp, kUnknowns };
+  enum Unknown { kTurnY, kTurnZ, kShiftY, kShiftZ, kRange, kNearEnd, kStamp, kUnknowns };
 
   /// Of the lidar on the plate, about and along the head's axes, the turn about the lidar's own
   /// origin (rad, m); of its ranges (m); of its stamps (s). Turn and shift about and along x, the
