@@ -51,15 +51,16 @@ FloatImage LogGray(const ColorImage& image) {
 }
 
 /// What the search turns: the camera's three turns, and how far the edges of each class lie
-/// outwards, px: before near and before far surfaces.
-constexpr int kTurns = 3, kClasses = 2, kUnknowns = kTurns + kClasses;
+/// outwards, px: before near and before far surfaces by the beam's width, then by its height.
+constexpr int kTurns = 3, kClasses = 2, kOutward = 2 * kClasses, kUnknowns = kTurns + kOutward;
 using Shift = Eigen::Matrix<double, kUnknowns, 1>;
+using Outward = Eigen::Matrix<double, kOutward, 1>;
 
 struct ImageEdge {
   std::size_t image = 0;
   Eigen::Vector3d point;    ///< in camera
-  Eigen::Vector2d outward;  ///< from the near to the far surface, in the image, of length 1
-  int edge_class = 0;
+  Eigen::Vector2d outward;  ///< across the edge to the far surface, in the image, of length 1
+  Outward by_outward;       ///< how far it lies outwards by each unknown
   int group = 0;
 };
 
@@ -127,7 +128,7 @@ class EdgeMatcher {
   double Objective(const Shift& shift, int without) const {
     constexpr double kPenalty = 0.001, kUsual_px = 2.0;
     return ScoreOf(shift).Mean(without) -
-           kPenalty * (shift.tail<kClasses>() / kUsual_px).squaredNorm();
+           kPenalty * (shift.tail<kOutward>() / kUsual_px).squaredNorm();
   }
 
   /// Climbs from `start` with steps that are halved from `largest_px` to `least_px`.
@@ -167,7 +168,7 @@ class EdgeMatcher {
 
   Eigen::Vector2d PixelOf(std::size_t edge, const Shift& shift) const {
     return places_[edge].pixel + places_[edge].by_turn * (shift.head<kTurns>() - base_rad_) +
-           shift[kTurns + edges_[edge].edge_class] * edges_[edge].outward;
+           edges_[edge].by_outward.dot(shift.tail<kOutward>()) * edges_[edge].outward;
   }
 
   /// Interpolated; zero outside of the image.
@@ -200,6 +201,20 @@ class EdgeMatcher {
   const std::vector<Gradient>* gradients_ = nullptr;
 };
 
+/// @param to_far from the near to the far surface, along the line, px
+/// @param along along the edge, px
+ImageEdge InImage(std::size_t image, const Eigen::Vector3d& point, const Eigen::Vector2d& to_far,
+                  const Eigen::Vector2d& along, int edge_class) {
+  ImageEdge edge{image, point, Eigen::Vector2d(-along.y(), along.x()).normalized(), Outward::Zero(),
+                 0};
+  if (edge.outward.dot(to_far) < 0.0) edge.outward *= -1.0;
+  // A beam reaches over an upright edge by half of its width, over a level one by half its height.
+  const double upright = std::min(1.0, edge.outward.dot(to_far.normalized()));
+  edge.by_outward[edge_class] = upright;
+  edge.by_outward[kClasses + edge_class] = std::sqrt(1.0 - upright * upright);
+  return edge;
+}
+
 std::vector<ImageEdge> EdgesInImages(const Scan& scan, const std::vector<DepthEdge>& edges,
                                      const std::vector<const CameraFrame*>& frames,
                                      const CameraCheckOptions& options) {
@@ -212,14 +227,15 @@ std::vector<ImageEdge> EdgesInImages(const Scan& scan, const std::vector<DepthEd
       const Eigen::Vector3d point = camera_from_base * edge.point;
       const auto pixel = scan.rig.camera.Project(point);
       const auto beyond = scan.rig.camera.Project(camera_from_base * (edge.point + edge.across));
+      const auto further = scan.rig.camera.Project(camera_from_base * (edge.point + edge.along));
       const double margin = options.reach_px + options.most_outward_px;
-      if (!pixel || !beyond || !(pixel->x() > margin && pixel->y() > margin) ||
+      if (!pixel || !beyond || !further || !(pixel->x() > margin && pixel->y() > margin) ||
           !(pixel->x() < scan.rig.camera.width - margin) ||
           !(pixel->y() < scan.rig.camera.height - margin))
         continue;
-      const int edge_class = edge.jump_m > options.merge_m ? 1 : 0;
-      const ImageEdge in_image{f, point, (*beyond - *pixel).normalized(), edge_class, 0};
-      seen.push_back(in_image);
+      if (edge.along.isZero()) continue;  // which way it runs is not known
+      seen.push_back(InImage(f, point, *beyond - *pixel, *further - *pixel,
+                             edge.jump_m > options.merge_m ? 1 : 0));
       azimuths.push_back(std::atan2(edge.point.x(), edge.point.z()));
     }
   }
@@ -299,7 +315,7 @@ Eigen::Matrix3d CovarianceOfDirections(const EdgeMatcher& matcher, const Shift& 
     const Eigen::Vector2d across = matcher.GradientAt(i, shift);
     Shift row = Shift::Zero();
     row.head<3>() = -(across.transpose() * by_point * Skew(edge.point)).transpose();
-    row[kTurns + edge.edge_class] = across.dot(edge.outward);
+    row.tail<kOutward>() = across.dot(edge.outward) * edge.by_outward;
     normal += row * row.transpose() / (options.edge_sigma_px * options.edge_sigma_px);
   }
   return normal.inverse().topLeftCorner<3, 3>();
@@ -353,7 +369,7 @@ Result<CameraCheck> CheckCamera(const Scan& scan, const RegisteredScan& cloud,
 
   const Shift unturned = matcher.Climb(Shift::Zero(), 1.0, kLeast_px, false, -1);
   check.turn_rad = best.head<3>();
-  check.outward_px = best.tail<kClasses>();
+  check.outward_px = best.segment<kClasses>(kTurns);
   check.score = matcher.ScoreOf(best).Mean();
   check.score_before = matcher.ScoreOf(unturned).Mean();
   check.score_aside = ScoreAside(matcher, best, options.reach_px);

@@ -34,12 +34,15 @@ struct CameraCheck {
   double score_aside = 0.0;    ///< mean where the edges are put somewhere else
   /// How sure it is that the turn fits better than none: the gain by its own deviation.
   double gain_sigmas = 0.0;
-  /// How far edges lie outwards, before near and before far surfaces.
+  /// How far upright edges lie outwards, before near and before far surfaces.
   Eigen::Vector2d outward_px = Eigen::Vector2d::Zero();
   int edges = 0;
   int images = 0;
+  int scans = 1;  ///< that were gathered
 
   double Sigma(int axis) const { return std::sqrt(covariance(axis, axis)); }
+  /// How much of what the edges' strength stands out by the turn gains.
+  double GainOfContrast() const { return (score - score_before) / (score - score_aside); }
 };
 
 /// Fails with kTooFewPoints where the scan has no image, or too few depth edges in its images.

@@ -76,9 +76,14 @@ class Judge {
       }
       Add(finding);
       RigFinding& added = check_.findings.back();
-      if (added.state == State::kDrifted && check_.camera->gain_sigmas < limits_.least_gain_sigmas)
+      if (added.state == State::kDrifted && !FitsBetter(*check_.camera))
         added.state = State::kNotSeen;
     }
+  }
+
+  bool FitsBetter(const CameraCheck& camera) const {
+    return camera.gain_sigmas >= limits_.least_gain_sigmas &&
+           camera.GainOfContrast() * std::sqrt(camera.scans) >= limits_.least_gain_of_contrast;
   }
 
   void JudgeLidar() {

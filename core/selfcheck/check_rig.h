@@ -19,7 +19,11 @@ struct RigCheckLimits {
   double stamp_turn_rad = 0.0021;  ///< 0.12 deg between the ways up and down
   double sigmas = 3.0;             ///< a drift is at least so many deviations
   double least_gain_sigmas = 2.0;  ///< and fits the images better by so many
-  double seen_sigmas = 2.5;        ///< a limit of fewer deviations is not seen
+  /// And by this part of what edges stand out, over the root of the scans gathered: beside an
+  /// outline there often is another edge, a shade or the thing's other side, that fits a little
+  /// better, but not the same way in each scan.
+  double least_gain_of_contrast = 0.07;
+  double seen_sigmas = 2.5;  ///< a limit of fewer deviations is not seen
 };
 
 struct RigCheckOptions {

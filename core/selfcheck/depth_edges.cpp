@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace foresight {
 namespace {
@@ -12,8 +13,12 @@ class EdgeFinder {
       : cloud_(cloud), options_(options) {}
 
   std::vector<DepthEdge> Run() {
-    for (int line = 0; line < cloud_.lines; ++line)
+    for (int line = 0; line < cloud_.lines; ++line) {
+      first_of_line_.push_back(edges_.size());
       for (int beam = 1; beam + 2 < cloud_.beams; ++beam) Try(line, beam);
+    }
+    first_of_line_.push_back(edges_.size());
+    for (std::size_t i = 0; i < edges_.size(); ++i) edges_[i].along = Along(i);
     return std::move(edges_);
   }
 
@@ -44,12 +49,60 @@ class EdgeFinder {
     const Eigen::Vector3d to_far = cloud_.points[cloud_.Index(line, far)].cast<double>() - origin;
     const double range = to_near.norm();
     const Eigen::Vector3d across = range * (to_far.normalized() - to_near / range);
-    edges_.push_back({origin + to_near + 0.5 * across, across, to_far.norm() - range});
+    edges_.push_back(
+        {origin + to_near + 0.5 * across, across, Eigen::Vector3d::Zero(), to_far.norm() - range});
+    places_.push_back({line, near, far - near});
+  }
+
+  /// Where a surface ends among the beams.
+  struct Place {
+    int line = 0;
+    int beam = 0;
+    int outward = 0;  ///< 1 or -1 beam
+  };
+
+  Eigen::Vector3d Along(std::size_t edge) const {
+    return edges_[Followed(edge, 1)].point - edges_[Followed(edge, -1)].point;
+  }
+
+  /// The edge of the same surface some lines on; the edge itself where there is none.
+  std::size_t Followed(std::size_t edge, int line_step) const {
+    constexpr int kLines = 2;
+    for (int i = 0; i < kLines; ++i) {
+      const auto next = OnNeighbour(edge, line_step);
+      if (!next) break;
+      edge = *next;
+    }
+    return edge;
+  }
+
+  std::optional<std::size_t> OnNeighbour(std::size_t edge, int line_step) const {
+    constexpr int kMostBeams = 8;
+    constexpr double kMostApart = 0.1;  // of the range
+    const Place& place = places_[edge];
+    const int line = place.line + line_step;
+    if (line < 0 || line >= cloud_.lines) return std::nullopt;
+    std::optional<std::size_t> nearest;
+    int least = kMostBeams + 1;
+    const double range = Range(place.line, place.beam);
+    for (std::size_t i = first_of_line_[static_cast<std::size_t>(line)];
+         i < first_of_line_[static_cast<std::size_t>(line) + 1]; ++i) {
+      const Place& other = places_[i];
+      const int beams = std::abs(other.beam - place.beam);
+      if (other.outward != place.outward || beams >= least ||
+          !(std::abs(Range(line, other.beam) - range) < kMostApart * range))
+        continue;
+      least = beams;
+      nearest = i;
+    }
+    return nearest;
   }
 
   const RegisteredScan& cloud_;
   const DepthEdgeOptions& options_;
   std::vector<DepthEdge> edges_;
+  std::vector<Place> places_;               ///< one an edge
+  std::vector<std::size_t> first_of_line_;  ///< and one more
 };
 
 }  // namespace

@@ -11,6 +11,9 @@ namespace foresight {
 struct DepthEdge {
   Eigen::Vector3d point;   ///< half a step beyond the last return of the near surface, in base
   Eigen::Vector3d across;  ///< a step from the near to the far surface, in base, metres
+  /// From where the same surface ends on the lines before to where it does on the lines after, in
+  /// base, metres; zero where no neighbouring line shows it.
+  Eigen::Vector3d along;
   double jump_m = 0.0;
 };
 

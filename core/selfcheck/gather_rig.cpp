@@ -57,6 +57,7 @@ Result<CameraCheck> GatherCamera(std::span<const RigCheck> checks) {
     gain += camera.gain_sigmas;
     edges += camera.edges;
     gathered.images += camera.images;
+    gathered.scans = turns.count();
     gathered.score += camera.edges * camera.score;
     gathered.score_before += camera.edges * camera.score_before;
     gathered.score_aside += camera.edges * camera.score_aside;

@@ -34,9 +34,8 @@ Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal, const Eigen::Ve
   row[PlateCheck::kRange] = n.dot(cell.direction);
   // The beam's half length on the surface, along its direction, is half_length * (n.u) / (n.d).
   const Eigen::Vector3d along = across.cross(cell.direction);
-  row[PlateCheck::kNearEnd] =
-      0.5 * cell.in_head.norm() *
-      std::hypot(beam_rad.x() * n.dot(along), beam_rad.y() * n.dot(across));
+  row[PlateCheck::kNearEnd] = 0.5 * cell.in_head.norm() *
+                              std::hypot(beam_rad.x() * n.dot(along), beam_rad.y() * n.dot(across));
   // A positive angle looks up: base_from_head = Rot_x(angle).
   row[PlateCheck::kStamp] =
       cell.speed_rad_s * normal.dot(Eigen::Vector3d::UnitX().cross(cell.center));
@@ -45,8 +44,7 @@ Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal, const Eigen::Ve
 
 std::vector<Distance> DistancesOf(const std::vector<FlatCell>& cells,
                                   const std::vector<CoplanarCells>& planes,
-                                  const Eigen::Vector3d& across,
-                                  const PlateCheckOptions& options) {
+                                  const Eigen::Vector3d& across, const PlateCheckOptions& options) {
   std::vector<Distance> distances;
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const CoplanarCells& plane = planes[p];
@@ -56,10 +54,10 @@ std::vector<Distance> DistancesOf(const std::vector<FlatCell>& cells,
       const FlatCell& cell = cells[i];
       const Eigen::Vector3d off = cell.center - plane.center;
       const Row by_drift = ByDrift(cell, plane.normal, across, options.beam_rad);
-      distances.push_back({p, plane.normal.dot(off),
-                           std::hypot(cell.rms_m / std::sqrt(cell.points), options.floor_m),
-                           by_drift, Eigen::Vector4d(off.dot(first), off.dot(second), 1.0,
-                                                     by_drift[PlateCheck::kRange])});
+      distances.push_back(
+          {p, plane.normal.dot(off),
+           std::hypot(cell.rms_m / std::sqrt(cell.points), options.floor_m), by_drift,
+           Eigen::Vector4d(off.dot(first), off.dot(second), 1.0, by_drift[PlateCheck::kRange])});
     }
   }
   return distances;

@@ -14,7 +14,8 @@ struct PlateCheckOptions {
   double shift_prior_m = 0.005;  ///< of the lidar against the plate
   double range_prior_m = 0.010;  ///< of its ranges
   double color_prior_m = 0.015;  ///< of the ranges of one plane: lidars read black and white unlike
-  /// Of the beam's half length on a surface, as ranges of it read: 0 = the middle, 1 = the near end.
+  /// Of the beam's half length on a surface, as ranges of it read: 0 = the middle, 1 = the near
+  /// end.
   double near_end_prior = 0.5;
   Eigen::Vector2d beam_rad{0.005, 0.012};  ///< along the line and across
   double huber_sigmas = 2.0;

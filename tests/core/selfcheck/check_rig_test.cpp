@@ -6,16 +6,20 @@
 
 #include "core/evaluation/check_trial.h"
 #include "core/geometry/angles.h"
+#include "core/selfcheck/gather_rig.h"
 
 namespace foresight {
 namespace {
 
+std::shared_ptr<const Scene> Room() {
+  auto scene = LoadScene(std::string(FORESIGHT_SOURCE_DIR) + "/resources/scenes/room.yaml");
+  EXPECT_TRUE(scene) << scene.error().message;
+  return std::make_shared<const Scene>(std::move(*scene));
+}
+
 const std::vector<CheckOutcome>& Outcomes() {
   static const std::vector<CheckOutcome> kOutcomes = [] {
-    auto scene = LoadScene(std::string(FORESIGHT_SOURCE_DIR) + "/resources/scenes/room.yaml");
-    EXPECT_TRUE(scene) << scene.error().message;
-    auto outcomes = RunCheckTrial(std::make_shared<const Scene>(std::move(*scene)), 3,
-                                  UsualDamages(RadiansFromDegrees(0.3), 0.010), {}, {});
+    auto outcomes = RunCheckTrial(Room(), 3, UsualDamages(RadiansFromDegrees(0.3), 0.010), {}, {});
     EXPECT_TRUE(outcomes) << outcomes.error().message;
     return std::move(*outcomes);
   }();
@@ -43,15 +47,37 @@ TEST(CheckRig, FindsATurnOfTheCameraAboutEachAxis) {
   for (const char axis : {'x', 'y', 'z'}) {
     const CheckOutcome& outcome = Outcome(fmt::format("camera turn {}", axis));
     const RigFinding& finding = Finding(outcome, fmt::format("camera turn {}", axis));
-    EXPECT_EQ(finding.state, RigFinding::State::kDrifted) << axis;
+    // About the motor's axis one scan is not sure: what is gained there is little.
+    EXPECT_EQ(finding.state,
+              axis == 'x' ? RigFinding::State::kNotSeen : RigFinding::State::kDrifted)
+        << axis;
     // As camera_from_head was turned; 0.1 deg is a pixel of the image.
     EXPECT_NEAR(outcome.sign * finding.value, RadiansFromDegrees(0.3), RadiansFromDegrees(0.12));
   }
 }
 
 TEST(CheckRig, FindsATurnOfTheLidarAboutEachAxis) {
-  for (const char axis : {'x', 'y', 'z'})
+  for (const char axis : {'x', 'z'})
     EXPECT_TRUE(Outcome(fmt::format("lidar turn {}", axis)).check.Drifted()) << axis;
+  // The motor's axis, which planes do not show, and of which one scan's edges are not sure.
+  const CheckOutcome& about_motor = Outcome("lidar turn y");
+  EXPECT_FALSE(about_motor.check.Drifted());
+  EXPECT_EQ(Finding(about_motor, "camera turn x").state, RigFinding::State::kNotSeen);
+}
+
+TEST(CheckRig, FindsATurnAboutTheMotorsAxisInSeveralScans) {
+  const RigDamage turned = {.name = "camera turn x",
+                            .camera_turn_rad = {RadiansFromDegrees(0.35), 0.0, 0.0}};
+  std::vector<RigCheck> checks;
+  for (const std::uint64_t seed : {3, 10, 17}) {
+    CheckTrialOptions options;
+    options.rig_seed = 3;
+    const auto outcomes = RunCheckTrial(Room(), seed, {turned}, options, {});
+    ASSERT_TRUE(outcomes) << outcomes.error().message;
+    checks.push_back(outcomes->front().check);
+  }
+  const RigCheck all = GatherRig(checks, DefaultSensorRig(), {});
+  EXPECT_THAT(all.drifted, testing::Contains(testing::HasSubstr("about the camera's x axis")));
 }
 
 TEST(CheckRig, FindsAnOffsetOfTheStamps) {
@@ -60,6 +86,21 @@ TEST(CheckRig, FindsAnOffsetOfTheStamps) {
   // The motor's backlash of 0.03 deg looks like 0.75 ms at 20 deg/s.
   EXPECT_NEAR(outcome.sign * Finding(outcome, "stamps").value, 0.010, 0.0015);
 }
+
+// Seeds at which a good rig was blamed before the check knew how ranges of long spots and of dark
+// planes read, and that tall beams reach over level edges.
+class CheckRigOfAGoodRig : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(CheckRigOfAGoodRig, IsQuietUnderVariedConditions) {
+  CheckTrialOptions options;
+  options.world = FitWorld::kVaried;
+  const auto outcomes = RunCheckTrial(nullptr, GetParam(), {{.name = "none"}}, options, {});
+  ASSERT_TRUE(outcomes) << outcomes.error().message;
+  EXPECT_THAT(outcomes->front().check.drifted, testing::IsEmpty());
+  EXPECT_TRUE(outcomes->front().check.SawAnything());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, CheckRigOfAGoodRig, testing::Values(5005, 5025, 5035));
 
 }  // namespace
 }  // namespace foresight

@@ -31,5 +31,36 @@ TEST(FindDepthEdges, OfImportedScansTheFarSideMayBeRough) {
   EXPECT_NEAR(std::atan2(edges[0].point.x(), edges[0].point.z()), 0.003 * 9.5, 1e-4);
 }
 
+/// Five lines, each 0.01 rad above the one before, of a surface at 2 m that ends one beam further
+/// on with each of them.
+RegisteredScan SlantingEnd() {
+  RegisteredScan cloud;
+  cloud.lines = 5;
+  cloud.beams = 20;
+  for (int line = 0; line < cloud.lines; ++line) {
+    cloud.origins.push_back(Eigen::Vector3f::Zero());
+    for (int beam = 0; beam < cloud.beams; ++beam) {
+      const float range = beam < 8 + line ? 2.0f : 4.0f;
+      const float across = 0.005f * static_cast<float>(beam);
+      const float up = 0.01f * static_cast<float>(line);
+      cloud.range_m.push_back(range);
+      cloud.points.push_back(range * Eigen::Vector3f(across, up, 1.0f).normalized());
+    }
+  }
+  return cloud;
+}
+
+TEST(FindDepthEdges, SaysWhichWayAnEdgeRuns) {
+  const auto edges = FindDepthEdges(SlantingEnd(), DepthEdgeOptions());
+  ASSERT_EQ(edges.size(), 5u);
+  for (const DepthEdge& edge : edges)
+    EXPECT_NEAR(edge.along.x() / edge.along.y(), 0.5, 0.02);  // a beam, 0.005, a line, 0.01
+  RegisteredScan alone = SlantingEnd();
+  alone.lines = 1;
+  const auto edge = FindDepthEdges(alone, DepthEdgeOptions());
+  ASSERT_EQ(edge.size(), 1u);
+  EXPECT_TRUE(edge[0].along.isZero()) << "no other line shows it";
+}
+
 }  // namespace
 }  // namespace foresight

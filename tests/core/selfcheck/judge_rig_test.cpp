@@ -18,6 +18,8 @@ CameraCheck GoodCamera() {
   camera.turn_rad.setZero();
   camera.covariance = std::pow(RadiansFromDegrees(0.02), 2) * Eigen::Matrix3d::Identity();
   camera.gain_sigmas = 0.0;
+  camera.score = camera.score_before = 0.9;
+  camera.score_aside = 0.4;
   camera.edges = 1000;
   camera.images = 1;
   return camera;
@@ -50,10 +52,21 @@ TEST(JudgeRig, AlwaysSaysThatTheMotorsZeroIsNotSeen) {
   EXPECT_THAT(Judged(GoodPlate(), GoodCamera()).cannot_see, Contains(HasSubstr("motor's zero")));
 }
 
+TEST(JudgeRig, DoesNotBlameTheCameraForAnEdgeThatFitsALittleBetter) {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.y() = RadiansFromDegrees(0.31);
+  camera.gain_sigmas = 8.0;
+  camera.score_before = 0.88;  // 4 % of what the edges stand out
+  const RigCheck check = Judged(GoodPlate(), camera);
+  EXPECT_THAT(check.drifted, IsEmpty());
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("camera's y axis")));
+}
+
 TEST(JudgeRig, SaysByHowMuchTheCameraTurnedAndThatItWasTheCamera) {
   CameraCheck camera = GoodCamera();
   camera.turn_rad.y() = RadiansFromDegrees(0.31);
   camera.gain_sigmas = 8.0;
+  camera.score_before = 0.8;
   const RigCheck check = Judged(GoodPlate(), camera);
   EXPECT_THAT(check.drifted, Contains(HasSubstr("camera's y axis: off by 0.31 deg +- 0.02 deg")));
   EXPECT_THAT(check.drifted, Contains(HasSubstr("it is the camera that turned")));
@@ -63,6 +76,7 @@ TEST(JudgeRig, BlamesTheLidarWherePlanesBendToo) {
   CameraCheck camera = GoodCamera();
   camera.turn_rad.y() = RadiansFromDegrees(0.31);
   camera.gain_sigmas = 8.0;
+  camera.score_before = 0.8;
   PlateCheck plate = GoodPlate();
   plate.drift[PlateCheck::kTurnY] = RadiansFromDegrees(0.3);
   const RigCheck check = Judged(plate, camera);
@@ -74,6 +88,7 @@ TEST(JudgeRig, AboutTheMotorsAxisNobodyCanTellWhichOfThemTurned) {
   CameraCheck camera = GoodCamera();
   camera.turn_rad.x() = RadiansFromDegrees(0.31);
   camera.gain_sigmas = 8.0;
+  camera.score_before = 0.8;
   EXPECT_THAT(Judged(GoodPlate(), camera).drifted, Contains(HasSubstr("does not show")));
 }
 
@@ -82,6 +97,7 @@ TEST(JudgeRig, AUncertainDriftIsNotSeenRatherThanFoundOrFine) {
   camera.turn_rad.y() = RadiansFromDegrees(0.5);
   camera.covariance(1, 1) = std::pow(RadiansFromDegrees(0.3), 2);
   camera.gain_sigmas = 8.0;
+  camera.score_before = 0.8;
   const RigCheck check = Judged(GoodPlate(), camera);
   EXPECT_THAT(check.drifted, IsEmpty());
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("camera's y axis")));

@@ -20,6 +20,9 @@ CameraCheck Camera(double turn_y_deg, double sigma_deg) {
   CameraCheck camera;
   camera.turn_rad = {0.0, RadiansFromDegrees(turn_y_deg), 0.0};
   camera.covariance = std::pow(RadiansFromDegrees(sigma_deg), 2) * Eigen::Matrix3d::Identity();
+  camera.score = 0.9;
+  camera.score_before = 0.7;
+  camera.score_aside = 0.4;
   camera.gain_sigmas = 8.0;
   camera.edges = 1000;
   camera.images = 1;
