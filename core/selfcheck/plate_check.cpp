@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/base/quantile.h"
 
@@ -11,10 +12,12 @@ namespace foresight {
 namespace {
 
 using Row = Eigen::Matrix<double, PlateCheck::kUnknowns, 1>;
+using DriftMatrix = Eigen::Matrix<double, PlateCheck::kUnknowns, PlateCheck::kUnknowns>;
 
 /// A cell's distance from its plane, and what it depends on.
 struct Distance {
   std::size_t plane = 0;
+  int part = 0;  ///< of its plane
   double value_m = 0.0;
   double sigma_m = 0.0;
   Row by_drift;
@@ -32,14 +35,34 @@ Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal, const Eigen::Ve
   row[PlateCheck::kShiftY] = n.y();
   row[PlateCheck::kShiftZ] = n.z();
   row[PlateCheck::kRange] = n.dot(cell.direction);
-  // The beam's half length on the surface, along its direction, is half_length * (n.u) / (n.d).
+  // A beam's half length on the surface, along the beam, is half its spread over the cosine n . d.
   const Eigen::Vector3d along = across.cross(cell.direction);
-  row[PlateCheck::kNearEnd] = 0.5 * cell.in_head.norm() *
+  row[PlateCheck::kNearEnd] = -0.5 * cell.in_head.norm() *
                               std::hypot(beam_rad.x() * n.dot(along), beam_rad.y() * n.dot(across));
   // A positive angle looks up: base_from_head = Rot_x(angle).
   row[PlateCheck::kStamp] =
       cell.speed_rad_s * normal.dot(Eigen::Vector3d::UnitX().cross(cell.center));
   return row;
+}
+
+constexpr int kStrips = 3, kParts = 2 * kStrips;
+
+/// Parts a plane into strips of as many cells each, and each strip across into two.
+void Part(std::span<Distance> plane) {
+  const auto split = [](std::span<Distance> some, int axis, int parts, const auto& use) {
+    std::sort(some.begin(), some.end(), [axis](const Distance& a, const Distance& b) {
+      return a.by_plane[axis] < b.by_plane[axis];
+    });
+    for (int i = 0; i < parts; ++i) {
+      const std::size_t begin = some.size() * i / parts, end = some.size() * (i + 1) / parts;
+      use(i, some.subspan(begin, end - begin));
+    }
+  };
+  split(plane, 0, kStrips, [&](int strip, std::span<Distance> of_strip) {
+    split(of_strip, 1, 2, [&](int half, std::span<Distance> of_part) {
+      for (Distance& distance : of_part) distance.part = 2 * strip + half;
+    });
+  });
 }
 
 std::vector<Distance> DistancesOf(const std::vector<FlatCell>& cells,
@@ -50,15 +73,17 @@ std::vector<Distance> DistancesOf(const std::vector<FlatCell>& cells,
     const CoplanarCells& plane = planes[p];
     const Eigen::Vector3d first = plane.normal.unitOrthogonal();
     const Eigen::Vector3d second = plane.normal.cross(first);
+    const std::size_t begin = distances.size();
     for (const std::size_t i : plane.cells) {
       const FlatCell& cell = cells[i];
       const Eigen::Vector3d off = cell.center - plane.center;
       const Row by_drift = ByDrift(cell, plane.normal, across, options.beam_rad);
       distances.push_back(
-          {p, plane.normal.dot(off),
+          {p, 0, plane.normal.dot(off),
            std::hypot(cell.rms_m / std::sqrt(cell.points), options.floor_m), by_drift,
            Eigen::Vector4d(off.dot(first), off.dot(second), 1.0, by_drift[PlateCheck::kRange])});
     }
+    Part(std::span(distances).subspan(begin));
   }
   return distances;
 }
@@ -76,24 +101,36 @@ class PlaneAdjustment {
     answer_ = Eigen::VectorXd::Zero(unknowns_);
     for (int round = 0; round < kRounds; ++round) {
       huber_ = round < kHuberRounds;
-      Eigen::MatrixXd normal = PriorMatrix();
-      Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_);
       UpdateScale();
-      for (const Distance& d : distances_) {
-        const Eigen::VectorXd row = RowOf(d);
-        const double weight = WeightOf(d);
-        normal += weight * row * row.transpose();
-        right -= weight * d.value_m * row;
-      }
-      inverse_ = normal.inverse();
-      answer_ = inverse_ * right;
+      equations_ = {PriorMatrix(), Eigen::VectorXd::Zero(unknowns_)};
+      for (const Distance& d : distances_) equations_ += Weighted(d);
+      inverse_ = equations_.matrix.inverse();
+      answer_ = inverse_ * equations_.right;
     }
     UpdateScale();
   }
 
   Row drift() const { return answer_.head<PlateCheck::kUnknowns>(); }
-  Eigen::Matrix<double, PlateCheck::kUnknowns, PlateCheck::kUnknowns> covariance() const {
-    return scale_ * scale_ * inverse_.topLeftCorner<PlateCheck::kUnknowns, PlateCheck::kUnknowns>();
+  /// What the cells' scatter says, and what answers without one part of a plane each do: where a
+  /// plane is none (stones side by side, a bent wall) its cells are not off at random.
+  DriftMatrix covariance() const {
+    DriftMatrix covariance =
+        scale_ * scale_ * inverse_.topLeftCorner<PlateCheck::kUnknowns, PlateCheck::kUnknowns>();
+    std::vector<Equations> parts;
+    for (const Distance& d : distances_) {
+      const std::size_t part = kParts * d.plane + d.part;
+      while (parts.size() <= part)
+        parts.push_back(
+            {Eigen::MatrixXd::Zero(unknowns_, unknowns_), Eigen::VectorXd::Zero(unknowns_)});
+      parts[part] += Weighted(d);
+    }
+    for (const Equations& part : parts) {
+      const Eigen::VectorXd without =
+          (equations_.matrix - part.matrix).ldlt().solve(equations_.right - part.right);
+      const Row change = (without - answer_).head<PlateCheck::kUnknowns>();
+      covariance += (kParts - 1.0) / kParts * change * change.transpose();
+    }
+    return covariance;
   }
   double Rms() const {
     double squares = 0.0;
@@ -102,6 +139,21 @@ class PlaneAdjustment {
   }
 
  private:
+  struct Equations {
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd right;
+
+    void operator+=(const Equations& other) {
+      matrix += other.matrix;
+      right += other.right;
+    }
+  };
+
+  Equations Weighted(const Distance& d) const {
+    const Eigen::VectorXd row = RowOf(d);
+    const double weight = WeightOf(d);
+    return {weight * row * row.transpose(), -weight * d.value_m * row};
+  }
   Eigen::VectorXd RowOf(const Distance& d) const {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns_);
     row.head<PlateCheck::kUnknowns>() = d.by_drift;
@@ -147,6 +199,7 @@ class PlaneAdjustment {
   bool huber_ = true;
   Eigen::Index unknowns_;
   Eigen::VectorXd answer_;
+  Equations equations_;
   Eigen::MatrixXd inverse_;
   double scale_ = 1.0;
 };

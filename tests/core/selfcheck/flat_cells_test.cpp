@@ -5,26 +5,50 @@
 
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
+#include "core/selfcheck/check_rig.h"
 #include "core/selfcheck/plate_check.h"
 
 namespace foresight {
 namespace {
 
-/// The range along a ray inside a box about the origin.
+/// What a lidar of the field reads off the true range of a wall of the box.
+struct Misread {
+  double near_end = 0.0;  ///< of the half length of a beam on the wall: 1 = its near end
+  double stones_m = 0.0;  ///< walls of stones half a metre wide, each so much out or in
+};
+
+/// The range along a beam inside a box about the origin, which is 5 by 12 mrad wide.
+/// @param lines_axis the lidar's axis, which its lines are across
 double RangeInBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                  const Eigen::Vector3d& half) {
+                  const Eigen::Vector3d& lines_axis, const Eigen::Vector3d& half,
+                  const Misread& misread) {
   double range = 1e9;
+  int across = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (direction[axis] == 0.0) continue;
     const double wall = direction[axis] > 0.0 ? half[axis] : -half[axis];
-    range = std::min(range, (wall - origin[axis]) / direction[axis]);
+    const double to_wall = (wall - origin[axis]) / direction[axis];
+    if (to_wall >= range) continue;
+    range = to_wall;
+    across = axis;
   }
-  return range;
+  const double cosine = std::abs(direction[across]);
+  const Eigen::Vector3d along_line = lines_axis.cross(direction);
+  const double half_length =
+      0.5 * range / cosine * std::hypot(0.005 * along_line[across], 0.012 * lines_axis[across]);
+  const Eigen::Vector3d at = origin + range * direction;
+  int stone = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != across) stone = 31 * stone + static_cast<int>(std::floor(at[axis] / 0.5));
+  // 7, 13 and 5: no pattern along either axis.
+  const double out =
+      misread.stones_m * ((((stone * 7 + across) % 13 + 13) % 13 * 5) % 13 - 6) / 6.0;
+  return range - misread.near_end * half_length + out / cosine;
 }
 
 /// A sweep up and, where asked for, down again at 20 deg/s in a box of 5 x 2.8 x 6 m, with ranges
 /// in whole millimetres and no other noise.
-Scan ScanOfBox(const SensorRig& true_rig, bool up_and_down) {
+Scan ScanOfBox(const SensorRig& true_rig, bool up_and_down, const Misread& misread = {}) {
   const Eigen::Vector3d half(2.5, 1.4, 3.0);
   constexpr double kSpeed_rad_s = 0.349, kPass_s = 3.0, kTurn_s = 0.2;
   const auto motor_at = [&](double time_s) {
@@ -48,7 +72,8 @@ Scan ScanOfBox(const SensorRig& true_rig, bool up_and_down) {
       const auto base_from_lidar = true_rig.BaseFromHead(motor_rad) * head_from_lidar;
       const double range =
           RangeInBox(base_from_lidar.translation(),
-                     base_from_lidar.Rotate(true_rig.lidar.BeamDirection(beam)), half) -
+                     base_from_lidar.Rotate(true_rig.lidar.BeamDirection(beam)),
+                     base_from_lidar.Rotate(Eigen::Vector3d::UnitZ()), half, misread) -
           true_rig.lidar.range_offset_m;
       line.range_mm.push_back(static_cast<std::uint16_t>(1000.0 * range + 0.5));
     }
@@ -82,6 +107,23 @@ TEST(PlateCheck, FindsNothingWhereNothingDrifted) {
   EXPECT_LT(std::abs(check->drift[PlateCheck::kTurnY]), RadiansFromDegrees(0.02));
   EXPECT_LT(std::abs(check->drift[PlateCheck::kTurnZ]), RadiansFromDegrees(0.02));
   EXPECT_LT(std::abs(check->drift[PlateCheck::kStamp]), 2e-4);
+}
+
+TEST(PlateCheck, RangesThatReadTheNearEndOfABeamAreNoTurn) {
+  const auto check = Check(ScanOfBox(DefaultSensorRig(), true, {.near_end = 0.6}));
+  ASSERT_TRUE(check) << check.error().message;
+  EXPECT_NEAR(check->drift[PlateCheck::kTurnY], 0.0, RadiansFromDegrees(0.03));
+  EXPECT_NEAR(check->drift[PlateCheck::kTurnZ], 0.0, RadiansFromDegrees(0.03));
+  EXPECT_NEAR(check->drift[PlateCheck::kNearEnd], 0.6, 0.1);
+}
+
+TEST(PlateCheck, WallsOfStonesDoNotTellATurn) {
+  const auto check = Check(ScanOfBox(DefaultSensorRig(), true, {.stones_m = 0.012}));
+  ASSERT_TRUE(check) << check.error().message;
+  // 600 patches scatter little; that stones are off as a whole shows when some are left out.
+  const RigCheckLimits limits;
+  for (const auto turn : {PlateCheck::kTurnY, PlateCheck::kTurnZ})
+    EXPECT_GT(limits.seen_sigmas * check->Sigma(turn), limits.lidar_turn_rad);
 }
 
 TEST(PlateCheck, FindsATurnOfTheLidarAboutEachAxisButTheMotors) {
