@@ -202,11 +202,11 @@ class EdgeMatcher {
 };
 
 /// @param to_far from the near to the far surface, along the line, px
-/// @param along along the edge, px
+/// @param along along the edge, px; zero = across the line
 ImageEdge InImage(std::size_t image, const Eigen::Vector3d& point, const Eigen::Vector2d& to_far,
                   const Eigen::Vector2d& along, int edge_class) {
-  ImageEdge edge{image, point, Eigen::Vector2d(-along.y(), along.x()).normalized(), Outward::Zero(),
-                 0};
+  const Eigen::Vector2d across = along.isZero() ? to_far : Eigen::Vector2d(-along.y(), along.x());
+  ImageEdge edge{image, point, across.normalized(), Outward::Zero(), 0};
   if (edge.outward.dot(to_far) < 0.0) edge.outward *= -1.0;
   // A beam reaches over an upright edge by half of its width, over a level one by half its height.
   const double upright = std::min(1.0, edge.outward.dot(to_far.normalized()));
@@ -233,7 +233,6 @@ std::vector<ImageEdge> EdgesInImages(const Scan& scan, const std::vector<DepthEd
           !(pixel->x() < scan.rig.camera.width - margin) ||
           !(pixel->y() < scan.rig.camera.height - margin))
         continue;
-      if (edge.along.isZero()) continue;  // which way it runs is not known
       seen.push_back(InImage(f, point, *beyond - *pixel, *further - *pixel,
                              edge.jump_m > options.merge_m ? 1 : 0));
       azimuths.push_back(std::atan2(edge.point.x(), edge.point.z()));

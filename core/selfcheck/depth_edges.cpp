@@ -18,7 +18,9 @@ class EdgeFinder {
       for (int beam = 1; beam + 2 < cloud_.beams; ++beam) Try(line, beam);
     }
     first_of_line_.push_back(edges_.size());
+    if (!options_.on_several_lines) return std::move(edges_);
     for (std::size_t i = 0; i < edges_.size(); ++i) edges_[i].along = Along(i);
+    std::erase_if(edges_, [](const DepthEdge& edge) { return edge.along.isZero(); });
     return std::move(edges_);
   }
 
@@ -112,6 +114,7 @@ DepthEdgeOptions DepthEdgeOptions::OfImported() {
   options.least_jump_of_range = 0.02;
   options.least_jump_of_slope = 2.0;
   options.near_alone = true;
+  options.on_several_lines = false;
   return options;
 }
 

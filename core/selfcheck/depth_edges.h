@@ -12,7 +12,7 @@ struct DepthEdge {
   Eigen::Vector3d point;   ///< half a step beyond the last return of the near surface, in base
   Eigen::Vector3d across;  ///< a step from the near to the far surface, in base, metres
   /// From where the same surface ends on the lines before to where it does on the lines after, in
-  /// base, metres; zero where no neighbouring line shows it.
+  /// base, metres; zero where it was not asked for.
   Eigen::Vector3d along;
   double jump_m = 0.0;
 };
@@ -24,6 +24,9 @@ struct DepthEdgeOptions {
   /// Both sides must be smooth: their own step is less than the jump by this factor.
   double least_jump_of_slope = 4.0;
   bool near_alone = false;  ///< only the near side must be smooth: ground and bushes lie behind
+  /// Only edges that run on over neighbouring lines, each with its direction. Beams that are narrow
+  /// do not need it: their edges lie where they are, whichever way these run.
+  bool on_several_lines = true;
 
   /// For other lidars, whose beams are narrow and reach far.
   static DepthEdgeOptions OfImported();

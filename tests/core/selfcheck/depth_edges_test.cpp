@@ -57,9 +57,7 @@ TEST(FindDepthEdges, SaysWhichWayAnEdgeRuns) {
     EXPECT_NEAR(edge.along.x() / edge.along.y(), 0.5, 0.02);  // a beam, 0.005, a line, 0.01
   RegisteredScan alone = SlantingEnd();
   alone.lines = 1;
-  const auto edge = FindDepthEdges(alone, DepthEdgeOptions());
-  ASSERT_EQ(edge.size(), 1u);
-  EXPECT_TRUE(edge[0].along.isZero()) << "no other line shows it";
+  EXPECT_TRUE(FindDepthEdges(alone, DepthEdgeOptions()).empty()) << "no other line shows it";
 }
 
 }  // namespace
