@@ -113,7 +113,7 @@ class PlaneAdjustment {
   Row drift() const { return answer_.head<PlateCheck::kUnknowns>(); }
   /// What the cells' scatter says, and what answers without one part of a plane each do: where a
   /// plane is none (stones side by side, a bent wall) its cells are not off at random.
-  DriftMatrix covariance() const {
+  DriftMatrix Covariance() const {
     DriftMatrix covariance =
         scale_ * scale_ * inverse_.topLeftCorner<PlateCheck::kUnknowns, PlateCheck::kUnknowns>();
     std::vector<Equations> parts;
@@ -233,7 +233,7 @@ Result<PlateCheck> CheckPlate(const Scan& scan, const RegisteredScan& cloud,
   PlaneAdjustment adjustment(distances, planes.size(), check.up_and_down, options);
   adjustment.Solve();
   check.drift = adjustment.drift();
-  check.covariance = adjustment.covariance();
+  check.covariance = adjustment.Covariance();
   if (!check.up_and_down) {
     check.drift[PlateCheck::kStamp] = 0.0;
     check.covariance(PlateCheck::kStamp, PlateCheck::kStamp) =
