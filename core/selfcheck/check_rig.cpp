@@ -83,7 +83,11 @@ class Judge {
 
   bool FitsBetter(const CameraCheck& camera) const {
     return camera.gain_sigmas >= limits_.least_gain_sigmas &&
-           camera.GainOfContrast() * std::sqrt(camera.scans) >= limits_.least_gain_of_contrast;
+           camera.GainOfContrast() >= LeastGainOfContrast();
+  }
+
+  double LeastGainOfContrast() const {
+    return limits_.least_gain_of_contrast / std::sqrt(check_.camera->scans);
   }
 
   void JudgeLidar() {
@@ -170,8 +174,24 @@ class Judge {
   void SayNotSeen(const std::string& start, const char* hint) {
     for (const RigFinding& finding : check_.findings)
       if (finding.state == State::kNotSeen && finding.name.starts_with(start))
-        check_.cannot_see.push_back(
-            fmt::format("{}: {}; {}", finding.in_words, AmountInWords(finding), hint));
+        check_.cannot_see.push_back(fmt::format("{}: {}; {}", finding.in_words,
+                                                AmountInWords(finding),
+                                                IsDoubted(finding) ? WhyItIsDoubted() : hint));
+  }
+
+  /// Measured well enough and more than the limit, and still not believed.
+  bool IsDoubted(const RigFinding& finding) const {
+    return StateOf(finding, limits_.sigmas, limits_.seen_sigmas) == State::kDrifted;
+  }
+
+  std::string WhyItIsDoubted() const {
+    const CameraCheck& camera = *check_.camera;
+    return fmt::format(
+        "with it the edges stand out by {:.0f} % more, {:.1f} deviations, where {:.0f} % and "
+        "{:.1f} "
+        "are believed; several scans together show it",
+        100.0 * camera.GainOfContrast(), camera.gain_sigmas, 100.0 * LeastGainOfContrast(),
+        limits_.least_gain_sigmas);
   }
 
   const SensorRig& rig_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace foresight {
 namespace {
@@ -67,7 +68,7 @@ class EdgeFinder {
     return edges_[Followed(edge, 1)].point - edges_[Followed(edge, -1)].point;
   }
 
-  /// The edge of the same surface some lines on; the edge itself where there is none.
+  /// The edge of the same surface two lines on, or one; the edge itself where there is none.
   std::size_t Followed(std::size_t edge, int line_step) const {
     constexpr int kLines = 2;
     for (int i = 0; i < kLines; ++i) {
@@ -87,15 +88,22 @@ class EdgeFinder {
     std::optional<std::size_t> nearest;
     int least = kMostBeams + 1;
     const double range = Range(place.line, place.beam);
-    for (std::size_t i = first_of_line_[static_cast<std::size_t>(line)];
-         i < first_of_line_[static_cast<std::size_t>(line) + 1]; ++i) {
-      const Place& other = places_[i];
+    // A line's edges are in the order of their beams.
+    const auto of_line =
+        std::span(places_).subspan(first_of_line_[static_cast<std::size_t>(line)],
+                                   first_of_line_[static_cast<std::size_t>(line) + 1] -
+                                       first_of_line_[static_cast<std::size_t>(line)]);
+    const auto first = std::partition_point(of_line.begin(), of_line.end(), [&](const Place& p) {
+      return p.beam < place.beam - kMostBeams;
+    });
+    for (auto at = first; at != of_line.end() && at->beam <= place.beam + kMostBeams; ++at) {
+      const Place& other = *at;
       const int beams = std::abs(other.beam - place.beam);
       if (other.outward != place.outward || beams >= least ||
           !(std::abs(Range(line, other.beam) - range) < kMostApart * range))
         continue;
       least = beams;
-      nearest = i;
+      nearest = static_cast<std::size_t>(&other - places_.data());
     }
     return nearest;
   }

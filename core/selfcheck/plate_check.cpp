@@ -47,8 +47,9 @@ Row ByDrift(const FlatCell& cell, const Eigen::Vector3d& normal, const Eigen::Ve
 
 constexpr int kStrips = 3, kParts = 2 * kStrips;
 
-/// Parts a plane into strips of as many cells each, and each strip across into two.
-void Part(std::span<Distance> plane) {
+/// Numbers the parts of a plane: strips of as many cells each, and each strip across in two. Puts
+/// the cells into their order.
+void NumberParts(std::span<Distance> plane) {
   const auto split = [](std::span<Distance> some, int axis, int parts, const auto& use) {
     std::sort(some.begin(), some.end(), [axis](const Distance& a, const Distance& b) {
       return a.by_plane[axis] < b.by_plane[axis];
@@ -83,7 +84,7 @@ std::vector<Distance> DistancesOf(const std::vector<FlatCell>& cells,
            std::hypot(cell.rms_m / std::sqrt(cell.points), options.floor_m), by_drift,
            Eigen::Vector4d(off.dot(first), off.dot(second), 1.0, by_drift[PlateCheck::kRange])});
     }
-    Part(std::span(distances).subspan(begin));
+    NumberParts(std::span(distances).subspan(begin));
   }
   return distances;
 }

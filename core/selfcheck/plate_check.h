@@ -29,8 +29,9 @@ struct PlateCheck {
   enum Unknown { kTurnY, kTurnZ, kShiftY, kShiftZ, kRange, kNearEnd, kStamp, kUnknowns };
 
   /// Of the lidar on the plate, about and along the head's axes, the turn about the lidar's own
-  /// origin (rad, m); of its ranges (m); of its stamps (s). Turn and shift about and along x, the
-  /// motor's axis, are not among them: they move all planes alike.
+  /// origin (rad, m); of its ranges (m); how near to the near end of a beam's spot they are read
+  /// (of the spot's half length); of its stamps (s). Turn and shift about and along x, the motor's
+  /// axis, are not among them: they move all planes alike.
   Eigen::Matrix<double, kUnknowns, 1> drift;
   Eigen::Matrix<double, kUnknowns, kUnknowns> covariance;
   bool up_and_down = false;  ///< else the stamps stay what they are, with an infinite sigma

@@ -43,7 +43,7 @@ TEST(CheckRig, IsQuietAboutAGoodRig) {
   EXPECT_TRUE(Outcome("none").check.SawAnything());
 }
 
-TEST(CheckRig, FindsATurnOfTheCameraAboutEachAxis) {
+TEST(CheckRig, MeasuresATurnOfTheCameraAboutEachAxisAndFindsItButForTheMotors) {
   for (const char axis : {'x', 'y', 'z'}) {
     const CheckOutcome& outcome = Outcome(fmt::format("camera turn {}", axis));
     const RigFinding& finding = Finding(outcome, fmt::format("camera turn {}", axis));
@@ -56,7 +56,7 @@ TEST(CheckRig, FindsATurnOfTheCameraAboutEachAxis) {
   }
 }
 
-TEST(CheckRig, FindsATurnOfTheLidarAboutEachAxis) {
+TEST(CheckRig, FindsATurnOfTheLidarAboutEachAxisButTheMotors) {
   for (const char axis : {'x', 'z'})
     EXPECT_TRUE(Outcome(fmt::format("lidar turn {}", axis)).check.Drifted()) << axis;
   // The motor's axis, which planes do not show, and of which one scan's edges are not sure.

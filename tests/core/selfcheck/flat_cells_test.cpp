@@ -17,7 +17,7 @@ struct Misread {
   double stones_m = 0.0;  ///< walls of stones half a metre wide, each so much out or in
 };
 
-/// The range along a beam inside a box about the origin, which is 5 by 12 mrad wide.
+/// The range along a beam inside a box about the origin. The beam is 5 mrad wide and 12 high.
 /// @param lines_axis the lidar's axis, which its lines are across
 double RangeInBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                   const Eigen::Vector3d& lines_axis, const Eigen::Vector3d& half,
