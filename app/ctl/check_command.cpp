@@ -5,11 +5,9 @@
 #include "app/ctl/open_scan.h"
 #include "app/ctl/scan_check_report.h"
 #include "core/geometry/angles.h"
-#include "core/mission/kept_check.h"
+#include "core/mission/gather_checks.h"
 #include "core/mission/side_result.h"
 #include "core/registration/register_scan.h"
-#include "core/selfcheck/gather_rig.h"
-#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -26,8 +24,9 @@ struct CheckArguments {
 /// A scan that was checked.
 struct CheckedScan {
   std::int64_t id = 0;
-  Scan scan;  ///< its rig is the one that was checked
+  SensorRig rig;  ///< that was checked
   ScanCheck check;
+  KeptCheck kept;  ///< the same, as it is kept
 };
 
 /// The image that was asked for; nullptr where the scan has none.
@@ -51,13 +50,10 @@ class MissionChecker {
     return {};
   }
 
-  const ScanCheckOptions& options() const { return options_; }
-
   Result<CheckedScan> Check(std::int64_t id, const RunContext& context) const {
     CheckedScan checked;
     checked.id = id;
-    FORESIGHT_TRY(checked.scan, mission_.LoadScan(id));
-    Scan& scan = checked.scan;
+    FORESIGHT_TRY(Scan scan, mission_.LoadScan(id));
     std::vector<std::string> left_out;
     std::vector<KeptObject> objects;
     if (!arguments_.no_objects && !rig_) {
@@ -71,6 +67,8 @@ class MissionChecker {
                                            options_, context.Part(0.1, 1.0)));
     checked.check.cannot_see.insert(checked.check.cannot_see.end(), left_out.begin(),
                                     left_out.end());
+    checked.kept = NewKeptCheck(scan, checked.check, options_);
+    checked.rig = std::move(scan.rig);
     return checked;
   }
 
@@ -82,60 +80,56 @@ class MissionChecker {
   std::optional<SensorRig> rig_;
 };
 
-nlohmann::ordered_json ScanJson(const CheckedScan& checked, const ScanCheckOptions& options) {
-  auto json = nlohmann::ordered_json::parse(ScanCheckToJson(checked.check, checked.scan, options));
+nlohmann::ordered_json ScanJson(const CheckedScan& checked) {
+  auto json = nlohmann::ordered_json::parse(checked.kept.answer_json);
   json["scan"] = checked.id;
   json["seconds"] = checked.check.seconds;
   return json;
 }
 
-/// The scans of the last scan's rig together; nothing where there is one alone.
-std::optional<ScanCheck> Gathered(const std::vector<CheckedScan>& all) {
-  std::vector<RigCheck> rigs;
-  if (all.empty()) return std::nullopt;
-  const SensorRig& rig = all.back().scan.rig;
-  for (const CheckedScan& checked : all)
-    if (RigId(checked.scan.rig) == RigId(rig)) rigs.push_back(checked.check.rig);
-  if (rigs.size() < 2) return std::nullopt;
-  return JudgeScan(rig, Fail(ErrorCode::kTooFewPoints, "each scan has its own"),
-                   GatherRig(rigs, rig, RigCheckLimits()), {});
+nlohmann::ordered_json GatheredJson(const GatheredCheck& gathered) {
+  auto json = nlohmann::ordered_json::parse(ScanCheckToJson(gathered.check, Scan(), {}));
+  for (const char* of_one : {"scan_uuid", "rig_id", "depth", "depth_options", "objects"})
+    json.erase(of_one);
+  json["scans"] = gathered.scans;
+  return json;
 }
 
-Status Keep(const std::string& mission, const std::vector<CheckedScan>& all,
-            const ScanCheckOptions& options) {
+/// The scans of the last scan's rig together; nothing where there is one alone.
+std::optional<GatheredCheck> Gathered(const std::vector<CheckedScan>& all) {
+  if (all.empty()) return std::nullopt;
+  std::vector<KeptCheck> kept;
+  for (const CheckedScan& checked : all) kept.push_back(checked.kept);
+  return GatherChecks(kept, all.back().rig);
+}
+
+Status Keep(const std::string& mission, const std::vector<CheckedScan>& all) {
   FORESIGHT_TRY(const auto review, MissionFile::OpenReviewOf(mission));
   for (const CheckedScan& checked : all)
-    FORESIGHT_CHECK(KeepScanCheck(*review, checked.scan, checked.check, options));
+    FORESIGHT_CHECK(AddScanCheck(*review, checked.kept));
   return review->Close();
 }
 
 void Print(const CheckArguments& arguments, const std::vector<CheckedScan>& all,
-           const std::optional<ScanCheck>& gathered, const ScanCheckOptions& options) {
+           const std::optional<GatheredCheck>& gathered) {
   if (arguments.json) {
     auto scans = nlohmann::ordered_json::array();
-    for (const CheckedScan& checked : all) scans.push_back(ScanJson(checked, options));
+    for (const CheckedScan& checked : all) scans.push_back(ScanJson(checked));
     nlohmann::ordered_json json = {{"mission", arguments.scan.mission}, {"scans", scans}};
-    if (gathered) {
-      json["gathered"] =
-          nlohmann::ordered_json::parse(ScanCheckToJson(*gathered, all.back().scan, options));
-      for (const char* of_one : {"scan_uuid", "depth", "depth_options", "objects"})
-        json["gathered"].erase(of_one);
-    }
+    if (gathered) json["gathered"] = GatheredJson(*gathered);
     PrintJson(json);
     return;
   }
   for (const CheckedScan& checked : all)
     PrintLine(fmt::format("scan {}, {:.1f} s\n{}", checked.id, checked.check.seconds,
                           ScanCheckText(checked.check)));
-  if (!gathered) return;
-  ScanCheck shown = *gathered;
-  std::erase_if(shown.cannot_see,
-                [](const std::string& sentence) { return sentence.starts_with("depth: "); });
-  PrintLine(fmt::format("all {} scans together\n{}", all.size(), ScanCheckText(shown)));
+  if (gathered)
+    PrintLine(fmt::format("{} scans together\n{}", gathered->scans,
+                          ScanCheckText(gathered->check)));
 }
 
-CheckLight Gravest(const std::vector<CheckedScan>& all, const std::optional<ScanCheck>& gathered) {
-  CheckLight light = gathered ? gathered->light : CheckLight::kNotSeen;
+CheckLight Gravest(const std::vector<CheckedScan>& all, const std::optional<GatheredCheck>& gathered) {
+  CheckLight light = gathered ? gathered->check.light : CheckLight::kNotSeen;
   for (const CheckedScan& checked : all) light = std::max(light, checked.check.light);
   return light;
 }
@@ -168,9 +162,9 @@ Result<ExitCode> Check(const CheckArguments& arguments, const RunContext& contex
     }
     all.push_back(std::move(*checked));
   }
-  const std::optional<ScanCheck> gathered = Gathered(all);
-  Print(arguments, all, gathered, checker.options());
-  if (arguments.keep) FORESIGHT_CHECK(Keep(path, all, checker.options()));
+  const std::optional<GatheredCheck> gathered = Gathered(all);
+  Print(arguments, all, gathered);
+  if (arguments.keep) FORESIGHT_CHECK(Keep(path, all));
   const CheckLight light = Gravest(all, gathered);
   if (light == CheckLight::kNotSeen)
     return Fail(ErrorCode::kInvalidInput,

@@ -20,6 +20,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
                    &review.session),
       search(&reviewer, &tasks, RecordingViewModel::DefaultFolder()),
       side_results(&reviewer, &review.session, &review.depth, &review.fit, &review.compare),
+      live_check(&recording, &live.session, &live.check),
       review_check(&reviewer, &review.session, &review.check),
       flow(&head, &live.session),
       live_depth(&head, &live.session),
@@ -34,7 +35,6 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
   connect(&live.depth, &DepthViewModel::computed, &recording, &RecordingViewModel::keepDepth);
   connect(&live.depth, &DepthViewModel::computed, &tasks, &TaskQueue::GiveMemoryBack);
   live.check.SetAutomatic(true);
-  connect(&live.check, &ScanCheckModel::checked, &recording, &RecordingViewModel::keepCheck);
   connect(&recording, &RecordingViewModel::allWritten, this,
           [this] { log.close(kRecordingTopic); });
   connect(&recording, &RecordingViewModel::interruptedTaken, this,

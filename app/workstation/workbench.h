@@ -12,6 +12,7 @@
 #include "ui/viewmodels/head_view_model.h"
 #include "ui/viewmodels/import_view_model.h"
 #include "ui/viewmodels/link_view_model.h"
+#include "ui/viewmodels/live_check_flow.h"
 #include "ui/viewmodels/live_depth_view_model.h"
 #include "ui/viewmodels/log_model.h"
 #include "ui/viewmodels/mission_search_model.h"
@@ -51,6 +52,7 @@ class Workbench : public QObject {
   LiveDepthViewModel replay_depth;
   MissionSearchModel search;
   SideResultsModel side_results;
+  LiveCheckFlow live_check;
   ReviewCheckFlow review_check;
   ScanFlow flow;
   LiveDepthViewModel live_depth;

@@ -1,6 +1,7 @@
 #include "core/mission/kept_check.h"
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/version.h"
@@ -11,6 +12,7 @@
 #include "core/mission/new_records.h"
 #include "core/mission/provenance.h"
 #include "core/mission/record_events.h"
+#include "core/mission/rig_check_json.h"
 #include "core/sensor/rig_id.h"
 
 namespace foresight {
@@ -70,31 +72,6 @@ OrderedJson DepthJson(const DepthCheck& depth) {
       {"not_counted", depth.not_counted}};
 }
 
-OrderedJson RigJson(const RigCheck& rig) {
-  OrderedJson findings = OrderedJson::array();
-  for (const RigFinding& finding : rig.findings)
-    findings.push_back({{"name", finding.name},
-                        {"state", ToString(finding.state)},
-                        {"value", Finite(finding.value)},
-                        {"sigma", Finite(finding.sigma)},
-                        {"limit", Finite(finding.limit)},
-                        {"unit", finding.unit}});
-  OrderedJson json = {{"findings", findings}, {"drifted", rig.drifted}};
-  if (rig.camera)
-    json["camera"] = {{"depth_edges", rig.camera->edges},
-                      {"images", rig.camera->images},
-                      {"score", rig.camera->score},
-                      {"score_before", rig.camera->score_before},
-                      {"score_aside", rig.camera->score_aside},
-                      {"gain_sigmas", rig.camera->gain_sigmas}};
-  if (rig.plate)
-    json["plate"] = {{"planes", rig.plate->planes},
-                     {"cells", rig.plate->cells},
-                     {"up_and_down", rig.plate->up_and_down},
-                     {"residual_m", rig.plate->residual_m}};
-  return json;
-}
-
 OrderedJson ObjectJson(const HalfFits& object) {
   OrderedJson differences = OrderedJson::array();
   for (const HalvesDifference& difference : object.differences)
@@ -117,9 +94,11 @@ CheckLight LightFrom(const std::string& name) {
   throw std::invalid_argument(fmt::format("'{}' is no light of a check", name));
 }
 
-/// Takes out of the answer what a lamp shows.
+/// Takes out of the answer what a lamp shows and what is gathered.
 void ReadAnswer(KeptCheck& check) {
   const nlohmann::json answer = ParseJson(check.answer_json);
+  answer.at("rig_id").get_to(check.rig_id);
+  check.rig = RigMeasurementsFromJson(answer.at("rig"));
   check.light = LightFrom(answer.at("light").get<std::string>());
   answer.at("advice").get_to(check.advice);
   answer.at("cannot_see").get_to(check.cannot_see);
@@ -183,7 +162,7 @@ std::string ScanCheckToJson(const ScanCheck& check, const Scan& scan,
                           {"cannot_see", check.cannot_see},
                           {"depth_options", OrderedJson::parse(DepthOptionsToJson(options.depth))},
                           {"depth", check.depth ? DepthJson(*check.depth) : OrderedJson(nullptr)},
-                          {"rig", RigJson(check.rig)},
+                          {"rig", OrderedJson::parse(RigCheckToJson(check.rig))},
                           {"objects", objects}});
 }
 
@@ -209,36 +188,31 @@ Status AddScanCheck(MissionFile& file, const KeptCheck& check) {
   return {};
 }
 
-Result<KeptCheck> KeepScanCheck(MissionFile& file, const Scan& scan, const ScanCheck& check,
-                                const ScanCheckOptions& options) {
-  const KeptCheck kept = NewKeptCheck(scan, check, options);
-  FORESIGHT_CHECK(AddScanCheck(file, kept));
-  return kept;
-}
-
-Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file,
-                                              const std::string& scan_uuid) {
+Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file) {
   std::vector<KeptCheck> checks;
   FORESIGHT_CHECK(ReadRecordEvents(
       file, "self-check", [](const EventRecord& event) { return event.source == kEventSource; },
-      [&](const EventRecord& event) {
-        KeptCheck check = KeptCheckFrom(event);
-        if (scan_uuid.empty() || check.scan_uuid == scan_uuid) checks.push_back(std::move(check));
-      }));
+      [&](const EventRecord& event) { checks.push_back(KeptCheckFrom(event)); }));
   return checks;
 }
 
-Result<std::optional<KeptCheck>> LastScanCheck(const MissionFile& mission,
-                                               const MissionFile* review,
-                                               const std::string& scan_uuid) {
-  std::optional<KeptCheck> last;
+Result<std::vector<KeptCheck>> NewestScanChecks(const MissionFile& mission,
+                                                const MissionFile* review) {
+  std::map<std::string, KeptCheck> newest;
   for (const MissionFile* file : {&mission, review}) {
     if (file == nullptr) continue;
-    FORESIGHT_TRY(std::vector<KeptCheck> checks, ListScanChecks(*file, scan_uuid));
-    for (KeptCheck& check : checks)
-      if (!last || check.utc_ns >= last->utc_ns) last = std::move(check);
+    FORESIGHT_TRY(std::vector<KeptCheck> checks, ListScanChecks(*file));
+    for (KeptCheck& check : checks) {
+      const auto found = newest.find(check.scan_uuid);
+      if (found == newest.end())
+        newest.emplace(check.scan_uuid, std::move(check));
+      else if (check.utc_ns >= found->second.utc_ns)
+        found->second = std::move(check);
+    }
   }
-  return last;
+  std::vector<KeptCheck> checks;
+  for (auto& [uuid, check] : newest) checks.push_back(std::move(check));
+  return checks;
 }
 
 std::vector<KeptObject> AcceptedObjects(const Scan& scan,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,10 @@ struct KeptCheck {
   std::string author;
   std::int64_t utc_ns = 0;
   std::string answer_json;  ///< ScanCheckToJson, bit for bit
+
+  // Of the answer: what is gathered over scans (core/mission/gather_checks.h).
+  std::string rig_id;  ///< of the rig that was checked
+  RigCheck rig;        ///< its measurements alone, RigMeasurementsFromJson
 
   // Of the answer: what a lamp shows.
   CheckLight light = CheckLight::kNotSeen;
@@ -35,19 +38,13 @@ KeptCheck NewKeptCheck(const Scan& scan, const ScanCheck& check, const ScanCheck
 /// MissionFile::AddEvent.
 Status AddScanCheck(MissionFile& file, const KeptCheck& check);
 
-/// NewKeptCheck, then AddScanCheck.
-Result<KeptCheck> KeepScanCheck(MissionFile& file, const Scan& scan, const ScanCheck& check,
-                                const ScanCheckOptions& options);
+/// All that were kept, the oldest first. Fails with kBadData, naming the event at fault.
+Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file);
 
-/// Of one scan, or of all, the oldest first. Fails with kBadData, naming the event at fault.
-Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file,
-                                              const std::string& scan_uuid = {});
-
-/// The newest check of a scan in its mission and the review beside it, which may be nullptr; none
-/// where it was not checked. Fails as ListScanChecks does.
-Result<std::optional<KeptCheck>> LastScanCheck(const MissionFile& mission,
-                                               const MissionFile* review,
-                                               const std::string& scan_uuid);
+/// The newest check of each scan in a mission and the review beside it, which may be nullptr. Fails
+/// as ListScanChecks does.
+Result<std::vector<KeptCheck>> NewestScanChecks(const MissionFile& mission,
+                                                const MissionFile* review);
 
 /// What was accepted in a scan, ready to be made again: detections that are not deleted, with a
 /// provenance that names this scan's rig. `left_out` gets a sentence for each that cannot be made

@@ -75,11 +75,20 @@ struct CheckLampWindow : testing::Test {
   static std::string LampText() {
     return Lamp()->findChild<QuietLabel*>(QStringLiteral("checkSentence"))->Text().toStdString();
   }
-  /// The scan as it was, as a head brings it home whose camera was knocked by 0.45 deg to the right
-  /// since its calibration. It is recorded.
-  static void ShowScanOfAKnockedHead() {
+  /// The scan on the screen once more, as another scan that is recorded.
+  static std::shared_ptr<Scan> AnotherScan() {
     auto scan = std::make_shared<Scan>(*running->bench().live.session.CurrentScan());
     scan->uuid = NewUuid();
+    return scan;
+  }
+  static void Record(const std::shared_ptr<Scan>& scan) {
+    running->bench().recording.keepScan(scan);
+    running->bench().live.session.SetScan(scan);
+  }
+  /// The scan as it was, as a head brings it home whose camera was knocked by 0.45 deg to the right
+  /// since its calibration.
+  static void ShowScanOfAKnockedHead() {
+    const auto scan = AnotherScan();
     const Eigen::Quaterniond turn =
         RotationExp(Eigen::Vector3d(0.0, RadiansFromDegrees(0.45), 0.0));
     SensorRig& rig = scan->rig;
@@ -87,8 +96,7 @@ struct CheckLampWindow : testing::Test {
                             turn * rig.camera_from_head.translation()};
     rig.camera_from_lidar = {turn * rig.camera_from_lidar.rotation(),
                              turn * rig.camera_from_lidar.translation()};
-    running->bench().recording.keepScan(scan);
-    running->bench().live.session.SetScan(scan);
+    Record(scan);
   }
   static void SavePicture(const char* name) {
     running->window().grab().save(QCoreApplication::applicationDirPath() +
@@ -106,8 +114,7 @@ TEST_F(CheckLampWindow, AGoodScanIsCheckedByItselfAndKeptAndTakesNoFocus) {
   EXPECT_GT(LampFraction(kGreen), 0.05);
   EXPECT_LT(LampFraction(kAmber), 0.01);
   EXPECT_THAT(LampText(), HasSubstr("othing to do"));
-  const auto kept = ListScanChecks(*running->bench().recording.File(),
-                                   running->bench().live.session.CurrentScan()->uuid);
+  const auto kept = ListScanChecks(*running->bench().recording.File());
   ASSERT_TRUE(kept) << kept.error().message;
   ASSERT_EQ(kept->size(), 1u);
   EXPECT_EQ(kept->front().answer_json, Live().Check()->answer_json);
@@ -147,6 +154,32 @@ TEST_F(CheckLampWindow, AKnockedCameraIsAmberAndAClickSaysMoreAndTheReviewShowsI
   SavePicture("seen_check_review");
   running->bench().backToLive();
   running->Settle();
+}
+
+TEST_F(CheckLampWindow, TwoScansOfAHeadSpeakTogetherAndTheMissionKnowsThemWhenItIsContinued) {
+  if (Live().Light() != CheckLight::kAmber) ShowScanOfAKnockedHead();
+  ASSERT_TRUE(WaitForCheck(Live()));
+  Record(AnotherScan());
+  ASSERT_TRUE(WaitForCheck(Live()));
+  ASSERT_NE(Live().Together(), nullptr);
+  EXPECT_EQ(Live().Together()->scans, 2);
+  EXPECT_EQ(Live().Together()->check.light, CheckLight::kAmber);
+  running->bench().commands.Run("view.check");
+  running->Settle();
+  ASSERT_NE(Panel(), nullptr);
+  const auto* together = Panel()->findChild<QWidget*>(QStringLiteral("checkTogether"));
+  EXPECT_EQ(together->findChildren<QLabel*>(QStringLiteral("checkPoint")).size(), 3)
+      << "camera, lidar and clocks";
+  SavePicture("seen_check_together");
+
+  const int scans = Live().Together()->scans;
+  Live().BeginMission();
+  EXPECT_EQ(Live().Together(), nullptr);
+  const auto kept = NewestScanChecks(*running->bench().recording.File(), nullptr);
+  ASSERT_TRUE(kept) << kept.error().message;
+  Live().AddKept(*kept);
+  ASSERT_NE(Live().Together(), nullptr);
+  EXPECT_EQ(Live().Together()->scans, scans);
 }
 
 TEST_F(CheckLampWindow, ACheckThatIsCancelledSaysSoAndCanBeMadeAgain) {

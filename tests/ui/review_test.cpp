@@ -115,5 +115,46 @@ TEST_F(ReviewTest, ACheckThatWasNeverKeptIsLookedForOnce) {
   EXPECT_EQ(flow.ReadCount(), 2);
 }
 
+/// A scan whose edges say, each alone too weakly, that the camera turned by 0.3 deg.
+KeptCheck WeakCheck(const Scan& scan) {
+  ScanCheck check;
+  check.light = CheckLight::kGood;
+  check.advice = "nothing to do";
+  CameraCheck& camera = check.rig.camera.emplace();
+  camera.turn_rad = {0.0, 0.0052, 0.0};
+  camera.covariance = 3e-6 * Eigen::Matrix3d::Identity();
+  camera.score = 0.5;
+  camera.score_before = 0.4;
+  camera.gain_sigmas = 5.0;
+  camera.edges = 400;
+  return NewKeptCheck(scan, check, {});
+}
+
+TEST_F(ReviewTest, ScansOfAMissionSayTogetherWhatOneDoesNot) {
+  {
+    const auto file = MissionFile::Open(path.toStdString()).value();
+    ASSERT_TRUE(AddScanCheck(*file, WeakCheck(scan)));
+    for (const char* uuid : {"b", "c", "d", "e"}) {
+      Scan other = scan;
+      other.uuid = uuid;
+      ASSERT_TRUE(AddScanCheck(*file, WeakCheck(other)));
+    }
+    ASSERT_TRUE(file->Close());
+  }
+  ScanCheckModel check(&session);
+  ReviewCheckFlow flow(&review, &session, &check);
+  review.Open(path);
+  ASSERT_TRUE(WaitFor([&] { return !review.Busy() && tasks.Idle(); }));
+  ASSERT_NE(check.Check(), nullptr);
+  EXPECT_EQ(check.Check()->light, CheckLight::kGood) << "the scan alone";
+  ASSERT_NE(check.Together(), nullptr);
+  EXPECT_EQ(check.Light(), CheckLight::kAmber);
+  EXPECT_TRUE(check.Sentence().startsWith("5 scans together: image edges lie"))
+      << check.Sentence().toStdString();
+  check.BeginMission();
+  EXPECT_EQ(check.Together(), nullptr);
+  EXPECT_EQ(check.Light(), CheckLight::kGood);
+}
+
 }  // namespace
 }  // namespace foresight

@@ -18,6 +18,8 @@ ScanCheckPanel::ScanCheckPanel(ScanCheckModel* check, QWidget* parent)
       sentence_(WordsLabel("checkAdvice")),
       when_(WordsLabel("faint")),
       points_(new QVBoxLayout),
+      together_title_(SectionTitle({})),
+      together_(new QVBoxLayout),
       cannot_see_title_(SectionTitle(tr("What this scan cannot tell"))),
       cannot_see_(WordsLabel("checkCannotSee")),
       again_(NarrowButton("checkAgain", tr("Check the scan"),
@@ -37,6 +39,8 @@ ScanCheckPanel::ScanCheckPanel(ScanCheckModel* check, QWidget* parent)
   layout->addLayout(buttons);
   points_->setSpacing(6);
   layout->addLayout(points_);
+  layout->addWidget(together_title_);
+  layout->addLayout(together_);
   layout->addWidget(cannot_see_title_);
   layout->addWidget(cannot_see_);
   layout->addStretch(1);
@@ -61,6 +65,16 @@ QWidget* ScanCheckPanel::PointRow(CheckLight light, const std::string& sentence)
   return row;
 }
 
+QWidget* ScanCheckPanel::PointRows(const std::vector<CheckPoint>& points, const char* name) const {
+  auto* list = new QWidget;
+  list->setObjectName(QString::fromLatin1(name));
+  auto* rows = new QVBoxLayout(list);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(6);
+  for (const CheckPoint& point : points) rows->addWidget(PointRow(point.light, point.sentence));
+  return list;
+}
+
 void ScanCheckPanel::Show() {
   const KeptCheck* check = check_->Check();
   sentence_->setText(check_->Sentence());
@@ -72,18 +86,21 @@ void ScanCheckPanel::Show() {
                                     QLocale::ShortFormat),
                  QString::fromStdString(check->author)));
   delete list_;
-  list_ = new QWidget;
-  auto* rows = new QVBoxLayout(list_);
-  rows->setContentsMargins(0, 0, 0, 0);
-  rows->setSpacing(6);
+  delete together_list_;
+  const GatheredCheck* together = check_->Together();
+  using Points = std::vector<CheckPoint>;
+  list_ = PointRows(check != nullptr ? check->points : Points(), "checkPoints");
+  together_list_ =
+      PointRows(together != nullptr ? together->check.points : Points(), "checkTogether");
+  points_->addWidget(list_);
+  together_->addWidget(together_list_);
+  together_title_->setVisible(together != nullptr);
+  if (together != nullptr)
+    together_title_->setText(tr("%1 scans of the mission together").arg(together->scans));
   QStringList cannot_see;
-  if (check != nullptr) {
-    for (const CheckPoint& point : check->points)
-      rows->addWidget(PointRow(point.light, point.sentence));
+  if (check != nullptr)
     for (const std::string& sentence : check->cannot_see)
       cannot_see << QString::fromStdString(sentence);
-  }
-  points_->addWidget(list_);
   cannot_see_title_->setVisible(!cannot_see.isEmpty());
   cannot_see_->setVisible(!cannot_see.isEmpty());
   cannot_see_->setText(cannot_see.join(QStringLiteral("\n\n")));

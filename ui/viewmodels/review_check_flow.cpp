@@ -22,20 +22,23 @@ void ReviewCheckFlow::FindKept() {
   if (asked_for_ == scan->uuid) return;
   asked_for_ = scan->uuid;
   ++read_count_;
-  using Found = std::optional<KeptCheck>;
+  using Found = std::vector<KeptCheck>;
   reader_.Run<Found>(
       tr("Reading the self-check"),
-      [uuid = scan->uuid, mission, folder = ReviewFolder()](const RunContext&) -> Result<Found> {
+      [mission, folder = ReviewFolder()](const RunContext&) -> Result<Found> {
         FORESIGHT_TRY(const auto review, MissionFile::FindReviewOf(mission->path(), folder));
-        return LastScanCheck(*mission, review.get(), uuid);
+        return NewestScanChecks(*mission, review.get());
       },
-      [this](const Result<Found>& found) {
+      [this, uuid = scan->uuid](const Result<Found>& found) {
         if (!found) {
           asked_for_.clear();
           session_->Report(NoticeOf(tr("Reading the self-check"), found.error()));
-        } else if (*found) {
-          check_->ShowKept(**found);
+          return;
         }
+        check_->BeginMission();
+        check_->AddKept(*found);
+        for (const KeptCheck& kept : *found)
+          if (kept.scan_uuid == uuid) check_->ShowKept(kept);
       });
 }
 

@@ -7,8 +7,8 @@
 
 namespace foresight {
 
-/// Brings the check that was kept with a scan to the review's lamp, the newest of the mission and
-/// of its review, and keeps a check that is made meanwhile beside the mission.
+/// Brings the checks that were kept with a mission's scans to the review's lamp, the newest of the
+/// mission and of its review, and keeps a check that is made meanwhile beside the mission.
 class ReviewCheckFlow : public QObject {
   Q_OBJECT
 

@@ -1,5 +1,6 @@
 #include "ui/viewmodels/scan_check_model.h"
 
+#include <algorithm>
 #include <exception>
 #include <thread>
 
@@ -69,14 +70,50 @@ QString ScanCheckModel::Sentence() const {
     case State::kChecked:
       break;
   }
+  if (together_ && together_->check.light > check_->light && Light() >= CheckLight::kAmber)
+    return tr("%1 scans together: %2")
+        .arg(together_->scans)
+        .arg(QString::fromStdString(together_->check.advice));
   QString advice = QString::fromStdString(check_->advice);
   if (!advice.isEmpty()) advice[0] = advice[0].toUpper();
   return advice;
 }
 
+CheckLight ScanCheckModel::Light() const {
+  const CheckLight of_scan = check_ ? check_->light : CheckLight::kNotSeen;
+  return together_ ? std::max(of_scan, together_->check.light) : of_scan;
+}
+
 void ScanCheckModel::Set(State state) {
   state_ = state;
-  if (state != State::kChecked) check_.reset();
+  if (state != State::kChecked) {
+    check_.reset();
+    together_.reset();
+  }
+  Q_EMIT changed();
+}
+
+void ScanCheckModel::SetChecked(KeptCheck check) {
+  check_ = std::move(check);
+  of_mission_.push_back(*check_);
+  Gather();
+  Set(State::kChecked);
+}
+
+void ScanCheckModel::Gather() {
+  together_.reset();
+  if (scan_ && check_) together_ = GatherChecks(of_mission_, scan_->rig);
+}
+
+void ScanCheckModel::BeginMission() {
+  of_mission_.clear();
+  Gather();
+  Q_EMIT changed();
+}
+
+void ScanCheckModel::AddKept(const std::vector<KeptCheck>& checks) {
+  of_mission_.insert(of_mission_.end(), checks.begin(), checks.end());
+  Gather();
   Q_EMIT changed();
 }
 
@@ -132,8 +169,7 @@ void ScanCheckModel::check() {
           Set(State::kFailed);
           return;
         }
-        check_ = std::move(*check);
-        Set(State::kChecked);
+        SetChecked(std::move(*check));
         Q_EMIT checked(*check_);
       });
   Set(State::kChecking);
@@ -141,8 +177,7 @@ void ScanCheckModel::check() {
 
 void ScanCheckModel::ShowKept(const KeptCheck& check) {
   if (!scan_ || scan_->uuid != check.scan_uuid || state_ == State::kChecking) return;
-  check_ = check;
-  Set(State::kChecked);
+  SetChecked(check);
 }
 
 }  // namespace foresight

@@ -4,13 +4,14 @@
 #include <memory>
 #include <optional>
 
-#include "core/mission/kept_check.h"
+#include "core/mission/gather_checks.h"
 #include "ui/viewmodels/session_model.h"
 #include "ui/viewmodels/task_runner.h"
 
 namespace foresight {
 
-/// What the scan on the screen says about itself (core/selfcheck), for a lamp. Where `automatic`,
+/// What the scan on the screen says about itself (core/selfcheck), and all scans of its mission that
+/// were taken with its rig together, for a lamp. Where `automatic`,
 /// each whole scan is checked by itself when its depth map is there, or at once where it has no
 /// image; else a check that was kept is shown, or one is made when asked for. One task in the
 /// background, which any other thread goes before; another scan cancels it.
@@ -35,12 +36,21 @@ class ScanCheckModel : public QObject {
   /// Of the scan on the screen; nullptr unless kChecked.
   const KeptCheck* Check() const { return check_ ? &*check_ : nullptr; }
   const QString& Failure() const { return failure_; }
-  /// The colour of the lamp: kNotSeen unless kChecked.
-  CheckLight Light() const { return check_ ? check_->light : CheckLight::kNotSeen; }
+  /// What the scans of the mission that have the rig of the scan on the screen say together;
+  /// nullptr unless kChecked, and where fewer than two were checked.
+  const GatheredCheck* Together() const { return together_ ? &*together_ : nullptr; }
+  /// The colour of the lamp, the graver one of the scan and of all scans together: kNotSeen unless
+  /// kChecked.
+  CheckLight Light() const;
   /// One sentence beside the lamp, in every state.
   QString Sentence() const;
   TaskRunner* Runner() { return &runner_; }
 
+  /// From now on scans are of another mission: those before it take no part in what scans say
+  /// together.
+  void BeginMission();
+  /// What other scans of the mission said. The checks that are made or shown are among them.
+  void AddKept(const std::vector<KeptCheck>& checks);
   /// Shows a check out of a file; ignored where it is of another scan than the one on the screen.
   void ShowKept(const KeptCheck& check);
 
@@ -60,6 +70,8 @@ class ScanCheckModel : public QObject {
   void FollowParts();
   bool IsOnScreen(const Scan& scan) const;
   void Set(State state);
+  void SetChecked(KeptCheck check);
+  void Gather();
   std::vector<DetectionRecord> AcceptedRecords() const;
 
   SessionModel* session_;
@@ -68,6 +80,8 @@ class ScanCheckModel : public QObject {
   std::shared_ptr<const Scan> scan_;  ///< that the state is of
   State state_ = State::kNoScan;
   std::optional<KeptCheck> check_;
+  std::vector<KeptCheck> of_mission_;
+  std::optional<GatheredCheck> together_;
   QString failure_;
 };
 

@@ -32,22 +32,26 @@ struct KeptCheckTest : testing::Test {
 TEST_F(KeptCheckTest, WhatALampShowsComesBackFromTheFile) {
   const KeptCheck kept = Check(CheckLight::kAmber, "check the calibration", 5);
   ASSERT_TRUE(AddScanCheck(*mission, kept));
-  const auto last = LastScanCheck(*mission, nullptr, scan.uuid);
-  ASSERT_TRUE(last && *last);
-  EXPECT_EQ((*last)->light, CheckLight::kAmber);
-  EXPECT_EQ((*last)->advice, "check the calibration");
-  EXPECT_EQ((*last)->points.at(0).light, CheckLight::kAmber);
-  EXPECT_EQ((*last)->cannot_see.at(0), "the lens");
-  EXPECT_EQ((*last)->answer_json, kept.answer_json);
+  const auto checks = NewestScanChecks(*mission, nullptr);
+  ASSERT_TRUE(checks && checks->size() == 1);
+  const KeptCheck& last = checks->front();
+  EXPECT_EQ(last.scan_uuid, scan.uuid);
+  EXPECT_EQ(last.light, CheckLight::kAmber);
+  EXPECT_EQ(last.advice, "check the calibration");
+  EXPECT_EQ(last.points.at(0).light, CheckLight::kAmber);
+  EXPECT_EQ(last.cannot_see.at(0), "the lens");
+  EXPECT_EQ(last.answer_json, kept.answer_json);
 }
 
 TEST_F(KeptCheckTest, TheNewestCountsWhereverItIsKept) {
   ASSERT_TRUE(AddScanCheck(*mission, Check(CheckLight::kGood, "live", 10)));
   ASSERT_TRUE(AddScanCheck(*review, Check(CheckLight::kRed, "later", 30)));
   ASSERT_TRUE(AddScanCheck(*review, Check(CheckLight::kAmber, "between", 20)));
-  EXPECT_EQ(LastScanCheck(*mission, review.get(), scan.uuid).value()->advice, "later");
-  EXPECT_EQ(LastScanCheck(*mission, nullptr, scan.uuid).value()->advice, "live");
-  EXPECT_FALSE(LastScanCheck(*mission, review.get(), "another scan").value());
+  EXPECT_EQ(NewestScanChecks(*mission, review.get()).value().at(0).advice, "later");
+  EXPECT_EQ(NewestScanChecks(*mission, nullptr).value().at(0).advice, "live");
+  scan.uuid = "another scan";
+  ASSERT_TRUE(AddScanCheck(*review, Check(CheckLight::kGood, "of another scan", 5)));
+  EXPECT_EQ(NewestScanChecks(*mission, review.get()).value().size(), 2u);
 }
 
 TEST_F(KeptCheckTest, ABadRecordIsNamedWithItsEvent) {

@@ -1,0 +1,154 @@
+#include "core/mission/rig_check_json.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/io/json_reader.h"
+
+namespace foresight {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr double kMost = 1e9;
+
+OrderedJson Finite(double value) {
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
+}
+
+/// Row by row.
+template <class Matrix>
+OrderedJson NumbersJson(const Matrix& matrix) {
+  OrderedJson numbers = OrderedJson::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      numbers.push_back(Finite(matrix(row, column)));
+  return numbers;
+}
+
+/// null = infinite.
+double NumberFrom(const nlohmann::json& number, const char* key) {
+  if (number.is_null()) return std::numeric_limits<double>::infinity();
+  const double value = number.get<double>();
+  if (!(std::abs(value) <= kMost))
+    throw std::invalid_argument(fmt::format("'{}' holds {}, which nothing measures", key, value));
+  return value;
+}
+
+template <class Matrix>
+void ReadNumbers(const nlohmann::json& object, const char* key, Matrix& matrix) {
+  const auto size = static_cast<std::size_t>(matrix.size());
+  const nlohmann::json& list = ListIn(object, key, size);
+  if (list.size() != size)
+    throw std::invalid_argument(fmt::format("'{}' has {} numbers, not {}", key, list.size(), size));
+  std::size_t at = 0;
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      matrix(row, column) = NumberFrom(list[at++], key);
+}
+
+/// Averages are weighed by the inverse.
+template <class Matrix>
+bool CanBeInverted(const Matrix& matrix) {
+  return matrix.allFinite() && matrix.llt().info() == Eigen::Success;
+}
+
+OrderedJson CameraJson(const CameraCheck& camera) {
+  return {{"depth_edges", camera.edges},
+          {"images", camera.images},
+          {"score", camera.score},
+          {"score_before", camera.score_before},
+          {"score_aside", camera.score_aside},
+          {"gain_sigmas", camera.gain_sigmas},
+          {"turn_rad", NumbersJson(camera.turn_rad)},
+          {"covariance", NumbersJson(camera.covariance)},
+          {"outward_px", NumbersJson(camera.outward_px)}};
+}
+
+CameraCheck CameraFrom(const nlohmann::json& json) {
+  CameraCheck camera;
+  camera.edges = IntegerIn(json, "depth_edges", 1, 1'000'000'000);
+  camera.images = IntegerIn(json, "images", 0, 1'000'000);
+  camera.score = NumberIn(json, "score", -kMost, kMost);
+  camera.score_before = NumberIn(json, "score_before", -kMost, kMost);
+  camera.score_aside = NumberIn(json, "score_aside", -kMost, kMost);
+  camera.gain_sigmas = NumberIn(json, "gain_sigmas", -kMost, kMost);
+  ReadNumbers(json, "turn_rad", camera.turn_rad);
+  ReadNumbers(json, "covariance", camera.covariance);
+  ReadNumbers(json, "outward_px", camera.outward_px);
+  return camera;
+}
+
+OrderedJson PlateJson(const PlateCheck& plate) {
+  return {{"planes", plate.planes},
+          {"cells", plate.cells},
+          {"up_and_down", plate.up_and_down},
+          {"residual_m", plate.residual_m},
+          {"speed_rad_s", plate.speed_rad_s},
+          {"drift", NumbersJson(plate.drift)},
+          {"covariance", NumbersJson(plate.covariance)}};
+}
+
+PlateCheck PlateFrom(const nlohmann::json& json) {
+  PlateCheck plate;
+  plate.planes = IntegerIn(json, "planes", 1, 1'000'000'000);
+  plate.cells = IntegerIn(json, "cells", 1, 1'000'000'000);
+  json.at("up_and_down").get_to(plate.up_and_down);
+  plate.residual_m = NumberIn(json, "residual_m", 0.0, kMost);
+  plate.speed_rad_s = NumberIn(json, "speed_rad_s", 0.0, kMost);
+  ReadNumbers(json, "drift", plate.drift);
+  ReadNumbers(json, "covariance", plate.covariance);
+  return plate;
+}
+
+/// Of an earlier program, or of one with other unknowns, they are not there.
+bool HasMeasurements(const nlohmann::json& json, const char* key, const char* value,
+                     std::size_t unknowns) {
+  return json.contains(key) && json[key].contains(value) && json[key][value].size() == unknowns;
+}
+
+bool CanBeAveraged(const PlateCheck& plate) {
+  // A scan that sweeps one way says nothing of the stamps, the last unknown.
+  static_assert(PlateCheck::kStamp + 1 == PlateCheck::kUnknowns);
+  constexpr int kOthers = PlateCheck::kStamp;
+  return plate.up_and_down
+             ? CanBeInverted(plate.covariance)
+             : CanBeInverted(plate.covariance.topLeftCorner<kOthers, kOthers>().eval());
+}
+
+}  // namespace
+
+std::string RigCheckToJson(const RigCheck& check) {
+  OrderedJson findings = OrderedJson::array();
+  for (const RigFinding& finding : check.findings)
+    findings.push_back({{"name", finding.name},
+                        {"state", ToString(finding.state)},
+                        {"value", Finite(finding.value)},
+                        {"sigma", Finite(finding.sigma)},
+                        {"limit", Finite(finding.limit)},
+                        {"unit", finding.unit}});
+  OrderedJson json = {{"findings", findings}, {"drifted", check.drifted}};
+  if (check.camera) json["camera"] = CameraJson(*check.camera);
+  if (check.plate) json["plate"] = PlateJson(*check.plate);
+  return json.dump();
+}
+
+RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
+  RigCheck check;
+  check.no_camera = check.no_plate = "the check that was kept holds no measurements";
+  if (HasMeasurements(json, "camera", "turn_rad", 3)) {
+    const CameraCheck camera = CameraFrom(json["camera"]);
+    if (CanBeInverted(camera.covariance)) check.camera = camera;
+  }
+  if (HasMeasurements(json, "plate", "drift", PlateCheck::kUnknowns)) {
+    const PlateCheck plate = PlateFrom(json["plate"]);
+    if (CanBeAveraged(plate)) check.plate = plate;
+  }
+  if (check.camera) check.no_camera.clear();
+  if (check.plate) check.no_plate.clear();
+  return check;
+}
+
+}  // namespace foresight
