@@ -105,8 +105,7 @@ std::optional<GatheredCheck> Gathered(const std::vector<CheckedScan>& all) {
 
 Status Keep(const std::string& mission, const std::vector<CheckedScan>& all) {
   FORESIGHT_TRY(const auto review, MissionFile::OpenReviewOf(mission));
-  for (const CheckedScan& checked : all)
-    FORESIGHT_CHECK(AddScanCheck(*review, checked.kept));
+  for (const CheckedScan& checked : all) FORESIGHT_CHECK(AddScanCheck(*review, checked.kept));
   return review->Close();
 }
 
@@ -124,11 +123,12 @@ void Print(const CheckArguments& arguments, const std::vector<CheckedScan>& all,
     PrintLine(fmt::format("scan {}, {:.1f} s\n{}", checked.id, checked.check.seconds,
                           ScanCheckText(checked.check)));
   if (gathered)
-    PrintLine(fmt::format("{} scans together\n{}", gathered->scans,
-                          ScanCheckText(gathered->check)));
+    PrintLine(
+        fmt::format("{} scans together\n{}", gathered->scans, ScanCheckText(gathered->check)));
 }
 
-CheckLight Gravest(const std::vector<CheckedScan>& all, const std::optional<GatheredCheck>& gathered) {
+CheckLight Gravest(const std::vector<CheckedScan>& all,
+                   const std::optional<GatheredCheck>& gathered) {
   CheckLight light = gathered ? gathered->check.light : CheckLight::kNotSeen;
   for (const CheckedScan& checked : all) light = std::max(light, checked.check.light);
   return light;

@@ -10,11 +10,11 @@
 
 namespace foresight {
 
-/// What the scan on the screen says about itself (core/selfcheck), and all scans of its mission that
-/// were taken with its rig together, for a lamp. Where `automatic`,
-/// each whole scan is checked by itself when its depth map is there, or at once where it has no
-/// image; else a check that was kept is shown, or one is made when asked for. One task in the
-/// background, which any other thread goes before; another scan cancels it.
+/// What the scan on the screen says about itself (core/selfcheck), and all scans of its mission
+/// that were taken with its rig together, for a lamp. Where `automatic`, each whole scan is checked
+/// by itself when its depth map is there, or at once where it has no image; else a check that was
+/// kept is shown, or one is made when asked for. One task in the background, which any other thread
+/// goes before; another scan cancels it.
 class ScanCheckModel : public QObject {
   Q_OBJECT
 
