@@ -8,6 +8,8 @@
 #include "core/mission/gather_checks.h"
 #include "core/mission/side_result.h"
 #include "core/registration/register_scan.h"
+#include "core/selfcheck/rig_damage.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -16,6 +18,10 @@ struct CheckArguments {
   ScanArguments scan;  ///< scan_id 0 = all scans
   std::string rig;     ///< empty = each scan's own
   DepthArguments depth;
+  /// What the head is taken to have suffered since its calibration.
+  std::vector<double> camera_turn_deg = {0.0, 0.0, 0.0};
+  std::vector<double> lidar_turn_deg = {0.0, 0.0, 0.0};
+  double stamp_ms = 0.0;
   bool no_objects = false;
   bool keep = false;
   bool json = false;
@@ -28,6 +34,11 @@ struct CheckedScan {
   ScanCheck check;
   KeptCheck kept;  ///< the same, as it is kept
 };
+
+Eigen::Vector3d Radians(const std::vector<double>& degrees) {
+  return {RadiansFromDegrees(degrees[0]), RadiansFromDegrees(degrees[1]),
+          RadiansFromDegrees(degrees[2])};
+}
 
 /// The image that was asked for; nullptr where the scan has none.
 const CameraFrame* FrameOf(const Scan& scan, const ScanArguments& arguments) {
@@ -47,6 +58,10 @@ class MissionChecker {
     if (!arguments_.rig.empty()) {
       FORESIGHT_TRY(rig_, LoadSensorRig(arguments_.rig));
     }
+    damage_ = {.name = "asked for",
+               .camera_turn_rad = Radians(arguments_.camera_turn_deg),
+               .lidar_turn_rad = Radians(arguments_.lidar_turn_deg),
+               .stamp_s = 1e-3 * arguments_.stamp_ms};
     return {};
   }
 
@@ -56,17 +71,27 @@ class MissionChecker {
     FORESIGHT_TRY(Scan scan, mission_.LoadScan(id));
     std::vector<std::string> left_out;
     std::vector<KeptObject> objects;
-    if (!arguments_.no_objects && !rig_) {
+    if (!arguments_.no_objects && !rig_ && damage_.IsNone()) {
       FORESIGHT_TRY(const std::vector<DetectionRecord> records,
                     DetectionsOfScan(mission_, review_, scan.uuid));
       objects = AcceptedObjects(scan, records, left_out);
     }
     if (rig_) scan.rig = *rig_;
+    // Points of an import were placed by another program.
+    if (!scan.given.empty() && (!damage_.lidar_turn_rad.isZero(0.0) || damage_.stamp_s != 0.0))
+      return Fail(ErrorCode::kInvalidInput,
+                  "the scan was imported: what a turned lidar or late stamps change of its points "
+                  "is not known; --camera-turned works");
+    scan.rig = RigBefore(damage_, scan.rig);
     FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(scan, context.Part(0.0, 0.1)));
     FORESIGHT_TRY(checked.check, CheckScan(scan, cloud, FrameOf(scan, arguments_.scan), objects,
                                            options_, context.Part(0.1, 1.0)));
     checked.check.cannot_see.insert(checked.check.cannot_see.end(), left_out.begin(),
                                     left_out.end());
+    if (!damage_.IsNone())
+      checked.check.cannot_see.insert(checked.check.cannot_see.begin(),
+                                      "the head as it is: the rig was checked as if the head had "
+                                      "been knocked, as the options say");
     checked.kept = NewKeptCheck(scan, checked.check, options_);
     checked.rig = std::move(scan.rig);
     return checked;
@@ -78,6 +103,7 @@ class MissionChecker {
   const MissionFile* review_;
   ScanCheckOptions options_;
   std::optional<SensorRig> rig_;
+  RigDamage damage_;
 };
 
 nlohmann::ordered_json ScanJson(const CheckedScan& checked) {
@@ -87,10 +113,10 @@ nlohmann::ordered_json ScanJson(const CheckedScan& checked) {
   return json;
 }
 
-nlohmann::ordered_json GatheredJson(const GatheredCheck& gathered) {
+nlohmann::ordered_json GatheredJson(const GatheredCheck& gathered, const SensorRig& rig) {
   auto json = nlohmann::ordered_json::parse(ScanCheckToJson(gathered.check, Scan(), {}));
-  for (const char* of_one : {"scan_uuid", "rig_id", "depth", "depth_options", "objects"})
-    json.erase(of_one);
+  for (const char* of_one : {"scan_uuid", "depth", "depth_options", "objects"}) json.erase(of_one);
+  json["rig_id"] = RigId(rig);
   json["scans"] = gathered.scans;
   return json;
 }
@@ -115,7 +141,7 @@ void Print(const CheckArguments& arguments, const std::vector<CheckedScan>& all,
     auto scans = nlohmann::ordered_json::array();
     for (const CheckedScan& checked : all) scans.push_back(ScanJson(checked));
     nlohmann::ordered_json json = {{"mission", arguments.scan.mission}, {"scans", scans}};
-    if (gathered) json["gathered"] = GatheredJson(*gathered);
+    if (gathered) json["gathered"] = GatheredJson(*gathered, all.back().rig);
     PrintJson(json);
     return;
   }
@@ -187,9 +213,28 @@ void AddCheckCommand(CLI::App& app, Invocation& invocation) {
   command->add_option("--rig", arguments->rig,
                       "Check this rig (YAML) in place of each scan's own; without objects");
   AddDepthArguments(*command, arguments->depth);
+  std::vector<CLI::Option*> damages;
+  const auto add_turn = [&](const char* name, std::vector<double>& turn_deg, const char* of) {
+    damages.push_back(command
+                          ->add_option(name, turn_deg,
+                                       fmt::format("As if the {} had turned by X,Y,Z degrees about "
+                                                   "its axes since the calibration: shows what the "
+                                                   "check sees of it",
+                                                   of))
+                          ->delimiter(',')
+                          ->expected(3)
+                          ->check(CLI::Range(-10.0, 10.0)));
+  };
+  add_turn("--camera-turned", arguments->camera_turn_deg, "camera");
+  add_turn("--lidar-turned", arguments->lidar_turn_deg, "lidar");
+  damages.push_back(command
+                        ->add_option("--stamps-late", arguments->stamp_ms,
+                                     "As if the lidar's stamps were late by so many milliseconds")
+                        ->check(CLI::Range(-100.0, 100.0)));
   command->add_flag("--no-objects", arguments->no_objects, "Do not fit accepted objects again");
-  command->add_flag("--keep", arguments->keep,
-                    "Keep the result with the scan, in the review beside the mission");
+  CLI::Option* keep = command->add_flag(
+      "--keep", arguments->keep, "Keep the result with the scan, in the review beside the mission");
+  for (CLI::Option* damage : damages) keep->excludes(damage);  // supposed, not measured
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) { return Check(*arguments, context); };

@@ -29,7 +29,9 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"arc_coverage", evidence.arc_coverage},
           {"margin_nats", evidence.margin_nats},
           {"gain_nats", evidence.gain_nats},
-          {"weakest_spoke", evidence.weakest_spoke}};
+          {"weakest_spoke", evidence.weakest_spoke},
+          {"margin_line_sigmas", evidence.margin_line_sigmas},
+          {"weakest_spoke_nats", evidence.weakest_spoke_nats}};
 }
 
 ValveModel::Kind KindFrom(const std::string& name) {
@@ -56,7 +58,11 @@ ValveEvidence ValveEvidenceFrom(const Json& value) {
   evidence.arc_coverage = NumberFrom(value.at("arc_coverage"));
   evidence.margin_nats = NumberFrom(value.at("margin_nats"));
   evidence.gain_nats = NumberFrom(value.at("gain_nats"));
-  if (value.contains("weakest_spoke")) evidence.weakest_spoke = NumberFrom(value["weakest_spoke"]);
+  // Earlier programs did not write these.
+  for (const auto& [name, member] : {std::pair("weakest_spoke", &evidence.weakest_spoke),
+                                     std::pair("margin_line_sigmas", &evidence.margin_line_sigmas),
+                                     std::pair("weakest_spoke_nats", &evidence.weakest_spoke_nats)})
+    if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;
 }
 

@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "core/base/quantile.h"
-#include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/noise_stream.h"
 #include "core/simulation/simulate_scan.h"
@@ -51,18 +50,6 @@ std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s) {
     }
   damages.push_back({.name = "stamps", .stamp_s = stamp_s});
   return damages;
-}
-
-SensorRig RigBefore(const RigDamage& damage, const SensorRig& true_rig) {
-  const Eigen::Quaterniond camera = RotationExp(-damage.camera_turn_rad);
-  const Eigen::Quaterniond lidar = RotationExp(-damage.lidar_turn_rad);
-  SensorRig rig = true_rig;
-  rig.camera_from_head = {camera * true_rig.camera_from_head.rotation(),
-                          camera * true_rig.camera_from_head.translation()};
-  rig.camera_from_lidar = {camera * true_rig.camera_from_lidar.rotation() * lidar,
-                           camera * true_rig.camera_from_lidar.translation()};
-  rig.lidar.stamp_offset_s -= damage.stamp_s;
-  return rig;
 }
 
 Result<CheckTrial> MakeCheckTrial(std::shared_ptr<const Scene> scene, std::uint64_t seed,

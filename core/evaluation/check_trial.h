@@ -9,23 +9,13 @@
 
 #include "core/evaluation/fit_populations.h"
 #include "core/selfcheck/check_scan.h"
+#include "core/selfcheck/rig_damage.h"
 
 namespace foresight {
-
-/// What a head may have suffered since it was calibrated.
-struct RigDamage {
-  std::string name;  ///< "none", "camera turn x", "lidar turn y", "stamps", ...
-  Eigen::Vector3d camera_turn_rad = Eigen::Vector3d::Zero();  ///< of camera_from_head, in camera
-  Eigen::Vector3d lidar_turn_rad = Eigen::Vector3d::Zero();   ///< about the lidar's axes
-  double stamp_s = 0.0;
-};
 
 /// None; the camera and the lidar turned by `turn_rad` about each axis; the stamps late by
 /// `stamp_s`.
 std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s);
-
-/// The rig that a head was calibrated with before it suffered `damage` and became `true_rig`.
-SensorRig RigBefore(const RigDamage& damage, const SensorRig& true_rig);
 
 struct CheckTrialOptions {
   /// Where random scenes come from, with their noise; rigs are off as this says, whatever a world

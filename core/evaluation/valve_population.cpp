@@ -12,8 +12,6 @@
 namespace foresight {
 namespace {
 
-constexpr double kCenterOk_mm = 20.0;
-constexpr double kAxisOk_deg = 5.0;
 constexpr double kRadiusOk_mm = 12.0;
 constexpr double kLengthOk_mm = 20.0;
 constexpr double kPhaseOk_deg = 6.0;
@@ -93,9 +91,9 @@ std::vector<FitOutcome> ValvePopulation::Judge(const FitTrial& trial,
                  detection.covariance, 2.0 * std::numbers::pi / (round ? 1 : truth.model.spokes),
                  outcome.errors);
   const double size_ok_mm = truth.model.IsLever() ? kLengthOk_mm : kRadiusOk_mm;
-  outcome.pose_ok = detection.best.model.kind == truth.model.kind &&
-                    errors.center_mm < kCenterOk_mm && errors.axis_deg < kAxisOk_deg &&
-                    errors.radius_mm < size_ok_mm;
+  outcome.pose_ok =
+      detection.best.model.kind == truth.model.kind && errors.center_mm < 1000.0 * kRightPlace_m &&
+      errors.axis_deg < DegreesFromRadians(kRightAxis_rad) && errors.radius_mm < size_ok_mm;
   outcome.all_ok = outcome.pose_ok && errors.spokes_right && errors.phase_deg < kPhaseOk_deg;
   return {outcome};
 }

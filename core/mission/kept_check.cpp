@@ -198,20 +198,21 @@ Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file) {
 
 Result<std::vector<KeptCheck>> NewestScanChecks(const MissionFile& mission,
                                                 const MissionFile* review) {
-  std::map<std::string, KeptCheck> newest;
+  std::map<std::pair<std::string, std::string>, KeptCheck> newest;
   for (const MissionFile* file : {&mission, review}) {
     if (file == nullptr) continue;
     FORESIGHT_TRY(std::vector<KeptCheck> checks, ListScanChecks(*file));
     for (KeptCheck& check : checks) {
-      const auto found = newest.find(check.scan_uuid);
+      const std::pair key(check.scan_uuid, check.rig_id);
+      const auto found = newest.find(key);
       if (found == newest.end())
-        newest.emplace(check.scan_uuid, std::move(check));
+        newest.emplace(key, std::move(check));
       else if (check.utc_ns >= found->second.utc_ns)
         found->second = std::move(check);
     }
   }
   std::vector<KeptCheck> checks;
-  for (auto& [uuid, check] : newest) checks.push_back(std::move(check));
+  for (auto& [key, check] : newest) checks.push_back(std::move(check));
   return checks;
 }
 

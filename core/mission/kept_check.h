@@ -41,8 +41,8 @@ Status AddScanCheck(MissionFile& file, const KeptCheck& check);
 /// All that were kept, the oldest first. Fails with kBadData, naming the event at fault.
 Result<std::vector<KeptCheck>> ListScanChecks(const MissionFile& file);
 
-/// The newest check of each scan in a mission and the review beside it, which may be nullptr. Fails
-/// as ListScanChecks does.
+/// The newest check of each scan with each rig that it was checked with, in a mission and the
+/// review beside it, which may be nullptr. Fails as ListScanChecks does.
 Result<std::vector<KeptCheck>> NewestScanChecks(const MissionFile& mission,
                                                 const MissionFile* review);
 

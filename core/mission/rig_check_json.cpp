@@ -130,14 +130,22 @@ std::string RigCheckToJson(const RigCheck& check) {
                         {"limit", Finite(finding.limit)},
                         {"unit", finding.unit}});
   OrderedJson json = {{"findings", findings}, {"drifted", check.drifted}};
-  if (check.camera) json["camera"] = CameraJson(*check.camera);
-  if (check.plate) json["plate"] = PlateJson(*check.plate);
+  if (check.camera)
+    json["camera"] = CameraJson(*check.camera);
+  else
+    json["no_camera"] = check.no_camera;
+  if (check.plate)
+    json["plate"] = PlateJson(*check.plate);
+  else
+    json["no_plate"] = check.no_plate;
   return json.dump();
 }
 
 RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
   RigCheck check;
-  check.no_camera = check.no_plate = "the check that was kept holds no measurements";
+  const std::string nothing = "the check that was kept holds no measurements";
+  check.no_camera = json.value("no_camera", nothing);
+  check.no_plate = json.value("no_plate", nothing);
   if (HasMeasurements(json, "camera", "turn_rad", 3)) {
     const CameraCheck camera = CameraFrom(json["camera"]);
     if (CanBeInverted(camera.covariance)) check.camera = camera;

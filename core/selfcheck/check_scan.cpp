@@ -110,7 +110,7 @@ class ScanJudge {
     const CheckLight light = Gravest(findings);
     std::string sentence;
     if (light == CheckLight::kNotSeen) {
-      sentence = OperatorText("camera against lidar: this scan does not show it");
+      sentence = OperatorText("camera against lidar: not seen");
     } else if (light == CheckLight::kGood) {
       Eigen::Vector2d off_px = EdgesOff_px(rig_, check_.rig);
       // A direction that this scan does not show says nothing.
@@ -159,8 +159,7 @@ class ScanJudge {
     const auto findings = Findings(check_.rig, "lidar turn");
     const CheckLight light = Gravest(findings);
     Add("lidar against motor", light,
-        light == CheckLight::kNotSeen
-            ? OperatorText("lidar against the motor: this scan does not show it")
+        light == CheckLight::kNotSeen ? OperatorText("lidar against the motor: not seen")
         : light == CheckLight::kGood
             ? OperatorText("planes are flat: the lidar fits the motor")
             : OperatorText("planes bend: {}: look whether the lidar is loose, and calibrate again",
@@ -171,7 +170,7 @@ class ScanJudge {
     const auto findings = Findings(check_.rig, "stamps");
     const CheckLight light = Gravest(findings);
     Add("stamps", light,
-        light == CheckLight::kNotSeen ? OperatorText("clocks: this scan does not show them")
+        light == CheckLight::kNotSeen ? OperatorText("clocks: not seen")
         : light == CheckLight::kGood
             ? OperatorText("planes lie where they do on the way up and down: the clocks agree")
             : OperatorText("planes differ on the way up and down: {}: check the clocks and the "

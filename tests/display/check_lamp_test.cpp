@@ -5,10 +5,10 @@
 #include <QLabel>
 #include <QPushButton>
 
-#include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
 #include "core/mission/kept_check.h"
 #include "core/mission/new_records.h"
+#include "core/selfcheck/rig_damage.h"
 #include "core/simulation/world.h"
 #include "tests/display/mouse.h"
 #include "tests/display/pixels.h"
@@ -89,13 +89,8 @@ struct CheckLampWindow : testing::Test {
   /// since its calibration.
   static void ShowScanOfAKnockedHead() {
     const auto scan = AnotherScan();
-    const Eigen::Quaterniond turn =
-        RotationExp(Eigen::Vector3d(0.0, RadiansFromDegrees(0.45), 0.0));
-    SensorRig& rig = scan->rig;
-    rig.camera_from_head = {turn * rig.camera_from_head.rotation(),
-                            turn * rig.camera_from_head.translation()};
-    rig.camera_from_lidar = {turn * rig.camera_from_lidar.rotation(),
-                             turn * rig.camera_from_lidar.translation()};
+    scan->rig = RigBefore(
+        {.name = "knocked", .camera_turn_rad = {0.0, RadiansFromDegrees(-0.45), 0.0}}, scan->rig);
     Record(scan);
   }
   static void SavePicture(const char* name) {
@@ -173,12 +168,17 @@ TEST_F(CheckLampWindow, TwoScansOfAHeadSpeakTogetherAndTheMissionKnowsThemWhenIt
   SavePicture("seen_check_together");
 
   const int scans = Live().Together()->scans;
-  Live().BeginMission();
-  EXPECT_EQ(Live().Together(), nullptr);
-  const auto kept = NewestScanChecks(*running->bench().recording.File(), nullptr);
-  ASSERT_TRUE(kept) << kept.error().message;
-  Live().AddKept(*kept);
-  ASSERT_NE(Live().Together(), nullptr);
+  const QString mission = running->bench().recording.Path();
+  const auto record_into = [](const QString& path) {
+    running->bench().recording.SwitchTo(path);
+    return WaitFor(
+        [&] { return running->bench().recording.Path() == path && running->bench().Idle(); },
+        kCheckLampLimit_ms);
+  };
+  ASSERT_TRUE(record_into(mission + QStringLiteral(".other.foresight")));
+  EXPECT_EQ(Live().Together(), nullptr) << "these scans are of the mission before";
+  ASSERT_TRUE(record_into(mission));
+  ASSERT_TRUE(WaitFor([] { return Live().Together() != nullptr; }, kCheckLampLimit_ms));
   EXPECT_EQ(Live().Together()->scans, scans);
 }
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
-#include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
 #include "core/mission/mission_file.h"
+#include "core/selfcheck/rig_damage.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/ctl.h"
@@ -45,12 +45,8 @@ TEST(CalibrateCheckCommand, IsQuietAboutTheRigOfAFreshScan) {
 
 TEST(CalibrateCheckCommand, NamesACameraThatTurned) {
   const TemporaryFolder folder;
-  SensorRig rig = RigOfRoom();
-  const Eigen::Quaterniond turn = RotationExp({0.0, RadiansFromDegrees(0.4), 0.0});
-  rig.camera_from_head = {turn * rig.camera_from_head.rotation(),
-                          turn * rig.camera_from_head.translation()};
-  rig.camera_from_lidar = {turn * rig.camera_from_lidar.rotation(),
-                           turn * rig.camera_from_lidar.translation()};
+  const SensorRig rig = RigBefore(
+      {.name = "knocked", .camera_turn_rad = {0.0, RadiansFromDegrees(-0.4), 0.0}}, RigOfRoom());
   ASSERT_TRUE(SaveSensorRig(rig, folder / "turned.yaml"));
   const ProgramResult result =
       Ctl({"calibrate", "check", RoomMission(), "--rig", folder / "turned.yaml", "--json"});

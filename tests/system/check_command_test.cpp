@@ -3,11 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/calibration/tangent.h"
-#include "core/geometry/angles.h"
 #include "core/mission/kept_check.h"
 #include "core/mission/new_records.h"
-#include "core/registration/register_scan.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/ctl.h"
@@ -41,19 +38,6 @@ const std::string& RoomMission() {
   return kMission;
 }
 
-/// The room's rig, with a camera that turned by so much about its y axis since.
-std::string TurnedRig(const TemporaryFolder& folder, double turn_deg) {
-  SensorRig rig = MissionFile::OpenReadOnly(RoomMission()).value()->LoadScan(1).value().rig;
-  const Eigen::Quaterniond turn = RotationExp({0.0, RadiansFromDegrees(turn_deg), 0.0});
-  rig.camera_from_head = {turn * rig.camera_from_head.rotation(),
-                          turn * rig.camera_from_head.translation()};
-  rig.camera_from_lidar = {turn * rig.camera_from_lidar.rotation(),
-                           turn * rig.camera_from_lidar.translation()};
-  const std::string path = folder / "turned.yaml";
-  EXPECT_TRUE(SaveSensorRig(rig, path));
-  return path;
-}
-
 TEST(CheckCommand, AGoodScanSaysSoAndHowGoodItsDepthIs) {
   const ProgramResult result = Ctl({"check", RoomMission(), "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.output << result.errors;
@@ -69,11 +53,18 @@ TEST(CheckCommand, AGoodScanSaysSoAndHowGoodItsDepthIs) {
 }
 
 TEST(CheckCommand, SaysOnWhichSideTheEdgesLieAndWhatToDo) {
-  const TemporaryFolder folder;
-  // The camera that took the image looks 0.4 deg further to the right than this rig knows.
-  const ProgramResult result = Ctl({"check", RoomMission(), "--rig", TurnedRig(folder, 0.4)});
+  // As if the camera had turned by 0.4 deg to the left since the rig was calibrated.
+  const ProgramResult result = Ctl({"check", RoomMission(), "--camera-turned", "0,-0.4,0"});
   EXPECT_EQ(result.exit_code, 1) << result.errors;
   EXPECT_THAT(result.output, HasSubstr("px left of the lidar's: check the calibration"));
+  EXPECT_THAT(result.output, HasSubstr("as if the head had been knocked"));
+}
+
+TEST(CheckCommand, WhatDidNotHappenIsNotKept) {
+  const ProgramResult result =
+      Ctl({"check", RoomMission(), "--camera-turned", "0,0.4,0", "--keep"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.errors, HasSubstr("--keep"));
 }
 
 TEST(CheckCommand, KeepsTheResultWithTheScanInItsReview) {

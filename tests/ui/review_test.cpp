@@ -115,13 +115,13 @@ TEST_F(ReviewTest, ACheckThatWasNeverKeptIsLookedForOnce) {
   EXPECT_EQ(flow.ReadCount(), 2);
 }
 
-/// A scan whose edges say, each alone too weakly, that the camera turned by 0.3 deg.
-KeptCheck WeakCheck(const Scan& scan) {
+/// A scan whose edges say, each alone too weakly, that the camera turned by so much about y.
+KeptCheck WeakCheck(const Scan& scan, double turn_rad) {
   ScanCheck check;
   check.light = CheckLight::kGood;
   check.advice = "nothing to do";
   CameraCheck& camera = check.rig.camera.emplace();
-  camera.turn_rad = {0.0, 0.0052, 0.0};
+  camera.turn_rad = {0.0, turn_rad, 0.0};
   camera.covariance = 3e-6 * Eigen::Matrix3d::Identity();
   camera.score = 0.5;
   camera.score_before = 0.4;
@@ -130,14 +130,37 @@ KeptCheck WeakCheck(const Scan& scan) {
   return NewKeptCheck(scan, check, {});
 }
 
+TEST_F(ReviewTest, GoodScansDoNotMakeTheLampOfOneThatShowsNothingGreen) {
+  ScanCheck nothing;
+  nothing.advice = "nothing can be said";
+  {
+    const auto file = MissionFile::Open(path.toStdString()).value();
+    ASSERT_TRUE(AddScanCheck(*file, NewKeptCheck(scan, nothing, {})));
+    for (const char* uuid : {"b", "c", "d"}) {
+      Scan other = scan;
+      other.uuid = uuid;
+      ASSERT_TRUE(AddScanCheck(*file, WeakCheck(other, 0.0)));
+    }
+    ASSERT_TRUE(file->Close());
+  }
+  ScanCheckModel check(&session);
+  ReviewCheckFlow flow(&review, &session, &check);
+  review.Open(path);
+  ASSERT_TRUE(WaitFor([&] { return !review.Busy() && tasks.Idle(); }));
+  ASSERT_NE(check.Together(), nullptr);
+  EXPECT_EQ(check.Together()->check.light, CheckLight::kGood);
+  EXPECT_EQ(check.Light(), CheckLight::kNotSeen);
+  EXPECT_EQ(check.Sentence(), "Nothing can be said");
+}
+
 TEST_F(ReviewTest, ScansOfAMissionSayTogetherWhatOneDoesNot) {
   {
     const auto file = MissionFile::Open(path.toStdString()).value();
-    ASSERT_TRUE(AddScanCheck(*file, WeakCheck(scan)));
+    ASSERT_TRUE(AddScanCheck(*file, WeakCheck(scan, 0.0052)));
     for (const char* uuid : {"b", "c", "d", "e"}) {
       Scan other = scan;
       other.uuid = uuid;
-      ASSERT_TRUE(AddScanCheck(*file, WeakCheck(other)));
+      ASSERT_TRUE(AddScanCheck(*file, WeakCheck(other, 0.0052)));
     }
     ASSERT_TRUE(file->Close());
   }

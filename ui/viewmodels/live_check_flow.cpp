@@ -13,7 +13,9 @@ void LiveCheckFlow::FollowMission() {
   if (recording_->Path() != path_) {
     path_ = recording_->Path();
     asked_ = false;
-    check_->BeginMission();
+    reader_.cancel();
+    const auto& scan = session_->CurrentScan();
+    check_->BeginMission(scan ? scan->uuid : std::string());
   }
   // Its scans are listed after the file is opened.
   if (asked_ || recording_->Scans().empty()) return;
@@ -25,7 +27,8 @@ void LiveCheckFlow::FollowMission() {
         FORESIGHT_TRY(const auto mission, MissionFile::OpenReadOnly(path));
         return NewestScanChecks(*mission, nullptr);
       },
-      [this](const Result<Found>& found) {
+      [this, path = path_](const Result<Found>& found) {
+        if (path != path_) return;
         if (found)
           check_->AddKept(*found);
         else

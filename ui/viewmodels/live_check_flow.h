@@ -7,8 +7,8 @@
 
 namespace foresight {
 
-/// Keeps the checks of the live session with its mission, and brings those that the mission has
-/// already, as one that is continued, to the live lamp.
+/// Keeps the checks of the live session with its mission. Reads the checks of a mission that is
+/// continued for the live lamp.
 class LiveCheckFlow : public QObject {
   Q_OBJECT
 

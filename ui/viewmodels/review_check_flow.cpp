@@ -22,6 +22,7 @@ void ReviewCheckFlow::FindKept() {
   if (asked_for_ == scan->uuid) return;
   asked_for_ = scan->uuid;
   ++read_count_;
+  check_->BeginMission();
   using Found = std::vector<KeptCheck>;
   reader_.Run<Found>(
       tr("Reading the self-check"),
@@ -35,11 +36,18 @@ void ReviewCheckFlow::FindKept() {
           session_->Report(NoticeOf(tr("Reading the self-check"), found.error()));
           return;
         }
-        check_->BeginMission();
         check_->AddKept(*found);
-        for (const KeptCheck& kept : *found)
-          if (kept.scan_uuid == uuid) check_->ShowKept(kept);
+        if (check_->Now() == ScanCheckModel::State::kNotChecked) ShowNewest(*found, uuid);
       });
+}
+
+void ReviewCheckFlow::ShowNewest(const std::vector<KeptCheck>& checks,
+                                 const std::string& scan_uuid) {
+  const KeptCheck* newest = nullptr;
+  for (const KeptCheck& check : checks)
+    if (check.scan_uuid == scan_uuid && (newest == nullptr || check.utc_ns >= newest->utc_ns))
+      newest = &check;
+  if (newest != nullptr) check_->ShowKept(*newest);
 }
 
 void ReviewCheckFlow::Keep(const KeptCheck& check) {

@@ -21,6 +21,7 @@ class ReviewCheckFlow : public QObject {
 
  private:
   void FindKept();
+  void ShowNewest(const std::vector<KeptCheck>& checks, const std::string& scan_uuid);
   void Keep(const KeptCheck& check);
 
   ReviewViewModel* review_;

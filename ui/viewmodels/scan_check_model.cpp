@@ -1,6 +1,5 @@
 #include "ui/viewmodels/scan_check_model.h"
 
-#include <algorithm>
 #include <exception>
 #include <thread>
 
@@ -70,7 +69,7 @@ QString ScanCheckModel::Sentence() const {
     case State::kChecked:
       break;
   }
-  if (together_ && together_->check.light > check_->light && Light() >= CheckLight::kAmber)
+  if (TogetherIsGraver())
     return tr("%1 scans together: %2")
         .arg(together_->scans)
         .arg(QString::fromStdString(together_->check.advice));
@@ -79,9 +78,14 @@ QString ScanCheckModel::Sentence() const {
   return advice;
 }
 
+bool ScanCheckModel::TogetherIsGraver() const {
+  return check_ && together_ && together_->check.light >= CheckLight::kAmber &&
+         together_->check.light > check_->light;
+}
+
 CheckLight ScanCheckModel::Light() const {
-  const CheckLight of_scan = check_ ? check_->light : CheckLight::kNotSeen;
-  return together_ ? std::max(of_scan, together_->check.light) : of_scan;
+  if (TogetherIsGraver()) return together_->check.light;
+  return check_ ? check_->light : CheckLight::kNotSeen;
 }
 
 void ScanCheckModel::Set(State state) {
@@ -95,7 +99,7 @@ void ScanCheckModel::Set(State state) {
 
 void ScanCheckModel::SetChecked(KeptCheck check) {
   check_ = std::move(check);
-  of_mission_.push_back(*check_);
+  if (check_->scan_uuid != scan_of_before_) of_mission_.push_back(*check_);
   Gather();
   Set(State::kChecked);
 }
@@ -105,7 +109,8 @@ void ScanCheckModel::Gather() {
   if (scan_ && check_) together_ = GatherChecks(of_mission_, scan_->rig);
 }
 
-void ScanCheckModel::BeginMission() {
+void ScanCheckModel::BeginMission(const std::string& scan_of_before) {
+  scan_of_before_ = scan_of_before;
   of_mission_.clear();
   Gather();
   Q_EMIT changed();

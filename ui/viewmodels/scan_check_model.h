@@ -39,16 +39,16 @@ class ScanCheckModel : public QObject {
   /// What the scans of the mission that have the rig of the scan on the screen say together;
   /// nullptr unless kChecked, and where fewer than two were checked.
   const GatheredCheck* Together() const { return together_ ? &*together_ : nullptr; }
-  /// The colour of the lamp, the graver one of the scan and of all scans together: kNotSeen unless
-  /// kChecked.
+  /// The colour of the lamp: that of the scan, or of all scans together where these are amber or
+  /// red and graver. kNotSeen unless kChecked.
   CheckLight Light() const;
   /// One sentence beside the lamp, in every state.
   QString Sentence() const;
   TaskRunner* Runner() { return &runner_; }
 
-  /// From now on scans are of another mission: those before it take no part in what scans say
-  /// together.
-  void BeginMission();
+  /// From now on scans are of another mission: those that were checked before take no part in what
+  /// scans say together, and neither does `scan_of_before`, which may be checked later.
+  void BeginMission(const std::string& scan_of_before = {});
   /// What other scans of the mission said. The checks that are made or shown are among them.
   void AddKept(const std::vector<KeptCheck>& checks);
   /// Shows a check out of a file; ignored where it is of another scan than the one on the screen.
@@ -72,6 +72,7 @@ class ScanCheckModel : public QObject {
   void Set(State state);
   void SetChecked(KeptCheck check);
   void Gather();
+  bool TogetherIsGraver() const;
   std::vector<DetectionRecord> AcceptedRecords() const;
 
   SessionModel* session_;
@@ -81,6 +82,7 @@ class ScanCheckModel : public QObject {
   State state_ = State::kNoScan;
   std::optional<KeptCheck> check_;
   std::vector<KeptCheck> of_mission_;
+  std::string scan_of_before_;  ///< uuid; empty = none
   std::optional<GatheredCheck> together_;
   QString failure_;
 };

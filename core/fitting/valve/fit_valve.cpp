@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/valve/lever_search.h"
 #include "core/fitting/valve/local_search.h"
@@ -28,7 +29,7 @@ constexpr int kMinRays = 60;
 constexpr int kMinForeground = 25;
 constexpr int kRimPoints = 500;  // of the foreground, for the circle search
 constexpr int kGridRays = 900;   // for the grid of dish and phase
-constexpr int kKeptRims = 2;
+constexpr std::size_t kKeptRims = 2;
 constexpr std::size_t kLocallySearched = 2;  // numbers of spokes
 constexpr int kAlternatives = 3;
 // Radii of the valve that a closer look takes in, and the largest part of a region that it is worth
@@ -38,6 +39,15 @@ constexpr double kWorthwhile = 0.9, kWorthwhileInMap = 0.5;
 constexpr std::size_t kLocallySearchedLevers = 3;
 constexpr double kHopeless_nats = 200.0;  // more than local search brings
 constexpr double kTubeRadius_m = 0.012;   // where the search starts
+// Of rims thinner than a beam: trials and circles a plane, planes as fractions of the points that
+// lie behind them, half widths that are tried.
+constexpr int kThinTrials = 1500;
+constexpr std::size_t kThinRims = 3;
+constexpr double kThinTolerance_m = 0.015;
+constexpr double kLeastClosing = 0.1;  // of a beam and a plane
+constexpr double kSameRim = 0.03;      // of the radius, between places and between radii
+constexpr double kLevels[] = {0.5, 0.75, 0.95};
+constexpr double kTubes_m[] = {0.003, 0.006, 0.012};
 
 /// Streams of the seed: each stage draws its own numbers.
 enum Stream : std::uint64_t { kThinning, kWall, kRims, kLevers };
@@ -59,25 +69,6 @@ Status ForEach(std::span<ValveCandidate> valves, const RunContext& context,
                   [&](int i) { change(valves[static_cast<std::size_t>(i)]); }))
     return {};
   return Cancelled();
-}
-
-/// Rims as valves without spokes, fitted to the rays, the best few first.
-Result<std::vector<ValveCandidate>> FitRims(const RayLikelihood& likelihood,
-                                            const std::vector<RimHypothesis>& rims,
-                                            const RunContext& context) {
-  std::vector<ValveCandidate> fitted;
-  for (const RimHypothesis& rim : rims)
-    fitted.push_back(
-        {PoseFromAxis(rim.center, rim.axis), UsualValve(rim.radius_m, kTubeRadius_m, 0, 0.0), 0.0});
-  RefineOptions options;
-  options.parts = ValveParts::kRim;
-  FORESIGHT_CHECK(ForEach(fitted, context, [&](ValveCandidate& valve) {
-    valve = Refine(likelihood.Footprints(), valve, options);
-    valve.log_likelihood = likelihood(valve, ValveParts::kRim);
-  }));
-  SortByLikelihood(fitted);
-  if (fitted.size() > kKeptRims) fitted.resize(kKeptRims);
-  return fitted;
 }
 
 std::vector<int> SpokeCounts(const FitValveOptions& options) {
@@ -103,8 +94,74 @@ Eigen::Vector3d Facing(const RaySet& rays, const WallSplit& split) {
   return (rays.viewpoint - middle).normalized();
 }
 
-std::vector<RimHypothesis> SearchRims(const RaySet& rays, const WallSplit& split,
-                                      const FitValveOptions& options) {
+ValveCandidate RimFrom(const RimHypothesis& rim, double tube_radius_m) {
+  return {PoseFromAxis(rim.center, rim.axis), UsualValve(rim.radius_m, tube_radius_m, 0, 0.0), 0.0};
+}
+
+/// The points as beams that all end on one plane across `facing`: where it has this fraction of the
+/// points behind it. Beams that hardly reach it are left out.
+std::vector<Eigen::Vector3d> OntoPlane(const std::vector<Eigen::Vector3d>& points,
+                                       const Eigen::Vector3d& viewpoint,
+                                       const Eigen::Vector3d& facing, double behind) {
+  std::vector<double> levels;
+  for (const Eigen::Vector3d& point : points) levels.push_back(facing.dot(point));
+  const double below_m = facing.dot(viewpoint) - Quantile(levels, behind);
+  std::vector<Eigen::Vector3d> on_plane;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d beam = (point - viewpoint).normalized();
+    const double closing = -facing.dot(beam);
+    if (below_m > 0.0 && closing > kLeastClosing)
+      on_plane.push_back(viewpoint + below_m / closing * beam);
+  }
+  return on_plane;
+}
+
+bool IsSameRim(const ValveCandidate& a, const ValveCandidate& b) {
+  const double scale_m = kSameRim * std::max(a.model.rim_radius_m, b.model.rim_radius_m);
+  return (a.base_from_object.translation() - b.base_from_object.translation()).norm() < scale_m &&
+         std::abs(a.model.rim_radius_m - b.model.rim_radius_m) < scale_m;
+}
+
+/// The most likely few that differ from each other, the best first.
+void KeepDistinct(std::size_t most, std::vector<ValveCandidate>& rims) {
+  SortByLikelihood(rims);
+  std::vector<ValveCandidate> distinct;
+  for (const ValveCandidate& rim : rims)
+    if (distinct.size() < most &&
+        std::none_of(distinct.begin(), distinct.end(),
+                     [&](const ValveCandidate& other) { return IsSameRim(rim, other); }))
+      distinct.push_back(rim);
+  rims = std::move(distinct);
+}
+
+/// A rim that is thinner than the beams reads anywhere between itself and the wall, on no circle;
+/// the beams that read too short lie on a cone all the same. The most likely few of the circles in
+/// which such cones cut planes across `facing`, with one of several widths each.
+std::vector<ValveCandidate> SearchThinRims(const std::vector<Eigen::Vector3d>& points,
+                                           const Eigen::Vector3d& viewpoint,
+                                           const RayLikelihood& coarse, RimSearchOptions search,
+                                           Random& random) {
+  search.trials = kThinTrials;
+  search.keep = static_cast<int>(kThinRims);
+  search.tolerance_m = kThinTolerance_m;
+  std::vector<ValveCandidate> found;
+  for (const double behind : kLevels)
+    for (const RimHypothesis& rim :
+         FindRims(OntoPlane(points, viewpoint, search.facing, behind), search, random))
+      for (const double tube_radius_m : kTubes_m) {
+        ValveCandidate thin = RimFrom(rim, tube_radius_m);
+        thin.model.rim_depth_ratio = ValvePrior::kRimDepth_m / tube_radius_m;
+        thin.log_likelihood = coarse(thin, ValveParts::kRim);
+        found.push_back(thin);
+      }
+  KeepDistinct(kThinRims, found);
+  return found;
+}
+
+/// Where rims may be.
+std::vector<ValveCandidate> SearchRims(const RaySet& rays, const WallSplit& split,
+                                       const RayLikelihood& coarse,
+                                       const FitValveOptions& options) {
   Random random(options.seed, kRims);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
   RimSearchOptions search;
@@ -113,7 +170,29 @@ std::vector<RimHypothesis> SearchRims(const RaySet& rays, const WallSplit& split
   search.max_radius_m = options.max_rim_radius_m;
   search.tolerance_m = 2.0 * rays.sigma_m + 0.008;
   search.trials = options.circle_trials;
-  return FindRims(points, search, random);
+  std::vector<ValveCandidate> rims;
+  for (const RimHypothesis& rim : FindRims(points, search, random))
+    rims.push_back(RimFrom(rim, kTubeRadius_m));
+  const std::vector<ValveCandidate> thin =
+      SearchThinRims(points, rays.viewpoint, coarse, search, random);
+  rims.insert(rims.end(), thin.begin(), thin.end());
+  return rims;
+}
+
+/// Rims as valves without spokes, fitted to the rays, the best few first.
+Result<std::vector<ValveCandidate>> FitRims(const RayLikelihood& likelihood,
+                                            std::vector<ValveCandidate> rims,
+                                            const RunContext& context) {
+  RefineOptions options;
+  options.parts = ValveParts::kRim;
+  FORESIGHT_CHECK(ForEach(rims, context, [&](ValveCandidate& rim) {
+    rim.log_likelihood = likelihood(rim, ValveParts::kRim);
+    ValveCandidate refined = Refine(likelihood.Footprints(), rim, options);
+    refined.log_likelihood = likelihood(refined, ValveParts::kRim);
+    if (refined.log_likelihood > rim.log_likelihood) rim = refined;
+  }));
+  KeepDistinct(kKeptRims, rims);
+  return rims;
 }
 
 /// The best lever, if there is a bar at all; only roughly placed when it is far behind
@@ -188,10 +267,10 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
 
   context.Report(0.1, "looking for the rim");
   FORESIGHT_CHECK(CheckForeground(rays, split));
-  const std::vector<RimHypothesis> hypotheses = SearchRims(rays, split, options);
   const RayLikelihood likelihood(rays, split.wall);
   const RayLikelihood coarse(few_rays, split.wall);
-  FORESIGHT_TRY(const std::vector<ValveCandidate> rims, FitRims(likelihood, hypotheses, context));
+  FORESIGHT_TRY(const std::vector<ValveCandidate> rims,
+                FitRims(likelihood, SearchRims(rays, split, coarse, options), context));
 
   context.Report(0.3, "counting the spokes");
   FORESIGHT_TRY(std::vector<ValveCandidate> valves,
@@ -223,8 +302,11 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   detection.evidence.margin_nats =
       valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
   detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
-  detection.verdict = AssessValve(rays, region, detection, options);
+  if (valves.size() > 1)
+    detection.evidence.margin_line_sigmas = likelihood.DeviationsAhead(valves[0], valves[1]);
+  detection.evidence.weakest_spoke_nats = WeakestSpoke(likelihood, detection.best);
   WidenSigmas(likelihood.Footprints(), detection);
+  detection.verdict = AssessValve(rays, region, detection, options);
   return detection;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fitting/beam_model.h"
+#include "core/fitting/line_covariance.h"
 #include "core/fitting/valve/valve_tracer.h"
 
 namespace foresight {
@@ -63,8 +64,12 @@ double RayLikelihood::operator()(const ValveCandidate& valve, ValveParts parts) 
 }
 
 double RayLikelihood::OfRays(const ValveCandidate& valve, ValveParts parts) const {
+  return rays_.samples_per_ray * LogDensities(valve, parts).sum();
+}
+
+Eigen::VectorXd RayLikelihood::LogDensities(const ValveCandidate& valve, ValveParts parts) const {
   const ValveTracer tracer(valve, parts);
-  double sum = 0.0;
+  Eigen::VectorXd log_densities(std::ssize(backgrounds_));
   for (std::size_t i = 0; i < backgrounds_.size(); ++i) {
     const RangeRay& ray = rays_.rays[i];
     double log_density = backgrounds_[i].log_density;
@@ -72,9 +77,22 @@ double RayLikelihood::OfRays(const ValveCandidate& valve, ValveParts parts) cons
       const ExpectedRange expected = footprints_.Expect(i, tracer.Intersect(ray), valve.brightness);
       if (expected.fraction > 0.0) log_density = std::log(DensityOn(i, expected));
     }
-    sum += log_density;
+    log_densities(static_cast<Eigen::Index>(i)) = log_density;
   }
-  return rays_.samples_per_ray * sum;
+  return log_densities;
+}
+
+Eigen::VectorXd RayLikelihood::Gains(const ValveCandidate& valve) const {
+  if (beams_) return beams_->Gains(valve);
+  Eigen::VectorXd gains = LogDensities(valve, ValveParts::kAll);
+  for (std::size_t i = 0; i < backgrounds_.size(); ++i)
+    gains(static_cast<Eigen::Index>(i)) -= backgrounds_[i].log_density;
+  return rays_.samples_per_ray * gains;
+}
+
+double RayLikelihood::DeviationsAhead(const ValveCandidate& first,
+                                      const ValveCandidate& second) const {
+  return DeviationsOverLines(Measured().rays, Gains(first) - Gains(second));
 }
 
 double RayLikelihood::Nothing() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -32,6 +33,14 @@ class RayLikelihood {
   /// The same with no valve there at all.
   double Nothing() const;
 
+  /// What was measured: the beams behind a dense map where they are known, else the rays.
+  const RaySet& Measured() const { return beams_ ? beams_->Measured() : rays_; }
+  /// How much each of the measured rays speaks for a valve against none, in nats.
+  Eigen::VectorXd Gains(const ValveCandidate& valve) const;
+  /// How many deviations `first` is ahead of `second` when the scan lines of what was measured, and
+  /// not its rays, are independent (DeviationsOverLines).
+  double DeviationsAhead(const ValveCandidate& first, const ValveCandidate& second) const;
+
   /// Of its rays, without the beams behind a map.
   const BeamFootprints& Footprints() const { return footprints_; }
 
@@ -45,6 +54,7 @@ class RayLikelihood {
 
   /// Of the rays alone, without beams and prior.
   double OfRays(const ValveCandidate& valve, ValveParts parts) const;
+  Eigen::VectorXd LogDensities(const ValveCandidate& valve, ValveParts parts) const;
   double OfNothing() const;
   double DensityOn(std::size_t i, const ExpectedRange& expected) const;
 

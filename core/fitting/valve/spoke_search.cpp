@@ -25,6 +25,7 @@ ValveCandidate BestOfGrid(const RayLikelihood& likelihood, const ValveCandidate&
       ValveCandidate tried = Retract(rim, sector * p / phases * ValveStep::Unit(int{kPhase}));
       tried.model = UsualValve(rim.model.rim_radius_m, rim.model.tube_radius_m, spokes,
                                kFirstDish_m + d * kDishStep_m);
+      tried.model.rim_depth_ratio = rim.model.rim_depth_ratio;
       tried.log_likelihood = likelihood(tried);
       if (!best || tried.log_likelihood > best->log_likelihood) best = tried;
     }

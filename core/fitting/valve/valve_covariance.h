@@ -9,8 +9,6 @@ namespace foresight {
 /// (CovarianceClusteredByLine), and what no ray tells, that wheels are no template, is a factor for
 /// each direction, chosen on training scenes (docs/evaluation.md, "Two worlds").
 /// `footprints` are those of the fit.
-/// The verdict is assessed before: its weights were fitted to SetSigmas, which takes every beam for
-/// an independent one and sections for known.
 void WidenSigmas(const BeamFootprints& footprints, ValveDetection& detection);
 
 }  // namespace foresight

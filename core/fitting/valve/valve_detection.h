@@ -24,6 +24,11 @@ struct ValveEvidence {
   double gain_nats = 0.0;     ///< log likelihood ahead of no valve at all
   /// Of the rays on the spoke that is seen worst, those with a range that agrees; 1 without spokes.
   double weakest_spoke = 1.0;
+  /// Of margin_nats, in deviations, when scan lines and not beams are independent.
+  double margin_line_sigmas = 0.0;
+  /// How much the beams on the spoke that is seen worst speak for it, against no valve; 0 where no
+  /// beam is on it, and without spokes.
+  double weakest_spoke_nats = 0.0;
 };
 
 /// One answer to "where is the valve": the best one, or an alternative.

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/fitting/beam_model.h"
+#include "core/fitting/compressed_nats.h"
 #include "core/fitting/region_place.h"
 #include "core/fitting/valve/valve_tracer.h"
 
@@ -119,6 +120,21 @@ ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandid
   return evidence;
 }
 
+double WeakestSpoke(const RayLikelihood& likelihood, const ValveCandidate& valve) {
+  if (valve.model.IsLever() || valve.model.spokes == 0) return 0.0;
+  const std::vector<RangeRay>& rays = likelihood.Measured().rays;
+  const Eigen::VectorXd gains = likelihood.Gains(valve);
+  const ValveTracer tracer(valve, ValveParts::kAll);
+  std::vector<double> nats(static_cast<std::size_t>(valve.model.spokes), 0.0);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!tracer.Near(rays[i], 0.0)) continue;
+    const ValveIntersection intersection = tracer.Intersect(rays[i]);
+    if (intersection.part == ValvePart::kSpoke && intersection.Clearance() < 0.0)
+      nats[static_cast<std::size_t>(intersection.spoke)] += gains(static_cast<Eigen::Index>(i));
+  }
+  return *std::min_element(nats.begin(), nats.end());
+}
+
 void SetCovariance(const PoseCovariance& covariance, ValveDetection& detection) {
   const Eigen::Matrix<double, 6, 1> sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   detection.sigma_position_m = sigmas.segment<3>(kMoveX);
@@ -160,10 +176,19 @@ int Misplacement(const RaySet& rays, const ValveCandidate& valve) {
   return (DistanceFromRegionCenter(rays, valve) > kMaxOffCenter_m ? 1 : 0) + (endless ? 2 : 0);
 }
 
+double ChanceOfBeingOff(const ValveDetection& detection) {
+  const auto beyond = [](double limit, double sigma) {
+    return std::erfc(limit / (std::numbers::sqrt2 * std::max(sigma, 1e-6)));
+  };
+  return 1.0 - (1.0 - beyond(kRightPlace_m, detection.sigma_position_m.norm())) *
+                   (1.0 - beyond(kRightAxis_rad, detection.sigma_axis_rad));
+}
+
 std::vector<std::string> ValveFeatureNames() {
-  return {"log_margin",     "gain_per_hit", "log_hits",      "inlier_ratio",   "see_through",
-          "blocked_gaps",   "arc_coverage", "weakest_spoke", "log_sigma_axis", "log_sigma_pos",
-          "log_sigma_turn", "log_size",     "disc",          "lever"};
+  return {"log_margin",         "margin_line_sigmas", "gain_per_hit",   "log_hits",
+          "inlier_ratio",       "see_through",        "blocked_gaps",   "arc_coverage",
+          "weakest_spoke_gain", "log_sigma_along",    "log_sigma_tilt", "log_chance_off",
+          "log_size",           "log_width",          "disc",           "lever"};
 }
 
 std::vector<double> ValveFeatures(const RaySet& rays, const ValveDetection& detection) {
@@ -173,17 +198,19 @@ std::vector<double> ValveFeatures(const RaySet& rays, const ValveDetection& dete
   const double size_m = model.IsLever() ? model.lever_length_m : model.rim_radius_m;
   const bool disc = !model.IsLever() && model.spokes == 0;
   return {std::log1p(std::max(0.0, evidence.margin_nats)),
+          std::clamp(evidence.margin_line_sigmas, -2.0, 10.0),
           std::clamp(evidence.gain_nats / hits, 0.0, 5.0),
           std::log(hits),
           evidence.inlier_ratio,
           evidence.see_through,
           evidence.blocked_gaps,
           evidence.arc_coverage,
-          evidence.weakest_spoke,
+          Compressed(evidence.weakest_spoke_nats),
+          std::log(std::max(1e-4, detection.sigma_position_m.z())),
           std::log(std::max(1e-4, detection.sigma_axis_rad)),
-          std::log(std::max(1e-5, detection.sigma_position_m.norm())),
-          disc ? std::log(0.1) : std::log(std::max(1e-4, detection.sigma_phase_rad)),
+          std::log(1e-4 + ChanceOfBeingOff(detection)),
           std::log(size_m),
+          std::log(std::max(1e-3, model.tube_radius_m)),
           disc ? 1.0 : 0.0,
           model.IsLever() ? 1.0 : 0.0};
 }

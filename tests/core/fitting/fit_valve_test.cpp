@@ -80,6 +80,24 @@ TEST(FitValve, AWheelOfFlatBarsIsPlacedAlongItsAxisWithinWhatItsSigmaSays) {
   EXPECT_LT(square, 2.0 * 2.0);
 }
 
+TEST(FitValve, AWheelBentFromABarIsFoundThoughNearlyAllBeamsReadBetweenItsRimAndTheWall) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    ValveView view = RandomValveView(seed);
+    // A bar of 6 by 22 mm on edge, and beams that are 13 mm wide there.
+    view.model = ValveModel{0.210, 0.003, 4, 0.005, 0.030, 0.010};
+    view.model.rim_depth_ratio = 3.7;
+    view.distance_m = 1.1;
+    view.wall_m = 0.13;
+    view.footprint_rad = 0.012;
+    const ValveScene scene = MakeValveScene(view);
+    const auto found = FitValve(scene.rays, {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    const ValveError error = CompareValves(found->best, scene.truth);
+    EXPECT_TRUE(error.spokes_right) << seed << ": " << found->best.model.spokes;
+    EXPECT_LT(error.center_m, 0.020) << seed;
+  }
+}
+
 TEST(FitValve, ItsPlaceAlongTheAxisIsLessSureThanTheFrontOfARimWhoseDepthIsNotSeen) {
   // Face on nothing tells a flat rim from a deep one: half the depth of a usual one, 13 mm, is
   // known to 5 mm or so by what is built.

@@ -165,7 +165,9 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
                       .arc_coverage = random.Uniform(0.3, 1.0),
                       .margin_nats = random.Uniform(-50.0, 500.0),
                       .gain_nats = random.Uniform(0.0, 2000.0),
-                      .weakest_spoke = random.Uniform(0.2, 1.0)};
+                      .weakest_spoke = random.Uniform(0.2, 1.0),
+                      .margin_line_sigmas = random.Uniform(-1.0, 8.0),
+                      .weakest_spoke_nats = random.Uniform(-20.0, 100.0)};
     if (random.Index(3) == 0) found.evidence.margin_nats = random.Uniform(-5.0, 12.0);
     found.alternatives.push_back(found.best);
     found.alternatives.front().model.spokes = 5;
@@ -194,7 +196,9 @@ TEST(Reasons, SpokesWithoutARimAreNotConfirmed) {
                     .arc_coverage = 0.45,
                     .margin_nats = 500.0,
                     .gain_nats = 1500.0,
-                    .weakest_spoke = 1.0};
+                    .weakest_spoke = 1.0,
+                    .margin_line_sigmas = 6.0,
+                    .weakest_spoke_nats = 100.0};
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
   found.evidence.arc_coverage = 0.35;
   const Verdict verdict = AssessValve(rays, rays, found, {});

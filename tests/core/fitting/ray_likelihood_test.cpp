@@ -9,6 +9,7 @@
 #include "core/fitting/valve/fit_valve.h"
 #include "core/fitting/valve/local_search.h"
 #include "core/fitting/valve/refine.h"
+#include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/wall.h"
 #include "core/geometry/angles.h"
 #include "tests/support/valve_rays.h"
@@ -109,6 +110,52 @@ TEST(RayLikelihood, BeamsBehindAMapCountInFullAndTheMapForAFraction) {
               BeamModel::kMapWithBeams * (alone(scene.truth) - prior) + beams(scene.truth) - prior,
               1e-9);
   EXPECT_NEAR(both.Nothing(), BeamModel::kMapWithBeams * alone.Nothing() + beams.Nothing(), 1e-9);
+}
+
+TEST(RayLikelihood, GainsOfItsRaysAreWhatAValveIsAheadOfNone) {
+  const ValveScene scene = FourSpokes();
+  const auto wall = WallOf(scene.rays);
+  RaySet map = scene.rays;
+  map.dense = true;
+  map.samples_per_ray = 0.25;
+  const RayLikelihood alone(map, wall);
+  EXPECT_NEAR(alone.Gains(scene.truth).sum(),
+              alone(scene.truth) - LogPrior(scene.truth, wall) - alone.Nothing(), 1e-9);
+  map.beams = std::make_shared<const RaySet>(scene.rays);
+  const RayLikelihood both(map, wall), beams(scene.rays, wall);
+  EXPECT_EQ(both.Gains(scene.truth), beams.Gains(scene.truth)) << "the map is made from the beams";
+}
+
+TEST(RayLikelihood, TheTruthIsAheadOfAnotherNumberOfSpokesByManyLines) {
+  const ValveScene scene = FourSpokes();
+  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  ValveCandidate more = scene.truth;
+  more.model.spokes = 5;
+  EXPECT_GT(likelihood.DeviationsAhead(scene.truth, more), 2.0);
+  EXPECT_EQ(likelihood.DeviationsAhead(scene.truth, more),
+            -likelihood.DeviationsAhead(more, scene.truth));
+}
+
+TEST(ValveEvidence, BeamsSpeakAgainstASpokeThatIsNotThere) {
+  const ValveScene scene = FourSpokes();
+  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  EXPECT_GT(WeakestSpoke(likelihood, scene.truth), 10.0);
+  ValveCandidate more = scene.truth;
+  more.model.spokes = 5;
+  EXPECT_LT(WeakestSpoke(likelihood, more), -10.0);
+  more.model.spokes = 0;
+  EXPECT_EQ(WeakestSpoke(likelihood, more), 0.0);
+}
+
+TEST(ValveEvidence, WhatIsKnownWellIsHardlyOff) {
+  ValveDetection detection;
+  detection.sigma_position_m = {0.001, 0.001, 0.004};
+  detection.sigma_axis_rad = 0.01;
+  EXPECT_LT(ChanceOfBeingOff(detection), 1e-4);
+  detection.sigma_position_m.z() = kRightPlace_m;  // one deviation: 32 % are farther off
+  EXPECT_NEAR(ChanceOfBeingOff(detection), 0.32, 0.01);
+  detection.sigma_axis_rad = kRightAxis_rad;
+  EXPECT_NEAR(ChanceOfBeingOff(detection), 1.0 - 0.683 * 0.683, 0.01);
 }
 
 TEST(FitValve, BeamsBehindAMapThatIsShiftedBringTheValveBack) {

@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/geometry/angles.h"
+#include "core/selfcheck/gather_rig.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/support/temporary_folder.h"
 
@@ -33,8 +35,10 @@ KeptCheck CheckOf(const std::string& uuid, double turn_deg, std::int64_t utc_ns 
   camera.images = 2;
   PlateCheck& plate = check.rig.plate.emplace();
   plate.drift.setConstant(1e-4);
-  plate.covariance = 1e-6 * Eigen::Matrix<double, PlateCheck::kUnknowns, PlateCheck::kUnknowns>::Identity();
-  plate.covariance(PlateCheck::kStamp, PlateCheck::kStamp) = std::numeric_limits<double>::infinity();
+  plate.covariance =
+      1e-6 * Eigen::Matrix<double, PlateCheck::kUnknowns, PlateCheck::kUnknowns>::Identity();
+  plate.covariance(PlateCheck::kStamp, PlateCheck::kStamp) =
+      std::numeric_limits<double>::infinity();
   plate.planes = 5;
   plate.cells = 300;
   KeptCheck kept = NewKeptCheck(scan, check, {});
@@ -60,6 +64,8 @@ TEST(GatherChecks, WhatIsMeasuredComesBackBitForBit) {
 TEST(GatherChecks, SeveralScansTellWhatOneDoesNot) {
   std::vector<KeptCheck> checks;
   for (const char* uuid : {"a", "b", "c", "d", "e"}) checks.push_back(CheckOf(uuid, 0.3));
+  const RigCheck one = GatherRig(std::vector{checks.front().rig}, Rig(), {});
+  EXPECT_FALSE(one.Drifted()) << one.drifted.front();
   const auto gathered = GatherChecks(checks, Rig());
   ASSERT_TRUE(gathered);
   EXPECT_EQ(gathered->scans, 5);
@@ -80,6 +86,29 @@ TEST(GatherChecks, ScansOfAnotherRigTakeNoPart) {
   SensorRig other = Rig();
   other.camera.fx += 1.0;
   EXPECT_FALSE(GatherChecks(checks, other));
+}
+
+TEST(GatherChecks, ACheckWithAnotherRigHidesNone) {
+  const TemporaryFolder folder;
+  const auto mission = MissionFile::Create(folder / "m.foresight").value();
+  for (const char* uuid : {"a", "b"}) ASSERT_TRUE(AddScanCheck(*mission, CheckOf(uuid, 0.0, 1)));
+  KeptCheck tried = CheckOf("a", 0.9, 2);
+  auto answer = nlohmann::ordered_json::parse(tried.answer_json);
+  answer["rig_id"] = "another";
+  tried.answer_json = answer.dump();
+  ASSERT_TRUE(AddScanCheck(*mission, tried));
+  const auto checks = NewestScanChecks(*mission, nullptr);
+  ASSERT_TRUE(checks) << checks.error().message;
+  EXPECT_TRUE(GatherChecks(*checks, Rig()));
+}
+
+TEST(GatherChecks, TheReasonWhyNothingWasMeasuredIsKept) {
+  ScanCheck check;
+  check.rig.no_camera = "the scan has no image";
+  check.rig.no_plate = "too few planes";
+  const KeptCheck kept = NewKeptCheck(SampleScan(1), check, {});
+  EXPECT_EQ(kept.rig.no_camera, "the scan has no image");
+  EXPECT_EQ(kept.rig.no_plate, "too few planes");
 }
 
 TEST(GatherChecks, ChecksOfEarlierProgramsKeptNoMeasurements) {

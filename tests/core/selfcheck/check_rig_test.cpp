@@ -7,6 +7,7 @@
 #include "core/evaluation/check_trial.h"
 #include "core/geometry/angles.h"
 #include "core/selfcheck/gather_rig.h"
+#include "core/sensor/rig_id.h"
 
 namespace foresight {
 namespace {
@@ -78,6 +79,17 @@ TEST(CheckRig, FindsATurnAboutTheMotorsAxisInSeveralScans) {
   }
   const RigCheck all = GatherRig(checks, DefaultSensorRig(), {});
   EXPECT_THAT(all.drifted, testing::Contains(testing::HasSubstr("about the camera's x axis")));
+}
+
+TEST(RigBefore, AHeadThatSufferedNothingHasTheSameRig) {
+  // Turns that are rounded: to normalise them again changes some of them, and the rig's id.
+  for (int i = 1; i <= 20; ++i) {
+    SensorRig rig = DefaultSensorRig();
+    rig.camera_from_lidar = {
+        Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d(1.0, 2.0, i).normalized())),
+        rig.camera_from_lidar.translation()};
+    EXPECT_EQ(RigId(RigBefore({.name = "none"}, rig)), RigId(rig)) << i;
+  }
 }
 
 TEST(CheckRig, FindsAnOffsetOfTheStamps) {
