@@ -31,7 +31,8 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"gain_nats", evidence.gain_nats},
           {"weakest_spoke", evidence.weakest_spoke},
           {"margin_line_sigmas", evidence.margin_line_sigmas},
-          {"weakest_spoke_nats", evidence.weakest_spoke_nats}};
+          {"weakest_spoke_nats", evidence.weakest_spoke_nats},
+          {"rim_nats", evidence.rim_nats}};
 }
 
 ValveModel::Kind KindFrom(const std::string& name) {
@@ -61,7 +62,8 @@ ValveEvidence ValveEvidenceFrom(const Json& value) {
   // Earlier programs did not write these.
   for (const auto& [name, member] : {std::pair("weakest_spoke", &evidence.weakest_spoke),
                                      std::pair("margin_line_sigmas", &evidence.margin_line_sigmas),
-                                     std::pair("weakest_spoke_nats", &evidence.weakest_spoke_nats)})
+                                     std::pair("weakest_spoke_nats", &evidence.weakest_spoke_nats),
+                                     std::pair("rim_nats", &evidence.rim_nats)})
     if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;
 }

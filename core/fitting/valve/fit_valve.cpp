@@ -304,7 +304,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
   if (valves.size() > 1)
     detection.evidence.margin_line_sigmas = likelihood.DeviationsAhead(valves[0], valves[1]);
-  detection.evidence.weakest_spoke_nats = WeakestSpoke(likelihood, detection.best);
+  AddEvidenceOfParts(likelihood, detection.best, detection.evidence);
   WidenSigmas(likelihood.Footprints(), detection);
   detection.verdict = AssessValve(rays, region, detection, options);
   return detection;

@@ -29,6 +29,8 @@ struct ValveEvidence {
   /// How much the beams on the spoke that is seen worst speak for it, against no valve; 0 where no
   /// beam is on it, and without spokes.
   double weakest_spoke_nats = 0.0;
+  /// How much the beams on and beside the rim speak for it; 0 for a lever.
+  double rim_nats = 0.0;
 };
 
 /// One answer to "where is the valve": the best one, or an alternative.

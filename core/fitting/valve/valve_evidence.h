@@ -19,9 +19,10 @@ inline constexpr double kRightAxis_rad = 5.0 * std::numbers::pi / 180.0;
 /// lies on it. Members in nats and in deviations over lines are left at 0.
 ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandidate& valve);
 
-/// How much the measured rays on the spoke that is seen worst speak for a valve against none, in
-/// nats: ValveEvidence::weakest_spoke_nats.
-double WeakestSpoke(const RayLikelihood& likelihood, const ValveCandidate& valve);
+/// What the measured rays say of the single parts of a valve: ValveEvidence::weakest_spoke_nats and
+/// rim_nats.
+void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve,
+                        ValveEvidence& evidence);
 
 /// Fills the covariance and the deviations of a detection from the information of its best
 /// candidate, as if each beam were an independent measurement and the sections were known.

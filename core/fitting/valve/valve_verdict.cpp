@@ -48,6 +48,14 @@ Gate BlockedGate(const ValveEvidence& evidence, double limit) {
           .limit = limit};
 }
 
+Gate RimGate(const ValveEvidence& evidence, double limit_nats) {
+  return {.what = "the odds that there is a rim are {}",
+          .unit = Gate::Unit::kOdds,
+          .number = evidence.rim_nats,
+          .limit = limit_nats,
+          .advice = "spokes without a rim look like this"};
+}
+
 Gate BeingOffGate(const ValveDetection& detection, double limit) {
   return {
       .what = fmt::format("the chance that it is off by more than {:.0f} mm or {:.0f} deg is {{}}",
@@ -112,6 +120,7 @@ void AddFailedShapeGates(const ValveDetection& detection, const FitValveOptions&
   } else if (model.spokes == 0) {
     failed.push_back("no spokes are seen: any round or flat thing looks like this");
   } else {
+    AddIfFailed(RimGate(detection.evidence, kMinMargin_nats), failed);
     AddIfFailed(RimSeenGate(detection.evidence, kMinRimSeen), failed);
     AddIfFailed(BeingOffGate(detection, kMaxChanceOfBeingOff), failed);
     AddIfFailed(SmallestRim(model, 1.08 * options.min_rim_radius_m), failed);

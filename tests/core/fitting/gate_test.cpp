@@ -167,14 +167,15 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
                       .gain_nats = random.Uniform(0.0, 2000.0),
                       .weakest_spoke = random.Uniform(0.2, 1.0),
                       .margin_line_sigmas = random.Uniform(-1.0, 8.0),
-                      .weakest_spoke_nats = random.Uniform(-20.0, 100.0)};
+                      .weakest_spoke_nats = random.Uniform(-20.0, 100.0),
+                      .rim_nats = random.Uniform(-20.0, 100.0)};
     if (random.Index(3) == 0) found.evidence.margin_nats = random.Uniform(-5.0, 12.0);
     found.alternatives.push_back(found.best);
     found.alternatives.front().model.spokes = 5;
     const Verdict verdict = AssessValve(rays, rays, found, {});
     ExpectStatedGatesFail(verdict, &stated);
     if (found.evidence.margin_nats >= kFarBehind_nats) {
-      EXPECT_THAT(verdict.reason, Not(HasSubstr("odds"))) << found.evidence.margin_nats;
+      EXPECT_THAT(verdict.reason, Not(HasSubstr(" against "))) << found.evidence.margin_nats;
     }
   }
   EXPECT_GT(stated, kAnswers / 2);
@@ -198,13 +199,18 @@ TEST(Reasons, SpokesWithoutARimAreNotConfirmed) {
                     .gain_nats = 1500.0,
                     .weakest_spoke = 1.0,
                     .margin_line_sigmas = 6.0,
-                    .weakest_spoke_nats = 100.0};
+                    .weakest_spoke_nats = 100.0,
+                    .rim_nats = 600.0};
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
   found.evidence.arc_coverage = 0.35;
   const Verdict verdict = AssessValve(rays, rays, found, {});
   EXPECT_EQ(verdict.level, VerdictLevel::kLikely);
   EXPECT_EQ(verdict.reason,
             "35 % of the rim is seen (at least 40 %): spokes without a rim look like this");
+  found.evidence.arc_coverage = 0.92;  // beams that touch it and the wall agree with a thin one
+  found.evidence.rim_nats = -48.5;
+  EXPECT_THAT(AssessValve(rays, rays, found, {}).reason,
+              HasSubstr("the odds that there is a rim are "));
 }
 
 TEST(Reasons, OfDrillsFailAsTheyAreStated) {

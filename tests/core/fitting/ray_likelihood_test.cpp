@@ -136,15 +136,30 @@ TEST(RayLikelihood, TheTruthIsAheadOfAnotherNumberOfSpokesByManyLines) {
             -likelihood.DeviationsAhead(more, scene.truth));
 }
 
+ValveEvidence EvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve) {
+  ValveEvidence evidence;
+  AddEvidenceOfParts(likelihood, valve, evidence);
+  return evidence;
+}
+
 TEST(ValveEvidence, BeamsSpeakAgainstASpokeThatIsNotThere) {
   const ValveScene scene = FourSpokes();
   const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
-  EXPECT_GT(WeakestSpoke(likelihood, scene.truth), 10.0);
+  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_spoke_nats, 10.0);
   ValveCandidate more = scene.truth;
   more.model.spokes = 5;
-  EXPECT_LT(WeakestSpoke(likelihood, more), -10.0);
+  EXPECT_LT(EvidenceOfParts(likelihood, more).weakest_spoke_nats, -10.0);
   more.model.spokes = 0;
-  EXPECT_EQ(WeakestSpoke(likelihood, more), 0.0);
+  EXPECT_EQ(EvidenceOfParts(likelihood, more).weakest_spoke_nats, 0.0);
+}
+
+TEST(ValveEvidence, BeamsSpeakAgainstARimThatIsNotThere) {
+  const ValveScene scene = FourSpokes();
+  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).rim_nats, 100.0);
+  ValveCandidate wider = scene.truth;  // where the beams reach the wall
+  wider.model.rim_radius_m *= 1.25;
+  EXPECT_LT(EvidenceOfParts(likelihood, wider).rim_nats, 0.0);
 }
 
 TEST(ValveEvidence, WhatIsKnownWellIsHardlyOff) {
