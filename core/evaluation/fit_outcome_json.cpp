@@ -1,19 +1,15 @@
 #include "core/evaluation/fit_outcome_json.h"
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
+#include "core/io/json_numbers.h"
 
 namespace foresight {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json Number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
 
 double NumberFrom(const ordered_json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
@@ -58,9 +54,9 @@ FitOutcome OutcomeFrom(const ordered_json& value) {
 
 std::string FitOutcomeToJson(const FitOutcome& outcome) {
   ordered_json features = ordered_json::array();
-  for (const double feature : outcome.verdict.features) features.push_back(Number(feature));
+  for (const double feature : outcome.verdict.features) features.push_back(FiniteOrNull(feature));
   ordered_json errors = ordered_json::object();
-  for (const auto& [name, value] : outcome.errors) errors[name] = Number(value);
+  for (const auto& [name, value] : outcome.errors) errors[name] = FiniteOrNull(value);
   const ordered_json json = {{"world", ToString(outcome.world)},
                              {"seed", outcome.seed},
                              {"what", outcome.what},
@@ -70,10 +66,10 @@ std::string FitOutcomeToJson(const FitOutcome& outcome) {
                              {"pose_ok", outcome.pose_ok},
                              {"all_ok", outcome.all_ok},
                              {"verdict", ToString(outcome.verdict.level)},
-                             {"probability", Number(outcome.verdict.probability)},
+                             {"probability", FiniteOrNull(outcome.verdict.probability)},
                              {"features", features},
                              {"errors", errors},
-                             {"seconds", Number(outcome.seconds)},
+                             {"seconds", FiniteOrNull(outcome.seconds)},
                              {"reason", outcome.reason}};
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -7,6 +7,7 @@
 #include "core/base/version.h"
 #include "core/detection/detection_json.h"
 #include "core/geometry/angles.h"
+#include "core/io/json_numbers.h"
 #include "core/mission/depth_numbers.h"
 #include "core/registration/returns_in_robot.h"
 #include "core/sensor/rig_id.h"
@@ -125,19 +126,15 @@ Status Take(Result<CloudDistances> distances, const char* what,
   return {};
 }
 
-OrderedJson Number(double value) {
-  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
-}
-
 OrderedJson ToJson(const DepthComparison& depth) {
   return {{"in_both", depth.in_both},
           {"only_in_first", depth.only_in_first},
           {"only_in_second", depth.only_in_second},
           {"in_neither", depth.in_neither},
-          {"median_abs_m", Number(depth.median_abs_m)},
-          {"p95_abs_m", Number(depth.p95_abs_m)},
-          {"max_abs_m", Number(depth.max_abs_m)},
-          {"mean_m", Number(depth.mean_m)},
+          {"median_abs_m", FiniteOrNull(depth.median_abs_m)},
+          {"p95_abs_m", FiniteOrNull(depth.p95_abs_m)},
+          {"max_abs_m", FiniteOrNull(depth.max_abs_m)},
+          {"mean_m", FiniteOrNull(depth.mean_m)},
           {"histogram",
            {{"from_m", -DepthComparison::kFullScale_m},
             {"to_m", DepthComparison::kFullScale_m},
@@ -148,9 +145,9 @@ OrderedJson ToJson(const DepthComparison& depth) {
 
 OrderedJson ToJson(const CloudDistance& distance) {
   return {{"points", distance.points},
-          {"median_m", Number(distance.median_m)},
-          {"p95_m", Number(distance.p95_m)},
-          {"max_m", Number(distance.max_m)}};
+          {"median_m", FiniteOrNull(distance.median_m)},
+          {"p95_m", FiniteOrNull(distance.p95_m)},
+          {"max_m", FiniteOrNull(distance.max_m)}};
 }
 
 OrderedJson ToJson(const std::optional<CloudDistances>& distances) {

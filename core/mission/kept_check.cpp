@@ -1,6 +1,5 @@
 #include "core/mission/kept_check.h"
 
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +7,7 @@
 #include "core/depth/depth_option_table.h"
 #include "core/detection/detection_json.h"
 #include "core/geometry/angles.h"
+#include "core/io/json_numbers.h"
 #include "core/io/json_reader.h"
 #include "core/mission/new_records.h"
 #include "core/mission/provenance.h"
@@ -22,16 +22,12 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* kEventSource = "self-check";
 
-OrderedJson Finite(double value) {
-  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
-}
-
 OrderedJson ErrorsJson(const HeldOutErrors& errors) {
   return {{"beams", errors.beams},
-          {"q50_m", Finite(errors.q50_m)},
-          {"q80_m", Finite(errors.q80_m)},
-          {"q95_m", Finite(errors.q95_m)},
-          {"right", Finite(errors.right)}};
+          {"q50_m", FiniteOrNull(errors.q50_m)},
+          {"q80_m", FiniteOrNull(errors.q80_m)},
+          {"q95_m", FiniteOrNull(errors.q95_m)},
+          {"right", FiniteOrNull(errors.right)}};
 }
 
 OrderedJson ClassesJson(const std::vector<HeldOutClass>& classes) {
@@ -57,9 +53,9 @@ OrderedJson DepthJson(const DepthCheck& depth) {
       {"method", depth.method},
       {"image_deg", DegreesFromRadians(depth.image_rad)},
       {"map",
-       {{"q50_m", Finite(depth.map_q50_m)},
-        {"q80_m", Finite(depth.map_q80_m)},
-        {"q95_m", Finite(depth.map_q95_m)}}},
+       {{"q50_m", FiniteOrNull(depth.map_q50_m)},
+        {"q80_m", FiniteOrNull(depth.map_q80_m)},
+        {"q95_m", FiniteOrNull(depth.map_q95_m)}}},
       {"against_beams", ErrorsJson(depth.all)},
       {"against_scattered_beams", ErrorsJson(depth.scattered)},
       {"against_lines", ErrorsJson(depth.lines)},

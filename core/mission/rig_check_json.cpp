@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/io/json_numbers.h"
 #include "core/io/json_reader.h"
 
 namespace foresight {
@@ -14,17 +15,13 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMost = 1e9;
 
-OrderedJson Finite(double value) {
-  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
-}
-
 /// Row by row.
 template <class Matrix>
 OrderedJson NumbersJson(const Matrix& matrix) {
   OrderedJson numbers = OrderedJson::array();
   for (Eigen::Index row = 0; row < matrix.rows(); ++row)
     for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-      numbers.push_back(Finite(matrix(row, column)));
+      numbers.push_back(FiniteOrNull(matrix(row, column)));
   return numbers;
 }
 
@@ -125,9 +122,9 @@ std::string RigCheckToJson(const RigCheck& check) {
   for (const RigFinding& finding : check.findings)
     findings.push_back({{"name", finding.name},
                         {"state", ToString(finding.state)},
-                        {"value", Finite(finding.value)},
-                        {"sigma", Finite(finding.sigma)},
-                        {"limit", Finite(finding.limit)},
+                        {"value", FiniteOrNull(finding.value)},
+                        {"sigma", FiniteOrNull(finding.sigma)},
+                        {"limit", FiniteOrNull(finding.limit)},
                         {"unit", finding.unit}});
   OrderedJson json = {{"findings", findings}, {"drifted", check.drifted}};
   if (check.camera)

@@ -11,8 +11,8 @@ namespace foresight {
 std::string RigCheckToJson(const RigCheck& check);
 
 /// What such a check measured, for GatherRig: `camera` and `plate`. Its findings are not read, for
-/// JudgeRig makes them again. One that cannot be averaged is left out; checks of earlier programs
-/// kept no measurements and have neither.
+/// JudgeRig makes them again. A measurement whose covariance cannot be inverted is left out; checks
+/// of earlier programs kept no measurements and have neither.
 /// Throws as the readers of core/io/json_reader.h do.
 RigCheck RigMeasurementsFromJson(const nlohmann::json& json);
 

@@ -189,7 +189,7 @@ class Judge {
     return fmt::format(
         "with it the edges stand out by {:.0f} % more, {:.1f} deviations, where {:.0f} % and "
         "{:.1f} "
-        "are believed; several scans together show it",
+        "are believed; more scans together show it",
         100.0 * camera.GainOfContrast(), camera.gain_sigmas, 100.0 * LeastGainOfContrast(),
         limits_.least_gain_sigmas);
   }

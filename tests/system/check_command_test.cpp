@@ -3,8 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/geometry/angles.h"
 #include "core/mission/kept_check.h"
 #include "core/mission/new_records.h"
+#include "core/selfcheck/rig_damage.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/ctl.h"
@@ -53,6 +55,18 @@ TEST(CheckCommand, AGoodScanSaysSoAndHowGoodItsDepthIs) {
 }
 
 TEST(CheckCommand, SaysOnWhichSideTheEdgesLieAndWhatToDo) {
+  const TemporaryFolder folder;
+  // The camera that took the image looks 0.4 deg further to the right than this rig knows.
+  const SensorRig rig = MissionFile::OpenReadOnly(RoomMission()).value()->LoadScan(1).value().rig;
+  ASSERT_TRUE(SaveSensorRig(
+      RigBefore({.name = "knocked", .camera_turn_rad = {0.0, RadiansFromDegrees(-0.4), 0.0}}, rig),
+      folder / "turned.yaml"));
+  const ProgramResult result = Ctl({"check", RoomMission(), "--rig", folder / "turned.yaml"});
+  EXPECT_EQ(result.exit_code, 1) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("px left of the lidar's: check the calibration"));
+}
+
+TEST(CheckCommand, ShowsWhatItWouldSayOfAHeadThatWasKnocked) {
   // As if the camera had turned by 0.4 deg to the left since the rig was calibrated.
   const ProgramResult result = Ctl({"check", RoomMission(), "--camera-turned", "0,-0.4,0"});
   EXPECT_EQ(result.exit_code, 1) << result.errors;

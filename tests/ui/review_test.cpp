@@ -115,34 +115,40 @@ TEST_F(ReviewTest, ACheckThatWasNeverKeptIsLookedForOnce) {
   EXPECT_EQ(flow.ReadCount(), 2);
 }
 
-/// A scan whose edges say, each alone too weakly, that the camera turned by so much about y.
-KeptCheck WeakCheck(const Scan& scan, double turn_rad) {
-  ScanCheck check;
-  check.light = CheckLight::kGood;
-  check.advice = "nothing to do";
-  CameraCheck& camera = check.rig.camera.emplace();
-  camera.turn_rad = {0.0, turn_rad, 0.0};
-  camera.covariance = 3e-6 * Eigen::Matrix3d::Identity();
-  camera.score = 0.5;
-  camera.score_before = 0.4;
-  camera.gain_sigmas = 5.0;
-  camera.edges = 400;
-  return NewKeptCheck(scan, check, {});
-}
+struct ReviewOfCheckedScansTest : ReviewTest {
+  /// A scan whose edges say, each alone too weakly, that the camera turned by so much about y.
+  static KeptCheck WeakCheck(const Scan& scan, double turn_rad) {
+    ScanCheck check;
+    check.light = CheckLight::kGood;
+    check.advice = "nothing to do";
+    CameraCheck& camera = check.rig.camera.emplace();
+    camera.turn_rad = {0.0, turn_rad, 0.0};
+    camera.covariance = 3e-6 * Eigen::Matrix3d::Identity();
+    camera.score = 0.5;
+    camera.score_before = 0.4;
+    camera.gain_sigmas = 5.0;
+    camera.edges = 400;
+    return NewKeptCheck(scan, check, {});
+  }
 
-TEST_F(ReviewTest, GoodScansDoNotMakeTheLampOfOneThatShowsNothingGreen) {
-  ScanCheck nothing;
-  nothing.advice = "nothing can be said";
-  {
-    const auto file = MissionFile::Open(path.toStdString()).value();
-    ASSERT_TRUE(AddScanCheck(*file, NewKeptCheck(scan, nothing, {})));
-    for (const char* uuid : {"b", "c", "d"}) {
+  /// To the mission: that of its scan, and weak ones of others.
+  Status AddChecks(const KeptCheck& of_scan, std::initializer_list<const char*> others,
+                   double turn_rad) const {
+    FORESIGHT_TRY(const auto file, MissionFile::Open(path.toStdString()));
+    FORESIGHT_CHECK(AddScanCheck(*file, of_scan));
+    for (const char* uuid : others) {
       Scan other = scan;
       other.uuid = uuid;
-      ASSERT_TRUE(AddScanCheck(*file, WeakCheck(other, 0.0)));
+      FORESIGHT_CHECK(AddScanCheck(*file, WeakCheck(other, turn_rad)));
     }
-    ASSERT_TRUE(file->Close());
+    return file->Close();
   }
+};
+
+TEST_F(ReviewOfCheckedScansTest, GoodScansDoNotMakeTheLampOfOneThatShowsNothingGreen) {
+  ScanCheck nothing;
+  nothing.advice = "nothing can be said";
+  ASSERT_TRUE(AddChecks(NewKeptCheck(scan, nothing, {}), {"b", "c", "d"}, 0.0));
   ScanCheckModel check(&session);
   ReviewCheckFlow flow(&review, &session, &check);
   review.Open(path);
@@ -153,17 +159,8 @@ TEST_F(ReviewTest, GoodScansDoNotMakeTheLampOfOneThatShowsNothingGreen) {
   EXPECT_EQ(check.Sentence(), "Nothing can be said");
 }
 
-TEST_F(ReviewTest, ScansOfAMissionSayTogetherWhatOneDoesNot) {
-  {
-    const auto file = MissionFile::Open(path.toStdString()).value();
-    ASSERT_TRUE(AddScanCheck(*file, WeakCheck(scan, 0.0052)));
-    for (const char* uuid : {"b", "c", "d", "e"}) {
-      Scan other = scan;
-      other.uuid = uuid;
-      ASSERT_TRUE(AddScanCheck(*file, WeakCheck(other, 0.0052)));
-    }
-    ASSERT_TRUE(file->Close());
-  }
+TEST_F(ReviewOfCheckedScansTest, ScansOfAMissionSayTogetherWhatOneDoesNot) {
+  ASSERT_TRUE(AddChecks(WeakCheck(scan, 0.0052), {"b", "c", "d", "e"}, 0.0052));
   ScanCheckModel check(&session);
   ReviewCheckFlow flow(&review, &session, &check);
   review.Open(path);

@@ -105,13 +105,14 @@ std::vector<Eigen::Vector3d> OntoPlane(const std::vector<Eigen::Vector3d>& point
                                        const Eigen::Vector3d& facing, double behind) {
   std::vector<double> levels;
   for (const Eigen::Vector3d& point : points) levels.push_back(facing.dot(point));
-  const double below_m = facing.dot(viewpoint) - Quantile(levels, behind);
+  const Plane plane{facing, Quantile(levels, behind)};
+  const double before_plane_m = plane.Distance(viewpoint);
   std::vector<Eigen::Vector3d> on_plane;
+  if (!(before_plane_m > 0.0)) return on_plane;
   for (const Eigen::Vector3d& point : points) {
     const Eigen::Vector3d beam = (point - viewpoint).normalized();
     const double closing = -facing.dot(beam);
-    if (below_m > 0.0 && closing > kLeastClosing)
-      on_plane.push_back(viewpoint + below_m / closing * beam);
+    if (closing > kLeastClosing) on_plane.push_back(viewpoint + before_plane_m / closing * beam);
   }
   return on_plane;
 }

@@ -26,8 +26,8 @@ void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& v
 
 /// Fills the covariance and the deviations of a detection from the information of its best
 /// candidate, as if each beam were an independent measurement and the sections were known.
-/// WidenSigmas follows. A direction that no ray sees has
-/// a deviation of about a turn or a metre; the phase of a disc is NaN in the covariance.
+/// WidenSigmas follows. A direction that no ray sees has a deviation of about a turn or a metre;
+/// the phase of a disc is NaN in the covariance.
 void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 
 /// Fills in a covariance about the object's axes and the deviations that it says; the phase of a

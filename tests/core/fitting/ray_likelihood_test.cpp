@@ -45,6 +45,13 @@ ValveCandidate Displaced(const ValveScene& scene, std::uint64_t seed) {
   return Retract(scene.truth, step.cwiseProduct(sizes));
 }
 
+/// As rays of a dense map, of which four count as one measurement.
+RaySet AsMap(RaySet rays) {
+  rays.dense = true;
+  rays.samples_per_ray = 0.25;
+  return rays;
+}
+
 TEST(RayLikelihood, PrefersTheTruthToABiggerWheel) {
   // Rays that passed outside the rim would have been stopped by it.
   const ValveScene scene = FourSpokes();
@@ -99,9 +106,7 @@ TEST(RayLikelihood, CorrelatedRaysCountForLess) {
 TEST(RayLikelihood, BeamsBehindAMapCountInFullAndTheMapForAFraction) {
   const ValveScene scene = FourSpokes();
   const auto wall = WallOf(scene.rays);
-  RaySet map = scene.rays;
-  map.dense = true;
-  map.samples_per_ray = 0.25;
+  RaySet map = AsMap(scene.rays);
   const RayLikelihood beams(scene.rays, wall), alone(map, wall);
   map.beams = std::make_shared<const RaySet>(scene.rays);
   const RayLikelihood both(map, wall);
@@ -115,9 +120,7 @@ TEST(RayLikelihood, BeamsBehindAMapCountInFullAndTheMapForAFraction) {
 TEST(RayLikelihood, GainsOfItsRaysAreWhatAValveIsAheadOfNone) {
   const ValveScene scene = FourSpokes();
   const auto wall = WallOf(scene.rays);
-  RaySet map = scene.rays;
-  map.dense = true;
-  map.samples_per_ray = 0.25;
+  RaySet map = AsMap(scene.rays);
   const RayLikelihood alone(map, wall);
   EXPECT_NEAR(alone.Gains(scene.truth).sum(),
               alone(scene.truth) - LogPrior(scene.truth, wall) - alone.Nothing(), 1e-9);
