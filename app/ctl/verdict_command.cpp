@@ -1,10 +1,12 @@
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/ctl/command.h"
 #include "core/base/atomic_file.h"
 #include "core/evaluation/fit_outcome_json.h"
 #include "core/evaluation/fit_populations.h"
 #include "core/evaluation/verdict_fit.h"
+#include "core/evaluation/verdict_trial.h"
 
 namespace foresight {
 namespace {
@@ -14,7 +16,11 @@ struct VerdictArguments {
   std::vector<std::string> tables;
   std::string source = "raw";
   std::string population;
-  std::string out;
+  std::string out;                    ///< empty = nothing is written
+  std::vector<std::string> features;  ///< other ones than the program's; empty = those
+  std::vector<std::string> gates;     ///< more than the program's: "rim_nats>=10"
+  bool no_gates = false;              ///< the program's are not asked
+  bool json = false;
 };
 
 VerdictSource SourceOf(const FitOutcome& outcome) {
@@ -22,33 +28,90 @@ VerdictSource SourceOf(const FitOutcome& outcome) {
   return outcome.source.ends_with(kAloneSuffix) ? VerdictSource::kAlone : VerdictSource::kDense;
 }
 
+/// The answers of one source, as if the program had the arguments' features and gates.
+Result<std::vector<FitOutcome>> OutcomesFrom(const VerdictArguments& arguments,
+                                             VerdictSource source,
+                                             const std::vector<std::string>& features) {
+  std::vector<FitOutcome> outcomes;
+  for (const std::string& table : arguments.tables) {
+    FORESIGHT_TRY(const std::vector<FitOutcome> loaded, LoadFitOutcomes(table));
+    for (const FitOutcome& outcome : loaded)
+      if (SourceOf(outcome) == source) outcomes.push_back(outcome);
+  }
+  if (arguments.no_gates)
+    for (FitOutcome& outcome : outcomes) outcome.verdict.failed_gates.clear();
+  for (const std::string& text : arguments.gates) {
+    FORESIGHT_TRY(const TrialGate gate, TrialGateFrom(text));
+    FORESIGHT_CHECK(AddTrialGate(gate, features, outcomes));
+  }
+  if (!arguments.features.empty())
+    FORESIGHT_CHECK(ReplaceFeatures(arguments.features, features, outcomes));
+  return outcomes;
+}
+
+std::string CountText(const SureAnswers::Count& count) {
+  return fmt::format("{} right and {} wrong ({} of these where there was nothing)", count.right,
+                     count.wrong, count.negatives);
+}
+
+nlohmann::ordered_json ToJson(const SureAnswers::Count& count) {
+  return {{"right", count.right}, {"wrong", count.wrong}, {"negatives", count.negatives}};
+}
+
+void Print(const VerdictFit& fit) {
+  const VerdictModel& model = fit.model;
+  PrintLine(
+      fmt::format("{} {}: {} fits, {} right; AUC {:.3f}, ECE {:.3f}, log loss {:.3f} "
+                  "(cross-validated)",
+                  model.object, ToString(model.source), model.fits, model.right, model.auc,
+                  model.ece, fit.log_loss));
+  for (const SureAnswers& sure : fit.sure)
+    PrintLine(fmt::format(
+        "  {}: of {} right answers, called as sure as CONFIRMED by weights that have not seen "
+        "their scene: {}; gates leave {}",
+        ToString(sure.world), sure.right_answers, CountText(sure.sure), CountText(sure.confirmed)));
+}
+
+nlohmann::ordered_json ToJson(const VerdictFit& fit) {
+  nlohmann::ordered_json worlds = nlohmann::ordered_json::array();
+  for (const SureAnswers& sure : fit.sure)
+    worlds.push_back({{"world", ToString(sure.world)},
+                      {"right_answers", sure.right_answers},
+                      {"sure", ToJson(sure.sure)},
+                      {"confirmed", ToJson(sure.confirmed)}});
+  return {{"object", fit.model.object},   {"source", ToString(fit.model.source)},
+          {"fits", fit.model.fits},       {"right", fit.model.right},
+          {"auc", Finite(fit.model.auc)}, {"ece", Finite(fit.model.ece)},
+          {"log_loss", fit.log_loss},     {"worlds", worlds}};
+}
+
 Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&) {
   FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
   const auto source = VerdictSourceFromString(arguments.source);
   if (!source)
     return Fail(ErrorCode::kInvalidOptions, "--source {} is not known", arguments.source);
-  std::vector<FitOutcome> outcomes;
-  for (const std::string& table : arguments.tables) {
-    FORESIGHT_TRY(const std::vector<FitOutcome> loaded, LoadFitOutcomes(table));
-    for (const FitOutcome& outcome : loaded)
-      if (SourceOf(outcome) == *source) outcomes.push_back(outcome);
-  }
+  if (!arguments.out.empty() && !arguments.features.empty())
+    return Fail(ErrorCode::kInvalidOptions,
+                "--features is a trial: the program computes its own features, and cannot use "
+                "weights of others; leave --out away");
+  if (!arguments.out.empty() && arguments.population.empty())
+    return Fail(ErrorCode::kInvalidOptions,
+                "--out needs --population: the file says what its weights are true for");
+  const std::vector<std::string> features = population->FeatureNames();
+  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes,
+                OutcomesFrom(arguments, *source, features));
   VerdictFitOptions options;
   options.object = arguments.kind;
   options.source = *source;
   options.population = arguments.population;
-  options.features = population->FeatureNames();
+  options.features = arguments.features.empty() ? features : arguments.features;
   FORESIGHT_TRY(const VerdictFit fit, FitVerdictModel(outcomes, options));
-  const VerdictModel& model = fit.model;
-  FORESIGHT_CHECK(WriteFileAtomically(arguments.out, model.ToYaml()));
-  PrintLine(fmt::format("{}: {} fits, {} right; AUC {:.3f}, ECE {:.3f} (cross-validated)",
-                        arguments.out, model.fits, model.right, model.auc, model.ece));
-  for (const SureAnswers& sure : fit.sure)
-    PrintLine(
-        fmt::format("  {}: of {} right answers {} are called as sure as CONFIRMED by weights that "
-                    "have not seen them, and {} that are not, {} of these where there was nothing",
-                    ToString(sure.world), sure.right_answers, sure.sure_right,
-                    sure.sure - sure.sure_right, sure.sure_negatives));
+  if (!arguments.out.empty())
+    FORESIGHT_CHECK(WriteFileAtomically(arguments.out, fit.model.ToYaml()));
+  if (arguments.json)
+    PrintJson(ToJson(fit));
+  else
+    Print(fit);
   return ExitCode::kDone;
 }
 
@@ -69,9 +132,20 @@ void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
       ->check(CLI::IsMember({"raw", "dense", "alone"}))
       ->capture_default_str();
   fit->add_option("--population", arguments->population,
-                  "How the outcomes were made, for the file: scenes, seeds, sources")
-      ->required();
-  fit->add_option("-o,--out", arguments->out, "File for the weights (YAML)")->required();
+                  "How the outcomes were made, for the file: scenes, seeds, sources");
+  fit->add_option("-o,--out", arguments->out,
+                  "File for the weights (YAML); without it they are tried and not kept");
+  fit->add_option("--features", arguments->features,
+                  "Try these instead of the program's own: its features, any number of the "
+                  "answers' evidence, or compressed:NAME of one, by commas")
+      ->delimiter(',');
+  fit->add_option("--gate", arguments->gates,
+                  "Count as if this was asked before CONFIRMED, too: 'rim_nats>=10', "
+                  "'log_chance_off<=-3'; may be given again")
+      ->allow_extra_args(false);
+  fit->add_flag("--no-gates", arguments->no_gates,
+                "Count as if the program asked nothing but --gate");
+  fit->add_flag("--json", arguments->json, "Print a JSON object");
   fit->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) { return FitVerdict(*arguments, context); };
   });

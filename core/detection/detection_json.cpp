@@ -50,6 +50,17 @@ Result<Detection> DetectionFromJson(std::string_view text) {
   }
 }
 
+std::vector<std::pair<std::string, double>> EvidenceNumbers(const Detection& detection) {
+  const Json value = std::visit(
+      [](const auto& found) { return ToJson(found, Rigid<frame::Robot, frame::Base>()); },
+      detection);
+  std::vector<std::pair<std::string, double>> numbers;
+  if (!value.contains("evidence")) return numbers;
+  for (const auto& [name, number] : value.at("evidence").items())
+    if (number.is_number() || number.is_null()) numbers.emplace_back(name, NumberFrom(number));
+  return numbers;
+}
+
 std::string RoiToJson(const Roi& roi) {
   return ToJson(roi).dump();
 }

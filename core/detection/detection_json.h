@@ -2,6 +2,8 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/detection/detection.h"
@@ -16,6 +18,10 @@ std::string DetectionToJson(const Detection& detection,
 /// The reverse; numbers survive the round trip. Poses in robot are not read, and a terrain's labels
 /// are not kept: they belong to rays. Fails with kBadData, naming the member at fault.
 Result<Detection> DetectionFromJson(std::string_view text);
+
+/// The numbers of a detection's `evidence` with their names there, in the order of the names; of a
+/// terrain, whose surfaces each have their own, none. NaN where one is not known.
+std::vector<std::pair<std::string, double>> EvidenceNumbers(const Detection& detection);
 
 /// A region as one line of JSON, as in a detection's `roi`.
 std::string RoiToJson(const Roi& roi);

@@ -28,6 +28,18 @@ FitWorld WorldFrom(const ordered_json& value) {
   return *world;
 }
 
+ordered_json NamedNumbers(const std::vector<std::pair<std::string, double>>& numbers) {
+  ordered_json object = ordered_json::object();
+  for (const auto& [name, value] : numbers) object[name] = FiniteOrNull(value);
+  return object;
+}
+
+std::vector<std::pair<std::string, double>> NamedNumbersFrom(const ordered_json& object) {
+  std::vector<std::pair<std::string, double>> numbers;
+  for (const auto& [name, value] : object.items()) numbers.emplace_back(name, NumberFrom(value));
+  return numbers;
+}
+
 FitOutcome OutcomeFrom(const ordered_json& value) {
   FitOutcome outcome;
   outcome.world = WorldFrom(value);
@@ -43,8 +55,10 @@ FitOutcome OutcomeFrom(const ordered_json& value) {
   outcome.verdict.probability = NumberFrom(value.at("probability"));
   for (const auto& feature : value.at("features"))
     outcome.verdict.features.push_back(NumberFrom(feature));
-  for (const auto& [name, error] : value.at("errors").items())
-    outcome.errors.emplace_back(name, NumberFrom(error));
+  // Tables of earlier programs have neither.
+  if (value.contains("gates")) outcome.verdict.failed_gates = value["gates"];
+  if (value.contains("evidence")) outcome.evidence = NamedNumbersFrom(value["evidence"]);
+  outcome.errors = NamedNumbersFrom(value.at("errors"));
   outcome.seconds = NumberFrom(value.at("seconds"));
   outcome.reason = value.at("reason");
   return outcome;
@@ -55,8 +69,6 @@ FitOutcome OutcomeFrom(const ordered_json& value) {
 std::string FitOutcomeToJson(const FitOutcome& outcome) {
   ordered_json features = ordered_json::array();
   for (const double feature : outcome.verdict.features) features.push_back(FiniteOrNull(feature));
-  ordered_json errors = ordered_json::object();
-  for (const auto& [name, value] : outcome.errors) errors[name] = FiniteOrNull(value);
   const ordered_json json = {{"world", ToString(outcome.world)},
                              {"seed", outcome.seed},
                              {"what", outcome.what},
@@ -68,7 +80,9 @@ std::string FitOutcomeToJson(const FitOutcome& outcome) {
                              {"verdict", ToString(outcome.verdict.level)},
                              {"probability", FiniteOrNull(outcome.verdict.probability)},
                              {"features", features},
-                             {"errors", errors},
+                             {"gates", outcome.verdict.failed_gates},
+                             {"evidence", NamedNumbers(outcome.evidence)},
+                             {"errors", NamedNumbers(outcome.errors)},
                              {"seconds", FiniteOrNull(outcome.seconds)},
                              {"reason", outcome.reason}};
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);

@@ -9,8 +9,8 @@
 
 namespace foresight {
 
-/// One outcome as one line of JSON without its line end. Of the verdict level, probability and
-/// features are kept; numbers survive the round trip, NaN as null.
+/// One outcome as one line of JSON without its line end. Of the verdict level, probability,
+/// features and failed gates are kept; numbers survive the round trip, NaN as null.
 std::string FitOutcomeToJson(const FitOutcome& outcome);
 
 /// The reverse; fails with kBadData.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/detection/detection_json.h"
 #include "core/evaluation/drawn_region.h"
 #include "core/evaluation/plain_cloud.h"
 #include "core/registration/register_scan.h"
@@ -52,6 +53,7 @@ void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const s
     // something to find.
     outcome.positive = trial.scene.positive || outcome.all_ok;
     outcome.seconds = seconds;
+    if (outcome.found) outcome.evidence = EvidenceNumbers(*found);
     outcomes.push_back(std::move(outcome));
   }
 }

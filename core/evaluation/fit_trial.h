@@ -75,6 +75,8 @@ struct FitOutcome {
   bool pose_ok = false;  ///< fitting is right where it counts (docs/evaluation.md)
   bool all_ok = false;   ///< and in every other respect: what a CONFIRMED answer promises
   Verdict verdict;
+  /// What gates may look at beside Verdict::features: "rim_nats", "see_through" (EvidenceNumbers).
+  std::vector<std::pair<std::string, double>> evidence = {};
   /// "center_mm", "axis_deg", ...; in deviations where the name ends with kSigmaErrorSuffix.
   std::vector<std::pair<std::string, double>> errors;
   double seconds = 0.0;  ///< of CPU, the fit alone

@@ -18,6 +18,7 @@ struct Example {
   std::vector<double> values;
   bool right = false;
   bool positive = false;
+  bool objected = false;
   FitWorld world = FitWorld::kHome;
   std::uint64_t seed = 0;
   double weight = 1.0;
@@ -42,8 +43,8 @@ std::vector<Example> ExamplesFrom(std::span<const FitOutcome> outcomes,
     if (!outcome.found || values.size() != options.features.size()) continue;
     if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
       continue;
-    examples.push_back({values, outcome.positive && outcome.all_ok, outcome.positive, outcome.world,
-                        outcome.seed, outcome.positive ? 1.0 : of_negatives});
+    examples.push_back({values, outcome.positive && outcome.all_ok, outcome.positive,
+                        !outcome.verdict.failed_gates.empty(), outcome.world, outcome.seed, outcome.positive ? 1.0 : of_negatives});
   }
   return examples;
 }
@@ -124,6 +125,22 @@ std::vector<double> CrossValidated(const std::vector<Example>& examples,
   return probabilities;
 }
 
+void CountIn(const Example& example, SureAnswers::Count& count) {
+  ++(example.right ? count.right : count.wrong);
+  count.negatives += !example.positive;
+}
+
+double LogLossOf(const std::vector<Example>& examples, const std::vector<double>& probabilities) {
+  constexpr double kLeast = 1e-9;
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t i = 0; i < examples.size(); ++i) {
+    const double promised = examples[i].right ? probabilities[i] : 1.0 - probabilities[i];
+    sum -= examples[i].weight * std::log(std::max(kLeast, promised));
+    weights += examples[i].weight;
+  }
+  return sum / weights;
+}
+
 std::vector<SureAnswers> CountSure(const std::vector<Example>& examples,
                                    const std::vector<double>& probabilities) {
   std::vector<SureAnswers> counts;
@@ -136,9 +153,8 @@ std::vector<SureAnswers> CountSure(const std::vector<Example>& examples,
       any = true;
       count.right_answers += example.right;
       if (probabilities[i] < Verdict::kConfirmed) continue;
-      ++count.sure;
-      count.sure_right += example.right;
-      count.sure_negatives += !example.positive;
+      CountIn(example, count.sure);
+      if (!example.objected) CountIn(example, count.confirmed);
     }
     if (any) counts.push_back(count);
   }
@@ -193,7 +209,8 @@ Result<VerdictFit> FitVerdictModel(std::span<const FitOutcome> outcomes,
   }
   blank.auc = AreaUnderRoc(left_out, labels);
   blank.ece = CalibrationErrorOf(left_out, labels, weights);
-  return VerdictFit{Fitted(examples, options.ridge, blank), CountSure(examples, left_out)};
+  return VerdictFit{Fitted(examples, options.ridge, blank), LogLossOf(examples, left_out),
+                    CountSure(examples, left_out)};
 }
 
 }  // namespace foresight

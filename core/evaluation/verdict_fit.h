@@ -23,18 +23,23 @@ struct VerdictFitOptions {
   Status Check() const;
 };
 
-/// What weights that have not seen an answer's scene would call as sure as CONFIRMED, in one world.
-/// Hard gates are not asked.
+/// What weights that have not seen an answer's scene would make of the answers of one world.
 struct SureAnswers {
+  struct Count {
+    int right = 0;
+    int wrong = 0;
+    int negatives = 0;  ///< of the wrong ones, those where there was nothing to find
+  };
   FitWorld world = FitWorld::kHome;
   int right_answers = 0;  ///< in the world, sure or not
-  int sure = 0;           ///< with at least Verdict::kConfirmed
-  int sure_right = 0;
-  int sure_negatives = 0;  ///< where there was nothing to find
+  Count sure = {};        ///< with at least Verdict::kConfirmed, whatever hard gates say
+  Count confirmed = {};   ///< of these, those that no gate kept back (Verdict::failed_gates)
 };
 
 struct VerdictFit {
   VerdictModel model;
+  /// Mean of -log(what was promised for what came true), cross-validated as AUC and ECE are.
+  double log_loss = 0.0;
   std::vector<SureAnswers> sure;  ///< a world that has answers
 };
 

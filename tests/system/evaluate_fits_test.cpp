@@ -79,7 +79,10 @@ TEST(EvaluateFits, TheOtherWorldIsJudgedLikeOursAndNeverFittedTo) {
   EXPECT_TRUE(rows[0].contains("right_not_confirmed"));
   const auto outcomes = LoadFitOutcomes(table);
   ASSERT_TRUE(outcomes);
-  for (const FitOutcome& outcome : *outcomes) EXPECT_EQ(outcome.world, FitWorld::kOther);
+  for (const FitOutcome& outcome : *outcomes) {
+    EXPECT_EQ(outcome.world, FitWorld::kOther);
+    EXPECT_EQ(outcome.evidence.empty(), !outcome.found) << outcome.reason;
+  }
 
   const ProgramResult fitted =
       RunProgram(FORESIGHTCTL,
@@ -90,6 +93,55 @@ TEST(EvaluateFits, TheOtherWorldIsJudgedLikeOursAndNeverFittedTo) {
                                                         "--source", "raw", "--table", table});
   EXPECT_NE(mixed.exit_code, 0);
   EXPECT_NE(mixed.errors.find("other world"), std::string::npos) << mixed.errors;
+}
+
+/// A table of drills that are right where their first feature is large.
+std::string TableOfMany(const TemporaryFolder& folder) {
+  std::ofstream table(folder / "many.jsonl");
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    FitOutcome outcome;
+    outcome.seed = seed;
+    outcome.source = "raw";
+    outcome.found = true;
+    outcome.pose_ok = outcome.all_ok = seed % 2 == 0;
+    outcome.verdict.features.assign(17, 0.0);
+    outcome.verdict.features[0] = seed % 2 == 0 ? 3.0 : -3.0;
+    outcome.evidence = {{"rms_m", seed % 4 == 0 ? 0.01 : 0.02}};
+    table << FitOutcomeToJson(outcome) << "\n";
+  }
+  return folder / "many.jsonl";
+}
+
+TEST(VerdictFitCommand, CountsWithGatesThatTheProgramDoesNotHaveAndWritesNothing) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      RunProgram(FORESIGHTCTL, {"verdict", "fit", "drill", TableOfMany(folder), "--features",
+                                "log_yaw_margin,rms_m", "--gate", "rms_m<=0.015", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto json = nlohmann::json::parse(result.output);
+  ASSERT_EQ(json["worlds"].size(), 1u);
+  EXPECT_EQ(json["worlds"][0]["sure"]["right"], 100);
+  EXPECT_EQ(json["worlds"][0]["confirmed"]["right"], 50);
+  EXPECT_LT(json["log_loss"], 0.2);
+}
+
+TEST(VerdictFitCommand, WeightsOfATrialAreNotWritten) {
+  const TemporaryFolder folder;
+  const std::string table = TableOfMany(folder), out = folder / "v.yaml";
+  const ProgramResult trial = RunProgram(
+      FORESIGHTCTL,
+      {"verdict", "fit", "drill", table, "--features", "rms_m", "--population", "x", "-o", out});
+  EXPECT_EQ(trial.exit_code, 2) << trial.errors;
+  EXPECT_NE(trial.errors.find("--features"), std::string::npos) << trial.errors;
+  const ProgramResult unnamed =
+      RunProgram(FORESIGHTCTL, {"verdict", "fit", "drill", table, "-o", out});
+  EXPECT_EQ(unnamed.exit_code, 2) << unnamed.errors;
+  EXPECT_NE(unnamed.errors.find("--population"), std::string::npos) << unnamed.errors;
+  const ProgramResult unknown =
+      RunProgram(FORESIGHTCTL, {"verdict", "fit", "drill", table, "--gate", "rim>=1"});
+  EXPECT_EQ(unknown.exit_code, 2) << unknown.errors;
+  EXPECT_NE(unknown.errors.find("rms_m"), std::string::npos) << unknown.errors;
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/evaluation/fit_outcome_json.h"
 #include "core/evaluation/verdict_fit.h"
+#include "core/evaluation/verdict_trial.h"
 
 namespace foresight {
 namespace {
@@ -142,14 +143,71 @@ TEST(VerdictFit, CountsWhatWouldBeSureByWorld) {
   int right = 0;
   for (const SureAnswers& sure : fit->sure) {
     right += sure.right_answers;
-    ASSERT_GT(sure.sure, 100);
-    EXPECT_LT(sure.sure_right, sure.right_answers);
-    EXPECT_GT(sure.sure_right, 0.95 * sure.sure) << ToString(sure.world);
-    EXPECT_LE(sure.sure_negatives, sure.sure - sure.sure_right);
+    ASSERT_GT(sure.sure.right + sure.sure.wrong, 100);
+    EXPECT_LT(sure.sure.right, sure.right_answers);
+    EXPECT_LT(sure.sure.wrong, 0.05 * sure.sure.right) << ToString(sure.world);
+    EXPECT_LE(sure.sure.negatives, sure.sure.wrong);
+    EXPECT_EQ(sure.confirmed.right, sure.sure.right) << "no gate objects";
   }
   EXPECT_EQ(right, std::count_if(outcomes.begin(), outcomes.end(), [](const FitOutcome& outcome) {
               return outcome.positive && outcome.all_ok;
             }));
+}
+
+TEST(VerdictFit, AGateOfATrialKeepsBackWhatIsSure) {
+  VerdictFitOptions options;
+  options.object = "valve";
+  options.features = {"margin", "noise"};
+  std::vector<FitOutcome> outcomes = DrawnFromALogistic(8000);
+  const auto gate = TrialGateFrom("noise>=0");
+  ASSERT_TRUE(gate) << gate.error().message;
+  ASSERT_TRUE(AddTrialGate(*gate, options.features, outcomes));
+  const auto fit = FitVerdictModel(outcomes, options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  ASSERT_EQ(fit->sure.size(), 1u);
+  const SureAnswers& sure = fit->sure.front();
+  EXPECT_NEAR(sure.confirmed.right, 0.5 * sure.sure.right, 0.1 * sure.sure.right);
+  EXPECT_LE(sure.confirmed.wrong, sure.sure.wrong);
+}
+
+TEST(VerdictFit, OtherEvidenceInThePlaceOfTheFeaturesIsWorthWhatItTells) {
+  VerdictFitOptions options;
+  options.object = "valve";
+  const std::vector<std::string> names = {"margin", "noise"};
+  std::vector<FitOutcome> outcomes = DrawnFromALogistic(4000);
+  for (FitOutcome& outcome : outcomes)
+    outcome.evidence = {{"margin_again", outcome.verdict.features.front()}};
+  const auto log_loss = [&](const std::vector<std::string>& wanted) {
+    std::vector<FitOutcome> changed = outcomes;
+    EXPECT_TRUE(ReplaceFeatures(wanted, names, changed));
+    options.features = wanted;
+    const auto fit = FitVerdictModel(changed, options);
+    EXPECT_TRUE(fit) << fit.error().message;
+    return fit ? fit->log_loss : 0.0;
+  };
+  const double both = log_loss(names);
+  EXPECT_NEAR(log_loss({"margin_again"}), both, 0.01);
+  EXPECT_NEAR(log_loss({"compressed:margin_again", "noise"}), both, 0.05);
+  EXPECT_NEAR(log_loss({"noise"}), std::log(2.0), 0.02) << "it tells nothing";
+  EXPECT_LT(both, 0.55);
+  std::vector<FitOutcome> changed = outcomes;
+  const Status unknown = ReplaceFeatures({"rim"}, names, changed);
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("margin_again"), std::string::npos)
+      << unknown.error().message;
+}
+
+TEST(VerdictFit, AGateOfATrialSaysWhatItShouldLookLike) {
+  for (const char* text : {"", "rim", "rim>=", ">=3", "rim>=x", "rim>=3 mm", "rim=3", "rim<=nan"}) {
+    const auto gate = TrialGateFrom(text);
+    ASSERT_FALSE(gate) << text;
+    EXPECT_NE(gate.error().message.find("NAME>=NUMBER"), std::string::npos);
+  }
+  const auto gate = TrialGateFrom("log_chance_off<=-3.5");
+  ASSERT_TRUE(gate);
+  EXPECT_EQ(gate->name, "log_chance_off");
+  EXPECT_FALSE(gate->at_least);
+  EXPECT_EQ(gate->limit, -3.5);
 }
 
 TEST(VerdictFit, ExtraNegativesDoNotMakeTheObjectRare) {
@@ -189,6 +247,8 @@ TEST(FitOutcomes, SurviveTheirFileAndATornLastLineIsLeftOut) {
   FitOutcome outcome = Answer(12, true, 0.971);
   outcome.verdict.features = {1.25, std::nan("")};
   outcome.reason = "the rim \"is\" seen";
+  outcome.verdict.failed_gates = {"31 measurements lie on the valve (at least 40)"};
+  outcome.evidence = {{"rim_nats", 640.5}, {"see_through", std::nan("")}};
   {
     std::ofstream stream(path);
     stream << FitOutcomeToJson(outcome) << "\n" << FitOutcomeToJson(outcome).substr(0, 40);
@@ -198,6 +258,10 @@ TEST(FitOutcomes, SurviveTheirFileAndATornLastLineIsLeftOut) {
   ASSERT_EQ(loaded->size(), 1u);
   EXPECT_EQ(loaded->front().seed, 12u);
   EXPECT_EQ(loaded->front().verdict.level, VerdictLevel::kConfirmed);
+  EXPECT_EQ(loaded->front().verdict.failed_gates, outcome.verdict.failed_gates);
+  ASSERT_EQ(loaded->front().evidence.size(), 2u);
+  EXPECT_EQ(loaded->front().evidence.front(), outcome.evidence.front());
+  EXPECT_TRUE(std::isnan(loaded->front().evidence.back().second));
   EXPECT_EQ(loaded->front().verdict.features[0], 1.25);
   EXPECT_TRUE(std::isnan(loaded->front().verdict.features[1]));
   EXPECT_EQ(loaded->front().reason, outcome.reason);
