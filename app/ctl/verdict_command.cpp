@@ -98,8 +98,7 @@ Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&
     return Fail(ErrorCode::kInvalidOptions,
                 "--out needs --population: the file says what its weights are true for");
   const std::vector<std::string> features = population->FeatureNames();
-  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes,
-                OutcomesFrom(arguments, *source, features));
+  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes, OutcomesFrom(arguments, *source, features));
   VerdictFitOptions options;
   options.object = arguments.kind;
   options.source = *source;

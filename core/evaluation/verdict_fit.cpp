@@ -44,7 +44,8 @@ std::vector<Example> ExamplesFrom(std::span<const FitOutcome> outcomes,
     if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
       continue;
     examples.push_back({values, outcome.positive && outcome.all_ok, outcome.positive,
-                        !outcome.verdict.failed_gates.empty(), outcome.world, outcome.seed, outcome.positive ? 1.0 : of_negatives});
+                        !outcome.verdict.failed_gates.empty(), outcome.world, outcome.seed,
+                        outcome.positive ? 1.0 : of_negatives});
   }
   return examples;
 }

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/fitting/best_distinct.h"
+
 namespace foresight {
 namespace {
 
@@ -120,23 +122,15 @@ class CirclesAlong {
   Eigen::Vector2d viewer_;
 };
 
-bool Alike(const CylinderState& a, const CylinderState& b) {
+bool AlikeCylinders(const CylinderState& a, const CylinderState& b) {
   const double apart_m = std::max(0.5 * (a.radius_m + b.radius_m), 0.02);
   return std::abs(a.axis.dot(b.axis)) > 0.97 && a.FromAxis(b.middle).norm() < apart_m &&
          std::abs(a.radius_m - b.radius_m) < 0.5 * apart_m;
 }
 
 std::vector<CylinderState> BestOf(std::vector<CylinderState> cylinders) {
-  std::stable_sort(cylinders.begin(), cylinders.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
-  std::vector<CylinderState> kept;
-  for (const CylinderState& cylinder : cylinders) {
-    if (kept.size() == kKept) break;
-    if (std::none_of(kept.begin(), kept.end(),
-                     [&](const CylinderState& other) { return Alike(cylinder, other); }))
-      kept.push_back(cylinder);
-  }
-  return kept;
+  KeepBestDistinct(kKept, &CylinderState::score, AlikeCylinders, cylinders);
+  return cylinders;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/fitting/best_distinct.h"
 #include "core/fitting/drill/pattern_search.h"
 
 namespace foresight {
@@ -80,19 +81,6 @@ void AppendPeaks(const std::vector<DrillState>& by_yaw, std::vector<DrillState>&
 bool SameMode(const DrillState& a, const DrillState& b) {
   return (a.values.head<2>() - b.values.head<2>()).norm() < kSameMode_m &&
          TurnBetween(a.yaw(), b.yaw()) < kSameMode_rad;
-}
-
-void KeepDistinct(std::vector<DrillState>& states, std::size_t count) {
-  std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) {
-    return a.log_likelihood > b.log_likelihood;
-  });
-  std::vector<DrillState> kept;
-  for (const DrillState& state : states) {
-    if (kept.size() == count) break;
-    const auto near = [&](const DrillState& other) { return SameMode(state, other); };
-    if (std::none_of(kept.begin(), kept.end(), near)) kept.push_back(state);
-  }
-  states = std::move(kept);
 }
 
 PatternSearchOptions Steps(LocalSearchEffort effort) {
@@ -193,7 +181,7 @@ Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
     std::vector<DrillState> of_kind;
     for (std::size_t body = 0; body < bodies.size(); ++body)
       AppendPeaks(by_yaw[kind * bodies.size() + body], of_kind);
-    KeepDistinct(of_kind, kModesPerTemplate);
+    KeepBestDistinct(kModesPerTemplate, &DrillState::log_likelihood, SameMode, of_kind);
     modes.insert(modes.end(), of_kind.begin(), of_kind.end());
   }
   std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) {

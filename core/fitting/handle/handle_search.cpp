@@ -10,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
+#include "core/fitting/best_distinct.h"
 #include "core/fitting/drill/pattern_search.h"
 #include "core/fitting/drill/solid_tracer.h"
 
@@ -63,7 +64,7 @@ HandleState LeverOn(const SeenBar& bar, const FitHandleOptions& options) {
   return state;
 }
 
-bool Alike(const HandleState& a, const HandleState& b) {
+bool AlikeHandles(const HandleState& a, const HandleState& b) {
   return (a.values.head<2>() - b.values.head<2>()).norm() < 0.02 &&
          std::abs(std::remainder(a.values[kHandleTurn] - b.values[kHandleTurn],
                                  2.0 * std::numbers::pi)) < 0.25;
@@ -264,16 +265,8 @@ std::vector<HandleState> FindLevers(const HandleScorer& scorer, const Points& be
   };
   if (!ParallelFor(static_cast<int>(found.size()), context, score)) return {};
   std::erase_if(found, [](const HandleState& state) { return !std::isfinite(state.score); });
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
-  std::vector<HandleState> kept;
-  for (const HandleState& state : found) {
-    if (kept.size() == kKept) break;
-    if (std::none_of(kept.begin(), kept.end(),
-                     [&](const HandleState& other) { return Alike(state, other); }))
-      kept.push_back(state);
-  }
-  return kept;
+  KeepBestDistinct(kKept, &HandleState::score, AlikeHandles, found);
+  return found;
 }
 
 HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEffort effort) {

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "core/base/parallel.h"
-#include "core/base/quantile.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/valve/lever_search.h"
 #include "core/fitting/valve/local_search.h"
@@ -16,6 +15,7 @@
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/rim_search.h"
 #include "core/fitting/valve/spoke_search.h"
+#include "core/fitting/valve/thin_rims.h"
 #include "core/fitting/valve/valve_covariance.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/valve/valve_state.h"
@@ -39,15 +39,6 @@ constexpr double kWorthwhile = 0.9, kWorthwhileInMap = 0.5;
 constexpr std::size_t kLocallySearchedLevers = 3;
 constexpr double kHopeless_nats = 200.0;  // more than local search brings
 constexpr double kTubeRadius_m = 0.012;   // where the search starts
-// Of rims thinner than a beam: trials and circles a plane, planes as fractions of the points that
-// lie behind them, half widths that are tried.
-constexpr int kThinTrials = 1500;
-constexpr std::size_t kThinRims = 3;
-constexpr double kThinTolerance_m = 0.015;
-constexpr double kLeastClosing = 0.1;  // of a beam and a plane
-constexpr double kSameRim = 0.03;      // of the radius, between places and between radii
-constexpr double kLevels[] = {0.5, 0.75, 0.95};
-constexpr double kTubes_m[] = {0.003, 0.006, 0.012};
 
 /// Streams of the seed: each stage draws its own numbers.
 enum Stream : std::uint64_t { kThinning, kWall, kRims, kLevers };
@@ -94,71 +85,6 @@ Eigen::Vector3d Facing(const RaySet& rays, const WallSplit& split) {
   return (rays.viewpoint - middle).normalized();
 }
 
-ValveCandidate RimFrom(const RimHypothesis& rim, double tube_radius_m) {
-  return {PoseFromAxis(rim.center, rim.axis), UsualValve(rim.radius_m, tube_radius_m, 0, 0.0), 0.0};
-}
-
-/// The points as beams that all end on one plane across `facing`: where it has this fraction of the
-/// points behind it. Beams that hardly reach it are left out.
-std::vector<Eigen::Vector3d> OntoPlane(const std::vector<Eigen::Vector3d>& points,
-                                       const Eigen::Vector3d& viewpoint,
-                                       const Eigen::Vector3d& facing, double behind) {
-  std::vector<double> levels;
-  for (const Eigen::Vector3d& point : points) levels.push_back(facing.dot(point));
-  const Plane plane{facing, Quantile(levels, behind)};
-  const double before_plane_m = plane.Distance(viewpoint);
-  std::vector<Eigen::Vector3d> on_plane;
-  if (!(before_plane_m > 0.0)) return on_plane;
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d beam = (point - viewpoint).normalized();
-    const double closing = -facing.dot(beam);
-    if (closing > kLeastClosing) on_plane.push_back(viewpoint + before_plane_m / closing * beam);
-  }
-  return on_plane;
-}
-
-bool IsSameRim(const ValveCandidate& a, const ValveCandidate& b) {
-  const double scale_m = kSameRim * std::max(a.model.rim_radius_m, b.model.rim_radius_m);
-  return (a.base_from_object.translation() - b.base_from_object.translation()).norm() < scale_m &&
-         std::abs(a.model.rim_radius_m - b.model.rim_radius_m) < scale_m;
-}
-
-/// The most likely few that differ from each other, the best first.
-void KeepDistinct(std::size_t most, std::vector<ValveCandidate>& rims) {
-  SortByLikelihood(rims);
-  std::vector<ValveCandidate> distinct;
-  for (const ValveCandidate& rim : rims)
-    if (distinct.size() < most &&
-        std::none_of(distinct.begin(), distinct.end(),
-                     [&](const ValveCandidate& other) { return IsSameRim(rim, other); }))
-      distinct.push_back(rim);
-  rims = std::move(distinct);
-}
-
-/// A rim that is thinner than the beams reads anywhere between itself and the wall, on no circle;
-/// the beams that read too short lie on a cone all the same. The most likely few of the circles in
-/// which such cones cut planes across `facing`, with one of several widths each.
-std::vector<ValveCandidate> SearchThinRims(const std::vector<Eigen::Vector3d>& points,
-                                           const Eigen::Vector3d& viewpoint,
-                                           const RayLikelihood& coarse, RimSearchOptions search,
-                                           Random& random) {
-  search.trials = kThinTrials;
-  search.keep = static_cast<int>(kThinRims);
-  search.tolerance_m = kThinTolerance_m;
-  std::vector<ValveCandidate> found;
-  for (const double behind : kLevels)
-    for (const RimHypothesis& rim :
-         FindRims(OntoPlane(points, viewpoint, search.facing, behind), search, random))
-      for (const double tube_radius_m : kTubes_m) {
-        ValveCandidate thin = RimFrom(rim, tube_radius_m);
-        thin.model.rim_depth_ratio = ValvePrior::kRimDepth_m / tube_radius_m;
-        thin.log_likelihood = coarse(thin, ValveParts::kRim);
-        found.push_back(thin);
-      }
-  KeepDistinct(kThinRims, found);
-  return found;
-}
-
 /// Where rims may be.
 std::vector<ValveCandidate> SearchRims(const RaySet& rays, const WallSplit& split,
                                        const RayLikelihood& coarse,
@@ -192,7 +118,7 @@ Result<std::vector<ValveCandidate>> FitRims(const RayLikelihood& likelihood,
     refined.log_likelihood = likelihood(refined, ValveParts::kRim);
     if (refined.log_likelihood > rim.log_likelihood) rim = refined;
   }));
-  KeepDistinct(kKeptRims, rims);
+  KeepDistinctRims(kKeptRims, rims);
   return rims;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/best_distinct.h"
+
 namespace foresight {
 namespace {
 
@@ -43,7 +45,7 @@ Bar LongestRun(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d
   return best;
 }
 
-bool Similar(const Bar& a, const Bar& b) {
+bool SimilarBars(const Bar& a, const Bar& b) {
   const Eigen::Vector3d middle_a = a.begin + 0.5 * a.length_m * a.direction;
   const Eigen::Vector3d middle_b = b.begin + 0.5 * b.length_m * b.direction;
   return (middle_a - middle_b).norm() < 0.06 && std::abs(a.direction.dot(b.direction)) > 0.97;
@@ -77,17 +79,9 @@ std::vector<ValveCandidate> FindLevers(const std::vector<Eigen::Vector3d>& point
     if (bar.points >= kMinPoints && bar.length_m > kMinLength_m && bar.length_m < kMaxLength_m)
       bars.push_back(bar);
   }
-  std::stable_sort(bars.begin(), bars.end(),
-                   [](const Bar& a, const Bar& b) { return a.points > b.points; });
-  std::vector<Bar> distinct;
-  for (const Bar& bar : bars) {
-    if (static_cast<int>(distinct.size()) == options.keep) break;
-    if (std::none_of(distinct.begin(), distinct.end(),
-                     [&](const Bar& other) { return Similar(bar, other); }))
-      distinct.push_back(bar);
-  }
+  KeepBestDistinct(static_cast<std::size_t>(options.keep), &Bar::points, SimilarBars, bars);
   std::vector<ValveCandidate> levers;
-  for (const Bar& bar : distinct) {
+  for (const Bar& bar : bars) {
     const double length_m = std::max(kMinLength_m, bar.length_m - 2.0 * kLeverStartTubeRadius_m);
     const Eigen::Vector3d inset = kLeverStartTubeRadius_m * bar.direction;
     const Eigen::Vector3d end = bar.begin + bar.length_m * bar.direction;

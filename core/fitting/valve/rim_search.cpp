@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/fitting/best_distinct.h"
+
 namespace foresight {
 namespace {
 
@@ -61,7 +63,7 @@ double Score(std::span<const Eigen::Vector3d> points, const RimHypothesis& rim, 
   return support * static_cast<double>(covered.count()) / kRimBins - kPenaltyOutside * outside;
 }
 
-bool Similar(const RimHypothesis& a, const RimHypothesis& b) {
+bool SimilarRims(const RimHypothesis& a, const RimHypothesis& b) {
   const double scale = 0.15 * std::max(a.radius_m, b.radius_m);
   return (a.center - b.center).norm() < scale && std::abs(a.radius_m - b.radius_m) < scale &&
          a.axis.dot(b.axis) > std::cos(0.25);
@@ -87,16 +89,9 @@ std::vector<RimHypothesis> FindRims(std::span<const Eigen::Vector3d> points,
     rim->score = Score(points, *rim, options.tolerance_m);
     if (rim->score > 0.0) found.push_back(*rim);
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
-  std::vector<RimHypothesis> distinct;
-  for (const RimHypothesis& rim : found) {
-    if (static_cast<int>(distinct.size()) == options.keep) break;
-    if (std::none_of(distinct.begin(), distinct.end(),
-                     [&](const auto& other) { return Similar(rim, other); }))
-      distinct.push_back(rim);
-  }
-  return distinct;
+  KeepBestDistinct(static_cast<std::size_t>(options.keep), &RimHypothesis::score, SimilarRims,
+                   found);
+  return found;
 }
 
 }  // namespace foresight
