@@ -1,8 +1,9 @@
 // From a region to ranked candidates: what an operator waits for a fit, on as many threads as there
 // are cores and on one.
-//   fit_pace [COUNT] [FIRST_SEED]
-// For each object COUNT (20) scenes of its population at home from FIRST_SEED (1) on, fitted to the
-// lidar's returns and to the dense map (which is there already when an operator draws a region).
+//   fit_pace [COUNT] [FIRST_SEED] [KIND]
+// For each object, or one kind alone, COUNT (20) scenes of its population at home from FIRST_SEED
+// (1) on, fitted to the lidar's returns and to the dense map (which is there already when an
+// operator draws a region).
 #include <fmt/format.h>
 
 #include <chrono>
@@ -67,10 +68,13 @@ Status Measure(const std::string& kind, int count, std::uint64_t first_seed) {
 int main(int argc, char** argv) {
   const int count = argc > 1 ? std::atoi(argv[1]) : 20;
   const auto first_seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
-  for (const std::string& kind : foresight::FitPopulationKinds())
+  const std::string only = argc > 3 ? argv[3] : "";
+  for (const std::string& kind : foresight::FitPopulationKinds()) {
+    if (!only.empty() && kind != only) continue;
     if (const auto measured = foresight::Measure(kind, count, first_seed); !measured) {
       fmt::print(stderr, "{}: {}\n", kind, measured.error().message);
       return 3;
     }
+  }
   return 0;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fitting/drill/closest_on_ray.h"
+
 namespace foresight {
 namespace {
 
@@ -11,10 +13,7 @@ using Shape = SolidPart::Shape;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUnmeasuredDepth_m = -1.0;
 
-struct LocalRay {
-  Eigen::Vector3d origin;
-  Eigen::Vector3d direction;
-};
+using LocalRay = RayBesideSolid;
 
 /// Range at which a ray enters a box around the origin; infinite when it misses.
 double EnterBox(const LocalRay& ray, const Eigen::Vector3d& half) {
@@ -77,52 +76,6 @@ double Enter(Shape shape, const LocalRay& ray, const Eigen::Vector3d& half) {
   return kNever;
 }
 
-double Distance(Shape shape, const Eigen::Vector3d& p, const Eigen::Vector3d& half) {
-  if (shape == Shape::kBox) {
-    const Eigen::Vector3d beyond = p.cwiseAbs() - half;
-    return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
-  }
-  const double radial = p.head<2>().norm();
-  if (shape == Shape::kCapsule)
-    return std::hypot(radial, std::max(std::abs(p.z()) - half.z(), 0.0)) - half.x();
-  const Eigen::Vector2d beyond(radial - half.x(), std::abs(p.z()) - half.z());
-  return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
-}
-
-struct Closest {
-  double distance_m;
-  double range_m;
-};
-
-/// The distance to a convex solid is convex along a ray: golden section finds its least value.
-Closest ClosestOnRay(Shape shape, const LocalRay& ray, const Eigen::Vector3d& half, double bound) {
-  constexpr double kGolden = 0.6180339887498949;
-  constexpr int kSteps = 14;  // 0.1 % of the bracket
-  const double middle = -ray.origin.dot(ray.direction);
-  double low = middle - bound, high = middle + bound;
-  const auto at = [&](double range) {
-    return Distance(shape, ray.origin + range * ray.direction, half);
-  };
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = at(a), at_b = at(b);
-  for (int i = 0; i < kSteps; ++i) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = at(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = at(b);
-    }
-  }
-  return at_a < at_b ? Closest{at_a, a} : Closest{at_b, b};
-}
-
 template <class Part>
 LocalRay InPart(const RangeRay& ray, const Part& part) {
   return {part.part_from_base * ray.origin + part.offset, part.part_from_base * ray.direction};
@@ -175,11 +128,10 @@ SolidIntersection SolidTracer::Passed(const RangeRay& ray, double reach_m) const
     const Part& part = parts_[i];
     if (!PassesNear(ray, part.middle, part.bound_m + reach_m)) continue;
     const LocalRay local = InPart(ray, part);
-    // The search along the ray is dear: first see whether it intersects a solid that is larger all
-    // round.
+    // Most rays miss a solid that is larger all round.
     const Eigen::Vector3d larger = part.half + Eigen::Vector3d::Constant(reach_m);
     if (Enter(part.shape, local, larger) == kNever) continue;
-    const Closest closest = ClosestOnRay(part.shape, local, part.half, part.bound_m);
+    const ClosestApproach closest = ClosestBeside(part.shape, local, part.half);
     if (closest.distance_m <= reach_m && closest.distance_m < best.clearance_m)
       best = {std::max(closest.distance_m, 0.0), closest.range_m, static_cast<int>(i)};
   }
@@ -191,7 +143,7 @@ SolidIntersection SolidTracer::IntersectWithDepth(const RangeRay& ray, double re
   if (!intersection.Hits()) return intersection;
   const Part& part = parts_[static_cast<std::size_t>(intersection.part)];
   intersection.clearance_m = std::min(
-      ClosestOnRay(part.shape, InPart(ray, part), part.half, part.bound_m).distance_m, -1e-9);
+      DeepestInside(part.shape, InPart(ray, part), part.half, part.bound_m).distance_m, -1e-9);
   return intersection;
 }
 

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/objects/solid_part.h"
+
+namespace foresight {
+
+/// A ray in the frame of a solid, whose middle is the origin; the direction is a unit vector.
+struct RayBesideSolid {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+};
+
+/// Where a line is nearest to a solid.
+struct ClosestApproach {
+  double distance_m = 0.0;  ///< negative inside the solid: how deep the line gets
+  double range_m = 0.0;     ///< along the ray, from its origin; may be negative
+};
+
+/// Distance to the surface of a solid, negative inside; `half` is half the size, of a round one
+/// (radius, radius, half length), a capsule's without its ends.
+double DistanceToSolid(SolidPart::Shape shape, const Eigen::Vector3d& point,
+                       const Eigen::Vector3d& half);
+
+/// The closest approach of a line that misses the solid, in closed form; beside the edge of a
+/// cylinder's end by Newton's method, to a hundredth of a millimetre along the ray.
+ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
+                              const Eigen::Vector3d& half);
+
+/// How deep a line that may enter the solid gets: the least signed distance along it, to 0.1 % of
+/// `bound_m`, the radius of a sphere round the solid.
+ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
+                              const Eigen::Vector3d& half, double bound_m);
+
+}  // namespace foresight
