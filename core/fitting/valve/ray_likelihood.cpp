@@ -73,9 +73,13 @@ Eigen::VectorXd RayLikelihood::LogDensities(const ValveCandidate& valve, ValvePa
   for (std::size_t i = 0; i < backgrounds_.size(); ++i) {
     const RangeRay& ray = rays_.rays[i];
     double log_density = backgrounds_[i].log_density;
-    if (tracer.Near(ray, backgrounds_[i].reach_m)) {
-      const ExpectedRange expected = footprints_.Expect(i, tracer.Intersect(ray), valve.brightness);
-      if (expected.fraction > 0.0) log_density = std::log(DensityOn(i, expected));
+    const double reach_m = backgrounds_[i].reach_m;
+    if (tracer.Near(ray, reach_m)) {
+      const ValveIntersection intersection = tracer.Intersect(ray, reach_m);
+      if (intersection.Clearance() <= reach_m) {
+        const ExpectedRange expected = footprints_.Expect(i, intersection, valve.brightness);
+        if (expected.fraction > 0.0) log_density = std::log(DensityOn(i, expected));
+      }
     }
     log_densities(static_cast<Eigen::Index>(i)) = log_density;
   }

@@ -63,16 +63,20 @@ Eigen::VectorXd RefineProblem::Residuals(const ValveCandidate& valve) const {
     const RoledRay& roled = roled_[static_cast<std::size_t>(i)];
     if (roled.role == Role::kNothing) continue;
     const RangeRay& ray = rays_.rays[roled.index];
-    const ValveIntersection intersection = tracer.Intersect(ray);
-    const double lateral_m = footprints_.HalfWidth(roled.index, intersection.across);
-    if (roled.role == Role::kSurface) {
-      const ExpectedRange expected =
-          footprints_.Expect(roled.index, intersection, valve.brightness, kLeastFraction);
-      residuals[2 * i] = (ray.range_m - expected.range_m) / expected.sigma_m;
-      residuals[2 * i + 1] = std::max(0.0, intersection.Clearance()) / lateral_m;
-    } else {
-      residuals[2 * i] = std::max(0.0, -intersection.Clearance()) / lateral_m;
+    if (roled.role == Role::kFree) {
+      const ValveIntersection intersection = tracer.Intersect(ray, 0.0);
+      if (intersection.Clearance() < 0.0)
+        residuals[2 * i] =
+            -intersection.Clearance() / footprints_.HalfWidth(roled.index, intersection.across);
+      continue;
     }
+    const ValveIntersection intersection = tracer.Intersect(ray);
+    const ExpectedRange expected =
+        footprints_.Expect(roled.index, intersection, valve.brightness, kLeastFraction);
+    residuals[2 * i] = (ray.range_m - expected.range_m) / expected.sigma_m;
+    if (intersection.Clearance() > 0.0)
+      residuals[2 * i + 1] =
+          intersection.Clearance() / footprints_.HalfWidth(roled.index, intersection.across);
   }
   residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
                                    ValvePrior::kTubeRadiusSigma_m,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace foresight {
@@ -21,34 +22,32 @@ ValveIntersection Approach(ValvePart part, const Eigen::Vector3d& origin,
   intersection.middle_m = (point - origin).dot(direction);
   const Eigen::Vector3d offset = origin + intersection.middle_m * direction - point;
   intersection.offset_m = offset.norm();
-  const double cosine = tangent.dot(direction);
-  const double sine2 = 1.0 - cosine * cosine;
   const Eigen::Vector3d across = tangent.cross(direction);
-  const double length = across.norm();
-  if (length > 1e-3)
-    intersection.across = (across.dot(offset) < 0.0 ? -1.0 : 1.0) / length * across;
-  else if (intersection.offset_m > 1e-9)
-    intersection.across = offset / intersection.offset_m;
-  intersection.stretch = 1.0 / std::sqrt(std::max(sine2, 1.0 / (kMaxStretch * kMaxStretch)));
+  const double sine = across.norm();
+  if (sine > 1e-3) {
+    intersection.across = (across.dot(offset) < 0.0 ? -1.0 : 1.0) / sine * across;
+    intersection.stretch = std::min(1.0 / sine, kMaxStretch);
+    return intersection;
+  }
+  if (intersection.offset_m > 1e-9) intersection.across = offset / intersection.offset_m;
+  intersection.stretch = tangent.isZero() ? 1.0 : kMaxStretch;
   return intersection;
 }
 
-/// Turns the round section of an intersection into an ellipse with half axes `width` along
-/// tangent x depth_axis and `depth` along the depth axis, a unit vector across the tangent.
-void FlattenSection(double width, double depth, const Eigen::Vector3d& depth_axis,
-                    const Eigen::Vector3d& tangent, const Eigen::Vector3d& direction,
+/// Turns the round section of an intersection into an ellipse with half axes `width` and `depth`
+/// along these axes, unit vectors across the middle line and each other.
+void FlattenSection(double width, double depth, const Eigen::Vector3d& width_axis,
+                    const Eigen::Vector3d& depth_axis, const Eigen::Vector3d& direction,
                     ValveIntersection& intersection) {
   if (width == depth) return;
   // In the plane of the section, along the ray and across it.
-  Eigen::Vector2d along(tangent.cross(depth_axis).dot(direction), depth_axis.dot(direction));
+  Eigen::Vector2d along(width_axis.dot(direction), depth_axis.dot(direction));
   const double length = along.norm();
   if (length < 1e-3) return;
   along /= length;
-  const double side = Eigen::Vector2d(tangent.cross(depth_axis).dot(intersection.across),
-                                      depth_axis.dot(intersection.across))
-                                  .dot(Eigen::Vector2d(-along.y(), along.x())) < 0.0
-                          ? -1.0
-                          : 1.0;
+  const double sideways = depth_axis.dot(intersection.across) * along.x() -
+                          width_axis.dot(intersection.across) * along.y();
+  const double side = sideways < 0.0 ? -1.0 : 1.0;
   const double half2 =
       width * width * along.y() * along.y() + depth * depth * along.x() * along.x();
   intersection.radius_m = std::sqrt(half2);
@@ -65,12 +64,11 @@ double ClosestAlongLine(const Eigen::Vector3d& origin, const Eigen::Vector3d& di
   return (cosine * from_ray.dot(direction) - from_ray.dot(along)) / sine2;
 }
 
-/// Of two parts the one that is intersected first, or missed by less.
-ValveIntersection FirstMet(const ValveIntersection& a, const ValveIntersection& b) {
-  const double gap_a = a.Clearance();
-  const double gap_b = b.Clearance();
-  const bool both_met = gap_a < 0.0 && gap_b < 0.0;
-  return (both_met ? b.Range() < a.Range() : gap_b < gap_a) ? b : a;
+/// Of two parts the one that is intersected first, or missed by less, is kept.
+void KeepFirstMet(const ValveIntersection& other, ValveIntersection& best) {
+  const double gap_best = best.Clearance(), gap_other = other.Clearance();
+  const bool both_met = gap_best < 0.0 && gap_other < 0.0;
+  if (both_met ? other.Range() < best.Range() : gap_other < gap_best) best = other;
 }
 
 }  // namespace
@@ -125,6 +123,22 @@ bool ValveTracer::Near(const RangeRay& ray, double margin_m) const {
   return to_center.squaredNorm() - along * along < reach * reach;
 }
 
+/// False for a ray that passes a point further away.
+bool ValveTracer::StaysWithin(const LocalRay& ray, const Eigen::Vector3d& point, double reach_m) {
+  const Eigen::Vector3d from_ray = point - ray.origin;
+  const double middle_m = from_ray.dot(ray.direction);
+  return from_ray.squaredNorm() - middle_m * middle_m <= reach_m * reach_m;
+}
+
+bool ValveTracer::PassesRim(const LocalRay& ray, double reach_m) const {
+  const double closing = std::abs(ray.direction.z());
+  if (closing <= 0.1) return true;
+  const Eigen::Vector3d crossing = ray.origin - ray.origin.z() / ray.direction.z() * ray.direction;
+  // However the ray goes on from where it crosses the rim's plane, it comes no nearer than this.
+  const double least_m = closing * std::abs(crossing.head<2>().norm() - model_.rim_radius_m);
+  return least_m <= reach_m + std::max(model_.tube_radius_m, model_.RimDepth());
+}
+
 ValveIntersection ValveTracer::IntersectRim(const LocalRay& ray) const {
   const double radius = model_.rim_radius_m;
   // From where the ray crosses the rim's plane; along it there is no crossing, take the nearest
@@ -145,7 +159,7 @@ ValveIntersection ValveTracer::IntersectRim(const LocalRay& ray) const {
   }
   ValveIntersection intersection =
       Approach(ValvePart::kRim, ray.origin, ray.direction, on_rim, tangent, model_.tube_radius_m);
-  FlattenSection(model_.tube_radius_m, model_.RimDepth(), Eigen::Vector3d::UnitZ(), tangent,
+  FlattenSection(model_.tube_radius_m, model_.RimDepth(), on_rim / radius, Eigen::Vector3d::UnitZ(),
                  ray.direction, intersection);
   intersection.on_rim = on_rim.head<2>();
   return intersection;
@@ -168,8 +182,8 @@ ValveIntersection ValveTracer::IntersectBar(ValvePart part, const LocalRay& ray,
   ValveIntersection intersection = Approach(
       part, ray.origin, ray.direction, bar.begin + along * bar.direction, tangent, bar.radius_m);
   if (!at_end)
-    FlattenSection(bar.radius_m, bar.depth_m, bar.depth_axis, bar.direction, ray.direction,
-                   intersection);
+    FlattenSection(bar.radius_m, bar.depth_m, bar.direction.cross(bar.depth_axis), bar.depth_axis,
+                   ray.direction, intersection);
   intersection.along_m = along;
   return intersection;
 }
@@ -204,36 +218,41 @@ bool ValveTracer::IntersectDisc(const LocalRay& ray, ValveIntersection& intersec
   return true;
 }
 
-ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray) const {
-  ValveIntersection best = IntersectRim(ray);
+ValveIntersection ValveTracer::IntersectWheel(const LocalRay& ray, double reach_m) const {
+  ValveIntersection best;
+  best.offset_m = std::numeric_limits<double>::infinity();
+  if (PassesRim(ray, reach_m)) best = IntersectRim(ray);
   if (parts_ == ValveParts::kRim) return best;
-  best = FirstMet(best, IntersectHub(ray));
+  if (StaysWithin(ray, hub_, std::clamp(best.Clearance(), 0.0, reach_m) + model_.hub_radius_m))
+    KeepFirstMet(IntersectHub(ray), best);
   for (int i = 0; i < model_.spokes; ++i) {
     const Bar& bar = spokes_[static_cast<std::size_t>(i)];
     const double along = AlongBar(ray, bar);
     // Most spokes are farther than what the ray passes already.
-    const double near = std::max(0.0, best.Clearance()) + std::max(bar.radius_m, bar.depth_m);
-    const Eigen::Vector3d from_ray = bar.begin + along * bar.direction - ray.origin;
-    const double middle = from_ray.dot(ray.direction);
-    if (from_ray.squaredNorm() - middle * middle > near * near) continue;
+    const double near_m =
+        std::clamp(best.Clearance(), 0.0, reach_m) + std::max(bar.radius_m, bar.depth_m);
+    if (!StaysWithin(ray, bar.begin + along * bar.direction, near_m)) continue;
     ValveIntersection spoke = IntersectBar(ValvePart::kSpoke, ray, bar, along);
     spoke.spoke = i;
-    best = FirstMet(best, spoke);
+    KeepFirstMet(spoke, best);
   }
   if (ValveIntersection disc; model_.spokes == 0 && IntersectDisc(ray, disc))
-    best = FirstMet(best, disc);
+    KeepFirstMet(disc, best);
   return best;
 }
 
 ValveIntersection ValveTracer::IntersectLever(const LocalRay& ray) const {
-  const ValveIntersection bar = IntersectBar(ValvePart::kLever, ray, lever_, AlongBar(ray, lever_));
-  return FirstMet(FirstMet(bar, IntersectHub(ray)), IntersectStem(ray));
+  ValveIntersection best = IntersectBar(ValvePart::kLever, ray, lever_, AlongBar(ray, lever_));
+  KeepFirstMet(IntersectHub(ray), best);
+  KeepFirstMet(IntersectStem(ray), best);
+  return best;
 }
 
-ValveIntersection ValveTracer::Intersect(const RangeRay& ray) const {
+ValveIntersection ValveTracer::Intersect(const RangeRay& ray, double reach_m) const {
   const LocalRay local{object_from_base_ * (ray.origin - center_),
                        object_from_base_ * ray.direction};
-  ValveIntersection intersection = model_.IsLever() ? IntersectLever(local) : IntersectWheel(local);
+  ValveIntersection intersection =
+      model_.IsLever() ? IntersectLever(local) : IntersectWheel(local, reach_m);
   intersection.across = object_from_base_.transpose() * intersection.across;
   return intersection;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 
 #include "core/fitting/ray_set.h"
 #include "core/fitting/valve/valve_state.h"
@@ -43,8 +44,10 @@ class ValveTracer {
   /// can be saved.
   bool Near(const RangeRay& ray, double margin_m) const;
 
-  /// Ranges count from the ray's origin; a valve behind it has a negative one.
-  ValveIntersection Intersect(const RangeRay& ray) const;
+  /// Ranges count from the ray's origin; a valve behind it has a negative one. Of a ray that stays
+  /// further than `reach_m` from all parts only that is known: its clearance is larger.
+  ValveIntersection Intersect(const RangeRay& ray,
+                              double reach_m = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct LocalRay {
@@ -60,6 +63,9 @@ class ValveTracer {
     Eigen::Vector3d depth_axis = Eigen::Vector3d::UnitZ();  ///< ... this, across direction
   };
 
+  static bool StaysWithin(const LocalRay& ray, const Eigen::Vector3d& point, double reach_m);
+  /// False for a ray that stays further than `reach_m` from the rim.
+  bool PassesRim(const LocalRay& ray, double reach_m) const;
   ValveIntersection IntersectRim(const LocalRay& ray) const;
   ValveIntersection IntersectHub(const LocalRay& ray) const;
   /// Where along a bar a ray is closest to it.
@@ -67,7 +73,7 @@ class ValveTracer {
   static ValveIntersection IntersectBar(ValvePart part, const LocalRay& ray, const Bar& bar,
                                         double along);
   ValveIntersection IntersectStem(const LocalRay& ray) const;
-  ValveIntersection IntersectWheel(const LocalRay& ray) const;
+  ValveIntersection IntersectWheel(const LocalRay& ray, double reach_m) const;
   ValveIntersection IntersectLever(const LocalRay& ray) const;
   bool IntersectDisc(const LocalRay& ray, ValveIntersection& intersection) const;
 

@@ -144,5 +144,30 @@ TEST(ValveTracer, NeverSkipsARayThatIntersectsTheValve) {
   EXPECT_GT(skipped, 100) << "who skips no ray skips none that intersects";
 }
 
+TEST(ValveTracer, WithinReachNothingIsSkipped) {
+  constexpr double kReach_m = 0.012;
+  Random random(10);
+  int within = 0, beyond = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Case c = MakeCase(random, 2 + i % 4);
+    c.valve.model.rim_depth_ratio = random.Uniform(0.5, 3.0);
+    const RangeRay ray = RandomRay(random, c.eye);
+    const ValveTracer tracer(c.valve, i % 5 == 0 ? ValveParts::kRim : ValveParts::kAll);
+    const ValveIntersection all = tracer.Intersect(ray);
+    const ValveIntersection some = tracer.Intersect(ray, kReach_m);
+    if (all.Clearance() > kReach_m) {
+      ++beyond;
+      EXPECT_GT(some.Clearance(), kReach_m);
+      continue;
+    }
+    ++within;
+    EXPECT_EQ(some.part, all.part);
+    EXPECT_EQ(some.Clearance(), all.Clearance());
+    EXPECT_EQ(some.Range(), all.Range());
+  }
+  EXPECT_GT(within, 500);
+  EXPECT_GT(beyond, 500);
+}
+
 }  // namespace
 }  // namespace foresight
