@@ -93,7 +93,8 @@ std::optional<ExpectedBeam> BeamLikelihood::Expect(std::size_t i,
       std::min(beside, kFractionError) + kBrightnessError * beside * expected.fraction;
   expected.mixed = true;
   expected.range_m += beside * gap_m;
-  expected.sigma_m = std::hypot(sigma_m_, gap_m * unsure);
+  const double spread_m = gap_m * unsure;
+  expected.sigma_m = std::sqrt(sigma_m_ * sigma_m_ + spread_m * spread_m);
   return expected;
 }
 

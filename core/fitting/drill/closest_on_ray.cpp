@@ -12,6 +12,9 @@ constexpr double kInfinite_m = std::numeric_limits<double>::infinity();
 constexpr double kParallel = 1e-12;     // of a direction's squared part
 constexpr double kNewtonStep_m = 1e-5;  // where it has settled
 constexpr int kNewtonSteps = 12;
+constexpr int kTangents = 30;
+constexpr double kDepthError_m = 1e-7;
+constexpr double kLeastRadial_m = 1e-12;
 
 /// How far a coordinate lies beyond a slab of this half thickness, with its sign.
 double Beyond(double coordinate, double half) {
@@ -102,6 +105,35 @@ ClosestApproach BesideCylinder(const RayBesideSolid& ray, const Eigen::Vector3d&
   return at(range_m);
 }
 
+/// How far beyond the faces of a box or a cylinder a point of the line is, the farthest of them,
+/// and how that changes along the line.
+struct Tangent {
+  double range_m;
+  double beyond_m;
+  double slope;
+};
+
+Tangent BeyondFaces(SolidPart::Shape shape, const RayBesideSolid& ray, const Eigen::Vector3d& half,
+                    double range_m) {
+  const Eigen::Vector3d point = At(ray, range_m);
+  const auto beyond_slab = [&](int i) {
+    return Tangent{range_m, std::abs(point[i]) - half[i],
+                   std::copysign(1.0, point[i]) * ray.direction[i]};
+  };
+  Tangent farthest = beyond_slab(2);
+  const auto consider = [&farthest](const Tangent& face) {
+    if (face.beyond_m > farthest.beyond_m) farthest = face;
+  };
+  if (shape == SolidPart::Shape::kBox) {
+    consider(beyond_slab(0));
+    consider(beyond_slab(1));
+    return farthest;
+  }
+  const double radial = std::max(point.head<2>().norm(), kLeastRadial_m);
+  consider({range_m, radial - half.x(), point.head<2>().dot(ray.direction.head<2>()) / radial});
+  return farthest;
+}
+
 }  // namespace
 
 double DistanceToSolid(Shape shape, const Eigen::Vector3d& point, const Eigen::Vector3d& half) {
@@ -131,34 +163,26 @@ ClosestApproach ClosestBeside(Shape shape, const RayBesideSolid& ray, const Eige
   return {kInfinite_m, kInfinite_m};
 }
 
-// The distance to a convex solid is convex along a ray: golden section finds its least value.
-ClosestApproach DeepestInside(Shape shape, const RayBesideSolid& ray, const Eigen::Vector3d& half,
-                              double bound_m) {
-  // That of a capsule's middle line is known everywhere.
-  if (shape == Shape::kCapsule) return BesideCapsule(ray, half);
-  constexpr double kGolden = 0.6180339887498949;
-  constexpr int kSteps = 14;  // 0.1 % of the bracket
+// How far a point is beyond all faces is convex along a line: two tangents, one from each side,
+// cross below the least value, and the next tangent is taken there.
+ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
+                              const Eigen::Vector3d& half, double bound_m) {
+  // Of a capsule's middle line that is known everywhere.
+  if (shape == SolidPart::Shape::kCapsule) return BesideCapsule(ray, half);
   const double middle = -ray.origin.dot(ray.direction);
-  double low = middle - bound_m, high = middle + bound_m;
-  const auto at = [&](double range) { return DistanceToSolid(shape, At(ray, range), half); };
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = at(a), at_b = at(b);
-  for (int i = 0; i < kSteps; ++i) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = at(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = at(b);
-    }
+  Tangent low = BeyondFaces(shape, ray, half, middle - bound_m);
+  Tangent high = BeyondFaces(shape, ray, half, middle + bound_m);
+  Tangent next = low;
+  for (int step = 0; step < kTangents && low.slope < 0.0 && high.slope > 0.0; ++step) {
+    const double range_m =
+        (high.beyond_m - low.beyond_m + low.slope * low.range_m - high.slope * high.range_m) /
+        (low.slope - high.slope);
+    const double least_m = low.beyond_m + low.slope * (range_m - low.range_m);
+    next = BeyondFaces(shape, ray, half, range_m);
+    if (next.beyond_m - least_m < kDepthError_m) break;
+    (next.slope < 0.0 ? low : high) = next;
   }
-  return at_a < at_b ? ClosestApproach{at_a, a} : ClosestApproach{at_b, b};
+  return {next.beyond_m, next.range_m};
 }
 
 }  // namespace foresight

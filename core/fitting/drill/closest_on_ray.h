@@ -28,8 +28,8 @@ double DistanceToSolid(SolidPart::Shape shape, const Eigen::Vector3d& point,
 ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
                               const Eigen::Vector3d& half);
 
-/// How deep a line that may enter the solid gets: the least signed distance along it, to 0.1 % of
-/// `bound_m`, the radius of a sphere round the solid.
+/// How deep a line that enters the solid gets: the least signed distance along it. `bound_m` is the
+/// radius of a sphere round the solid.
 ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
                               const Eigen::Vector3d& half, double bound_m);
 

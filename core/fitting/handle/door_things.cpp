@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace foresight {
 namespace {
 
 constexpr double kLeastSine = 0.3;  // a ray along a bar enters it no earlier than this says
+constexpr double kLeastLength_m = 1e-9;
 
 double PlateReach(const DoorThing::Plate& plate) {
   return std::hypot(plate.front_m, std::max(plate.radius_m, plate.half_m.norm()));
@@ -15,32 +15,37 @@ double PlateReach(const DoorThing::Plate& plate) {
 
 }  // namespace
 
-DoorThing::DoorThing(std::vector<HandleBar> bars, const std::optional<Plate>& plate,
+DoorThing::DoorThing(const std::vector<HandleBar>& bars, const std::optional<Plate>& plate,
                      const Rigid<frame::Base, frame::Object>& base_from_object)
-    : bars_(std::move(bars)),
-      plate_(plate),
+    : plate_(plate),
       object_from_base_(base_from_object.RotationMatrix().transpose()),
       position_(base_from_object.translation()) {
-  for (const HandleBar& bar : bars_)
-    middle_ += (bar.from + bar.to) / (2.0 * static_cast<double>(bars_.size()));
-  for (const HandleBar& bar : bars_)
-    bound_m_ = std::max({bound_m_, (bar.from - middle_).norm() + bar.radius_m,
-                         (bar.to - middle_).norm() + bar.radius_m});
-  if (plate_) bound_m_ = std::max(bound_m_, middle_.norm() + PlateReach(*plate_));
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const HandleBar& bar : bars) {
+    const Eigen::Vector3d way = bar.to - bar.from;
+    const double length_m = way.norm();
+    bars_.push_back({bar.from, way / std::max(length_m, kLeastLength_m), length_m, bar.radius_m});
+    middle += (bar.from + bar.to) / (2.0 * static_cast<double>(bars.size()));
+  }
+  for (const HandleBar& bar : bars)
+    bound_m_ = std::max({bound_m_, (bar.from - middle).norm() + bar.radius_m,
+                         (bar.to - middle).norm() + bar.radius_m});
+  if (plate_) bound_m_ = std::max(bound_m_, middle.norm() + PlateReach(*plate_));
+  middle_ = base_from_object * middle;
 }
 
-BeamIntersection DoorThing::IntersectBar(const LocalRay& ray, const HandleBar& bar) {
+std::optional<BeamIntersection> DoorThing::IntersectBar(const LocalRay& ray, const Bar& bar,
+                                                        double reach_m) {
   const Eigen::Vector3d from = ray.origin - bar.from;
-  const double length_m = (bar.to - bar.from).norm();
-  const Eigen::Vector3d along =
-      length_m > 0.0 ? Eigen::Vector3d((bar.to - bar.from) / length_m) : Eigen::Vector3d::Zero();
-  const double cosine = ray.direction.dot(along), closing = ray.direction.dot(from);
+  const double cosine = ray.direction.dot(bar.along), closing = ray.direction.dot(from);
   const double sine2 = 1.0 - cosine * cosine;
-  double s = sine2 > 1e-9 ? (along.dot(from) - cosine * closing) / sine2 : 0.0;
-  const bool beyond_end = !(s > 0.0 && s < length_m);
-  s = std::clamp(s, 0.0, length_m);
+  double s = sine2 > 1e-9 ? (bar.along.dot(from) - cosine * closing) / sine2 : 0.0;
+  const bool beyond_end = !(s > 0.0 && s < bar.length_m);
+  s = std::clamp(s, 0.0, bar.length_m);
   const double middle_m = cosine * s - closing;
-  const double offset2 = (from + middle_m * ray.direction - s * along).squaredNorm();
+  const double offset2 = (from + middle_m * ray.direction - s * bar.along).squaredNorm();
+  const double touched_m = bar.radius_m + reach_m;
+  if (offset2 > touched_m * touched_m) return std::nullopt;
   const double depth2 = bar.radius_m * bar.radius_m - offset2;
   BeamIntersection intersection{std::sqrt(offset2) - bar.radius_m, middle_m};
   if (depth2 > 0.0)
@@ -60,12 +65,12 @@ std::optional<BeamIntersection> DoorThing::IntersectPlate(const LocalRay& ray, c
 }
 
 std::optional<BeamIntersection> DoorThing::Intersect(const RangeRay& ray, double reach_m) const {
-  const LocalRay local{object_from_base_ * (ray.origin - position_),
-                       object_from_base_ * ray.direction};
-  const Eigen::Vector3d to_middle = middle_ - local.origin;
-  const double along_m = to_middle.dot(local.direction);
+  const Eigen::Vector3d to_middle = middle_ - ray.origin;
+  const double along_m = to_middle.dot(ray.direction);
   const double bound_m = bound_m_ + reach_m;
   if (to_middle.squaredNorm() - along_m * along_m > bound_m * bound_m) return std::nullopt;
+  const LocalRay local{object_from_base_ * (ray.origin - position_),
+                       object_from_base_ * ray.direction};
   std::optional<BeamIntersection> best;
   const auto consider = [&](const BeamIntersection& passed) {
     if (passed.clearance_m > reach_m) return;
@@ -75,7 +80,8 @@ std::optional<BeamIntersection> DoorThing::Intersect(const RangeRay& ray, double
                        (!hits && passed.clearance_m < best->clearance_m);
     if (first) best = passed;
   };
-  for (const HandleBar& bar : bars_) consider(IntersectBar(local, bar));
+  for (const Bar& bar : bars_)
+    if (const auto passed = IntersectBar(local, bar, reach_m)) consider(*passed);
   if (plate_)
     if (const auto passed = IntersectPlate(local, *plate_)) consider(*passed);
   return best;

@@ -20,7 +20,7 @@ class DoorThing {
     Eigen::Vector2d half_m = Eigen::Vector2d::Zero();  ///< of a rectangle
   };
 
-  DoorThing(std::vector<HandleBar> bars, const std::optional<Plate>& plate,
+  DoorThing(const std::vector<HandleBar>& bars, const std::optional<Plate>& plate,
             const Rigid<frame::Base, frame::Object>& base_from_object);
 
   /// What the ray enters first, else what it passes by least.
@@ -30,16 +30,22 @@ class DoorThing {
   struct LocalRay {
     Eigen::Vector3d origin, direction;
   };
+  struct Bar {
+    Eigen::Vector3d from, along;  ///< along: length 1; 0 for a ball
+    double length_m, radius_m;
+  };
 
-  static BeamIntersection IntersectBar(const LocalRay& ray, const HandleBar& bar);
+  /// nullopt where the ray stays further than `reach_m` from it.
+  static std::optional<BeamIntersection> IntersectBar(const LocalRay& ray, const Bar& bar,
+                                                      double reach_m);
   static std::optional<BeamIntersection> IntersectPlate(const LocalRay& ray, const Plate& plate);
 
-  std::vector<HandleBar> bars_;
+  std::vector<Bar> bars_;
   std::optional<Plate> plate_;
   Eigen::Matrix3d object_from_base_;
   Eigen::Vector3d position_;
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< in the object's frame
-  double bound_m_ = 0.0;                              ///< of a sphere round all
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< in base, of a sphere round all
+  double bound_m_ = 0.0;                              ///< ... and its radius
 };
 
 /// A handle at a place.

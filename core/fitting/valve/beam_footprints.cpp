@@ -62,8 +62,10 @@ void BeamFootprints::LookBehind() {
 double BeamFootprints::HalfWidth(std::size_t i, const Eigen::Vector3d& across) const {
   const Footprint& footprint = footprints_[i];
   const double range_m = rays_.rays[i].range_m;
-  if (footprint.across_line.isZero())
-    return std::hypot(0.5 * rays_.footprint_rad * range_m, kEdgeError_m);
+  if (footprint.across_line.isZero()) {
+    const double half_m = 0.5 * rays_.footprint_rad * range_m;
+    return std::sqrt(half_m * half_m + kEdgeError_m * kEdgeError_m);
+  }
   // As wide as an even footprint of the same variance.
   const Eigen::Vector2d half(footprint.along_line.dot(across), footprint.across_line.dot(across));
   return std::sqrt(range_m * range_m * half.squaredNorm() + kEdgeError_m * kEdgeError_m);

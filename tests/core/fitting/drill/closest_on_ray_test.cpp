@@ -82,7 +82,7 @@ TEST(ClosestOnRay, DeepestInsideIsNoLessDeepThanTheMiddleOfWhatIsPassed) {
       ray.direction = (Within(0.01, random) - ray.origin).normalized();
       const ClosestApproach deepest = DeepestInside(shape, ray, half, 0.2);
       EXPECT_LT(deepest.distance_m, -0.015) << i;
-      EXPECT_NEAR(deepest.distance_m, BySteps(shape, ray, half), 4e-4) << i;
+      EXPECT_NEAR(deepest.distance_m, BySteps(shape, ray, half), 1e-6) << i;
     }
   }
 }
