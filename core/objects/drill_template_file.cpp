@@ -93,6 +93,7 @@ DrillTemplate TemplateFrom(YamlMap& map) {
   drill.name = map.Text("name");
   drill.min_scale = Positive(map, "min_scale", drill.min_scale);
   drill.max_scale = Positive(map, "max_scale", drill.max_scale);
+  drill.log_prior = map.Number("log_prior", drill.log_prior);
   for (YamlMap& entry : map.List("parts")) drill.parts.push_back(PartOf(entry));
   ReadBit(map.Map("bit"), drill);
   drill.object_from_grasp = {Eigen::Quaterniond::Identity(), map.Vector("grasp_m")};

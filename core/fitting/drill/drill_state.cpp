@@ -44,7 +44,8 @@ double DrillPrior::operator()(const DrillState& state) const {
       std::abs(v[kDrillHeadForward]) > kReach * head_forward_sigma_m ||
       std::abs(v[kDrillFoot]) > kReach * foot_sigma)
     return -std::numeric_limits<double>::infinity();
-  return -0.5 *
+  return state.kind->log_prior -
+         0.5 *
          (Squared(v[kDrillZ] / height_sigma_m) + Squared((v[kDrillScale] - 1.0) / scale_sigma) +
           Squared(tilt / tilt_sigma_rad) + Squared(v[kDrillHeadUp] / head_up_sigma_m) +
           Squared(v[kDrillHeadForward] / head_forward_sigma_m) +
