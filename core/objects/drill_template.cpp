@@ -55,6 +55,9 @@ Status DrillTemplate::Check() const {
     return Fail(ErrorCode::kInvalidOptions,
                 "drill template '{}': scale {} to {} does not hold 1 within 0.5 to 2", name,
                 min_scale, max_scale);
+  if (!(log_prior <= 0.0 && log_prior >= -1000.0))
+    return Fail(ErrorCode::kInvalidOptions,
+                "drill template '{}': log_prior {} is not within -1000 to 0", name, log_prior);
   if (!(bit_radius_m > 0.0 && bit_radius_m <= 0.5 && max_bit_length_m >= 0.0 &&
         max_bit_length_m <= 0.5))
     return Fail(ErrorCode::kInvalidOptions,

@@ -29,7 +29,7 @@ struct DrillTemplate {
   std::vector<SolidPart> parts;
   double min_scale = 0.8;
   double max_scale = 1.25;
-  double log_prior = 0.0;  ///< of this kind against others, in nats: how seldom it is met
+  double log_prior = 0.0;  ///< in nats, 0 or less: how seldom this kind is met beside the others
   double bit_radius_m = 0.004;
   double max_bit_length_m = 0.15;  ///< from the chuck's face
   /// Where a bit begins, and the way it points there: x, or z of a tool that works upwards.

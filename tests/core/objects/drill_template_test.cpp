@@ -54,6 +54,19 @@ TEST(DrillTemplate, WhatNoHandHoldsIsRefused) {
     EXPECT_NE(FaultOf(Replaced(from, to)).find("my.yaml:"), std::string::npos) << to;
 }
 
+TEST(DrillTemplate, AKindMayBeSeldomAndNotMoreThanUsual) {
+  EXPECT_EQ(Example().log_prior, 0.0);
+  const auto read =
+      DrillTemplateFromYaml(Replaced("object: drill", "object: drill\nlog_prior: -2.5"), "my.yaml");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->log_prior, -2.5);
+  for (const char* wrong : {"1", "-1.0e9", ".nan"})
+    EXPECT_NE(FaultOf(Replaced("object: drill", std::string("object: drill\nlog_prior: ") + wrong))
+                  .find("log_prior"),
+              std::string::npos)
+        << wrong;
+}
+
 TEST(DrillTemplate, ShipsABarrelDrillACutOutToolAndAPlainOne) {
   std::vector<std::string> names;
   for (const DrillTemplate& drill : ShippedDrillTemplates()) {

@@ -130,6 +130,16 @@ TEST(FitDrill, PriorAllowsAnotherHeadAndFootWithinReasonOnly) {
   }
 }
 
+TEST(FitDrill, AKindThatIsHardlyEverMetIsNotBelieved) {
+  FitDrillOptions options;
+  const std::string found = UsualFit()->best.model.template_name;
+  for (DrillTemplate& kind : options.templates)
+    if (kind.name == found) kind.log_prior = -1000.0;
+  const auto other = FitDrill(UsualScene().rays, options, {});
+  ASSERT_TRUE(other) << other.error().message;
+  EXPECT_NE(other->best.model.template_name, found);
+}
+
 TEST(FitDrill, LocalSearchNeverLowersTheLikelihood) {
   const DrillRays& scene = UsualScene();
   const Bench bench(scene);
