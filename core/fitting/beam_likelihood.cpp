@@ -57,9 +57,8 @@ std::optional<ExpectedBeam> BeamLikelihood::Expect(std::size_t i,
   const double width_m = 0.5 * beam.half_m + options_.edge_error_m;
   const double reach_m = shift_m + options_.reach_widths * width_m;
   double fraction = 0.0, object_m = 0.0;
-  const auto add = [&](const RangeRay& sample) {
-    const auto intersection = object(sample, reach_m);
-    if (!intersection) return;
+  const auto add = [&](const std::optional<BeamIntersection>& intersection) {
+    if (!intersection || intersection->clearance_m > reach_m) return;
     const double beyond = (intersection->clearance_m - shift_m) / width_m;
     const double part = 0.5 * std::erfc(beyond / std::numbers::sqrt2);
     if (!(part > 0.0)) return;
@@ -67,14 +66,15 @@ std::optional<ExpectedBeam> BeamLikelihood::Expect(std::size_t i,
     object_m += part / fraction * (intersection->range_m - object_m);  // a weighted mean so far
   };
   if (beam.directions.empty()) {
-    add(ray);
+    add(object(ray, reach_m));
   } else {
     const double side_m = 0.5 * rays_.footprint_height_rad * ray.range_m;
-    if (!object(ray, reach_m + side_m)) return std::nullopt;
+    const auto middle = object(ray, reach_m + side_m);
+    if (!middle) return std::nullopt;
     RangeRay sample = ray;
-    for (const Eigen::Vector3d& direction : beam.directions) {
-      sample.direction = direction;
-      add(sample);
+    for (std::size_t k = 0; k < beam.directions.size(); ++k) {
+      sample.direction = beam.directions[k];
+      add(2 * k + 1 == beam.directions.size() ? middle : object(sample, reach_m));
     }
   }
   const double samples =

@@ -46,10 +46,10 @@ double DrillPrior::operator()(const DrillState& state) const {
     return -std::numeric_limits<double>::infinity();
   return state.kind->log_prior -
          0.5 *
-         (Squared(v[kDrillZ] / height_sigma_m) + Squared((v[kDrillScale] - 1.0) / scale_sigma) +
-          Squared(tilt / tilt_sigma_rad) + Squared(v[kDrillHeadUp] / head_up_sigma_m) +
-          Squared(v[kDrillHeadForward] / head_forward_sigma_m) +
-          Squared(v[kDrillFoot] / foot_sigma));
+             (Squared(v[kDrillZ] / height_sigma_m) + Squared((v[kDrillScale] - 1.0) / scale_sigma) +
+              Squared(tilt / tilt_sigma_rad) + Squared(v[kDrillHeadUp] / head_up_sigma_m) +
+              Squared(v[kDrillHeadForward] / head_forward_sigma_m) +
+              Squared(v[kDrillFoot] / foot_sigma));
 }
 
 DrillPrior AnyProportions(DrillPrior prior) {
