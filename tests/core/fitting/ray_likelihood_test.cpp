@@ -1,10 +1,12 @@
 #include "core/fitting/valve/ray_likelihood.h"
 
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
 
+#include "core/base/quantile.h"
 #include "core/fitting/beam_model.h"
 #include "core/fitting/valve/fit_valve.h"
 #include "core/fitting/valve/local_search.h"
@@ -23,8 +25,9 @@ using samples::RandomValveView;
 using samples::ValveScene;
 using samples::ValveView;
 
-ValveScene FourSpokes() {
+ValveScene FourSpokes(std::uint64_t noise_seed = 3) {
   ValveView view = RandomValveView(3);
+  view.seed = noise_seed;
   view.model.spokes = 4;
   view.distance_m = 1.2;
   return MakeValveScene(view);
@@ -177,20 +180,27 @@ TEST(ValveEvidence, WhatIsKnownWellIsHardlyOff) {
 }
 
 TEST(FitValve, BeamsBehindAMapThatIsShiftedBringTheValveBack) {
-  const ValveScene scene = FourSpokes();
-  RaySet map = scene.rays;
-  map.dense = true;
-  for (RangeRay& ray : map.rays) ray.range_m += 0.008;  // all of it a little too far
-  const auto alone = FitValve(map, {}, {});
-  map.beams = std::make_shared<const RaySet>(scene.rays);
-  const auto with_beams = FitValve(map, {}, {});
-  ASSERT_TRUE(alone && with_beams);
-  const auto off_m = [&](const ValveDetection& found) {
-    return (found.best.base_from_object.translation() - scene.truth.base_from_object.translation())
-        .norm();
-  };
-  EXPECT_GT(off_m(*alone), 0.006);
-  EXPECT_LT(off_m(*with_beams), 0.5 * off_m(*alone));
+  std::vector<double> alone_m, with_beams_m;
+  for (const std::uint64_t noise : {1, 2, 3}) {
+    const ValveScene scene = FourSpokes(noise);
+    RaySet map = scene.rays;
+    map.dense = true;
+    for (RangeRay& ray : map.rays) ray.range_m += 0.008;  // all of it a little too far
+    const auto alone = FitValve(map, {}, {});
+    map.beams = std::make_shared<const RaySet>(scene.rays);
+    const auto with_beams = FitValve(map, {}, {});
+    ASSERT_TRUE(alone && with_beams);
+    const auto off_m = [&](const ValveDetection& found) {
+      return (found.best.base_from_object.translation() -
+              scene.truth.base_from_object.translation())
+          .norm();
+    };
+    alone_m.push_back(off_m(*alone));
+    with_beams_m.push_back(off_m(*with_beams));
+  }
+  EXPECT_GT(Quantile(alone_m, 0.5), 0.006);
+  EXPECT_LT(Quantile(with_beams_m, 0.5), 0.5 * Quantile(alone_m, 0.5))
+      << fmt::format("mm: {} and {}", fmt::join(with_beams_m, ", "), fmt::join(alone_m, ", "));
 }
 
 TEST(LocalSearch, NeverLosesLikelihood) {
