@@ -22,9 +22,9 @@ nlohmann::ordered_json FindingsJson(const std::vector<RigFinding>& findings) {
   for (const RigFinding& finding : findings)
     json.push_back({{"name", finding.name},
                     {"state", ToString(finding.state)},
-                    {"value", Finite(finding.value)},
-                    {"sigma", Finite(finding.sigma)},
-                    {"limit", Finite(finding.limit)},
+                    {"value", FiniteOrNull(finding.value)},
+                    {"sigma", FiniteOrNull(finding.sigma)},
+                    {"limit", FiniteOrNull(finding.limit)},
                     {"unit", finding.unit}});
   return json;
 }

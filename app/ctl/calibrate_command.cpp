@@ -43,7 +43,7 @@ Json ValuesJson(const CameraModel& camera, const CameraModel::Parameters& values
   Json json = Json::object();
   const std::vector<std::string_view> names = camera.ParameterNames();
   for (std::size_t i = 0; i < names.size(); ++i)
-    json[std::string(names[i])] = Finite(values[static_cast<Eigen::Index>(i)]);
+    json[std::string(names[i])] = FiniteOrNull(values[static_cast<Eigen::Index>(i)]);
   return json;
 }
 
@@ -68,11 +68,11 @@ Json ModelJson(const ModelCalibration& m, const IntrinsicsCalibration& calibrati
       {"model", ToString(m.model)},
       {"images_used", calibration.images_used.size()},
       {"images_rejected", RejectedJson(common.rejected)},
-      {"mean_error_px", found ? Finite(m.mean_error_px) : Json(nullptr)},
-      {"rms_px", found ? Finite(m.rms_px) : Json(nullptr)},
+      {"mean_error_px", found ? FiniteOrNull(m.mean_error_px) : Json(nullptr)},
+      {"rms_px", found ? FiniteOrNull(m.rms_px) : Json(nullptr)},
       {"parameters", found ? ValuesJson(m.camera, m.camera.Values()) : Json(nullptr)},
       {"sigma", m.covariance ? ValuesJson(m.camera, m.covariance->ValueSigmas()) : Json(nullptr)},
-      {"cross_validation_px", Finite(m.cross_validation_px)},
+      {"cross_validation_px", FiniteOrNull(m.cross_validation_px)},
       {"board_warp_mm", {1000.0 * m.warp.x_m, 1000.0 * m.warp.y_m}},
       {"seconds", m.seconds}};
   json["chosen"] = chosen;
@@ -86,8 +86,8 @@ Json ModelJson(const ModelCalibration& m, const IntrinsicsCalibration& calibrati
   for (const ImageErrors& image : m.images)
     images.push_back({{"file", common.images.images[image.image].name},
                       {"corners", image.pixels.size()},
-                      {"mean_error_px", Finite(image.mean_px)},
-                      {"rms_px", Finite(image.rms_px)}});
+                      {"mean_error_px", FiniteOrNull(image.mean_px)},
+                      {"rms_px", FiniteOrNull(image.rms_px)}});
   json["images"] = images;
   return json;
 }

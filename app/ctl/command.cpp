@@ -1,6 +1,5 @@
 #include "app/ctl/command.h"
 
-#include <cmath>
 #include <filesystem>
 
 namespace foresight {
@@ -12,10 +11,6 @@ Status MakeOutputFolder(const std::string& folder) {
     return Fail(ErrorCode::kIo, "{}: cannot make the folder: {}", folder,
                 error ? error.message() : "a file of that name is in the way");
   return {};
-}
-
-nlohmann::ordered_json Finite(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 }  // namespace foresight

@@ -8,6 +8,7 @@
 #include "app/common/output.h"
 #include "core/base/run_context.h"
 #include "core/geometry/rigid.h"
+#include "core/io/json_numbers.h"
 
 namespace foresight {
 
@@ -70,9 +71,6 @@ inline auto Of(const std::string& file) {
 
 /// Creates the folder for results. Fails with kIo.
 Status MakeOutputFolder(const std::string& folder);
-
-/// A number for JSON: null where it is not finite.
-nlohmann::ordered_json Finite(double value);
 
 template <class To, class From>
 nlohmann::ordered_json ToJson(const Rigid<To, From>& transform) {

@@ -56,7 +56,7 @@ void PrintAsJson(const BoardSearchTrial& trial) {
                               {"board", std::string(1, board.board)},
                               {"whole", board.whole},
                               {"found", board.found},
-                              {"worst_px", Finite(board.worst_px)}});
+                              {"worst_px", FiniteOrNull(board.worst_px)}});
   PrintJson(json);
 }
 

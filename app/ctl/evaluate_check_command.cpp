@@ -34,8 +34,8 @@ nlohmann::ordered_json ToJson(const CheckOutcome& outcome) {
                                  {"seconds", outcome.seconds}, {"drifted", outcome.check.drifted}};
   for (const RigFinding& finding : outcome.check.findings)
     json["findings"].push_back({{"name", finding.name},
-                                {"value", Finite(finding.value)},
-                                {"sigma", Finite(finding.sigma)},
+                                {"value", FiniteOrNull(finding.value)},
+                                {"sigma", FiniteOrNull(finding.sigma)},
                                 {"state", ToString(finding.state)}});
   if (outcome.check.camera) {
     const CameraCheck& c = *outcome.check.camera;

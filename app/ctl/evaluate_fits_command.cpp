@@ -194,11 +194,11 @@ void PrintTable(const FitStatistics& s) {
 nlohmann::ordered_json ToJson(const FitStatistics& s) {
   nlohmann::ordered_json errors = nlohmann::ordered_json::object();
   for (const ErrorSpread& error : s.errors)
-    errors[error.name] = {{"median", Finite(error.median)}, {"p95", Finite(error.p95)}};
+    errors[error.name] = {{"median", FiniteOrNull(error.median)}, {"p95", FiniteOrNull(error.p95)}};
   nlohmann::ordered_json sigmas = nlohmann::ordered_json::object();
   for (const SigmaSpread& sigma : s.sigmas)
-    sigmas[sigma.name] = {{"spread_over_predicted", Finite(sigma.robust)},
-                          {"root_mean_square", Finite(sigma.rms)}};
+    sigmas[sigma.name] = {{"spread_over_predicted", FiniteOrNull(sigma.robust)},
+                          {"root_mean_square", FiniteOrNull(sigma.rms)}};
   nlohmann::ordered_json reasons = nlohmann::ordered_json::array();
   for (const ReasonCount& reason : s.right_not_confirmed)
     reasons.push_back({{"reason", reason.reason}, {"count", reason.count}});
@@ -207,8 +207,8 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"found", s.found},
           {"pose_ok", s.pose_ok},
           {"all_ok", s.all_ok},
-          {"recall", Finite(s.recall)},
-          {"false_area", Finite(s.false_area)},
+          {"recall", FiniteOrNull(s.recall)},
+          {"false_area", FiniteOrNull(s.false_area)},
           {"confirmed", s.confirmed},
           {"confirmed_right", s.confirmed_right},
           {"likely", s.likely},
@@ -218,12 +218,13 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"negatives_likely", s.negatives_likely},
           {"compared", s.compared},
           {"same_verdict", s.same_verdict},
-          {"auc", Finite(s.auc)},
-          {"ece", Finite(s.ece)},
+          {"auc", FiniteOrNull(s.auc)},
+          {"ece", FiniteOrNull(s.ece)},
           {"errors", errors},
           {"sigmas", sigmas},
           {"right_not_confirmed", reasons},
-          {"seconds", {{"median", Finite(s.seconds_median)}, {"p95", Finite(s.seconds_p95)}}}};
+          {"seconds",
+           {{"median", FiniteOrNull(s.seconds_median)}, {"p95", FiniteOrNull(s.seconds_p95)}}}};
 }
 
 /// Which scenes are counted; an empty pattern fits all.

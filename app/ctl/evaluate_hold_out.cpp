@@ -18,10 +18,10 @@ struct Row {
 };
 
 nlohmann::ordered_json ToJson(const HeldOutErrors& errors, int beams) {
-  return {{"q50_mm", Finite(1000.0 * errors.q50_m)},
-          {"q80_mm", Finite(1000.0 * errors.q80_m)},
-          {"q95_mm", Finite(1000.0 * errors.q95_m)},
-          {"right", Finite(errors.right)},
+  return {{"q50_mm", FiniteOrNull(1000.0 * errors.q50_m)},
+          {"q80_mm", FiniteOrNull(1000.0 * errors.q80_m)},
+          {"q95_mm", FiniteOrNull(1000.0 * errors.q95_m)},
+          {"right", FiniteOrNull(errors.right)},
           {"coverage", static_cast<double>(errors.beams) / beams}};
 }
 

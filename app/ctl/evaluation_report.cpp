@@ -9,8 +9,8 @@ namespace foresight {
 namespace {
 
 nlohmann::ordered_json ToJson(const DepthAccuracy& accuracy) {
-  return {{"a80_mm", Finite(accuracy.a80_mm)},
-          {"a95_mm", Finite(accuracy.a95_mm)},
+  return {{"a80_mm", FiniteOrNull(accuracy.a80_mm)},
+          {"a95_mm", FiniteOrNull(accuracy.a95_mm)},
           {"coverage", accuracy.coverage},
           {"unscored_kept", accuracy.unscored_kept}};
 }
@@ -22,8 +22,8 @@ nlohmann::ordered_json ToJson(const EvaluationRow& row) {
   json["seconds"] = score.seconds;
   json["samples"] = score.samples;
   json["rejected"] = score.rejected;
-  json["rejection_precision"] = Finite(score.rejection_precision);
-  json["rejection_recall"] = Finite(score.rejection_recall);
+  json["rejection_precision"] = FiniteOrNull(score.rejection_precision);
+  json["rejection_recall"] = FiniteOrNull(score.rejection_recall);
   json["without_mask"] = ToJson(score.without_mask);
   if (row.in_foresight_mask) json["in_foresight_mask"] = ToJson(*row.in_foresight_mask);
   if (row.calibration_error)

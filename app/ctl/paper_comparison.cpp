@@ -136,11 +136,11 @@ nlohmann::ordered_json ToJson(const std::vector<ComparedValue>& values) {
   for (const ComparedValue& value : values)
     json.push_back({{"name", value.name},
                     {"unit", value.unit},
-                    {"ours", Finite(value.ours)},
-                    {"sigma", Finite(value.sigma)},
-                    {"paper", Finite(value.paper)},
-                    {"difference", Finite(value.paper - value.ours)},
-                    {"difference_in_sigmas", Finite(InSigmas(value))}});
+                    {"ours", FiniteOrNull(value.ours)},
+                    {"sigma", FiniteOrNull(value.sigma)},
+                    {"paper", FiniteOrNull(value.paper)},
+                    {"difference", FiniteOrNull(value.paper - value.ours)},
+                    {"difference_in_sigmas", FiniteOrNull(InSigmas(value))}});
   return json;
 }
 

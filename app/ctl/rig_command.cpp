@@ -51,8 +51,8 @@ nlohmann::ordered_json ToJson(const CameraModel& camera) {
   const CameraModel::Parameters values = camera.Values();
   for (std::size_t i = 0; i < names.size(); ++i)
     json[std::string(names[i])] = values[static_cast<Eigen::Index>(i)];
-  json["field_of_view_deg"] = {Finite(DegreesFromRadians(HorizontalField(camera))),
-                               Finite(DegreesFromRadians(VerticalField(camera)))};
+  json["field_of_view_deg"] = {FiniteOrNull(DegreesFromRadians(HorizontalField(camera))),
+                               FiniteOrNull(DegreesFromRadians(VerticalField(camera)))};
   return json;
 }
 
@@ -178,8 +178,8 @@ std::string Describe(const RigError& error) {
 }
 
 nlohmann::ordered_json ToJson(const RigError& error) {
-  return {{"camera_rms_px", Finite(error.camera_rms_px)},
-          {"camera_most_px", Finite(error.camera_most_px)},
+  return {{"camera_rms_px", FiniteOrNull(error.camera_rms_px)},
+          {"camera_most_px", FiniteOrNull(error.camera_most_px)},
           {"axis_deg", DegreesFromRadians(error.axis_rad)},
           {"axis_mm", 1e3 * error.axis_m},
           {"angles_rms_deg", DegreesFromRadians(error.angles_rms_rad)},

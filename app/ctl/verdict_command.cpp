@@ -79,10 +79,14 @@ nlohmann::ordered_json ToJson(const VerdictFit& fit) {
                       {"right_answers", sure.right_answers},
                       {"sure", ToJson(sure.sure)},
                       {"confirmed", ToJson(sure.confirmed)}});
-  return {{"object", fit.model.object},   {"source", ToString(fit.model.source)},
-          {"fits", fit.model.fits},       {"right", fit.model.right},
-          {"auc", Finite(fit.model.auc)}, {"ece", Finite(fit.model.ece)},
-          {"log_loss", fit.log_loss},     {"worlds", worlds}};
+  return {{"object", fit.model.object},
+          {"source", ToString(fit.model.source)},
+          {"fits", fit.model.fits},
+          {"right", fit.model.right},
+          {"auc", FiniteOrNull(fit.model.auc)},
+          {"ece", FiniteOrNull(fit.model.ece)},
+          {"log_loss", fit.log_loss},
+          {"worlds", worlds}};
 }
 
 Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&) {

@@ -1,9 +1,9 @@
 #include "core/exchange/scan_record.h"
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/io/json_numbers.h"
 #include "core/io/json_reader.h"
 
 namespace foresight {
@@ -12,10 +12,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostImages = 1000;
-
-Json NumberOrNull(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 double NumberFrom(const nlohmann::json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
@@ -41,7 +37,7 @@ std::string ScanRecordToJson(const Scan& scan, const RegisteredScan& cloud) {
                       {"time_s", frame.time_s},
                       {"exposure_s", frame.exposure_s},
                       {"gain_db", frame.gain_db},
-                      {"motor_angle_rad", NumberOrNull(frame.motor_angle_rad)},
+                      {"motor_angle_rad", FiniteOrNull(frame.motor_angle_rad)},
                       {"target_angle_rad", frame.target_angle_rad}});
   for (const Eigen::Vector3f& origin : cloud.origins)
     origins.push_back(origin.allFinite() ? Json{origin.x(), origin.y(), origin.z()}

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,6 +42,9 @@ struct RaySet {
   /// map guesses between them, so they have a say in which of several answers is right and where it
   /// is.
   std::shared_ptr<const RaySet> beams = nullptr;
+
+  /// How many independent measurements a ray is worth, one at most.
+  double Worth() const { return std::min(1.0, samples_per_ray); }
 };
 
 /// Which rays of a BoxRoi a fit wants. An ImageRoi always holds both.

@@ -4,21 +4,18 @@
 #include <stdexcept>
 
 #include "core/detection/json_values.h"
+#include "core/io/json_numbers.h"
 
 namespace foresight {
 namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
 
-Json NumberJson(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json PointJson(const MeasuredPoint& point) {
   Json json = {{"position_m", ToJson(point.position_m)},
                {"scan_uuid", point.scan_uuid},
-               {"range_m", NumberJson(point.range_m)},
-               {"sigma_m", NumberJson(point.sigma_m)},
+               {"range_m", FiniteOrNull(point.range_m)},
+               {"sigma_m", FiniteOrNull(point.sigma_m)},
                {"ray", ToJson(point.ray)}};
   if (point.placement_sigma_m > 0.0) json["placement_sigma_m"] = point.placement_sigma_m;
   if (point.source == MeasuredPoint::Source::kLidar) {
@@ -105,7 +102,7 @@ MeasuredPlane PlaneFrom(const Json& json) {
 std::string MeasurementToJson(const Measurement& measurement) {
   Json json = {{"measurement", ToString(measurement.kind)},
                {"value", measurement.value},
-               {"sigma", NumberJson(measurement.sigma)},
+               {"sigma", FiniteOrNull(measurement.sigma)},
                {"unit", measurement.kind == MeasureKind::kAngle ? "rad" : "m"},
                {"label", ValueText(measurement)},
                {"frame", ToString(measurement.frame)},

@@ -134,7 +134,7 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
     }
     information += slope * slope.transpose();
   }
-  information *= std::min(1.0, rays.samples_per_ray);
+  information *= rays.Worth();
   const Eigen::Matrix<double, kInner, kInner> covariance =
       information.ldlt().solve(Eigen::Matrix<double, kInner, kInner>::Identity());
   const auto deviation = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
@@ -163,7 +163,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& b
   const CylinderEvidence& evidence = found.evidence;
   std::vector<std::string> failed;
   AddIfFailed({.what = "{} measurements lie on it",
-               .number = evidence.hits * std::min(1.0, rays.samples_per_ray),
+               .number = evidence.hits * rays.Worth(),
                .limit = kLikelyHits,
                .advice = "scan slower or move closer"},
               failed);

@@ -57,7 +57,7 @@ Eigen::Matrix2d TableTiltCovariance(const RaySet& rays, const Plane& table,
     design.row(i) = row.head<3>().transpose();
     scores.row(i) = row[3] * row.head<3>().transpose();
   }
-  const double weight = std::min(1.0, rays.samples_per_ray);
+  const double weight = rays.Worth();
   const Eigen::Matrix3d prior =
       Eigen::Vector3d(1.0, 1.0 / Squared(kBefore_rad), 1.0 / Squared(kBefore_rad)).asDiagonal();
   const Eigen::Matrix3d information = weight * design.transpose() * design + prior;
@@ -130,7 +130,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
     slopes.scores.row(static_cast<Eigen::Index>(i)) =
         ErrorOf(ray, intersection, outline, sigma, width) * slope.transpose();
   }
-  const double weight = std::min(1.0, rays.samples_per_ray);
+  const double weight = rays.Worth();
   slopes.information *= weight;
   slopes.scores *= weight;
   slopes.information.diagonal() += PriorInformation(prior);

@@ -31,14 +31,10 @@ constexpr double kMinFlipLines_sigmas = 0.3;
 constexpr double kMinChuck_nats = 0.0;
 constexpr double kBound = 0.01;  // of the range of a scale
 
-double Hits(const RaySet& rays, const DrillEvidence& evidence) {
-  return evidence.hits * std::min(1.0, rays.samples_per_ray);
-}
-
 std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detection,
                                const DrillSupport& support) {
   const DrillEvidence& evidence = detection.evidence;
-  const double hits = std::max(1.0, Hits(rays, evidence));
+  const double hits = std::max(1.0, rays.Worth() * evidence.hits);
   return {Compressed(evidence.yaw_margin_nats),
           Compressed(evidence.head_nats),
           Compressed(evidence.alternative_margin_nats),
@@ -177,7 +173,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
   if (!detection.table)
     failed.push_back("no table is seen under it: draw the region a little lower");
   AddIfFailed({.what = "{} measurements lie on the drill",
-               .number = Hits(rays, evidence),
+               .number = rays.Worth() * evidence.hits,
                .limit = kMinHits,
                .advice = "scan slower or move closer"},
               failed);

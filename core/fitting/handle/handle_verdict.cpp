@@ -43,14 +43,10 @@ constexpr const char* kNotYet =
     "a door handle is never confirmed yet: on scenes unlike those that it was fitted to 3 of 10 "
     "answers as sure as that were wrong";
 
-double Hits(const RaySet& rays, const HandleEvidence& evidence) {
-  return evidence.hits * std::min(1.0, rays.samples_per_ray);
-}
-
 std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detection,
                                const HandleSupport& support) {
   const HandleEvidence& evidence = detection.evidence;
-  const double hits = std::max(1.0, Hits(rays, evidence));
+  const double hits = std::max(1.0, rays.Worth() * evidence.hits);
   return {Compressed(evidence.mirror_margin_nats),
           Compressed(evidence.length_margin_nats),
           Compressed(evidence.alternative_margin_nats),
@@ -109,7 +105,7 @@ std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection
   const HandleEvidence& evidence = detection.evidence;
   std::vector<std::string> failed;
   AddIfFailed({.what = "{} measurements lie on the handle",
-               .number = Hits(region, evidence),
+               .number = region.Worth() * evidence.hits,
                .limit = kMinHits,
                .advice = "scan slower or move closer"},
               failed);
@@ -194,7 +190,7 @@ Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& at : on_door)
     squares += (at - mean / static_cast<double>(on_door.size())).cwiseAbs2();
-  squares *= std::min(1.0, likelihood.rays().samples_per_ray);
+  squares *= likelihood.rays().Worth();
   const auto sigma = [&](double spread2) {
     return std::hypot(kFlatness_rad, likelihood.Sigma() / std::sqrt(std::max(spread2, 1e-4)));
   };
@@ -269,7 +265,7 @@ HandleCovariances CovariancesOf(const HandleScorer& scorer, const HandleState& h
   const BeamLikelihood* behind = scorer.likelihood.BehindMap();
   const BeamLikelihood& likelihood = behind != nullptr ? *behind : scorer.likelihood;
   const BeamSlopes beams = SlopesOf(likelihood, scorer, handle, door);
-  const double worth = std::min(1.0, likelihood.rays().samples_per_ray);
+  const double worth = likelihood.rays().Worth();
   const HandleInformation prior = PriorInformation();
   const Eigen::MatrixXd information = worth * beams.slopes.transpose() * beams.slopes + prior;
   const Eigen::MatrixXd scores = std::sqrt(worth) * beams.residuals.asDiagonal() * beams.slopes;

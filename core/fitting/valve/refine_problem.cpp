@@ -34,8 +34,8 @@ RefineProblem::RefineProblem(const BeamFootprints& footprints, const RefineOptio
       std::max<std::size_t>(1, (rays.rays.size() + static_cast<std::size_t>(options.max_rays) - 1) /
                                    static_cast<std::size_t>(options.max_rays));
   for (std::size_t i = 0; i < rays.rays.size(); i += stride) roled_.push_back({i, Role::kNothing});
-  weight_ = std::min(1.0, rays.samples_per_ray) * static_cast<double>(rays.rays.size()) /
-            static_cast<double>(roled_.size());
+  weight_ =
+      rays.Worth() * static_cast<double>(rays.rays.size()) / static_cast<double>(roled_.size());
 }
 
 void RefineProblem::AssignRoles(const ValveCandidate& valve) {

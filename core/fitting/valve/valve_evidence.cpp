@@ -164,7 +164,7 @@ void SetSigmas(const ValveInformation& information, ValveDetection& detection) {
 }
 
 double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence) {
-  return evidence.hits * std::min(1.0, rays.samples_per_ray);
+  return evidence.hits * rays.Worth();
 }
 
 Eigen::Vector3d MiddleOf(const ValveCandidate& valve) {

@@ -21,9 +21,9 @@ constexpr double kMinMargin_nats = 10.0;
 // Of 247 wheels that are right and CONFIRMED on the seeds of `evaluate-fits valve --world varied`
 // in docs/evaluation.md the least seen is 42 % of its rim; of a cross, which has none, 0 to 75 %.
 constexpr double kMinRimSeen = 0.4;
-// By its own deviations. Of the valve's training scenes 215 of 218 answers that the probability
-// would confirm are right with it, from lidar returns and dense, and 241 of 248 and 222 of 227
-// without it (docs/evaluation.md, "The valve a third time").
+// By its own deviations. Of 297 answers that the probability would confirm it leaves 256 right ones
+// and 3 of 9 wrong ones (`packaging/evaluate choice-valve`; docs/evaluation.md, "The valve a third
+// time").
 constexpr double kMaxChanceOfBeingOff = 0.05;
 
 /// "3 spokes", "a disc", "a lever".
