@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/objects/solid_distance.h"
+
 namespace foresight {
 namespace {
 
@@ -56,19 +58,24 @@ Status SolidPart::Check() const {
   return {};
 }
 
-double SolidPart::Distance(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d p = object_from_part.Inverse() * point;
-  if (shape == Shape::kBox) {
-    const Eigen::Vector3d beyond = p.cwiseAbs() - 0.5 * size_m;
+double DistanceToSolid(SolidPart::Shape shape, const Eigen::Vector3d& point,
+                       const Eigen::Vector3d& half) {
+  if (shape == SolidPart::Shape::kBox) {
+    const Eigen::Vector3d beyond = point.cwiseAbs() - half;
     return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
   }
-  const double radial = std::hypot(p.x(), p.y());
-  const double half_length = 0.5 * size_m.z();
-  const double radius = 0.5 * size_m.x();
-  if (shape == Shape::kCapsule)
-    return std::hypot(radial, std::max(std::abs(p.z()) - half_length, 0.0)) - radius;
-  const Eigen::Vector2d beyond(radial - radius, std::abs(p.z()) - half_length);
+  const double radial = point.head<2>().norm();
+  const double beyond_end = std::abs(point.z()) - half.z();
+  if (shape == SolidPart::Shape::kCapsule) {
+    const double end = std::max(beyond_end, 0.0);
+    return std::sqrt(radial * radial + end * end) - half.x();
+  }
+  const Eigen::Vector2d beyond(radial - half.x(), beyond_end);
   return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+double SolidPart::Distance(const Eigen::Vector3d& point) const {
+  return DistanceToSolid(shape, object_from_part.Inverse() * point, 0.5 * size_m);
 }
 
 Wireframe WireframeOf(const SolidPart& part) {

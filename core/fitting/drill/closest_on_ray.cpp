@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/objects/solid_distance.h"
+
 namespace foresight {
 namespace {
 
-using Shape = SolidPart::Shape;
 constexpr double kInfinite_m = std::numeric_limits<double>::infinity();
 constexpr double kParallel = 1e-12;     // of a direction's squared part
 constexpr double kNewtonStep_m = 1e-5;  // where it has settled
@@ -50,7 +51,7 @@ ClosestApproach BesideBox(const RayBesideSolid& ray, const Eigen::Vector3d& half
   double range_m = std::isfinite(low) ? low : high;
   if (std::isfinite(low) && std::isfinite(high))
     range_m = low + (high - low) * (-at_low / (at_high - at_low));
-  return {DistanceToSolid(Shape::kBox, At(ray, range_m), half), range_m};
+  return {DistanceToSolid(SolidPart::Shape::kBox, At(ray, range_m), half), range_m};
 }
 
 /// Where the line is nearest to the z axis; beside the origin where it runs along the axis.
@@ -67,7 +68,7 @@ ClosestApproach BesideCapsule(const RayBesideSolid& ray, const Eigen::Vector3d& 
     const Eigen::Vector3d end(0.0, 0.0, std::copysign(half.z(), z));
     range_m = (end - ray.origin).dot(ray.direction);
   }
-  return {DistanceToSolid(Shape::kCapsule, At(ray, range_m), half), range_m};
+  return {DistanceToSolid(SolidPart::Shape::kCapsule, At(ray, range_m), half), range_m};
 }
 
 ClosestApproach BesideCylinder(const RayBesideSolid& ray, const Eigen::Vector3d& half) {
@@ -75,7 +76,8 @@ ClosestApproach BesideCylinder(const RayBesideSolid& ray, const Eigen::Vector3d&
   const double nearest_m = NearestToAxis(ray);
   const double z = At(ray, nearest_m).z();
   const auto at = [&](double range_m) {
-    return ClosestApproach{DistanceToSolid(Shape::kCylinder, At(ray, range_m), half), range_m};
+    return ClosestApproach{DistanceToSolid(SolidPart::Shape::kCylinder, At(ray, range_m), half),
+                           range_m};
   };
   if (std::abs(z) <= half.z() || along * along < kParallel) return at(nearest_m);
   // Beyond an end: between there and where the line comes beside the solid. Half the derivative of
@@ -136,28 +138,14 @@ Tangent BeyondFaces(SolidPart::Shape shape, const RayBesideSolid& ray, const Eig
 
 }  // namespace
 
-double DistanceToSolid(Shape shape, const Eigen::Vector3d& point, const Eigen::Vector3d& half) {
-  if (shape == Shape::kBox) {
-    const Eigen::Vector3d beyond = point.cwiseAbs() - half;
-    return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
-  }
-  const double radial = point.head<2>().norm();
-  const double beyond_end = std::abs(point.z()) - half.z();
-  if (shape == Shape::kCapsule) {
-    const double end = std::max(beyond_end, 0.0);
-    return std::sqrt(radial * radial + end * end) - half.x();
-  }
-  const Eigen::Vector2d beyond(radial - half.x(), beyond_end);
-  return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
-}
-
-ClosestApproach ClosestBeside(Shape shape, const RayBesideSolid& ray, const Eigen::Vector3d& half) {
+ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
+                              const Eigen::Vector3d& half) {
   switch (shape) {
-    case Shape::kBox:
+    case SolidPart::Shape::kBox:
       return BesideBox(ray, half);
-    case Shape::kCylinder:
+    case SolidPart::Shape::kCylinder:
       return BesideCylinder(ray, half);
-    case Shape::kCapsule:
+    case SolidPart::Shape::kCapsule:
       return BesideCapsule(ray, half);
   }
   return {kInfinite_m, kInfinite_m};

@@ -18,13 +18,9 @@ struct ClosestApproach {
   double range_m = 0.0;     ///< along the ray, from its origin; may be negative
 };
 
-/// Distance to the surface of a solid, negative inside; `half` is half the size, of a round one
-/// (radius, radius, half length), a capsule's without its ends.
-double DistanceToSolid(SolidPart::Shape shape, const Eigen::Vector3d& point,
-                       const Eigen::Vector3d& half);
-
-/// The closest approach of a line that misses the solid, in closed form; beside the edge of a
-/// cylinder's end by Newton's method, to a hundredth of a millimetre along the ray.
+/// The closest approach of a line that misses the solid (half its size as for DistanceToSolid), in
+/// closed form; beside the edge of a cylinder's end by Newton's method, to a hundredth of a
+/// millimetre along the ray.
 ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
                               const Eigen::Vector3d& half);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/objects/solid_distance.h"
 
 namespace foresight {
 namespace {
