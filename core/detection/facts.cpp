@@ -87,6 +87,7 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
                                                     1]
                                       .model
                                 : drill.best.model;
+  const auto grasp = pose * model.object_from_grasp;  // leaning with the body
   facts.push_back(
       {OperatorText("Foot"),
        WithSigma(Place(pose.translation()), SigmaOfPlace(drill.sigma_position_m), candidate)});
@@ -94,9 +95,9 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
       {OperatorText("Bit points (x)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
                                                  Degrees(drill.sigma_yaw_rad), candidate)});
   facts.push_back(
-      {OperatorText("Body (z)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitZ())),
+      {OperatorText("Body (z)"), WithSigma(Direction(grasp.Rotate(Eigen::Vector3d::UnitZ())),
                                            Degrees(drill.sigma_axis_rad), candidate)});
-  facts.push_back({OperatorText("Grasp"), Place((pose * model.object_from_grasp).translation())});
+  facts.push_back({OperatorText("Grasp"), Place(grasp.translation())});
   facts.push_back({OperatorText("Trigger"), Place(pose * model.trigger_m)});
   facts.push_back({OperatorText("Bit tip"), Place(pose * model.bit_tip_m)});
   if (candidate > 0) return;

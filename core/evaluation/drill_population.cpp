@@ -23,6 +23,7 @@ struct DrillErrors {
   double xy_mm = 0.0;
   double yaw_deg = 0.0;
   double axis_deg = 0.0;
+  double lean_rad = 0.0;  ///< forward, found minus true
 };
 
 /// The found body's axis against the true grip's, in the truth's frame.
@@ -40,6 +41,7 @@ DrillErrors Compare(const DrillCandidate& found,
   DrillErrors errors;
   errors.xy_mm = 1000.0 * (from_origin - from_origin.dot(axis) * axis).norm();
   errors.yaw_deg = DegreesFromRadians(std::abs(std::atan2(x.y(), x.x())));
+  errors.lean_rad = axis.x() - true_axis.x();
   errors.axis_deg = DegreesFromRadians(std::acos(std::clamp(axis.dot(true_axis), -1.0, 1.0)));
   return errors;
 }
@@ -72,6 +74,8 @@ std::vector<FitOutcome> DrillPopulation::Judge(const FitTrial& trial,
   AddSigmaErrors(detection.best.base_from_object.Inverse() *
                      (trial.TrueBaseFromRobot() * truth.robot_from_object),
                  detection.covariance, 2.0 * std::numbers::pi, outcome.errors);
+  outcome.errors.emplace_back(std::string("lean") + kSigmaErrorSuffix,
+                              errors.lean_rad / detection.sigma_axis_rad);
   outcome.pose_ok = errors.xy_mm < kPlaceOk_mm && errors.yaw_deg < kYawOk_deg;
   outcome.all_ok = errors.xy_mm < kPlaceAllOk_mm && errors.yaw_deg < kYawAllOk_deg &&
                    errors.axis_deg < kAxisAllOk_deg;

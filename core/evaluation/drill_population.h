@@ -17,7 +17,7 @@ namespace foresight {
 /// The pose is right where the body's axis passes within 30 mm of the true one at the grip's middle
 /// and the bit points within 20 deg; everything is, where these are 25 mm and 15 deg and the axis
 /// stands within 10 deg. Errors: "xy_mm", "yaw_deg", "axis_deg", "flip" (1 = it points the other
-/// way, by more than 90 deg).
+/// way, by more than 90 deg); "lean_sigmas", of the axis in the plane of the bit.
 class DrillPopulation : public FitPopulation {
  public:
   ObjectKind Kind() const override { return ObjectKind::kDrill; }

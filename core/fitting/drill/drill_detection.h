@@ -40,7 +40,7 @@ struct DrillDetection {
   DrillCandidate best;
   Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();  ///< along the object's axes
   double sigma_yaw_rad = 0.0;
-  double sigma_axis_rad = 0.0;  ///< of the body's axis
+  double sigma_axis_rad = 0.0;  ///< of the body's axis, where it is known worst
   PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
   std::optional<Plane> table;  ///< in base, normal up; what it was found to stand on
   DrillEvidence evidence;

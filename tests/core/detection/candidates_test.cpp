@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/detection/facts.h"
@@ -117,6 +118,19 @@ TEST(Facts, AnAlternativeIsToldWithoutTheDeviationsOfTheBestAnswer) {
     EXPECT_EQ(fact.value.find("sigma"), std::string::npos) << fact.name;
     EXPECT_NE(fact.name, "Support");
   }
+}
+
+TEST(Facts, ADrillsBodyIsToldWithItsLean) {
+  constexpr double kLean_rad = 0.2;
+  DrillDetection drill;
+  drill.best.model.body_tilt_rad = {0.0, kLean_rad};
+  drill.best.model.object_from_grasp = {BodyTurn(drill.best.model.body_tilt_rad),
+                                        Eigen::Vector3d::Zero()};
+  const std::string lean = "0.0 deg left of forward, 78.5 deg up";
+  const auto facts = FactsOf(drill, 0, {});
+  EXPECT_TRUE(std::any_of(facts.begin(), facts.end(), [&](const Fact& fact) {
+    return fact.name == "Body (z)" && fact.value.starts_with(lean);
+  }));
 }
 
 TEST(Candidates, AnAlternativeThatIsClearlyBehindIsUnsureHoweverSureTheBestAnswerIs) {
