@@ -5,9 +5,11 @@
 
 #include "app/common/seed_option.h"
 #include "app/ctl/command.h"
+#include "core/base/atomic_file.h"
 #include "core/base/quantile.h"
 #include "core/evaluation/check_trial.h"
 #include "core/geometry/angles.h"
+#include "core/pictures/line_chart.h"
 #include "core/selfcheck/gather_rig.h"
 
 namespace foresight {
@@ -26,6 +28,7 @@ struct EvaluateCheckArguments {
   bool rig = true;     ///< try the damages
   bool json = false;
   std::string world = "home";
+  std::string chart;
 };
 
 nlohmann::ordered_json ToJson(const CheckOutcome& outcome) {
@@ -179,12 +182,21 @@ void Print(const std::vector<DepthCheckOutcome>& outcomes) {
       [](const auto& o) { return o.true_right; });
 }
 
-/// Whether 0.9 means 0.9: what the map promised and what was right, over the pixels of all scans;
-/// and over scans the median of a class, since pixels of one scan are right or wrong together.
-void PrintReliability(const std::vector<DepthCheckOutcome>& outcomes) {
+/// Of the pixels of one class of confidence, over all scans.
+struct ClassReliability {
+  double from = 0.0;  ///< the class reaches 0.1 further
+  std::int64_t pixels = 0;
+  double promised = 0.0;       ///< mean confidence
+  double right = 0.0;          ///< fraction
+  std::size_t scans = 0;       ///< with enough pixels in the class
+  double right_of_scan = 0.0;  ///< median of those; pixels of one scan are right or wrong together
+};
+
+/// Whether 0.9 means 0.9: what the map promised and what was right. Classes without a pixel are
+/// left out.
+std::vector<ClassReliability> ReliabilityOf(const std::vector<DepthCheckOutcome>& outcomes) {
   constexpr std::int64_t kLeastPixels = 200;  // of a scan in a class
-  PrintLine(fmt::format("{:<14}{:>12}{:>10}{:>8}{:>8}{:>26}", "confidence", "pixels", "promised",
-                        "right", "scans", "right of a scan, median"));
+  std::vector<ClassReliability> classes;
   for (std::size_t i = 0; i < ConfidenceTruth::kClasses; ++i) {
     ConfidenceTruth all;
     std::vector<double> of_scans;
@@ -198,12 +210,36 @@ void PrintReliability(const std::vector<DepthCheckOutcome>& outcomes) {
     }
     if (all.pixels == 0) continue;
     const auto pixels = static_cast<double>(all.pixels);
-    const double from = static_cast<double>(i) / ConfidenceTruth::kClasses;
-    PrintLine(fmt::format("{:<14}{:>12}{:>10.3f}{:>8.3f}{:>8}{:>26.3f}",
-                          fmt::format("{:.1f} to {:.1f}", from, from + 0.1), all.pixels,
-                          all.promised / pixels, static_cast<double>(all.right) / pixels,
-                          of_scans.size(), Quantile(of_scans, 0.5)));
+    classes.push_back({.from = static_cast<double>(i) / ConfidenceTruth::kClasses,
+                       .pixels = all.pixels,
+                       .promised = all.promised / pixels,
+                       .right = static_cast<double>(all.right) / pixels,
+                       .scans = of_scans.size(),
+                       .right_of_scan = Quantile(of_scans, 0.5)});
   }
+  return classes;
+}
+
+void Print(const std::vector<ClassReliability>& classes) {
+  PrintLine(fmt::format("{:<14}{:>12}{:>10}{:>8}{:>8}{:>26}", "confidence", "pixels", "promised",
+                        "right", "scans", "right of a scan, median"));
+  for (const ClassReliability& it : classes)
+    PrintLine(fmt::format("{:<14}{:>12}{:>10.3f}{:>8.3f}{:>8}{:>26.3f}",
+                          fmt::format("{:.1f} to {:.1f}", it.from, it.from + 0.1), it.pixels,
+                          it.promised, it.right, it.scans, it.right_of_scan));
+}
+
+/// The reliability plot: on the diagonal a confidence means what it says, above it is too modest.
+LineChart ChartOf(const std::vector<ClassReliability>& classes, const std::string& title) {
+  ChartSeries all{"of all pixels", {}}, median{"of a scan's pixels, median", {}};
+  for (const ClassReliability& it : classes) {
+    all.points.emplace_back(it.promised, it.right);
+    median.points.emplace_back(it.promised, it.right_of_scan);
+  }
+  return {.title = title,
+          .x = {.title = "confidence", .unit = "", .from_zero = true},
+          .y = {.title = "fraction that is right", .unit = "", .from_zero = true},
+          .series = {{"if 0.9 means 0.9", {{0.0, 0.0}, {1.0, 1.0}}}, all, median}};
 }
 
 /// Checks of the same damage that share a rig, as one.
@@ -265,6 +301,11 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
     for (CheckOutcome& outcome : arguments.gather > 1 ? Gathered(of_rig, damages) : of_rig)
       all.push_back(std::move(outcome));
   }
+  if (!arguments.chart.empty())
+    FORESIGHT_CHECK(WriteFileAtomically(
+        arguments.chart, SvgOf(ChartOf(ReliabilityOf(depths),
+                                       fmt::format("Confidence of the depth, {} scans of world {}",
+                                                   depths.size(), arguments.world)))));
   if (!arguments.json) {
     if (arguments.rig) {
       Print(all, damages);
@@ -272,7 +313,7 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
     }
     if (arguments.depth) {
       Print(depths);
-      PrintReliability(depths);
+      Print(ReliabilityOf(depths));
     }
     return ExitCode::kDone;
   }
@@ -322,8 +363,12 @@ void AddEvaluateCheckCommand(CLI::App& app, Invocation& invocation) {
                    "So many scans in a row share a rig and are judged together")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_flag("--depth,!--no-depth", arguments->depth,
-                    "Compare the check of the depth with the truth, too");
+  CLI::Option* depth = command->add_flag("--depth,!--no-depth", arguments->depth,
+                                         "Compare the check of the depth with the truth, too");
+  command
+      ->add_option("--chart", arguments->chart,
+                   "Draw how often a depth of each confidence is right into this SVG file")
+      ->needs(depth);
   command->add_flag("--rig,!--no-rig", arguments->rig, "Try the damages of the rig");
   command->add_flag("--json", arguments->json,
                     "Print a JSON list, one object a check, with all that was measured");

@@ -178,6 +178,11 @@ void PrintTable(const FitStatistics& s) {
   if (s.compared > 0)
     PrintLine(fmt::format("  same verdict as the first source in {} of {} scenes", s.same_verdict,
                           s.compared));
+  if (const PairedLead& ahead = s.first_ahead; ahead.scenes > 0)
+    PrintLine(fmt::format(
+        "  right where only one of the two is: the first source {}, this {}; the first is "
+        "ahead by {:.2f} a scene (95 %: {:.2f} to {:.2f}; {} scenes)",
+        ahead.only_first, ahead.only_second, ahead.lead, ahead.low, ahead.high, ahead.scenes));
   PrintLine(fmt::format("  AUC {:.3f}, ECE {:.3f}", s.auc, s.ece));
   for (const ErrorSpread& error : s.errors)
     PrintLine(
@@ -189,6 +194,15 @@ void PrintTable(const FitStatistics& s) {
     PrintLine(fmt::format("  right, not CONFIRMED {:>3}: {}", reason.count, reason.reason));
   PrintLine(fmt::format("  CPU               median {:.2f} s, 95 % {:.2f} s", s.seconds_median,
                         s.seconds_p95));
+}
+
+nlohmann::ordered_json ToJson(const PairedLead& ahead) {
+  return {{"scenes", ahead.scenes},
+          {"only_first", ahead.only_first},
+          {"only_this", ahead.only_second},
+          {"lead", ahead.lead},
+          {"low", ahead.low},
+          {"high", ahead.high}};
 }
 
 nlohmann::ordered_json ToJson(const FitStatistics& s) {
@@ -218,6 +232,7 @@ nlohmann::ordered_json ToJson(const FitStatistics& s) {
           {"negatives_likely", s.negatives_likely},
           {"compared", s.compared},
           {"same_verdict", s.same_verdict},
+          {"first_ahead", s.first_ahead.scenes > 0 ? ToJson(s.first_ahead) : nullptr},
           {"auc", FiniteOrNull(s.auc)},
           {"ece", FiniteOrNull(s.ece)},
           {"errors", errors},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/evaluation/fit_trial.h"
+#include "core/evaluation/paired_lead.h"
 
 namespace foresight {
 
@@ -59,6 +60,9 @@ struct FitStatistics {
   /// answers are CONFIRMED, LIKELY, UNSURE and not there; 0 for the first source itself.
   int compared = 0;
   int same_verdict = 0;
+  /// By how much the first source is ahead in answers that are right where it counts, over the
+  /// scenes with the object in them that both were tried on; none for the first source itself.
+  PairedLead first_ahead;
 };
 
 /// One entry a source, in the order they first appear.

@@ -53,7 +53,8 @@ void AddOutcomes(const FitPopulation& population, const FitTrial& trial, const s
     // something to find.
     outcome.positive = trial.scene.positive || outcome.all_ok;
     outcome.seconds = seconds;
-    if (outcome.found) outcome.evidence = EvidenceNumbers(*found);
+    // Of several things in one detection each has its own evidence already.
+    if (outcome.found && outcome.evidence.empty()) outcome.evidence = EvidenceNumbers(*found);
     outcomes.push_back(std::move(outcome));
   }
 }

@@ -1,8 +1,9 @@
 // Our fits beside other programs' on the same held-out scenes, rays, tolerances and CPU clock:
 //   fit_peers KIND FIRST_SEED COUNT [--points FOLDER] [--poses FILE]
-// draws COUNT scenes that have the object in them, runs ours and PCL's, and prints a table. With
-// --points it writes what other programs need, fit_peers.py among them; with --poses it judges
-// their answers, and nothing else. docs/evaluation.md, "Fits beside others".
+// draws COUNT scenes that have the object in them, runs ours and PCL's, and prints a table: how
+// many are right, and by how much ours is ahead. With --points it writes what other programs need,
+// fit_peers.py among them; with --poses it judges their answers beside ours. docs/evaluation.md,
+// "Fits beside others".
 #include <fmt/core.h>
 #include <time.h>
 
@@ -15,6 +16,7 @@
 
 #include "core/depth/depth_method.h"
 #include "core/evaluation/fit_populations.h"
+#include "core/evaluation/paired_lead.h"
 #include "core/evaluation/terrain_truth.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
@@ -42,6 +44,7 @@ struct Tally {
   int right = 0;
   int wrong = 0;  ///< answers that are not
   std::vector<double> center_mm, seconds;
+  std::map<std::uint64_t, int> right_of_scene;
 };
 
 /// A scene as one source shows it.
@@ -69,6 +72,7 @@ struct Bench {
     } else {
       ++tally.asked;
     }
+    int& right = tally.right_of_scene[trial.seed];
     for (const FitOutcome& outcome : population.Judge(trial, found)) {
       double in_view = terrain ? 0.0 : 1.0, center_mm = 0.0;
       for (const auto& [name, value] : outcome.errors) {
@@ -78,6 +82,7 @@ struct Bench {
       if (outcome.found && !outcome.pose_ok) ++tally.wrong;
       if (!outcome.pose_ok || in_view == 0.0) continue;
       ++tally.right;
+      ++right;
       tally.center_mm.push_back(center_mm);
     }
   }
@@ -352,18 +357,13 @@ Status Run(const Arguments& arguments) {
   std::map<std::string, Tally> tallies;
   RunContext one_thread;
   one_thread.threads = 1;
-  const bool judge_only = !arguments.poses.empty();
-  if (judge_only) options.sources.resize(1);
   int done = 0;
   for (std::uint64_t seed = arguments.first_seed; done < arguments.count; ++seed) {
     if (!population->MakeScene(seed).positive) continue;
     ++done;
     FORESIGHT_TRY(const FitTrial trial, MakeFitTrial(*population, seed, options, one_thread));
-    if (judge_only) {
-      for (const char* source : {"raw", "dense"})
-        JudgePoses({*population, trial, source, {}, {}, {}, {}, {}, tallies}, arguments.poses);
-      continue;
-    }
+    for (const char* source : {"raw", "dense"})
+      JudgePoses({*population, trial, source, {}, {}, {}, {}, {}, tallies}, arguments.poses);
     RunSource(*population, trial, {trial.rig, trial.cloud}, FitSource::kRaw, arguments, tallies);
     FORESIGHT_TRY(const DepthResult depth,
                   ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
@@ -372,10 +372,23 @@ Status Run(const Arguments& arguments) {
               arguments, tallies);
     fmt::print(stderr, "\r{} of {} scenes", done, arguments.count);
   }
-  fmt::print("\n| source | method | right | wrong answers | centre mm | CPU s |\n");
-  for (const auto& [name, tally] : tallies)
-    fmt::print("| {} | {} of {} | {} | {:.1f} | {:.3f} |\n", name, tally.right, tally.asked,
-               tally.wrong, Median(tally.center_mm), Median(tally.seconds));
+  fmt::print(
+      "\n| source | method | right | wrong answers | ours alone, it alone right | ours ahead a "
+      "scene, 95 % | centre mm | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const auto& [name, tally] : tallies) {
+    const Tally& ours = tallies[name.substr(0, name.find('|')) + "| Foresight"];
+    std::vector<int> our_right, its_right;
+    for (const auto& [seed, right] : tally.right_of_scene) {
+      const auto there = ours.right_of_scene.find(seed);
+      if (there == ours.right_of_scene.end()) continue;
+      our_right.push_back(there->second);
+      its_right.push_back(right);
+    }
+    const PairedLead lead = PairedLeadOf(our_right, its_right);
+    fmt::print("| {} | {} of {} | {} | {}, {} | {:.2f} ({:.2f} to {:.2f}) | {:.1f} | {:.3f} |\n",
+               name, tally.right, tally.asked, tally.wrong, lead.only_first, lead.only_second,
+               lead.lead, lead.low, lead.high, Median(tally.center_mm), Median(tally.seconds));
+  }
   return {};
 }
 
@@ -396,6 +409,7 @@ int Main(int argc, char** argv) {
     for (std::string line; std::getline(stream, line);)
       arguments.poses.push_back(nlohmann::json::parse(line));
   }
+  peers::QuietPcl();
   const Status status = Run(arguments);
   if (!status) fmt::print(stderr, "fit_peers: {}\n", status.error().message);
   return status ? 0 : 3;

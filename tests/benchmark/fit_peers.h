@@ -22,6 +22,9 @@ struct Patch {
   Eigen::Vector2d size_m;
 };
 
+/// PCL writes a line for each sample of three points that it rejects; from here on it does not.
+void QuietPcl();
+
 /// SACMODEL_CIRCLE3D by RANSAC; nullopt where PCL finds none.
 std::optional<Circle> PclCircle(const Points& points, double inlier_m);
 

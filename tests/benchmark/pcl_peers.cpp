@@ -1,4 +1,5 @@
 // PCL's own fits, as its tutorials set them up; lengths scaled to the objects.
+#include <pcl/console/print.h>
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/features/normal_3d.h>
 #include <pcl/registration/icp.h>
@@ -83,6 +84,10 @@ std::vector<Patch> PatchesOf(const Cloud& cloud, const std::vector<pcl::PointInd
 }
 
 }  // namespace
+
+void QuietPcl() {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+}
 
 std::optional<Circle> PclCircle(const Points& points, double inlier_m) {
   pcl::SACSegmentation<Point> segmentation;

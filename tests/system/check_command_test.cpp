@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/atomic_file.h"
 #include "core/geometry/angles.h"
 #include "core/mission/kept_check.h"
 #include "core/mission/new_records.h"
@@ -148,8 +149,10 @@ TEST(EvaluateHoldOut, ComparesMethodsOnTheLinesThatTheyWereNotGiven) {
 }
 
 TEST(EvaluateCheck, SaysWhetherAConfidenceMeansWhatItSays) {
-  const ProgramResult result = Ctl({"evaluate-check", "--depth", "--no-rig", "--world", "varied",
-                                    "--first-seed", "3", "--count", "1", "--json"});
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      Ctl({"evaluate-check", "--depth", "--no-rig", "--world", "varied", "--first-seed", "3",
+           "--count", "1", "--json", "--chart", folder / "chart.svg"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const Json classes = Json::parse(result.output).at(0).at("confidence");
   ASSERT_EQ(classes.size(), 10u);
@@ -165,7 +168,16 @@ TEST(EvaluateCheck, SaysWhetherAConfidenceMeansWhatItSays) {
   }
   EXPECT_GT(pixels, 100'000.0);
   EXPECT_GT(right, 0.5 * pixels);
+  // A point for each class and method of counting, and the two ends of the diagonal.
+  const std::string chart = ReadFile(folder / "chart.svg").value();
+  const auto filled = std::count_if(classes.begin(), classes.end(), [](const Json& of_class) {
+    return of_class["pixels"].get<int>() >= 200;
+  });
+  std::size_t circles = 0;
+  for (std::size_t at = 0; (at = chart.find("<circle", at)) != std::string::npos; ++at) ++circles;
+  EXPECT_GE(circles, 2u + 2u * static_cast<std::size_t>(filled));
   EXPECT_EQ(Ctl({"evaluate-check", "--world", "mars"}).exit_code, 2);
+  EXPECT_EQ(Ctl({"evaluate-check", "--chart", folder / "chart.svg"}).exit_code, 2);
 }
 
 }  // namespace

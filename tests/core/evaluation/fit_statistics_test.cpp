@@ -57,6 +57,23 @@ TEST(FitStatistics, ASourceHasTheVerdictsOfTheFirstWhereItsAnswersHaveTheSameLev
   EXPECT_EQ(statistics[1].same_verdict, 1);
 }
 
+TEST(FitStatistics, TheFirstSourceIsComparedOnTheScenesThatBothHave) {
+  std::vector<FitOutcome> outcomes = {Answer(1, true, 0.9), Answer(2, true, 0.9),
+                                      Answer(3, false, 0.9), Answer(4, true, 0.9)};
+  for (const std::uint64_t seed : {1, 2, 3, 5}) {
+    outcomes.push_back(Answer(seed, seed != 2, 0.9));
+    outcomes.back().source = "cloud";
+  }
+  outcomes.push_back(Answer(6, false, 0.9));
+  outcomes.back().positive = false;
+  const auto statistics = StatisticsOf(outcomes);
+  ASSERT_EQ(statistics.size(), 2u);
+  EXPECT_EQ(statistics[0].first_ahead.scenes, 0);
+  EXPECT_EQ(statistics[1].first_ahead.scenes, 3);
+  EXPECT_EQ(statistics[1].first_ahead.only_first, 1);
+  EXPECT_EQ(statistics[1].first_ahead.only_second, 1);
+}
+
 TEST(FitStatistics, ErrorsAreThoseOfRightAnswers) {
   const std::vector<FitOutcome> outcomes = {Answer(1, true, 0.99), Answer(2, false, 0.3)};
   const auto statistics = StatisticsOf(outcomes);
