@@ -43,6 +43,15 @@ std::string Direction(const Eigen::Vector3d& in_robot) {
                       OperatorText(up_deg < 0.0 ? "down" : "up"));
 }
 
+/// Of something that stands: where nothing leans, a direction says nothing.
+std::string Lean(const Eigen::Vector3d& up_in_robot) {
+  const double lean_deg =
+      DegreesFromRadians(std::atan2(up_in_robot.head<2>().norm(), up_in_robot.z()));
+  const double left_deg = DegreesFromRadians(std::atan2(up_in_robot.y(), up_in_robot.x()));
+  return OperatorText("leans by {:.1f} deg to {:.0f} deg {} of forward", lean_deg,
+                      std::abs(left_deg), OperatorText(left_deg < 0.0 ? "right" : "left"));
+}
+
 /// `sigma` is that of the best answer, and says nothing of another one.
 std::string WithSigma(const std::string& text, const std::string& sigma, int candidate = 0) {
   return candidate > 0 ? text : OperatorText("{} (sigma {})", text, sigma);
@@ -94,9 +103,8 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
   facts.push_back(
       {OperatorText("Bit points (x)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
                                                  Degrees(drill.sigma_yaw_rad), candidate)});
-  facts.push_back(
-      {OperatorText("Body (z)"), WithSigma(Direction(grasp.Rotate(Eigen::Vector3d::UnitZ())),
-                                           Degrees(drill.sigma_axis_rad), candidate)});
+  facts.push_back({OperatorText("Body"), WithSigma(Lean(grasp.Rotate(Eigen::Vector3d::UnitZ())),
+                                                   Degrees(drill.sigma_axis_rad), candidate)});
   facts.push_back({OperatorText("Grasp"), Place(grasp.translation())});
   facts.push_back({OperatorText("Trigger"), Place(pose * model.trigger_m)});
   facts.push_back({OperatorText("Bit tip"), Place(pose * model.bit_tip_m)});

@@ -9,13 +9,13 @@
 namespace foresight {
 namespace {
 
-// What a confirmed block needs, chosen on training scenes of home and of varied conditions
-// (`packaging/evaluate choice-terrain`; docs/evaluation.md, "Gates of terrain"): lidar returns that
-// confirm two edges leave blocks that slid along the third, a map does not.
-constexpr int kMinEdgesOfReturns = 3;
-constexpr int kMinEdgesOfMap = 2;
+// What a confirmed block needs (`packaging/evaluate choice-terrain`; docs/evaluation.md, "Gates of
+// terrain"). Two edges do not tell a block from another box. Lidar returns, which lie far apart,
+// say too much of what lies beyond an edge.
+constexpr int kMinEdges = 3;
 constexpr double kMinCover = 0.6;
-constexpr double kMaxOutside = 0.2;
+constexpr double kMaxOutside = 0.1;
+constexpr double kMaxOutsideOfReturns = 0.2;
 constexpr int kUnsureEdges = 1;  // no more than this: UNSURE
 // From here on less than 0.5 % of the toehold area that is offered has no block under it, on the
 // scenes that the weights were fitted to.
@@ -47,10 +47,10 @@ std::vector<std::string> FailedGates(const BlockEvidence& evidence, bool of_map)
                .unit = Gate::Unit::kFraction,
                .number = evidence.outside,
                .side = Gate::Side::kAtMost,
-               .limit = kMaxOutside},
+               .limit = of_map ? kMaxOutside : kMaxOutsideOfReturns},
               failed);
   AddIfFailed(CoverGate(evidence, kMinCover), failed);
-  AddIfFailed(EdgesGate(evidence, of_map ? kMinEdgesOfMap : kMinEdgesOfReturns), failed);
+  AddIfFailed(EdgesGate(evidence, kMinEdges), failed);
   return failed;
 }
 
