@@ -9,6 +9,7 @@
 
 #include "core/base/quantile.h"
 #include "core/fitting/beam_model.h"
+#include "core/fitting/common_gates.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/gate.h"
 #include "core/geometry/angles.h"
@@ -162,22 +163,9 @@ std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& b
                                      const CylinderDetection& found) {
   const CylinderEvidence& evidence = found.evidence;
   std::vector<std::string> failed;
-  AddIfFailed({.what = "{} measurements lie on it",
-               .number = evidence.hits * rays.Worth(),
-               .limit = kLikelyHits,
-               .advice = "scan slower or move closer"},
-              failed);
-  AddIfFailed({.what = "{} of the beams went through it",
-               .unit = Gate::Unit::kFraction,
-               .number = evidence.see_through,
-               .side = Gate::Side::kAtMost,
-               .limit = kLikelySeeThrough},
-              failed);
-  AddIfFailed({.what = "{} of the beams on it agree with it",
-               .unit = Gate::Unit::kFraction,
-               .number = evidence.inlier_ratio,
-               .limit = kLikelyInliers},
-              failed);
+  AddIfFailed(MeasurementsGate("it", evidence.hits * rays.Worth(), kLikelyHits), failed);
+  AddIfFailed(SeeThroughGate("it", evidence.see_through, kLikelySeeThrough), failed);
+  AddIfFailed(AgreementGate("it", evidence.inlier_ratio, kLikelyInliers), failed);
   AddIfFailed({.what = "the odds against a box in its place are {}",
                .unit = Gate::Unit::kOdds,
                .number = evidence.box_margin_nats,
@@ -201,16 +189,11 @@ std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& b
                .limit = found.model.radius_m,
                .limit_note = "of this radius"},
               failed);
-  Gate radius{.what = "its radius is {}",
-              .unit = Gate::Unit::kLength,
-              .number = found.model.radius_m,
-              .side = Gate::Side::kAtMost,
-              .limit = 0.98 * bounds.max_radius_m,
-              .advice = "it is at the end of the range of radii"};
-  AddIfFailed(radius, failed);
-  radius.side = Gate::Side::kAtLeast;
-  radius.limit = 1.02 * bounds.min_radius_m;
-  AddIfFailed(radius, failed);
+  AddIfOutside({.what = "its radius is {}",
+                .unit = Gate::Unit::kLength,
+                .number = found.model.radius_m,
+                .advice = "it is at the end of the range of radii"},
+               1.02 * bounds.min_radius_m, 0.98 * bounds.max_radius_m, failed);
   return failed;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/fitting/beam_model.h"
+#include "core/fitting/common_gates.h"
 #include "core/fitting/compressed_nats.h"
 #include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/drill/support_and_background.h"
@@ -17,8 +18,8 @@ namespace foresight {
 namespace {
 
 constexpr double kMaxOutside_m = 0.025;  // of a part's middle; lines may be 44 mm apart
-constexpr double kMinHits = 40.0;        // independent measurements on the drill
-constexpr double kMaxSeeThrough = 0.15;
+constexpr const char* kObject = "the drill";
+constexpr double kMinHits = 40.0;  // independent measurements on the drill
 constexpr double kMinHead_nats = 10.0;
 // The probability weighs how far behind a turned drill and another tool are. These limits keep what
 // is hardly behind; chosen by hand on the training scenes of home and of varied conditions, with
@@ -52,14 +53,6 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           Compressed(support.chuck_nats),
           Compressed(support.blunt_margin_nats),
           support.proportions_nats};
-}
-
-Gate SeeThroughGate(const DrillEvidence& evidence, double limit) {
-  return {.what = "{} of the beams went through the drill",
-          .unit = Gate::Unit::kFraction,
-          .number = evidence.see_through,
-          .side = Gate::Side::kAtMost,
-          .limit = limit};
 }
 
 Gate AlternativeGate(const DrillEvidence& evidence, double limit_nats) {
@@ -146,15 +139,12 @@ void AddPartOutside(const RaySet& region, const DrillCandidate& drill,
 void AddFailedBoundGates(const DrillModel& model, const DrillState& drill, const DrillPrior& prior,
                          std::vector<std::string>& failed) {
   const double range = drill.kind->max_scale - drill.kind->min_scale;
-  Gate size{.what = "its size is {} of the template's",
-            .unit = Gate::Unit::kRatio,
-            .number = model.scale,
-            .limit = drill.kind->min_scale + kBound * range,
-            .advice = "at the end of the range of sizes nothing is confirmed"};
-  AddIfFailed(size, failed);
-  size.side = Gate::Side::kAtMost;
-  size.limit = drill.kind->max_scale - kBound * range;
-  AddIfFailed(size, failed);
+  AddIfOutside({.what = "its size is {} of the template's",
+                .unit = Gate::Unit::kRatio,
+                .number = model.scale,
+                .advice = "at the end of the range of sizes nothing is confirmed"},
+               drill.kind->min_scale + kBound * range, drill.kind->max_scale - kBound * range,
+               failed);
   AddIfFailed({.what = "it leans by {}",
                .unit = Gate::Unit::kAngle,
                .number = model.body_tilt_rad.norm(),
@@ -172,12 +162,8 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
   std::vector<std::string> failed;
   if (!detection.table)
     failed.push_back("no table is seen under it: draw the region a little lower");
-  AddIfFailed({.what = "{} measurements lie on the drill",
-               .number = rays.Worth() * evidence.hits,
-               .limit = kMinHits,
-               .advice = "scan slower or move closer"},
-              failed);
-  AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
+  AddIfFailed(MeasurementsGate(kObject, rays.Worth() * evidence.hits, kMinHits), failed);
+  AddIfFailed(SeeThroughGate(kObject, evidence.see_through, kMaxSeeThrough), failed);
   // As likely as the drill, or not looked at, is not behind: the limit is just above 0.
   AddIfFailed(AlternativeGate(evidence, std::numeric_limits<double>::min()), failed);
   AddPartOutside(region, detection.best, failed);
@@ -186,14 +172,10 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
     if (gate.Failed()) break;
   }
   AddFailedBoundGates(model, drill, prior, failed);
-  AddIfFailed({.what = "the drill lies {} from the region's centre",
-               .unit = Gate::Unit::kLength,
-               .number = DistanceFromRegionCenter(
-                   region, detection.best.base_from_object * model.object_from_grasp.translation()),
-               .side = Gate::Side::kAtMost,
-               .limit = kMaxOffCenter_m,
-               .advice = "draw the region around it"},
-              failed);
+  AddIfFailed(
+      OffCenterGate(kObject, region,
+                    detection.best.base_from_object * model.object_from_grasp.translation()),
+      failed);
   return failed;
 }
 
@@ -206,12 +188,8 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
     return std::min(kFarBehind_nats, Expanded(mean(feature)));
   };
   return {
-      {"inlier_ratio",
-       {.what = "{} of the beams on the drill agree with it",
-        .unit = Gate::Unit::kFraction,
-        .number = evidence.inlier_ratio,
-        .limit = mean("inlier_ratio")}},
-      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
+      {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
       {"log_sigma_yaw",
        {.what = "its beams know its direction to {}",
         .unit = Gate::Unit::kAngle,

@@ -8,10 +8,10 @@
 
 #include "core/base/squared.h"
 #include "core/fitting/beam_model.h"
+#include "core/fitting/common_gates.h"
 #include "core/fitting/compressed_nats.h"
 #include "core/fitting/gate.h"
 #include "core/fitting/line_covariance.h"
-#include "core/fitting/region_place.h"
 #include "core/fitting/verdict_model.h"
 
 namespace foresight {
@@ -30,8 +30,8 @@ constexpr std::array<double, 6> kSigmaFactors = {1.0, 4.0, 1.0, 2.0, 2.0, 1.0};
 constexpr std::array<double, 6> kSigmaAdded = {0.0035, 0.0018, 0.0055, 0.0, 0.0, 0.019};  // m, rad
 constexpr double kLengthAdded_m = 0.009;
 
+constexpr const char* kObject = "the handle";
 constexpr double kMinHits = 12.0;  // independent measurements on the handle
-constexpr double kMaxSeeThrough = 0.15;
 // Of the training levers one in six points the wrong way, nine of ten of these by less.
 constexpr double kMinMirror_nats = 15.0;
 constexpr double kLeastAhead_nats = 5.0;  // 150 : 1, of what is LIKELY
@@ -61,14 +61,6 @@ std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detect
           support.mirror_line_sigmas,
           support.proportions_nats,
           std::log(std::max(1e-3, detection.sigma_normal_rad))};
-}
-
-Gate SeeThroughGate(const HandleEvidence& evidence, double limit) {
-  return {.what = "{} of the beams went through the handle",
-          .unit = Gate::Unit::kFraction,
-          .number = evidence.see_through,
-          .side = Gate::Side::kAtMost,
-          .limit = limit};
 }
 
 Gate MirrorGate(const HandleEvidence& evidence, double limit_nats) {
@@ -104,29 +96,15 @@ std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection
   constexpr double kBound_m = 0.002;
   const HandleEvidence& evidence = detection.evidence;
   std::vector<std::string> failed;
-  AddIfFailed({.what = "{} measurements lie on the handle",
-               .number = region.Worth() * evidence.hits,
-               .limit = kMinHits,
-               .advice = "scan slower or move closer"},
-              failed);
-  AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
+  AddIfFailed(MeasurementsGate(kObject, region.Worth() * evidence.hits, kMinHits), failed);
+  AddIfFailed(SeeThroughGate(kObject, evidence.see_through, kMaxSeeThrough), failed);
   AddIfFailed(MirrorGate(evidence, kMinMirror_nats), failed);
-  AddIfFailed({.what = "the handle lies {} from the region's centre",
-               .unit = Gate::Unit::kLength,
-               .number = DistanceFromRegionCenter(region, MiddleOf(detection.best)),
-               .side = Gate::Side::kAtMost,
-               .limit = kMaxOffCenter_m,
-               .advice = "draw the region around it"},
-              failed);
-  Gate length{.what = "its lever is {} long",
-              .unit = Gate::Unit::kLength,
-              .number = detection.best.model.length_m,
-              .limit = options.min_length_m + kBound_m,
-              .advice = "at the end of the range of lengths nothing is confirmed"};
-  AddIfFailed(length, failed);
-  length.side = Gate::Side::kAtMost;
-  length.limit = options.max_length_m - kBound_m;
-  AddIfFailed(length, failed);
+  AddIfFailed(OffCenterGate(kObject, region, MiddleOf(detection.best)), failed);
+  AddIfOutside({.what = "its lever is {} long",
+                .unit = Gate::Unit::kLength,
+                .number = detection.best.model.length_m,
+                .advice = "at the end of the range of lengths nothing is confirmed"},
+               options.min_length_m + kBound_m, options.max_length_m - kBound_m, failed);
   return failed;
 }
 
@@ -138,12 +116,8 @@ std::vector<FeatureGate> FeatureGates(const HandleDetection& detection, const Ve
     return std::min(kFarBehind_nats, Expanded(mean(feature)));
   };
   return {
-      {"inlier_ratio",
-       {.what = "{} of the beams on the handle agree with it",
-        .unit = Gate::Unit::kFraction,
-        .number = evidence.inlier_ratio,
-        .limit = mean("inlier_ratio")}},
-      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
+      {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
       {"covered",
        {.what = "{} of the lever's length has measurements that agree",
         .unit = Gate::Unit::kFraction,

@@ -172,14 +172,11 @@ Eigen::Vector3d MiddleOf(const ValveCandidate& valve) {
   return valve.base_from_object * Eigen::Vector3d(half_m, 0.0, 0.0);
 }
 
-double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve) {
-  return DistanceFromRegionCenter(rays, MiddleOf(valve));
-}
-
 int Misplacement(const RaySet& rays, const ValveCandidate& valve) {
   const ValveModel& model = valve.model;
   const bool endless = model.IsLever() && model.lever_length_m > 0.99 * kMaxLeverLength_m;
-  return (DistanceFromRegionCenter(rays, valve) > kMaxOffCenter_m ? 1 : 0) + (endless ? 2 : 0);
+  return (DistanceFromRegionCenter(rays, MiddleOf(valve)) > kMaxOffCenter_m ? 1 : 0) +
+         (endless ? 2 : 0);
 }
 
 double ChanceOfBeingOff(const ValveDetection& detection) {

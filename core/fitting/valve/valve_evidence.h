@@ -40,9 +40,6 @@ double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
 /// In base: of a wheel its centre, of a lever halfway along its bar.
 Eigen::Vector3d MiddleOf(const ValveCandidate& valve);
 
-/// How far the middle of a valve is from that of the region, across the line of sight.
-double DistanceFromRegionCenter(const RaySet& rays, const ValveCandidate& valve);
-
 /// How little it can be what the region was drawn round, however well it fits: 0 = it can, 1 = it
 /// is too far from the region's middle, 2 = it is a lever as long as they get, which a pipe that
 /// runs on through the region looks like, 3 = both.

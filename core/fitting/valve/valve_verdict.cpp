@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/common_gates.h"
 #include "core/fitting/compressed_nats.h"
 #include "core/fitting/gate.h"
-#include "core/fitting/region_place.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/verdict_model.h"
 #include "core/geometry/angles.h"
@@ -13,8 +13,8 @@
 namespace foresight {
 namespace {
 
+constexpr const char* kObject = "the valve";
 constexpr double kMinHits = 40.0;  // independent measurements on the wheel
-constexpr double kMaxSeeThrough = 0.15;
 constexpr double kAbsurdSeeThrough = 0.25;
 constexpr double kMaxBlockedGaps = 0.4;
 constexpr double kMinMargin_nats = 10.0;
@@ -30,14 +30,6 @@ constexpr double kMaxChanceOfBeingOff = 0.05;
 std::string NameOf(const ValveModel& model) {
   if (model.IsLever()) return "a lever";
   return model.spokes == 0 ? "a disc" : fmt::format("{} spokes", model.spokes);
-}
-
-Gate SeeThroughGate(const ValveEvidence& evidence, double limit) {
-  return {.what = "{} of the beams went through the valve",
-          .unit = Gate::Unit::kFraction,
-          .number = evidence.see_through,
-          .side = Gate::Side::kAtMost,
-          .limit = limit};
 }
 
 Gate BlockedGate(const ValveEvidence& evidence, double limit) {
@@ -84,19 +76,12 @@ Gate MarginGate(const ValveDetection& detection, double limit_nats) {
           .limit = limit_nats};
 }
 
-Gate SmallestRim(const ValveModel& model, double limit_m) {
+/// Its limits are set by AddIfOutside.
+Gate RimRadiusGate(const ValveModel& model) {
   return {.what = "the rim's radius is {}",
           .unit = Gate::Unit::kLength,
           .number = model.rim_radius_m,
-          .side = Gate::Side::kAtLeast,
-          .limit = limit_m,
           .advice = "at the end of the range of sizes nothing is confirmed"};
-}
-
-Gate LargestRim(const ValveModel& model, double limit_m) {
-  Gate gate = SmallestRim(model, limit_m);
-  gate.side = Gate::Side::kAtMost;
-  return gate;
 }
 
 /// Why there is no valve to speak of.
@@ -104,10 +89,10 @@ std::vector<std::string> FailedExistenceGates(const ValveDetection& detection,
                                               const FitValveOptions& options) {
   const ValveModel& model = detection.best.model;
   std::vector<std::string> failed;
-  AddIfFailed(SeeThroughGate(detection.evidence, kAbsurdSeeThrough), failed);
+  AddIfFailed(SeeThroughGate(kObject, detection.evidence.see_through, kAbsurdSeeThrough), failed);
   if (model.IsLever()) return failed;
-  AddIfFailed(SmallestRim(model, 0.9 * options.min_rim_radius_m), failed);
-  AddIfFailed(LargestRim(model, 1.1 * options.max_rim_radius_m), failed);
+  AddIfOutside(RimRadiusGate(model), 0.9 * options.min_rim_radius_m, 1.1 * options.max_rim_radius_m,
+               failed);
   return failed;
 }
 
@@ -123,8 +108,8 @@ void AddFailedShapeGates(const ValveDetection& detection, const FitValveOptions&
     AddIfFailed(RimGate(detection.evidence, kMinMargin_nats), failed);
     AddIfFailed(RimSeenGate(detection.evidence, kMinRimSeen), failed);
     AddIfFailed(BeingOffGate(detection, kMaxChanceOfBeingOff), failed);
-    AddIfFailed(SmallestRim(model, 1.08 * options.min_rim_radius_m), failed);
-    AddIfFailed(LargestRim(model, 1.04 * options.max_rim_radius_m), failed);
+    AddIfOutside(RimRadiusGate(model), 1.08 * options.min_rim_radius_m,
+                 1.04 * options.max_rim_radius_m, failed);
   }
 }
 
@@ -133,23 +118,12 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
                                      const ValveDetection& detection,
                                      const FitValveOptions& options) {
   const ValveEvidence& evidence = detection.evidence;
-  const ValveCandidate& best = detection.best;
   std::vector<std::string> failed;
-  AddIfFailed({.what = "{} measurements lie on the valve",
-               .number = MeasuredHits(rays, evidence),
-               .limit = kMinHits,
-               .advice = "scan slower or move closer"},
-              failed);
-  AddIfFailed(SeeThroughGate(evidence, kMaxSeeThrough), failed);
+  AddIfFailed(MeasurementsGate(kObject, MeasuredHits(rays, evidence), kMinHits), failed);
+  AddIfFailed(SeeThroughGate(kObject, evidence.see_through, kMaxSeeThrough), failed);
   AddIfFailed(BlockedGate(evidence, kMaxBlockedGaps), failed);
   if (!detection.alternatives.empty()) AddIfFailed(MarginGate(detection, kMinMargin_nats), failed);
-  AddIfFailed({.what = "the valve lies {} from the region's centre",
-               .unit = Gate::Unit::kLength,
-               .number = DistanceFromRegionCenter(region, best),
-               .side = Gate::Side::kAtMost,
-               .limit = kMaxOffCenter_m,
-               .advice = "draw the region around it"},
-              failed);
+  AddIfFailed(OffCenterGate(kObject, region, MiddleOf(detection.best)), failed);
   AddFailedShapeGates(detection, options, failed);
   return failed;
 }
@@ -165,12 +139,8 @@ std::vector<FeatureGate> FeatureGates(const ValveDetection& detection, const Ver
         .unit = Gate::Unit::kFraction,
         .number = evidence.arc_coverage,
         .limit = mean("arc_coverage")}},
-      {"inlier_ratio",
-       {.what = "{} of the beams on the valve agree with it",
-        .unit = Gate::Unit::kFraction,
-        .number = evidence.inlier_ratio,
-        .limit = mean("inlier_ratio")}},
-      {"see_through", SeeThroughGate(evidence, mean("see_through"))},
+      {"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
+      {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
       {"blocked_gaps", BlockedGate(evidence, mean("blocked_gaps"))},
       {"log_sigma_tilt",
        {.what = "the axis is known to {}",

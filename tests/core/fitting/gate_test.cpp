@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/fitting/common_gates.h"
 #include "core/fitting/cylinder/cylinder_evidence.h"
 #include "core/fitting/drill/drill_verdict.h"
 #include "core/fitting/handle/handle_verdict.h"
@@ -14,7 +15,9 @@
 namespace foresight {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 constexpr int kAnswers = 500;
@@ -33,6 +36,19 @@ TEST(Gate, ANumberOnItsLimitHasNotFailed) {
   EXPECT_FALSE(
       (Gate{.what = "{}", .number = 40.0, .side = Gate::Side::kAtMost, .limit = 40.0}.Failed()));
   EXPECT_TRUE((Gate{.what = "{}", .number = std::nan(""), .limit = 40.0}.Failed()));
+}
+
+TEST(CommonGates, ANumberAtEitherEndOfItsRangeIsTold) {
+  const auto told = [](double radius_m) {
+    std::vector<std::string> failed;
+    AddIfOutside({.what = "its radius is {}", .unit = Gate::Unit::kLength, .number = radius_m},
+                 0.05, 0.30, failed);
+    return failed;
+  };
+  EXPECT_THAT(told(0.04), ElementsAre("its radius is 40 mm (at least 50 mm)"));
+  EXPECT_THAT(told(0.31), ElementsAre("its radius is 310 mm (at most 300 mm)"));
+  EXPECT_THAT(told(0.05), IsEmpty());
+  EXPECT_THAT(told(0.30), IsEmpty());
 }
 
 TEST(Gate, ShowsAsManyDigitsAsTellTheNumberFromTheLimit) {

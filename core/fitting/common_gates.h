@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "core/fitting/gate.h"
+#include "core/fitting/ray_set.h"
+
+namespace foresight {
+
+// What is asked of every object, in one wording. `object` is what an operator reads: "the valve",
+// "the drill", "it".
+
+/// Of the beams that intersect a confirmed object, those that may end behind it.
+inline constexpr double kMaxSeeThrough = 0.15;
+
+/// Independent measurements on the object.
+Gate MeasurementsGate(const std::string& object, double measurements, double least);
+
+/// @param fraction of the beams that should have ended on the object, those that went on
+Gate SeeThroughGate(const std::string& object, double fraction, double most);
+
+/// @param fraction of the beams on the object, those with a range that agrees
+Gate AgreementGate(const std::string& object, double fraction, double least);
+
+/// An operator draws a region round an object: kMaxOffCenter_m.
+/// @param middle of the object, in base
+Gate OffCenterGate(const std::string& object, const RaySet& region, const Eigen::Vector3d& middle);
+
+/// A gate that keeps a number, as it is told by the gate, above `least` and below `most`: a size at
+/// the end of the range that is looked at is no measurement.
+void AddIfOutside(Gate gate, double least, double most, std::vector<std::string>& failed_gates);
+
+}  // namespace foresight
