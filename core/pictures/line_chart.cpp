@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "core/base/contract.h"
@@ -192,22 +194,59 @@ class Drawing {
   }
 
   /// In the upper right corner, where curves that fall leave room.
+  /// How much of the lines lies in a box: points along them, in pixels.
+  int DrawnIn(const Eigen::AlignedBox2d& box) const {
+    constexpr int kSteps = 20;
+    int inside = 0;
+    for (const ChartSeries& series : chart_.series) {
+      Eigen::Vector2d last = Eigen::Vector2d::Zero();
+      bool begun = false;
+      for (const Eigen::Vector2d& point : series.points) {
+        if (!CanBeDrawn(chart_, point)) {
+          begun = false;
+          continue;
+        }
+        const Eigen::Vector2d here(x_.Pixel(point.x()), y_.Pixel(point.y()));
+        for (int i = 1; i <= kSteps; ++i)
+          inside += box.contains(begun ? last + (here - last) * i / kSteps : here) ? 1 : 0;
+        last = here;
+        begun = true;
+      }
+    }
+    return inside;
+  }
+
+  /// In the corner where it hides least, the upper right one where all are alike.
+  Eigen::Vector2d LegendCorner(const Eigen::Vector2d& size) const {
+    constexpr double kBesideFrame_px = 8.0;
+    const double left = kLeft_px + kBesideFrame_px, right = right_ - size.x() - kBesideFrame_px;
+    const double top = kTop_px + kBesideFrame_px, bottom = bottom_ - size.y() - kBesideFrame_px;
+    const Eigen::Vector2d corners[] = {{right, top}, {left, top}, {right, bottom}, {left, bottom}};
+    const auto drawn = [&](const Eigen::Vector2d& corner) {
+      return DrawnIn({corner, corner + size});
+    };
+    return *std::min_element(
+        std::begin(corners), std::end(corners),
+        [&](const auto& one, const auto& other) { return drawn(one) < drawn(other); });
+  }
+
   std::string Legend() const {
     std::size_t longest = 0;
     for (const ChartSeries& series : chart_.series) longest = std::max(longest, series.name.size());
-    const double width = 44.0 + kLetter_px * static_cast<double>(longest);
-    const double left = right_ - width - 8.0;
     const auto rows = static_cast<double>(chart_.series.size());
+    const Eigen::Vector2d size(44.0 + kLetter_px * static_cast<double>(longest),
+                               kLegendRow_px * rows + 8.0);
+    const Eigen::Vector2d corner = LegendCorner(size);
     std::string svg = fmt::format(
         "<rect class=\"legend\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
         "fill=\"#ffffff\" fill-opacity=\"0.85\" stroke=\"#d5d9de\"/>\n",
-        left, kTop_px + 8.0, width, kLegendRow_px * rows + 8.0);
+        corner.x(), corner.y(), size.x(), size.y());
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
-      const double y = kTop_px + 8.0 + kLegendRow_px * (static_cast<double>(i) + 0.5) + 4.0;
+      const double y = corner.y() + kLegendRow_px * (static_cast<double>(i) + 0.5) + 4.0;
       const std::string stroke =
           fmt::format("stroke=\"{}\" stroke-width=\"2\"", kColors[i % kColors.size()]);
-      svg += Line(left + 8.0, y, left + 30.0, y, stroke.c_str());
-      svg += Text(left + 36.0, y + 4.5, "", chart_.series[i].name);
+      svg += Line(corner.x() + 8.0, y, corner.x() + 30.0, y, stroke.c_str());
+      svg += Text(corner.x() + 36.0, y + 4.5, "", chart_.series[i].name);
     }
     return svg;
   }

@@ -33,11 +33,12 @@ struct Frame {
   }
 };
 
-Frame FrameOf(const std::string& svg) {
-  static const std::regex kFrame(
-      R"re(class="frame" x="([0-9.]+)" y="([0-9.]+)" width="([0-9.]+)" height="([0-9.]+)")re");
+Frame FrameOf(const std::string& svg, const std::string& of = "frame") {
+  const std::regex frame(
+      "class=\"" + of +
+      R"re(" x="([0-9.]+)" y="([0-9.]+)" width="([0-9.]+)" height="([0-9.]+)")re");
   std::smatch match;
-  if (!std::regex_search(svg, match, kFrame)) return {};
+  if (!std::regex_search(svg, match, frame)) return {};
   return {std::stod(match[1]), std::stod(match[2]), std::stod(match[3]), std::stod(match[4])};
 }
 
@@ -107,6 +108,23 @@ TEST(LineChart, AnEmptySeriesKeepsItsPlaceInTheLegend) {
   const std::string svg = SvgOf(chart);
   EXPECT_NE(svg.find(">two</text>"), std::string::npos);
   EXPECT_EQ(CountOf("<polyline", svg), 1);
+}
+
+TEST(LineChart, TheLegendStandsWhereItHidesNoLine) {
+  const auto hidden = [](std::vector<Eigen::Vector2d> points) {
+    LineChart chart = ChartOf(std::move(points));
+    chart.series.push_back({"two", {}});
+    const std::string svg = SvgOf(chart);
+    const Frame legend = FrameOf(svg, "legend");
+    int count = 0;
+    for (const Eigen::Vector2d& point : PointsIn(svg))
+      count += point.x() > legend.left && point.x() < legend.left + legend.width &&
+               point.y() > legend.top && point.y() < legend.top + legend.height;
+    EXPECT_GT(legend.width, 0.0);
+    return count;
+  };
+  EXPECT_EQ(hidden({{0.0, 0.0}, {0.9, 0.9}, {1.0, 1.0}, {0.95, 0.95}}), 0);
+  EXPECT_EQ(hidden({{0.0, 1.0}, {0.05, 0.95}, {0.9, 0.1}, {0.95, 0.95}}), 0);
 }
 
 TEST(LineChart, TextFromOutsideStaysText) {
