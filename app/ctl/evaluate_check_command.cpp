@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <memory>
 
@@ -263,6 +264,12 @@ std::vector<CheckOutcome> Gathered(const std::vector<CheckOutcome>& outcomes,
 }
 
 Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const RunContext& context) {
+  if (!arguments.chart.empty()) {
+    // Told before minutes of work, not after.
+    FORESIGHT_CHECK(
+        MakeOutputFolder(std::filesystem::absolute(arguments.chart).parent_path().string()));
+    FORESIGHT_CHECK(ResolveOutput(arguments.chart));
+  }
   // Three of the scans in turn are of random scenes: a valve, a drill, a terrain.
   std::vector<std::shared_ptr<const Scene>> scenes = {nullptr, nullptr, nullptr};
   for (const std::string& file : arguments.scenes) {
@@ -301,26 +308,28 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
     for (CheckOutcome& outcome : arguments.gather > 1 ? Gathered(of_rig, damages) : of_rig)
       all.push_back(std::move(outcome));
   }
-  if (!arguments.chart.empty())
-    FORESIGHT_CHECK(WriteFileAtomically(
-        arguments.chart, SvgOf(ChartOf(ReliabilityOf(depths),
-                                       fmt::format("Confidence of the depth, {} scans of world {}",
-                                                   depths.size(), arguments.world)))));
-  if (!arguments.json) {
+  const std::vector<ClassReliability> reliability = ReliabilityOf(depths);
+  if (arguments.json) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const CheckOutcome& outcome : all) json.push_back(ToJson(outcome));
+    for (const DepthCheckOutcome& outcome : depths) json.push_back(ToJson(outcome));
+    PrintJson(json);
+  } else {
     if (arguments.rig) {
       Print(all, damages);
       PrintSmallest(all);
     }
     if (arguments.depth) {
       Print(depths);
-      Print(ReliabilityOf(depths));
+      Print(reliability);
     }
-    return ExitCode::kDone;
   }
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const CheckOutcome& outcome : all) json.push_back(ToJson(outcome));
-  for (const DepthCheckOutcome& outcome : depths) json.push_back(ToJson(outcome));
-  PrintJson(json);
+  // Last: a disk that is full by now takes no numbers along.
+  if (!arguments.chart.empty())
+    FORESIGHT_CHECK(WriteFileAtomically(
+        arguments.chart,
+        SvgOf(ChartOf(reliability, fmt::format("Confidence of the depth, {} scans of world {}",
+                                               depths.size(), arguments.world)))));
   return ExitCode::kDone;
 }
 

@@ -185,25 +185,11 @@ void CompareVerdicts(const std::string& first, std::span<const FitOutcome> outco
 }
 
 /// Of each scene with the object in it: how many answers are right where it counts.
-std::map<std::uint64_t, int> RightAnswersOf(const std::string& source,
-                                            std::span<const FitOutcome> outcomes) {
-  std::map<std::uint64_t, int> right;
+RightOfScenes RightAnswersOf(const std::string& source, std::span<const FitOutcome> outcomes) {
+  RightOfScenes right;
   for (const FitOutcome& outcome : outcomes)
     if (outcome.source == source && outcome.positive) right[outcome.seed] += outcome.pose_ok;
   return right;
-}
-
-PairedLead LeadOf(const std::string& first, const std::string& second,
-                  std::span<const FitOutcome> outcomes) {
-  const auto of_first = RightAnswersOf(first, outcomes);
-  std::vector<int> first_right, second_right;
-  for (const auto& [seed, right] : RightAnswersOf(second, outcomes)) {
-    const auto there = of_first.find(seed);
-    if (there == of_first.end()) continue;
-    first_right.push_back(there->second);
-    second_right.push_back(right);
-  }
-  return PairedLeadOf(first_right, second_right);
 }
 
 }  // namespace
@@ -219,7 +205,8 @@ std::vector<FitStatistics> StatisticsOf(std::span<const FitOutcome> outcomes) {
   for (FitStatistics& of_source : statistics) {
     if (of_source.source == sources.front()) continue;
     CompareVerdicts(sources.front(), outcomes, of_source);
-    of_source.first_ahead = LeadOf(sources.front(), of_source.source, outcomes);
+    of_source.first_ahead = LeadOverSharedScenes(RightAnswersOf(sources.front(), outcomes),
+                                                 RightAnswersOf(of_source.source, outcomes));
   }
   return statistics;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace foresight {
 
@@ -23,6 +24,17 @@ PairedLead PairedLeadOf(std::span<const int> first, std::span<const int> second)
   lead.low = mean - kDeviations * sigma;
   lead.high = mean + kDeviations * sigma;
   return lead;
+}
+
+PairedLead LeadOverSharedScenes(const RightOfScenes& first, const RightOfScenes& second) {
+  std::vector<int> of_first, of_second;
+  for (const auto& [seed, right] : second) {
+    const auto there = first.find(seed);
+    if (there == first.end()) continue;
+    of_first.push_back(there->second);
+    of_second.push_back(right);
+  }
+  return PairedLeadOf(of_first, of_second);
 }
 
 }  // namespace foresight

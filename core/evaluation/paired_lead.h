@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <span>
 
 namespace foresight {
@@ -19,5 +21,11 @@ struct PairedLead {
 /// `first` and `second` = right answers in each scene. O(scenes).
 /// @pre both have the same size
 PairedLead PairedLeadOf(std::span<const int> first, std::span<const int> second);
+
+/// Right answers of each scene, by its seed.
+using RightOfScenes = std::map<std::uint64_t, int>;
+
+/// Over the scenes that both were tried on.
+PairedLead LeadOverSharedScenes(const RightOfScenes& first, const RightOfScenes& second);
 
 }  // namespace foresight

@@ -144,9 +144,7 @@ FitOutcome JudgeOne(const TerrainSurface& found, std::span<const TrueBlock> bloc
   outcome.found = true;
   outcome.verdict = found.verdict;
   outcome.reason = found.verdict.reason;
-  outcome.evidence = {{"cover", found.evidence.cover},
-                      {"outside", found.evidence.outside},
-                      {"confirmed_edges", static_cast<double>(found.evidence.confirmed_edges)}};
+  outcome.evidence = {{"confirmed_edges", static_cast<double>(found.evidence.confirmed_edges)}};
   outcome.errors = {{"false_area", FalseArea(found, blocks)}};
   const int nearest = Nearest(found, blocks);
   if (nearest < 0) return outcome;

@@ -44,7 +44,7 @@ struct Tally {
   int right = 0;
   int wrong = 0;  ///< answers that are not
   std::vector<double> center_mm, seconds;
-  std::map<std::uint64_t, int> right_of_scene;
+  RightOfScenes right_of_scene;
 };
 
 /// A scene as one source shows it.
@@ -377,14 +377,7 @@ Status Run(const Arguments& arguments) {
       "scene, 95 % | centre mm | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const auto& [name, tally] : tallies) {
     const Tally& ours = tallies[name.substr(0, name.find('|')) + "| Foresight"];
-    std::vector<int> our_right, its_right;
-    for (const auto& [seed, right] : tally.right_of_scene) {
-      const auto there = ours.right_of_scene.find(seed);
-      if (there == ours.right_of_scene.end()) continue;
-      our_right.push_back(there->second);
-      its_right.push_back(right);
-    }
-    const PairedLead lead = PairedLeadOf(our_right, its_right);
+    const PairedLead lead = LeadOverSharedScenes(ours.right_of_scene, tally.right_of_scene);
     fmt::print("| {} | {} of {} | {} | {}, {} | {:.2f} ({:.2f} to {:.2f}) | {:.1f} | {:.3f} |\n",
                name, tally.right, tally.asked, tally.wrong, lead.only_first, lead.only_second,
                lead.lead, lead.low, lead.high, Median(tally.center_mm), Median(tally.seconds));

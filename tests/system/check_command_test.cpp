@@ -18,6 +18,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 using Json = nlohmann::json;
 
@@ -152,7 +153,7 @@ TEST(EvaluateCheck, SaysWhetherAConfidenceMeansWhatItSays) {
   const TemporaryFolder folder;
   const ProgramResult result =
       Ctl({"evaluate-check", "--depth", "--no-rig", "--world", "varied", "--first-seed", "3",
-           "--count", "1", "--json", "--chart", folder / "chart.svg"});
+           "--count", "1", "--json", "--chart", folder / "new/chart.svg"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const Json classes = Json::parse(result.output).at(0).at("confidence");
   ASSERT_EQ(classes.size(), 10u);
@@ -169,7 +170,7 @@ TEST(EvaluateCheck, SaysWhetherAConfidenceMeansWhatItSays) {
   EXPECT_GT(pixels, 100'000.0);
   EXPECT_GT(right, 0.5 * pixels);
   // A point for each class and method of counting, and the two ends of the diagonal.
-  const std::string chart = ReadFile(folder / "chart.svg").value();
+  const std::string chart = ReadFile(folder / "new/chart.svg").value();
   const auto filled = std::count_if(classes.begin(), classes.end(), [](const Json& of_class) {
     return of_class["pixels"].get<int>() >= 200;
   });
@@ -178,6 +179,14 @@ TEST(EvaluateCheck, SaysWhetherAConfidenceMeansWhatItSays) {
   EXPECT_GE(circles, 2u + 2u * static_cast<std::size_t>(filled));
   EXPECT_EQ(Ctl({"evaluate-check", "--world", "mars"}).exit_code, 2);
   EXPECT_EQ(Ctl({"evaluate-check", "--chart", folder / "chart.svg"}).exit_code, 2);
+}
+
+TEST(EvaluateCheck, AChartThatCannotBeWrittenIsToldBeforeTheWork) {
+  const TemporaryFolder folder;
+  const ProgramResult result = Ctl({"evaluate-check", "--depth", "--no-rig", "--first-seed", "3",
+                                    "--count", "1", "--chart", folder / ""});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors, Not(HasSubstr("scan 1 of 1")));
 }
 
 }  // namespace
