@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "core/evaluation/fit_populations.h"
 #include "tests/core/evaluation/half_right_outcomes.h"
 
@@ -28,6 +31,24 @@ TEST(VariedScenes, HoldTheThingsOfHome) {
       EXPECT_TRUE(b.world.Check());
     }
   }
+}
+
+TEST(VariedScenes, AFootprintThatIsNotOursDoesNotMakeARimDeepAndItsWheelFar) {
+  // Wheels that lay 18 to 27 mm too far from the viewer, each with a rim 4 to 7 mm too deep.
+  const auto varied = MakeFitPopulation("valve", FitWorld::kVaried);
+  ASSERT_TRUE(varied);
+  double sum_mm = 0.0;
+  const std::vector<std::uint64_t> seeds = {5008, 5014, 5170, 5203};
+  for (const std::uint64_t seed : seeds) {
+    const auto outcomes = RunFitTrial(**varied, seed, {}, {});
+    ASSERT_TRUE(outcomes) << outcomes.error().message;
+    ASSERT_EQ(outcomes->size(), 1U);
+    ASSERT_TRUE(outcomes->front().found) << seed;
+    for (const auto& [name, error] : outcomes->front().errors)
+      if (name == "along_mm") sum_mm += std::abs(error);
+  }
+  EXPECT_GT(sum_mm, 0.0);
+  EXPECT_LT(sum_mm / static_cast<double>(seeds.size()), 17.0);
 }
 
 TEST(VariedScenes, AreMeasuredUnderDrawnConditions) {
