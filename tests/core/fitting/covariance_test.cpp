@@ -49,8 +49,8 @@ void ExpectOfAValve(const PoseSpread& spread) {
   Print("valve", spread);
   EXPECT_GT(spread.Ratio(), kLeast);
   EXPECT_LT(spread.Ratio(), kMost);
-  // Along the axis the factor is for what wheels differ in, depths of rims among it; one wheel again
-  // and again differs less: its depth is held by the prior.
+  // Along the axis the factor is for what wheels differ in, depths of rims among it; one wheel
+  // again and again differs less: its depth is held by the prior.
   const PoseSpread::PoseError each = spread.Ratios();
   EXPECT_GT(each[2], 0.03);
   EXPECT_LT(each[2], 1.5);
