@@ -26,6 +26,13 @@ Gate AgreementGate(const std::string& object, double fraction, double least) {
           .limit = least};
 }
 
+Gate AlternativeGate(const std::string& alternative, double ahead_nats, double least_nats) {
+  return {.what = "the odds against a " + alternative + " in its place are {}",
+          .unit = Gate::Unit::kOdds,
+          .number = ahead_nats,
+          .limit = least_nats};
+}
+
 Gate OffCenterGate(const std::string& object, const RaySet& region, const Eigen::Vector3d& middle) {
   return {.what = object + " lies {} from the region's centre",
           .unit = Gate::Unit::kLength,

@@ -22,6 +22,11 @@ Gate SeeThroughGate(const std::string& object, double fraction, double most);
 /// @param fraction of the beams on the object, those with a range that agrees
 Gate AgreementGate(const std::string& object, double fraction, double least);
 
+/// The odds against something else in the object's place.
+/// @param alternative what it may be: "box"
+/// @param ahead_nats log likelihood of the object ahead of it
+Gate AlternativeGate(const std::string& alternative, double ahead_nats, double least_nats);
+
 /// An operator draws a region round an object: kMaxOffCenter_m.
 /// @param middle of the object, in base
 Gate OffCenterGate(const std::string& object, const RaySet& region, const Eigen::Vector3d& middle);

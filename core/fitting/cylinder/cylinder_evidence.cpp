@@ -166,12 +166,9 @@ std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& b
   AddIfFailed(MeasurementsGate("it", evidence.hits * rays.Worth(), kLikelyHits), failed);
   AddIfFailed(SeeThroughGate("it", evidence.see_through, kLikelySeeThrough), failed);
   AddIfFailed(AgreementGate("it", evidence.inlier_ratio, kLikelyInliers), failed);
-  AddIfFailed({.what = "the odds against a box in its place are {}",
-               .unit = Gate::Unit::kOdds,
-               .number = evidence.box_margin_nats,
-               .limit = kLikelyMargin_nats,
-               .advice = "it may be square, or a wall's edge"},
-              failed);
+  Gate box = AlternativeGate("box", evidence.box_margin_nats, kLikelyMargin_nats);
+  box.advice = "it may be square, or a wall's edge";
+  AddIfFailed(box, failed);
   AddIfFailed({.what = "{} of its girth are seen",
                .unit = Gate::Unit::kAngle,
                .number = evidence.seen_arc_rad,

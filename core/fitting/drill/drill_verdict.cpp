@@ -55,14 +55,6 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           support.proportions_nats};
 }
 
-Gate AlternativeGate(const DrillEvidence& evidence, double limit_nats) {
-  return {
-      .what = fmt::format("the odds against a {} in its place are {{}}", evidence.best_alternative),
-      .unit = Gate::Unit::kOdds,
-      .number = evidence.alternative_margin_nats,
-      .limit = limit_nats};
-}
-
 Gate AnyFlipGate(const DrillSupport& support, double limit_nats) {
   return {.what = "the odds against a drill of other proportions turned by 180 deg are {}",
           .unit = Gate::Unit::kOdds,
@@ -165,7 +157,9 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
   AddIfFailed(MeasurementsGate(kObject, rays.Worth() * evidence.hits, kMinHits), failed);
   AddIfFailed(SeeThroughGate(kObject, evidence.see_through, kMaxSeeThrough), failed);
   // As likely as the drill, or not looked at, is not behind: the limit is just above 0.
-  AddIfFailed(AlternativeGate(evidence, std::numeric_limits<double>::min()), failed);
+  AddIfFailed(AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
+                              std::numeric_limits<double>::min()),
+              failed);
   AddPartOutside(region, detection.best, failed);
   for (const Gate& gate : DirectionGates(evidence, support)) {
     AddIfFailed(gate, failed);
@@ -187,30 +181,31 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
   const auto usual_nats = [&](const char* feature) {
     return std::min(kFarBehind_nats, Expanded(mean(feature)));
   };
-  return {
-      {"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
-      {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
-      {"log_sigma_yaw",
-       {.what = "its beams know its direction to {}",
-        .unit = Gate::Unit::kAngle,
-        .number = support.beam_sigma_yaw_rad,
-        .side = Gate::Side::kAtMost,
-        .limit = std::exp(mean("log_sigma_yaw"))}},
-      {"log_yaw_margin",
-       {.what = "the odds against another direction are {}",
-        .unit = Gate::Unit::kOdds,
-        .number = evidence.yaw_margin_nats,
-        .limit = usual_nats("log_yaw_margin")}},
-      {"log_head",
-       {.what = "the odds that a head is seen are {}",
-        .unit = Gate::Unit::kOdds,
-        .number = evidence.head_nats,
-        .limit = usual_nats("log_head")}},
-      {"log_any_flip", AnyFlipGate(support, usual_nats("log_any_flip"))},
-      {"flip_line_sigmas", FlipLinesGate(support, mean("flip_line_sigmas"))},
-      {"log_chuck", ChuckGate(support, usual_nats("log_chuck"))},
-      {"log_blunt_margin", BluntGate(support, usual_nats("log_blunt_margin"))},
-      {"log_alternative_margin", AlternativeGate(evidence, usual_nats("log_alternative_margin"))}};
+  return {{"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
+          {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
+          {"log_sigma_yaw",
+           {.what = "its beams know its direction to {}",
+            .unit = Gate::Unit::kAngle,
+            .number = support.beam_sigma_yaw_rad,
+            .side = Gate::Side::kAtMost,
+            .limit = std::exp(mean("log_sigma_yaw"))}},
+          {"log_yaw_margin",
+           {.what = "the odds against another direction are {}",
+            .unit = Gate::Unit::kOdds,
+            .number = evidence.yaw_margin_nats,
+            .limit = usual_nats("log_yaw_margin")}},
+          {"log_head",
+           {.what = "the odds that a head is seen are {}",
+            .unit = Gate::Unit::kOdds,
+            .number = evidence.head_nats,
+            .limit = usual_nats("log_head")}},
+          {"log_any_flip", AnyFlipGate(support, usual_nats("log_any_flip"))},
+          {"flip_line_sigmas", FlipLinesGate(support, mean("flip_line_sigmas"))},
+          {"log_chuck", ChuckGate(support, usual_nats("log_chuck"))},
+          {"log_blunt_margin", BluntGate(support, usual_nats("log_blunt_margin"))},
+          {"log_alternative_margin",
+           AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
+                           usual_nats("log_alternative_margin"))}};
 }
 
 }  // namespace

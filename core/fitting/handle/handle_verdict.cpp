@@ -70,14 +70,6 @@ Gate MirrorGate(const HandleEvidence& evidence, double limit_nats) {
           .limit = limit_nats};
 }
 
-Gate AlternativeGate(const HandleEvidence& evidence, double limit_nats) {
-  return {
-      .what = fmt::format("the odds against a {} in its place are {{}}", evidence.best_alternative),
-      .unit = Gate::Unit::kOdds,
-      .number = evidence.alternative_margin_nats,
-      .limit = limit_nats};
-}
-
 Eigen::Vector3d MiddleOf(const HandleCandidate& handle) {
   return handle.base_from_object * Eigen::Vector3d(0.5 * handle.model.length_m, 0.0, 0.0);
 }
@@ -85,7 +77,9 @@ Eigen::Vector3d MiddleOf(const HandleCandidate& handle) {
 /// Why the handle is not even LIKELY.
 std::vector<std::string> FailedExistenceGates(const HandleEvidence& evidence) {
   std::vector<std::string> failed;
-  AddIfFailed(AlternativeGate(evidence, kLeastAhead_nats), failed);
+  AddIfFailed(AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
+                              kLeastAhead_nats),
+              failed);
   AddIfFailed(MirrorGate(evidence, kLeastAhead_nats), failed);
   return failed;
 }
@@ -115,33 +109,34 @@ std::vector<FeatureGate> FeatureGates(const HandleDetection& detection, const Ve
   const auto usual_nats = [&](const char* feature) {
     return std::min(kFarBehind_nats, Expanded(mean(feature)));
   };
-  return {
-      {"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
-      {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
-      {"covered",
-       {.what = "{} of the lever's length has measurements that agree",
-        .unit = Gate::Unit::kFraction,
-        .number = evidence.covered,
-        .limit = mean("covered")}},
-      {"beside",
-       {.what = "{} of the beams beside the handle end before the door",
-        .unit = Gate::Unit::kFraction,
-        .number = evidence.beside,
-        .side = Gate::Side::kAtMost,
-        .limit = mean("beside")}},
-      {"log_sigma_turn",
-       {.what = "its beams know its direction to {}",
-        .unit = Gate::Unit::kAngle,
-        .number = detection.beam_sigma_turn_rad,
-        .side = Gate::Side::kAtMost,
-        .limit = std::exp(mean("log_sigma_turn"))}},
-      {"log_mirror_margin", MirrorGate(evidence, usual_nats("log_mirror_margin"))},
-      {"log_length_margin",
-       {.what = "the odds against a lever that is 20 mm shorter or longer are {}",
-        .unit = Gate::Unit::kOdds,
-        .number = evidence.length_margin_nats,
-        .limit = usual_nats("log_length_margin")}},
-      {"log_alternative_margin", AlternativeGate(evidence, usual_nats("log_alternative_margin"))}};
+  return {{"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
+          {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
+          {"covered",
+           {.what = "{} of the lever's length has measurements that agree",
+            .unit = Gate::Unit::kFraction,
+            .number = evidence.covered,
+            .limit = mean("covered")}},
+          {"beside",
+           {.what = "{} of the beams beside the handle end before the door",
+            .unit = Gate::Unit::kFraction,
+            .number = evidence.beside,
+            .side = Gate::Side::kAtMost,
+            .limit = mean("beside")}},
+          {"log_sigma_turn",
+           {.what = "its beams know its direction to {}",
+            .unit = Gate::Unit::kAngle,
+            .number = detection.beam_sigma_turn_rad,
+            .side = Gate::Side::kAtMost,
+            .limit = std::exp(mean("log_sigma_turn"))}},
+          {"log_mirror_margin", MirrorGate(evidence, usual_nats("log_mirror_margin"))},
+          {"log_length_margin",
+           {.what = "the odds against a lever that is 20 mm shorter or longer are {}",
+            .unit = Gate::Unit::kOdds,
+            .number = evidence.length_margin_nats,
+            .limit = usual_nats("log_length_margin")}},
+          {"log_alternative_margin",
+           AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
+                           usual_nats("log_alternative_margin"))}};
 }
 
 /// What a beam should read in which no handle is: the door.
