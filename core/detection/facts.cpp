@@ -43,10 +43,11 @@ std::string Direction(const Eigen::Vector3d& in_robot) {
                       OperatorText(up_deg < 0.0 ? "down" : "up"));
 }
 
-/// Of something that stands: where nothing leans, a direction says nothing.
-std::string Lean(const Eigen::Vector3d& up_in_robot) {
-  const double lean_deg =
-      DegreesFromRadians(std::atan2(up_in_robot.head<2>().norm(), up_in_robot.z()));
+/// Of something that stands: where it leans by less than is known, a direction says nothing.
+std::string Lean(const Eigen::Vector3d& up_in_robot, double sigma_rad) {
+  const double lean_rad = std::atan2(up_in_robot.head<2>().norm(), up_in_robot.z());
+  if (lean_rad < sigma_rad) return OperatorText("upright");
+  const double lean_deg = DegreesFromRadians(lean_rad);
   const double left_deg = DegreesFromRadians(std::atan2(up_in_robot.y(), up_in_robot.x()));
   return OperatorText("leans by {:.1f} deg to {:.0f} deg {} of forward", lean_deg,
                       std::abs(left_deg), OperatorText(left_deg < 0.0 ? "right" : "left"));
@@ -103,8 +104,9 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
   facts.push_back(
       {OperatorText("Bit points (x)"), WithSigma(Direction(pose.Rotate(Eigen::Vector3d::UnitX())),
                                                  Degrees(drill.sigma_yaw_rad), candidate)});
-  facts.push_back({OperatorText("Body"), WithSigma(Lean(grasp.Rotate(Eigen::Vector3d::UnitZ())),
-                                                   Degrees(drill.sigma_axis_rad), candidate)});
+  facts.push_back({OperatorText("Body"),
+                   WithSigma(Lean(grasp.Rotate(Eigen::Vector3d::UnitZ()), drill.sigma_axis_rad),
+                             Degrees(drill.sigma_axis_rad), candidate)});
   facts.push_back({OperatorText("Grasp"), Place(grasp.translation())});
   facts.push_back({OperatorText("Trigger"), Place(pose * model.trigger_m)});
   facts.push_back({OperatorText("Bit tip"), Place(pose * model.bit_tip_m)});

@@ -133,6 +133,18 @@ TEST(Facts, ADrillsBodyIsToldWithItsLean) {
   }));
 }
 
+TEST(Facts, ABodyThatLeansByLessThanIsKnownStandsUpright) {
+  DrillDetection drill;
+  drill.best.model.body_tilt_rad = {0.0, 0.005};
+  drill.best.model.object_from_grasp = {BodyTurn(drill.best.model.body_tilt_rad),
+                                        Eigen::Vector3d::Zero()};
+  drill.sigma_axis_rad = 0.036;
+  const auto facts = FactsOf(drill, 0, {});
+  EXPECT_TRUE(std::any_of(facts.begin(), facts.end(), [&](const Fact& fact) {
+    return fact.name == "Body" && fact.value.starts_with("upright (sigma 2.1 deg");
+  }));
+}
+
 TEST(Candidates, AnAlternativeThatIsClearlyBehindIsUnsureHoweverSureTheBestAnswerIs) {
   ValveDetection valve = ValveWithAnAlternative();
   valve.verdict.level = VerdictLevel::kConfirmed;
