@@ -1,5 +1,8 @@
 #include "core/fitting/common_gates.h"
 
+#include <algorithm>
+
+#include "core/fitting/compressed_nats.h"
 #include "core/fitting/region_place.h"
 
 namespace foresight {
@@ -31,6 +34,10 @@ Gate AlternativeGate(const std::string& alternative, double ahead_nats, double l
           .unit = Gate::Unit::kOdds,
           .number = ahead_nats,
           .limit = least_nats};
+}
+
+double UsualNatsOf(const VerdictModel& model, std::string_view feature) {
+  return std::min(kFarBehind_nats, Expanded(MeanOf(model, feature)));
 }
 
 Gate OffCenterGate(const std::string& object, const RaySet& region, const Eigen::Vector3d& middle) {

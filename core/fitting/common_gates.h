@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/fitting/gate.h"
 #include "core/fitting/ray_set.h"
@@ -26,6 +27,10 @@ Gate AgreementGate(const std::string& object, double fraction, double least);
 /// @param alternative what it may be: "box"
 /// @param ahead_nats log likelihood of the object ahead of it
 Gate AlternativeGate(const std::string& alternative, double ahead_nats, double least_nats);
+
+/// The limit of a FeatureGate on odds: the feature's mean over the answers that a model was fitted
+/// to, in nats, kFarBehind_nats at most. Of a feature that is Compressed nats.
+double UsualNatsOf(const VerdictModel& model, std::string_view feature);
 
 /// An operator draws a region round an object: kMaxOffCenter_m.
 /// @param middle of the object, in base

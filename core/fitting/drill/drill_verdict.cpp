@@ -178,9 +178,7 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
                                       const VerdictModel& model) {
   const DrillEvidence& evidence = detection.evidence;
   const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
-  const auto usual_nats = [&](const char* feature) {
-    return std::min(kFarBehind_nats, Expanded(mean(feature)));
-  };
+  const auto usual_nats = [&](const char* feature) { return UsualNatsOf(model, feature); };
   return {{"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
           {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
           {"log_sigma_yaw",

@@ -106,9 +106,7 @@ std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection
 std::vector<FeatureGate> FeatureGates(const HandleDetection& detection, const VerdictModel& model) {
   const HandleEvidence& evidence = detection.evidence;
   const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
-  const auto usual_nats = [&](const char* feature) {
-    return std::min(kFarBehind_nats, Expanded(mean(feature)));
-  };
+  const auto usual_nats = [&](const char* feature) { return UsualNatsOf(model, feature); };
   return {{"inlier_ratio", AgreementGate(kObject, evidence.inlier_ratio, mean("inlier_ratio"))},
           {"see_through", SeeThroughGate(kObject, evidence.see_through, mean("see_through"))},
           {"covered",

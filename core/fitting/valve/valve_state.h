@@ -39,7 +39,7 @@ struct ValvePrior {
   static constexpr double kDishSigma_m = 0.050;
   static constexpr double kBrightnessSigma = 0.4;  ///< of the logarithm
   /// Of sections, of the logarithm: half a rim's depth, half a spoke's width and depth. A bar may
-  /// lie flat or stand upright: depths do not go with widths. Real rims' depths scatter by 0.4, but
+  /// lie flat or stand upright: depths do not go with widths. Real rims' depths scatter more, but
   /// beams see no depth: a footprint that is not ours looks like a deep rim by tens of nats, and
   /// the wheel moves back along its axis to keep its front. Hence a prior that holds against that,
   /// chosen on training scenes (docs/evaluation.md, "A rim's depth is not seen").

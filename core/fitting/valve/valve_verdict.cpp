@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/fitting/common_gates.h"
-#include "core/fitting/compressed_nats.h"
 #include "core/fitting/gate.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/verdict_model.h"
@@ -159,7 +158,7 @@ std::vector<FeatureGate> FeatureGates(const ValveDetection& detection, const Ver
                      {.what = "the odds that the spoke seen worst is there are {}",
                       .unit = Gate::Unit::kOdds,
                       .number = evidence.weakest_spoke_nats,
-                      .limit = std::min(kFarBehind_nats, Expanded(mean("weakest_spoke_gain")))}});
+                      .limit = UsualNatsOf(model, "weakest_spoke_gain")}});
   if (!detection.alternatives.empty())
     gates.push_back(
         {"log_margin",
