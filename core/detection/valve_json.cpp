@@ -32,6 +32,8 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"weakest_spoke", evidence.weakest_spoke},
           {"margin_line_sigmas", evidence.margin_line_sigmas},
           {"weakest_spoke_nats", evidence.weakest_spoke_nats},
+          {"weakest_spoke_middle_nats", evidence.weakest_spoke_middle_nats},
+          {"further_spoke_nats", evidence.further_spoke_nats},
           {"rim_nats", evidence.rim_nats}};
 }
 
@@ -60,10 +62,13 @@ ValveEvidence ValveEvidenceFrom(const Json& value) {
   evidence.margin_nats = NumberFrom(value.at("margin_nats"));
   evidence.gain_nats = NumberFrom(value.at("gain_nats"));
   // Earlier programs did not write these.
-  for (const auto& [name, member] : {std::pair("weakest_spoke", &evidence.weakest_spoke),
-                                     std::pair("margin_line_sigmas", &evidence.margin_line_sigmas),
-                                     std::pair("weakest_spoke_nats", &evidence.weakest_spoke_nats),
-                                     std::pair("rim_nats", &evidence.rim_nats)})
+  for (const auto& [name, member] :
+       {std::pair("weakest_spoke", &evidence.weakest_spoke),
+        std::pair("margin_line_sigmas", &evidence.margin_line_sigmas),
+        std::pair("weakest_spoke_nats", &evidence.weakest_spoke_nats),
+        std::pair("weakest_spoke_middle_nats", &evidence.weakest_spoke_middle_nats),
+        std::pair("further_spoke_nats", &evidence.further_spoke_nats),
+        std::pair("rim_nats", &evidence.rim_nats)})
     if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 #include "core/evaluation/other_world.h"
 #include "core/geometry/angles.h"
@@ -131,7 +132,7 @@ class AxialView {
     for (const SceneHit& hit : hits) filled_.push_back(hit.mesh >= 0);
   }
 
-  double RadiusOf(int r) const { return reach_m_ * (r + 0.5) / kRadii; }
+  double RadiusOf(double r) const { return reach_m_ * (r + 0.5) / kRadii; }
   bool Filled(int r, int a) const {
     return filled_[static_cast<std::size_t>(r * kDirections + (a + kDirections) % kDirections)];
   }
@@ -145,6 +146,43 @@ class AxialView {
   double reach_m_ = 0.0;
   std::vector<bool> filled_;
 };
+
+constexpr double kClosed = 0.97;
+
+/// The outermost filled band: where it begins and ends on average over the directions. A grip's
+/// waves move it, spokes reach inwards from it.
+struct Band {
+  double inner = 0.0;
+  double outer = -1.0;  ///< < 0 = there is none
+  bool closed = false;  ///< 97 % of the directions have it about as far out
+};
+
+Band OutermostBand(const AxialView& view) {
+  constexpr double kMostWaves = 0.15;
+  std::vector<int> outer, width;
+  for (int a = 0; a < kDirections; ++a) {
+    int last = AxialView::kRadii - 1;
+    while (last >= 0 && !view.Filled(last, a)) --last;
+    if (last < 0) continue;
+    int first = last;
+    while (first > 0 && view.Filled(first - 1, a)) --first;
+    outer.push_back(last);
+    width.push_back(last - first);
+  }
+  if (outer.empty()) return {};
+  const auto middle_of = [](std::vector<int> values) {
+    const auto middle = values.begin() + std::ssize(values) / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  const double usual = middle_of(outer);
+  std::erase_if(outer, [&](int r) { return std::abs(r - usual) > kMostWaves * usual; });
+  Band band;
+  band.closed = static_cast<double>(outer.size()) >= kClosed * kDirections;
+  band.outer = std::accumulate(outer.begin(), outer.end(), 0.0) / static_cast<double>(outer.size());
+  band.inner = std::max(0.0, band.outer - middle_of(width));
+  return band;
+}
 
 /// Middles of the filled runs of directions at a radius.
 std::vector<double> RunsAt(const AxialView& view, int r) {
@@ -261,16 +299,13 @@ bool WheelMeasures::IsHandwheel() const {
 }
 
 WheelMeasures MeasureWheel(const Shape& shape) {
-  constexpr double kClosed = 0.97;
   const AxialView view(shape);
+  const Band rim = OutermostBand(view);
   WheelMeasures measures;
-  int outer = AxialView::kRadii - 1;
-  while (outer >= 0 && view.Cover(outer) < kClosed) --outer;
-  if (outer < 0) return measures;
-  int inner = outer;
-  while (inner > 0 && view.Cover(inner - 1) >= kClosed) --inner;
-  measures.closed_rim = inner > 0;
-  measures.radius_m = 0.5 * (view.RadiusOf(inner) + view.RadiusOf(outer));
+  if (rim.outer < 0.0) return measures;
+  const int inner = static_cast<int>(rim.inner);
+  measures.closed_rim = rim.closed && inner > 0;
+  measures.radius_m = 0.5 * (view.RadiusOf(rim.inner) + view.RadiusOf(rim.outer));
   measures.hub = view.Cover(0) >= kClosed;
   // Halfway out is beyond most hubs; the count of spokes is the one that most radii agree on.
   std::vector<std::pair<int, int>> counts;  // of runs, and the radius

@@ -43,8 +43,8 @@ Shape ShapeOf(const OtherWheel& wheel);
 
 /// What a shape is when it is looked at along its axis (16,000 rays), whoever drew it.
 struct WheelMeasures {
-  bool closed_rim = false;  ///< a band that 97 % of all directions cross
-  double radius_m = 0.0;    ///< the middle of the outermost such band
+  bool closed_rim = false;  ///< 97 % of all directions have it, about as far out (waves of a grip)
+  double radius_m = 0.0;    ///< its middle, on average over the directions
   int spokes = 0;           ///< between hub and rim
   double first_spoke_rad = 0.0;
   double unevenness_rad = 0.0;  ///< of their directions

@@ -11,6 +11,7 @@
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/valve/lever_search.h"
 #include "core/fitting/valve/local_search.h"
+#include "core/fitting/valve/part_evidence.h"
 #include "core/fitting/valve/ray_likelihood.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/rim_search.h"

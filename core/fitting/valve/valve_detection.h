@@ -29,6 +29,11 @@ struct ValveEvidence {
   /// How much the beams on the spoke that is seen worst speak for it, against no valve; 0 where no
   /// beam is on it, and without spokes.
   double weakest_spoke_nats = 0.0;
+  /// The same of the beams on and beside the middle half of a spoke.
+  double weakest_spoke_middle_nats = 0.0;
+  /// How much the beams between the spokes speak for one more, at the angle where they speak for it
+  /// most; 0 without spokes.
+  double further_spoke_nats = 0.0;
   /// How much the beams on and beside the rim speak for it; 0 for a lever.
   double rim_nats = 0.0;
 };

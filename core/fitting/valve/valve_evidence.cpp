@@ -120,27 +120,6 @@ ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandid
   return evidence;
 }
 
-void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve,
-                        ValveEvidence& evidence) {
-  evidence.rim_nats = evidence.weakest_spoke_nats = 0.0;
-  if (valve.model.IsLever()) return;
-  const std::vector<RangeRay>& rays = likelihood.Measured().rays;
-  const Eigen::VectorXd gains = likelihood.Gains(valve);
-  const ValveTracer tracer(valve, ValveParts::kAll);
-  std::vector<double> spokes(static_cast<std::size_t>(valve.model.spokes), 0.0);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const double gain = gains(static_cast<Eigen::Index>(i));
-    if (gain == 0.0) continue;  // too far from all of it
-    const ValveIntersection intersection = tracer.Intersect(rays[i]);
-    if (intersection.part == ValvePart::kRim)
-      evidence.rim_nats += gain;
-    else if (intersection.part == ValvePart::kSpoke && intersection.Clearance() < 0.0)
-      spokes[static_cast<std::size_t>(intersection.spoke)] += gain;
-  }
-  if (!spokes.empty())
-    evidence.weakest_spoke_nats = *std::min_element(spokes.begin(), spokes.end());
-}
-
 void SetCovariance(const PoseCovariance& covariance, ValveDetection& detection) {
   const Eigen::Matrix<double, 6, 1> sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   detection.sigma_position_m = sigmas.segment<3>(kMoveX);

@@ -6,7 +6,6 @@
 
 #include "core/fitting/ray_set.h"
 #include "core/fitting/valve/beam_footprints.h"
-#include "core/fitting/valve/ray_likelihood.h"
 #include "core/fitting/valve/valve_state.h"
 
 namespace foresight {
@@ -18,11 +17,6 @@ inline constexpr double kRightAxis_rad = 5.0 * std::numbers::pi / 180.0;
 /// What the rays of a region say about a valve. A ray intersects it where half of its footprint
 /// lies on it. Members in nats and in deviations over lines are left at 0.
 ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandidate& valve);
-
-/// What the measured rays say of the single parts of a valve: ValveEvidence::weakest_spoke_nats and
-/// rim_nats.
-void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve,
-                        ValveEvidence& evidence);
 
 /// Fills the covariance and the deviations of a detection from the information of its best
 /// candidate, as if each beam were an independent measurement and the sections were known.

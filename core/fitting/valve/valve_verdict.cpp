@@ -20,6 +20,10 @@ constexpr double kMinMargin_nats = 10.0;
 // Of 247 wheels that are right and CONFIRMED on the seeds of `evaluate-fits valve --world varied`
 // in docs/evaluation.md the least seen is 42 % of its rim; of a cross, which has none, 0 to 75 %.
 constexpr double kMinRimSeen = 0.4;
+// Beams beside a spoke or on what stands behind a wheel look like one more spoke by up to this
+// much. Of 363 wheels that are right and CONFIRMED on the seeds of `packaging/evaluate
+// choice-valve` it loses one.
+constexpr double kMaxFurtherSpoke_nats = 20.0;
 // By its own deviations. Of 297 answers that the probability would confirm it leaves 256 right ones
 // and 3 of 9 wrong ones (`packaging/evaluate choice-valve`; docs/evaluation.md, "The valve a third
 // time").
@@ -56,6 +60,23 @@ Gate BeingOffGate(const ValveDetection& detection, double limit) {
       .side = Gate::Side::kAtMost,
       .limit = limit,
       .advice = "scan slower or move closer"};
+}
+
+Gate EverySpokeGate(const ValveEvidence& evidence, double limit_nats) {
+  return {.what = "the odds that every spoke is there are {}",
+          .unit = Gate::Unit::kOdds,
+          .number = evidence.weakest_spoke_middle_nats,
+          .limit = limit_nats,
+          .advice = "a wheel that lacks a spoke looks like this"};
+}
+
+Gate FurtherSpokeGate(const ValveEvidence& evidence, double limit_nats) {
+  return {.what = "the odds that there is one more spoke are {}",
+          .unit = Gate::Unit::kOdds,
+          .number = evidence.further_spoke_nats,
+          .side = Gate::Side::kAtMost,
+          .limit = limit_nats,
+          .advice = "spokes that do not stand evenly look like this"};
 }
 
 Gate RimSeenGate(const ValveEvidence& evidence, double limit) {
@@ -106,6 +127,8 @@ void AddFailedShapeGates(const ValveDetection& detection, const FitValveOptions&
   } else {
     AddIfFailed(RimGate(detection.evidence, kMinMargin_nats), failed);
     AddIfFailed(RimSeenGate(detection.evidence, kMinRimSeen), failed);
+    AddIfFailed(EverySpokeGate(detection.evidence, kMinMargin_nats), failed);
+    AddIfFailed(FurtherSpokeGate(detection.evidence, kMaxFurtherSpoke_nats), failed);
     AddIfFailed(BeingOffGate(detection, kMaxChanceOfBeingOff), failed);
     AddIfOutside(RimRadiusGate(model), 1.08 * options.min_rim_radius_m,
                  1.04 * options.max_rim_radius_m, failed);

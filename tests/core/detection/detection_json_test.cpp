@@ -27,6 +27,8 @@ ValveDetection Sample() {
   detection.evidence = {900, 200, 0.9, 0.03, 0.02, 0.006, 0.95, 88.0, 700.0};
   detection.evidence.weakest_spoke = 0.4;
   detection.evidence.weakest_spoke_nats = -3.5;
+  detection.evidence.weakest_spoke_middle_nats = -1.5;
+  detection.evidence.further_spoke_nats = 7.25;
   detection.evidence.rim_nats = 640.5;
   detection.evidence.margin_line_sigmas = 2.25;
   detection.verdict = {VerdictLevel::kLikely, 0.83, "only 58 % of the rim is seen", {}};
@@ -58,6 +60,8 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->evidence.gain_nats, 700.0);
   EXPECT_EQ(read->evidence.weakest_spoke, 0.4);
   EXPECT_EQ(read->evidence.weakest_spoke_nats, -3.5);
+  EXPECT_EQ(read->evidence.weakest_spoke_middle_nats, -1.5);
+  EXPECT_EQ(read->evidence.further_spoke_nats, 7.25);
   EXPECT_EQ(read->evidence.rim_nats, 640.5);
   EXPECT_EQ(read->evidence.margin_line_sigmas, 2.25);
   EXPECT_EQ(read->best.brightness, 0.7);

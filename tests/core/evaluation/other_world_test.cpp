@@ -46,6 +46,20 @@ TEST(OtherWheels, AreMeasuredAsTheyWereBuilt) {
   }
 }
 
+TEST(OtherWheels, AThinRimInWavesIsARim) {
+  OtherWheel wheel;
+  wheel.spokes_rad = {0.0, 2.1, 4.2};
+  wheel.rim_m = {0.009, 0.03};
+  wheel.waves = 6;
+  wheel.waves_m = 0.007;
+  const WheelMeasures measures = MeasureWheel(ShapeOf(wheel));
+  EXPECT_TRUE(measures.IsHandwheel());
+  EXPECT_EQ(measures.spokes, 3);
+  EXPECT_NEAR(measures.radius_m, wheel.radius_m, 0.002);
+  wheel.rim_arc_rad *= 0.9;
+  EXPECT_FALSE(MeasureWheel(ShapeOf(wheel)).IsHandwheel()) << "a gap is no wave";
+}
+
 TEST(OtherWheels, ADiscABarePlateAndARimAloneAreNone) {
   ValveModel disc;
   disc.spokes = 0;

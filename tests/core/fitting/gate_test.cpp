@@ -184,6 +184,8 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
                       .weakest_spoke = random.Uniform(0.2, 1.0),
                       .margin_line_sigmas = random.Uniform(-1.0, 8.0),
                       .weakest_spoke_nats = random.Uniform(-20.0, 100.0),
+                      .weakest_spoke_middle_nats = random.Uniform(-20.0, 100.0),
+                      .further_spoke_nats = random.Uniform(0.0, 40.0),
                       .rim_nats = random.Uniform(-20.0, 100.0)};
     if (random.Index(3) == 0) found.evidence.margin_nats = random.Uniform(-5.0, 12.0);
     found.alternatives.push_back(found.best);
@@ -197,7 +199,7 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
   EXPECT_GT(stated, kAnswers / 2);
 }
 
-TEST(Reasons, SpokesWithoutARimAreNotConfirmed) {
+TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
   RaySet rays = Fan();
   ValveDetection found;
   found.best.model.rim_radius_m = 0.16;
@@ -216,6 +218,7 @@ TEST(Reasons, SpokesWithoutARimAreNotConfirmed) {
                     .weakest_spoke = 1.0,
                     .margin_line_sigmas = 6.0,
                     .weakest_spoke_nats = 100.0,
+                    .weakest_spoke_middle_nats = 60.0,
                     .rim_nats = 600.0};
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
   found.evidence.arc_coverage = 0.35;
@@ -223,7 +226,20 @@ TEST(Reasons, SpokesWithoutARimAreNotConfirmed) {
   EXPECT_EQ(verdict.level, VerdictLevel::kLikely);
   EXPECT_EQ(verdict.reason,
             "35 % of the rim is seen (at least 40 %): spokes without a rim look like this");
-  found.evidence.arc_coverage = 0.92;  // beams that touch it and the wall agree with a thin one
+  found.evidence.arc_coverage = 0.92;
+  found.evidence.weakest_spoke_middle_nats = -11.5;
+  EXPECT_EQ(AssessValve(rays, rays, found, {}).reason,
+            "the odds that every spoke is there are 1 : 99000 (at least 22000 : 1): a wheel that "
+            "lacks a spoke looks like this");
+  found.evidence.weakest_spoke_middle_nats = 60.0;
+  found.evidence.further_spoke_nats = 39.0;
+  EXPECT_EQ(
+      AssessValve(rays, rays, found, {}).reason,
+      "the odds that there is one more spoke are 10^17 : 1 (at most 10^9 : 1): spokes that do "
+      "not stand evenly look like this");
+  found.evidence.further_spoke_nats = 12.0;  // beams beside a spoke
+  EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
+  // Beams that touch it and the wall agree with a thin one.
   found.evidence.rim_nats = -48.5;
   EXPECT_THAT(AssessValve(rays, rays, found, {}).reason,
               HasSubstr("the odds that there is a rim are "));

@@ -10,6 +10,7 @@
 #include "core/fitting/beam_model.h"
 #include "core/fitting/valve/fit_valve.h"
 #include "core/fitting/valve/local_search.h"
+#include "core/fitting/valve/part_evidence.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/wall.h"
@@ -157,6 +158,28 @@ TEST(ValveEvidence, BeamsSpeakAgainstASpokeThatIsNotThere) {
   EXPECT_LT(EvidenceOfParts(likelihood, more).weakest_spoke_nats, -10.0);
   more.model.spokes = 0;
   EXPECT_EQ(EvidenceOfParts(likelihood, more).weakest_spoke_nats, 0.0);
+}
+
+TEST(ValveEvidence, HubAndRimSpeakForNoSpokeBetweenThem) {
+  const ValveScene scene = FourSpokes();
+  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_spoke_middle_nats, 10.0);
+  ValveCandidate more = scene.truth;
+  more.model.spokes = 5;
+  EXPECT_LT(EvidenceOfParts(likelihood, more).weakest_spoke_middle_nats, -10.0);
+  more.model.spokes = 0;
+  EXPECT_EQ(EvidenceOfParts(likelihood, more).weakest_spoke_middle_nats, 0.0);
+}
+
+TEST(ValveEvidence, BeamsSpeakForASpokeThatIsLeftOut) {
+  const ValveScene scene = FourSpokes();
+  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  EXPECT_LT(EvidenceOfParts(likelihood, scene.truth).further_spoke_nats, 3.0);
+  ValveCandidate fewer = scene.truth;
+  fewer.model.spokes = 2;
+  EXPECT_GT(EvidenceOfParts(likelihood, fewer).further_spoke_nats, 10.0);
+  fewer.model.spokes = 0;
+  EXPECT_EQ(EvidenceOfParts(likelihood, fewer).further_spoke_nats, 0.0);
 }
 
 TEST(ValveEvidence, BeamsSpeakAgainstARimThatIsNotThere) {

@@ -1,0 +1,109 @@
+#include "core/fitting/valve/part_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/fitting/valve/valve_tracer.h"
+#include "core/geometry/angles.h"
+
+namespace foresight {
+namespace {
+
+// Of a spoke's length, as a fraction: beams nearer to its ends touch hub or rim, too.
+constexpr double kMiddleBegins = 0.3;
+constexpr double kMiddleEnds = 0.8;
+// Where further spokes are looked for. Nearer to a spoke its own sides look like one.
+constexpr double kSpokeStep_rad = RadiansFromDegrees(5.0);
+constexpr double kBesideSpoke_rad = RadiansFromDegrees(15.0);
+
+double SpokeLength(const ValveModel& model) {
+  return std::hypot(model.rim_radius_m, model.dish_m);
+}
+
+/// How much beams speak for a spoke, by where they are on it.
+struct SpokeNats {
+  double on_it = 0.0;   ///< which enter it
+  double middle = 0.0;  ///< on and beside its middle
+  double inner_half = 0.0;
+  double outer_half = 0.0;
+
+  /// A spoke reaches from hub to rim: the half that is seen worse counts for both.
+  double Whole() const { return 2.0 * std::min(inner_half, outer_half); }
+
+  void Add(const ValveIntersection& intersection, double gain, double length_m) {
+    const double along = intersection.along_m / length_m;
+    if (intersection.Clearance() < 0.0) on_it += gain;
+    if (along > kMiddleBegins && along < kMiddleEnds) middle += gain;
+    (along < 0.5 ? inner_half : outer_half) += gain;
+  }
+};
+
+ValveCandidate Turned(const ValveCandidate& valve, double turn_rad) {
+  ValveCandidate turned = valve;
+  turned.base_from_object = {
+      valve.base_from_object.rotation() * Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()),
+      valve.base_from_object.translation()};
+  return turned;
+}
+
+/// How much the beams that the valve leaves alone (where `gains` is 0) speak for one more spoke
+/// like its own, at the angle where they speak for it most.
+double FurtherSpokeNats(const RayLikelihood& likelihood, const ValveCandidate& valve,
+                        const Eigen::VectorXd& gains) {
+  const std::vector<RangeRay>& rays = likelihood.Measured().rays;
+  const double length_m = SpokeLength(valve.model);
+  const double sector = 2.0 * std::numbers::pi / valve.model.spokes;
+  double most = 0.0;
+  for (double turn = kBesideSpoke_rad; turn <= sector - kBesideSpoke_rad; turn += kSpokeStep_rad) {
+    const ValveCandidate turned = Turned(valve, turn);
+    const Eigen::VectorXd turned_gains = likelihood.Gains(turned);
+    const ValveTracer tracer(turned, ValveParts::kAll);
+    std::vector<SpokeNats> spokes(static_cast<std::size_t>(valve.model.spokes));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const double gain = turned_gains(static_cast<Eigen::Index>(i));
+      if (gain == 0.0 || gains(static_cast<Eigen::Index>(i)) != 0.0) continue;
+      const ValveIntersection intersection = tracer.Intersect(rays[i]);
+      if (intersection.part == ValvePart::kSpoke)
+        spokes[static_cast<std::size_t>(intersection.spoke)].Add(intersection, gain, length_m);
+    }
+    for (const SpokeNats& spoke : spokes) most = std::max(most, spoke.Whole());
+  }
+  return most;
+}
+
+}  // namespace
+
+void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve,
+                        ValveEvidence& evidence) {
+  evidence.rim_nats = 0.0;
+  evidence.weakest_spoke_nats = evidence.weakest_spoke_middle_nats = 0.0;
+  evidence.further_spoke_nats = 0.0;
+  if (valve.model.IsLever()) return;
+  const std::vector<RangeRay>& rays = likelihood.Measured().rays;
+  const Eigen::VectorXd gains = likelihood.Gains(valve);
+  const ValveTracer tracer(valve, ValveParts::kAll);
+  const double length_m = SpokeLength(valve.model);
+  std::vector<SpokeNats> spokes(static_cast<std::size_t>(valve.model.spokes));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const double gain = gains(static_cast<Eigen::Index>(i));
+    if (gain == 0.0) continue;  // too far from all of it
+    const ValveIntersection intersection = tracer.Intersect(rays[i]);
+    if (intersection.part == ValvePart::kRim)
+      evidence.rim_nats += gain;
+    else if (intersection.part == ValvePart::kSpoke)
+      spokes[static_cast<std::size_t>(intersection.spoke)].Add(intersection, gain, length_m);
+  }
+  if (spokes.empty()) return;
+  const auto weakest = [&](double SpokeNats::*nats) {
+    double least = spokes.front().*nats;
+    for (const SpokeNats& spoke : spokes) least = std::min(least, spoke.*nats);
+    return least;
+  };
+  evidence.weakest_spoke_nats = weakest(&SpokeNats::on_it);
+  evidence.weakest_spoke_middle_nats = weakest(&SpokeNats::middle);
+  evidence.further_spoke_nats = FurtherSpokeNats(likelihood, valve, gains);
+}
+
+}  // namespace foresight
