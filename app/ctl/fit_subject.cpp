@@ -116,9 +116,9 @@ Status CheckInImage(const Roi& roi, const CameraModel& camera) {
               box.low.x(), box.low.y(), box.high.x(), box.high.y(), camera.width, camera.height);
 }
 
-Result<Detection> FitInPlainRays(const std::function<Result<RaySet>(BoxRays)>& rays_of,
-                                 const FitSubject& subject, const std::string& source,
-                                 const FitOptions& options, const RunContext& context) {
+Result<Detection> FitInPlainRays(const RaysOfRegion& rays_of, const FitSubject& subject,
+                                 const std::string& source, const FitOptions& options,
+                                 const RunContext& context) {
   FORESIGHT_TRY(Detection detection, FitInRegion(rays_of, subject.roi, options, context));
   OriginOf(detection).roi = subject.roi;
   OriginOf(detection).source = source;
@@ -126,11 +126,11 @@ Result<Detection> FitInPlainRays(const std::function<Result<RaySet>(BoxRays)>& r
 }
 
 Result<RaySet> RaysInCloudOf(const FitSubject& subject, const FitArguments& arguments,
-                             BoxRays box_rays) {
+                             const Roi& roi, BoxRays box_rays) {
   std::optional<double> sigma_m;
   if (arguments.noise_mm > 0.0) sigma_m = 1e-3 * arguments.noise_mm;
-  return RaysInCloud(subject.points, subject.places, subject.viewpoint, subject.rig, subject.roi,
-                     sigma_m, box_rays);
+  return RaysInCloud(subject.points, subject.places, subject.viewpoint, subject.rig, roi, sigma_m,
+                     box_rays);
 }
 
 /// A scan's depth map by the method that a source names.
@@ -215,14 +215,15 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
   if (!options) return {tl::unexpected(options.error()), {}};
   if (!subject.depth_m.empty())
     return {FitInPlainRays(
-                [&](BoxRays box) {
-                  return RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad,
-                                        subject.roi, arguments.density, box);
+                [&](const Roi& roi, BoxRays box) {
+                  return RaysInDepthMap(subject.depth_m, subject.rig, subject.motor_rad, roi,
+                                        arguments.density, box);
                 },
                 subject, "depth map", *options, context),
             {}};
   if (!subject.scan)
-    return {FitInPlainRays([&](BoxRays box) { return RaysInCloudOf(subject, arguments, box); },
+    return {FitInPlainRays([&](const Roi& roi,
+                               BoxRays box) { return RaysInCloudOf(subject, arguments, roi, box); },
                            subject, "cloud", *options, context),
             {}};
   if (source == "raw")

@@ -1,7 +1,11 @@
 #include "core/detection/fit_in_scan.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "core/base/quantile.h"
 #include "core/depth/depth_method.h"
 #include "core/fitting/range_noise.h"
 
@@ -12,10 +16,26 @@ namespace {
 constexpr double kRangeSigma_m = 0.010;
 /// Neighbouring pixels of a dense map say the same twice.
 constexpr int kDepthStride_px = 2;
+/// From the middle of a door handle's region: beyond the edge of its door.
+constexpr double kSurroundings_m = 0.5;
 
 RaySet WithOwnSigma(RaySet rays) {
   const double sigma_m = EstimateRangeSigma(rays);
   if (std::isfinite(sigma_m)) rays.sigma_m = sigma_m;
+  return rays;
+}
+
+/// With what lies round them; without it where that has no rays.
+RaySet WithSurroundings(RaySet rays, const RaysOfRegion& rays_of) {
+  std::array<std::vector<double>, 3> places;
+  for (const RangeRay& ray : rays.rays)
+    for (int axis = 0; axis < 3; ++axis) places[axis].push_back(ray.Point()[axis]);
+  Eigen::Vector3d middle;
+  for (int axis = 0; axis < 3; ++axis) middle[axis] = Quantile(std::move(places[axis]), 0.5);
+  const BoxRoi box{{Eigen::Quaterniond::Identity(), middle},
+                   Eigen::Vector3d::Constant(2.0 * kSurroundings_m)};
+  if (auto around = rays_of(box, BoxRays::kEndInside))
+    rays.around = std::make_shared<const RaySet>(std::move(*around));
   return rays;
 }
 
@@ -114,19 +134,24 @@ Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
   return FitValve(rays, std::get<FitValveOptions>(options), context);
 }
 
-Result<Detection> FitInRegion(const std::function<Result<RaySet>(BoxRays)>& rays_of, const Roi& roi,
+Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const Roi& roi,
                               const FitOptions& options, const RunContext& context) {
   const bool is_box = std::holds_alternative<BoxRoi>(roi);
+  const auto rays_in_roi = [&](BoxRays box_rays) -> Result<RaySet> {
+    FORESIGHT_TRY(RaySet rays, rays_of(roi, box_rays));
+    const bool on_door = std::holds_alternative<FitHandleOptions>(options);
+    return on_door ? WithSurroundings(std::move(rays), rays_of) : std::move(rays);
+  };
   if (std::holds_alternative<FitTerrainOptions>(options) || !is_box) {
-    FORESIGHT_TRY(const RaySet rays, rays_of(BoxRays::kEndInside));
+    FORESIGHT_TRY(const RaySet rays, rays_in_roi(BoxRays::kEndInside));
     return FitInRays(rays, options, context);
   }
-  FORESIGHT_TRY(const RaySet through, rays_of(BoxRays::kPassThrough));
+  FORESIGHT_TRY(const RaySet through, rays_in_roi(BoxRays::kPassThrough));
   if (std::holds_alternative<FitCylinderOptions>(options))
     return FitInRays(through, options, context);
   Result<Detection> best = FitInRays(through, options, context.Part(0.0, 0.5));
   if (context.Cancelled() || (best && VerdictOf(*best).level != VerdictLevel::kUnsure)) return best;
-  const auto rays = rays_of(BoxRays::kEndInside);
+  const auto rays = rays_in_roi(BoxRays::kEndInside);
   if (!rays) return best;
   Result<Detection> inside = FitInRays(*rays, options, context.Part(0.5, 1.0));
   const bool better =
@@ -136,7 +161,9 @@ Result<Detection> FitInRegion(const std::function<Result<RaySet>(BoxRays)>& rays
 
 Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                             const FitOptions& options, const RunContext& context) {
-  const auto rays_of = [&](BoxRays box) { return RaysInScan(scan, source, roi, box); };
+  const auto rays_of = [&](const Roi& region, BoxRays box) {
+    return RaysInScan(scan, source, region, box);
+  };
   FORESIGHT_TRY(Detection detection, FitInRegion(rays_of, roi, options, context));
   OriginOf(detection).roi = roi;
   OriginOf(detection).source = NameOf(

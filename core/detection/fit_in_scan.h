@@ -74,14 +74,18 @@ Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPl
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
                             const RunContext& context);
 
+/// Gives the rays of a region.
+using RaysOfRegion = std::function<Result<RaySet>(const Roi&, BoxRays)>;
+
 /// The same for a region whose rays `rays_of` gives. Of a wheel, a drill or a lever that a box is
 /// drawn tightly round, the wall behind the box tells what stands in front of it, so the beams that
 /// went through count too. What stands in a large box, as a pier, stands in front of the far wall
 /// itself and may hide the object: where that fit is UNSURE or finds nothing, the rays that end
 /// inside are tried alone, and the answer of the higher probability is given. A terrain's box holds
 /// its ground. Of a cylinder the beams that went past on both sides fix the radius: they always
-/// count. Fails as the first of both fits, and as `rays_of`.
-Result<Detection> FitInRegion(const std::function<Result<RaySet>(BoxRays)>& rays_of, const Roi& roi,
+/// count. A door handle is told what lies within 0.5 m of its region, too (RaySet::around). Fails
+/// as the first of both fits, and as `rays_of`.
+Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const Roi& roi,
                               const FitOptions& options, const RunContext& context);
 
 /// From a region to a detection, with the noise and the thinning that belong to the source: the one

@@ -30,6 +30,7 @@ Json EvidenceJson(const HandleEvidence& evidence) {
           {"covered", evidence.covered},
           {"beside", evidence.beside},
           {"mirror_margin_nats", evidence.mirror_margin_nats},
+          {"edges_nats", evidence.edges_nats},
           {"length_margin_nats", evidence.length_margin_nats},
           {"gain_nats", evidence.gain_nats},
           {"alternative_margin_nats", evidence.alternative_margin_nats},
@@ -46,6 +47,7 @@ HandleEvidence HandleEvidenceFrom(const Json& value) {
   evidence.covered = NumberFrom(value.at("covered"));
   evidence.beside = NumberFrom(value.at("beside"));
   evidence.mirror_margin_nats = NumberFrom(value.at("mirror_margin_nats"));
+  if (value.contains("edges_nats")) evidence.edges_nats = NumberFrom(value["edges_nats"]);
   evidence.length_margin_nats = NumberFrom(value.at("length_margin_nats"));
   evidence.gain_nats = NumberFrom(value.at("gain_nats"));
   evidence.alternative_margin_nats = NumberFrom(value.at("alternative_margin_nats"));

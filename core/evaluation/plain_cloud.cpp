@@ -19,8 +19,8 @@ PlainCloud PlainCloudOf(const RegisteredScan& scan) {
 
 Result<Detection> FitInPlainCloud(const PlainCloud& cloud, const SensorRig& rig, const Roi& roi,
                                   const FitOptions& options, const RunContext& context) {
-  const auto rays_of = [&](BoxRays box_rays) {
-    return RaysInCloud(cloud.points, cloud.places, cloud.viewpoint, rig, roi, {}, box_rays);
+  const auto rays_of = [&](const Roi& region, BoxRays box_rays) {
+    return RaysInCloud(cloud.points, cloud.places, cloud.viewpoint, rig, region, {}, box_rays);
   };
   return FitInRegion(rays_of, roi, options, context);
 }

@@ -42,6 +42,9 @@ struct RaySet {
   /// map guesses between them, so they have a say in which of several answers is right and where it
   /// is.
   std::shared_ptr<const RaySet> beams = nullptr;
+  /// What lies round the region, the region's own rays among it: what an object stands on goes on
+  /// beyond what an operator draws. Null where it is not known.
+  std::shared_ptr<const RaySet> around = nullptr;
 
   /// How many independent measurements a ray is worth, one at most.
   double Worth() const { return std::min(1.0, samples_per_ray); }

@@ -16,16 +16,19 @@ namespace foresight {
 
 /// How well the measurements support a door handle.
 struct HandleEvidence {
-  int rays = 0;                     ///< looked at
-  int hits = 0;                     ///< rays with at least half of their footprint on it
-  double inlier_ratio = 0.0;        ///< of the hits, those with a range that agrees
-  double see_through = 0.0;         ///< of the hits, those whose beam went on behind the handle
-  double rms_m = 0.0;               ///< of the agreeing ranges
-  double covered = 0.0;             ///< of the lever's length, the fraction with agreeing hits
-  double beside = 0.0;              ///< fraction of the rays round it that end before the door
-  double mirror_margin_nats = 0.0;  ///< ahead of the best lever that points the other way
-  double length_margin_nats = 0.0;  ///< ahead of the best one that is 20 mm shorter or longer
-  double gain_nats = 0.0;           ///< ahead of the bare door
+  int rays = 0;               ///< looked at
+  int hits = 0;               ///< rays with at least half of their footprint on it
+  double inlier_ratio = 0.0;  ///< of the hits, those with a range that agrees
+  double see_through = 0.0;   ///< of the hits, those whose beam went on behind the handle
+  double rms_m = 0.0;         ///< of the agreeing ranges
+  double covered = 0.0;       ///< of the lever's length, the fraction with agreeing hits
+  double beside = 0.0;        ///< fraction of the rays round it that end before the door
+  /// Odds against the best lever that points the other way: 0.75 for each deviation over scan lines
+  /// that it is behind, and edges_nats.
+  double mirror_margin_nats = 0.0;
+  double edges_nats = 0.0;               ///< what the door's edges say of the way (EdgesForWay)
+  double length_margin_nats = 0.0;       ///< ahead of the best one that is 20 mm shorter or longer
+  double gain_nats = 0.0;                ///< ahead of the bare door
   double alternative_margin_nats = 0.0;  ///< ahead of the best knob, pull bar, bow or box
   std::string best_alternative;          ///< "knob", "pull bar", "bow", "box"
 };

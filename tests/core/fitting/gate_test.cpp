@@ -340,12 +340,12 @@ TEST(Reasons, OfDoorHandlesFailAsTheyAreStated) {
                       .rms_m = 0.008,
                       .covered = random.Uniform(0.3, 1.0),
                       .beside = random.Uniform(0.0, 0.4),
-                      .mirror_margin_nats = random.Uniform(-20.0, 60.0),
+                      .mirror_margin_nats = random.Uniform(0.0, 12.0),
                       .length_margin_nats = random.Uniform(-5.0, 60.0),
                       .gain_nats = random.Uniform(10.0, 500.0),
                       .alternative_margin_nats = random.Uniform(-20.0, 100.0),
                       .best_alternative = "knob"};
-    ExpectStatedGatesFail(AssessHandle(rays, found, {}, {}), &stated);
+    ExpectStatedGatesFail(AssessHandle(rays, found, {}, 0.0), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
 }

@@ -64,10 +64,14 @@ std::shared_ptr<Scene> DoorWithHandle(const Pose& at, double length_m) {
   return scene;
 }
 
-/// Beams 0.25 deg apart on lines 0.4 deg apart, about 0.14 m round the middle of the view; each
-/// reads the mean of nine rays over its footprint, so that edges are mixed as a lidar's are.
-RaySet RaysOf(const std::shared_ptr<const Scene>& scene, double sigma_m, std::uint64_t seed) {
-  constexpr double kBeam_rad = 0.00436, kLine_rad = 0.007, kHalf_rad = 0.12;
+constexpr double kHalf_rad = 0.12;
+
+/// Beams 0.25 deg apart on lines 0.4 deg apart, about 0.14 m round the middle of the view and
+/// `aside_rad` to each side; each reads the mean of nine rays over its footprint, so that edges are
+/// mixed as a lidar's are.
+RaySet RaysOf(const std::shared_ptr<const Scene>& scene, double sigma_m, std::uint64_t seed,
+              double aside_rad = kHalf_rad) {
+  constexpr double kBeam_rad = 0.00436, kLine_rad = 0.007;
   constexpr double kHeight_rad = 0.012, kWidth_rad = 0.005;
   const RayCaster caster(scene);
   Random random(seed);
@@ -82,7 +86,7 @@ RaySet RaysOf(const std::shared_ptr<const Scene>& scene, double sigma_m, std::ui
   int line = 0;
   for (double up = -kHalf_rad; up < kHalf_rad; up += kLine_rad, ++line) {
     int beam = 0;
-    for (double aside = -kHalf_rad; aside < kHalf_rad; aside += kBeam_rad, ++beam) {
+    for (double aside = -aside_rad; aside < aside_rad; aside += kBeam_rad, ++beam) {
       double sum_m = 0.0;
       for (int i = -1; i <= 1; ++i)
         for (int j = -1; j <= 1; ++j)
@@ -121,7 +125,7 @@ TEST(FitHandle, FindsPivotDirectionLengthAndDoorOfALeverThatPointsEitherWay) {
     EXPECT_LT(TurnError_deg(*found, truth), 5.0) << turn;
     EXPECT_NEAR(found->best.model.length_m, 0.125, 0.015) << turn;
     EXPECT_LT(found->door.normal.dot(Eigen::Vector3d::UnitX()), -0.999);
-    EXPECT_GT(found->evidence.mirror_margin_nats, 3.0) << turn;
+    EXPECT_GT(found->evidence.mirror_margin_nats, 0.7) << turn;
     const auto points_the_other_way = [&](const HandleCandidate& alternative) {
       return alternative.base_from_object.Rotate(Eigen::Vector3d::UnitX())
                  .dot(truth.Rotate(Eigen::Vector3d::UnitX())) < 0.0;
@@ -162,6 +166,26 @@ TEST(FitHandle, AKnobALightSwitchAndAPullBarAreNotLikely) {
         << found->evidence.mirror_margin_nats << " " << found->verdict.probability << ": "
         << found->verdict.reason;
     EXPECT_FALSE(found->verdict.reason.empty());
+  }
+}
+
+TEST(FitHandle, OfABarThatLooksTheSameEitherWayTheDoorsEdgeSaysWhichWayItPoints) {
+  constexpr double kEnd_m = 0.06;
+  for (const double side : {-1.0, 1.0}) {  // of the frame, which stands 20 mm before the leaf
+    auto scene = Door();
+    const Pose middle = OnDoor(0.0);
+    AddBar(middle, {-kEnd_m, 0.0, 0.0}, {kEnd_m, 0.0, 0.0}, 0.010, *scene);
+    Add(BoxShape({0.1, 1.0, 4.0}),
+        Pose(Eigen::Quaterniond::Identity(), {kDoor_m + 0.03, 0.02 + side * 0.63, 0.0}), *scene);
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      RaySet rays = RaysOf(scene, 0.012, seed);
+      rays.around = std::make_shared<const RaySet>(RaysOf(scene, 0.012, seed, 0.4));
+      const auto found = FitHandle(rays, {}, {});
+      ASSERT_TRUE(found) << found.error().message;
+      const Eigen::Vector3d lever = found->best.base_from_object.Rotate(Eigen::Vector3d::UnitX());
+      EXPECT_LT(side * lever.y(), -0.9) << "seed " << seed;
+      EXPECT_GT(found->evidence.edges_nats, 3.0);
+    }
   }
 }
 
