@@ -115,6 +115,12 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
   facts.push_back({OperatorText("Support"), Support(drill.evidence)});
 }
 
+/// A lever points away from it.
+std::string DoorsEdge(const HandleEvidence& evidence) {
+  if (evidence.edges_nats > 0.0) return OperatorText("behind the pivot");
+  return evidence.edges_nats < 0.0 ? OperatorText("beyond the tip") : OperatorText("not seen");
+}
+
 void AddFacts(const HandleDetection& handle, int candidate, const RobotFromBase& robot_from_base,
               std::vector<Fact>& facts) {
   const auto pose = robot_from_base * CandidatePose(handle, candidate);
@@ -133,6 +139,7 @@ void AddFacts(const HandleDetection& handle, int candidate, const RobotFromBase&
   facts.push_back({OperatorText("Off the door"), Millimetres(handle.best.model.standoff_m)});
   facts.push_back(
       {OperatorText("Turned round"), MarginInWords(handle.evidence.mirror_margin_nats)});
+  facts.push_back({OperatorText("Door's edge"), DoorsEdge(handle.evidence)});
   facts.push_back({OperatorText("Support"), Support(handle.evidence)});
 }
 

@@ -223,6 +223,7 @@ class HandleFit {
     if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
       return Cancelled();
     std::vector<HandleState> others = {mirrored};
+    others.front().score = best.score - found.Ahead();
     // Where the options allow no other length none is near.
     double best_length = best.score - kFarBehind_nats;
     bool tried = false;

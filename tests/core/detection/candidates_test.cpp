@@ -145,6 +145,19 @@ TEST(Facts, ABodyThatLeansByLessThanIsKnownStandsUpright) {
   }));
 }
 
+TEST(Facts, OfADoorHandleTheDoorsEdgeIsTold) {
+  HandleDetection handle;
+  const auto edge = [&](double edges_nats) {
+    handle.evidence.edges_nats = edges_nats;
+    for (const Fact& fact : FactsOf(handle, 0, {}))
+      if (fact.name == "Door's edge") return fact.value;
+    return std::string();
+  };
+  EXPECT_EQ(edge(4.0), "behind the pivot");
+  EXPECT_EQ(edge(-4.0), "beyond the tip");
+  EXPECT_EQ(edge(0.0), "not seen");
+}
+
 TEST(Candidates, AnAlternativeThatIsClearlyBehindIsUnsureHoweverSureTheBestAnswerIs) {
   ValveDetection valve = ValveWithAnAlternative();
   valve.verdict.level = VerdictLevel::kConfirmed;
