@@ -115,6 +115,13 @@ void AddFacts(const DrillDetection& drill, int candidate, const RobotFromBase& r
   facts.push_back({OperatorText("Support"), Support(drill.evidence)});
 }
 
+/// Of odds that mean what they say: "74 : 1 against".
+std::string OddsAgainst(double nats) {
+  const double odds = std::exp(std::clamp(nats, 0.0, 14.0));
+  const double step = std::pow(10.0, std::max(0.0, std::floor(std::log10(odds)) - 1.0));
+  return OperatorText("{:.0f} : 1 against", step * std::round(odds / step));
+}
+
 /// A lever points away from it.
 std::string DoorsEdge(const HandleEvidence& evidence) {
   if (evidence.edges_nats > 0.0) return OperatorText("behind the pivot");
@@ -137,8 +144,7 @@ void AddFacts(const HandleDetection& handle, int candidate, const RobotFromBase&
   facts.push_back({OperatorText("Length"), WithSigma(Millimetres(handle.best.model.length_m),
                                                      Millimetres(handle.sigma_length_m, 1))});
   facts.push_back({OperatorText("Off the door"), Millimetres(handle.best.model.standoff_m)});
-  facts.push_back(
-      {OperatorText("Turned round"), MarginInWords(handle.evidence.mirror_margin_nats)});
+  facts.push_back({OperatorText("Turned round"), OddsAgainst(handle.evidence.mirror_margin_nats)});
   facts.push_back({OperatorText("Door's edge"), DoorsEdge(handle.evidence)});
   facts.push_back({OperatorText("Support"), Support(handle.evidence)});
 }

@@ -158,6 +158,15 @@ TEST(Facts, OfADoorHandleTheDoorsEdgeIsTold) {
   EXPECT_EQ(edge(0.0), "not seen");
 }
 
+TEST(Facts, OfADoorHandleTheOddsAgainstTheOtherWayAreTold) {
+  HandleDetection handle;
+  handle.evidence.mirror_margin_nats = 6.0;
+  const auto facts = FactsOf(handle, 0, {});
+  EXPECT_TRUE(std::any_of(facts.begin(), facts.end(), [](const Fact& fact) {
+    return fact.name == "Turned round" && fact.value == "400 : 1 against";
+  }));
+}
+
 TEST(Candidates, AnAlternativeThatIsClearlyBehindIsUnsureHoweverSureTheBestAnswerIs) {
   ValveDetection valve = ValveWithAnAlternative();
   valve.verdict.level = VerdictLevel::kConfirmed;
