@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/fitting/drill/pattern_search.h"
+#include "core/fitting/solids/pattern_search.h"
 
 namespace foresight {
 namespace {

@@ -10,8 +10,8 @@
 #include "core/base/quantile.h"
 #include "core/fitting/beam_model.h"
 #include "core/fitting/common_gates.h"
-#include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/gate.h"
+#include "core/fitting/solids/solid_tracer.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fitting/drill/pattern_search.h"
-#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/solids/pattern_search.h"
+#include "core/fitting/solids/solid_tracer.h"
 #include "core/geometry/rotation_between.h"
 
 namespace foresight {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/base/quantile.h"
-#include "core/fitting/drill/pattern_search.h"
+#include "core/fitting/solids/pattern_search.h"
 
 namespace foresight {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/fitting/drill/drill_state.h"
-#include "core/fitting/drill/solid_likelihood.h"
+#include "core/fitting/solids/solid_likelihood.h"
 
 namespace foresight {
 

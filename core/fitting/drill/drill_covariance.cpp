@@ -7,9 +7,9 @@
 
 #include "core/base/squared.h"
 #include "core/fitting/beam_model.h"
-#include "core/fitting/drill/solid_likelihood.h"
-#include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/line_covariance.h"
+#include "core/fitting/solids/solid_likelihood.h"
+#include "core/fitting/solids/solid_tracer.h"
 
 namespace foresight {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/fitting/best_distinct.h"
-#include "core/fitting/drill/pattern_search.h"
+#include "core/fitting/solids/pattern_search.h"
 
 namespace foresight {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/fitting/drill/drill_state.h"
-#include "core/fitting/drill/solid_likelihood.h"
+#include "core/fitting/solids/solid_likelihood.h"
 
 namespace foresight {
 

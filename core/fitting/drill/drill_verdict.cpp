@@ -7,10 +7,10 @@
 #include "core/fitting/beam_model.h"
 #include "core/fitting/common_gates.h"
 #include "core/fitting/compressed_nats.h"
-#include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/gate.h"
 #include "core/fitting/region_place.h"
+#include "core/fitting/solids/solid_tracer.h"
 #include "core/fitting/verdict_model.h"
 #include "core/geometry/angles.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/fit_drill.h"
-#include "core/fitting/drill/solid_likelihood.h"
+#include "core/fitting/solids/solid_likelihood.h"
 
 namespace foresight {
 

@@ -13,10 +13,10 @@
 #include "core/fitting/drill/drill_search.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/drill_verdict.h"
-#include "core/fitting/drill/solid_likelihood.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/region_place.h"
+#include "core/fitting/solids/solid_likelihood.h"
 
 namespace foresight {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
 #include "core/fitting/best_distinct.h"
-#include "core/fitting/drill/pattern_search.h"
-#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/solids/pattern_search.h"
+#include "core/fitting/solids/solid_tracer.h"
 
 namespace foresight {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/fitting/drill/closest_on_ray.h"
+#include "core/fitting/solids/closest_on_ray.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/fitting/drill/solid_tracer.h"
 #include "core/fitting/ray_set.h"
+#include "core/fitting/solids/solid_tracer.h"
 #include "core/geometry/plane.h"
 #include "core/objects/solid_part.h"
 

@@ -1,4 +1,4 @@
-#include "core/fitting/drill/pattern_search.h"
+#include "core/fitting/solids/pattern_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/solids/solid_tracer.h"
 
 #include <gtest/gtest.h>
 

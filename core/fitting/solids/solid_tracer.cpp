@@ -1,10 +1,10 @@
-#include "core/fitting/drill/solid_tracer.h"
+#include "core/fitting/solids/solid_tracer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/fitting/drill/closest_on_ray.h"
+#include "core/fitting/solids/closest_on_ray.h"
 
 namespace foresight {
 namespace {

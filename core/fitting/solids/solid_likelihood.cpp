@@ -1,4 +1,4 @@
-#include "core/fitting/drill/solid_likelihood.h"
+#include "core/fitting/solids/solid_likelihood.h"
 
 #include <cmath>
 #include <utility>
