@@ -17,9 +17,10 @@ namespace foresight::samples {
 struct ValveView {
   ValveModel model;
   double distance_m = 1.3;
-  double view_rad = 0.3;  ///< between the wheel's axis and the line of sight
-  double turn_rad = 0.2;  ///< of the wheel around its axis
-  double wall_m = 0.12;   ///< from the rim's plane back to the wall
+  double view_rad = 0.3;       ///< between the wheel's axis and the line of sight
+  double turn_rad = 0.2;       ///< of the wheel around its axis
+  double wall_m = 0.12;        ///< from the rim's plane back to the wall
+  double wall_turn_rad = 0.0;  ///< of the wall about x: near 90 deg it is a floor, wall_m below
   enum class Object { kWheel, kNothing, kBox, kBall } object = Object::kWheel;
   bool pipe = true;                  ///< a pipe runs along the wall beside the wheel
   double half_angle_rad = 0.0;       ///< of the region; 0 = a third more than the rim
@@ -47,7 +48,8 @@ inline double CapsuleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a
 
 /// Distance of a point in the object's frame to anything.
 inline double SceneDistance(const ValveView& view, const Eigen::Vector3d& p) {
-  double distance = p.z() + view.wall_m;
+  double distance =
+      std::sin(view.wall_turn_rad) * p.y() + std::cos(view.wall_turn_rad) * p.z() + view.wall_m;
   const double far = view.model.rim_radius_m;
   if (view.pipe)
     distance = std::min(distance, CapsuleDistance(p, {-1.0, 0.8 * far, -view.wall_m + 0.03},

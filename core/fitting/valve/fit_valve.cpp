@@ -77,13 +77,24 @@ Status CheckForeground(const RaySet& rays, const WallSplit& split) {
               split.foreground.size(), rays.rays.size());
 }
 
-/// Where a valve's axis points, roughly.
-Eigen::Vector3d Facing(const RaySet& rays, const WallSplit& split) {
-  if (split.wall) return split.wall->normal;
+/// From what stands before the wall to the viewer.
+Eigen::Vector3d Sight(const RaySet& rays, const WallSplit& split) {
   const Eigen::Vector3d middle = std::accumulate(split.foreground.begin(), split.foreground.end(),
                                                  Eigen::Vector3d(Eigen::Vector3d::Zero())) /
                                  static_cast<double>(split.foreground.size());
   return (rays.viewpoint - middle).normalized();
+}
+
+/// Where a valve's axis points, roughly: off its wall. What is seen as the largest plane need not
+/// be its wall. Through a wheel that stands free it is the floor; then the axis may point to the
+/// viewer as well.
+std::vector<Eigen::Vector3d> Facings(const RaySet& rays, const WallSplit& split) {
+  const Eigen::Vector3d sight = Sight(rays, split);
+  if (!split.wall) return {sight};
+  std::vector<Eigen::Vector3d> facings = {split.wall->normal};
+  if (sight.dot(split.wall->normal) < std::cos(RimSearchOptions().max_tilt_rad))
+    facings.push_back(sight);
+  return facings;
 }
 
 /// Where rims may be.
@@ -93,17 +104,19 @@ std::vector<ValveCandidate> SearchRims(const RaySet& rays, const WallSplit& spli
   Random random(options.seed, kRims);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
   RimSearchOptions search;
-  search.facing = Facing(rays, split);
   search.min_radius_m = options.min_rim_radius_m;
   search.max_radius_m = options.max_rim_radius_m;
   search.tolerance_m = 2.0 * rays.sigma_m + 0.008;
   search.trials = options.circle_trials;
   std::vector<ValveCandidate> rims;
-  for (const RimHypothesis& rim : FindRims(points, search, random))
-    rims.push_back(RimFrom(rim, kTubeRadius_m));
-  const std::vector<ValveCandidate> thin =
-      SearchThinRims(points, rays.viewpoint, coarse, search, random);
-  rims.insert(rims.end(), thin.begin(), thin.end());
+  for (const Eigen::Vector3d& facing : Facings(rays, split)) {
+    search.facing = facing;
+    for (const RimHypothesis& rim : FindRims(points, search, random))
+      rims.push_back(RimFrom(rim, kTubeRadius_m));
+    const std::vector<ValveCandidate> thin =
+        SearchThinRims(points, rays.viewpoint, coarse, search, random);
+    rims.insert(rims.end(), thin.begin(), thin.end());
+  }
   return rims;
 }
 
@@ -133,7 +146,7 @@ Result<std::optional<ValveCandidate>> FitLever(const RaySet& rays, const WallSpl
   Random random(options.seed, kLevers);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
   LeverSearchOptions search;
-  search.facing = Facing(rays, split);
+  search.facing = Facings(rays, split).back();
   search.tolerance_m = 1.5 * rays.sigma_m + 0.012;
   const std::vector<ValveCandidate> found = FindLevers(points, search, random);
   // Each as it was found and refined.

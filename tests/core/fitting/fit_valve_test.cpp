@@ -108,6 +108,25 @@ TEST(FitValve, ItsPlaceAlongTheAxisIsLessSureThanTheFrontOfARimWhoseDepthIsNotSe
   EXPECT_GT(found->sigma_position_m.z(), 2.0 * found->sigma_position_m.x());
 }
 
+TEST(FitValve, AWheelThatStandsFreeIsFoundThoughTheLargestPlaneIsTheFloorBehindIt) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    ValveView view = RandomValveView(seed);
+    view.model.spokes = 3;
+    view.distance_m = 1.3;
+    view.view_rad = 0.2;
+    view.pipe = false;
+    view.wall_m = 0.35;
+    view.wall_turn_rad = 1.3;
+    const ValveScene scene = MakeValveScene(view);
+    const auto found = FitValve(scene.rays, {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    const ValveError error = CompareValves(found->best, scene.truth);
+    EXPECT_TRUE(error.spokes_right) << found->best.model.spokes;
+    EXPECT_LT(error.center_m, 0.020) << seed;
+    EXPECT_LT(DegreesFromRadians(error.axis_rad), 5.0) << seed;
+  }
+}
+
 TEST(FitValve, ADiscHasNoPhase) {
   ValveView view = RandomValveView(2);
   view.model.spokes = 0;
