@@ -11,8 +11,8 @@ namespace {
 
 Result<ValveDetection> FitToDepth(const DepthResult& depth, const DemoSubject& subject,
                                   const RunContext& context) {
-  return FitValveInScan({subject.rig, subject.cloud, &depth}, FitSource::kDepthAlone, subject.roi,
-                        FitValveOptions(), context);
+  return FitValveInScan({subject.rig, subject.cloud, {}, &depth}, FitSource::kDepthAlone,
+                        subject.roi, FitValveOptions(), context);
 }
 
 Result<ValveDetection> FitToDepthOf(DepthMethod method, const DemoSubject& subject,

@@ -30,6 +30,7 @@ struct EvaluateFitsArguments {
   std::vector<std::string> sources = {"raw", "foresight"};
   double rotation_error_deg = 0.0;
   double translation_error_mm = 0.0;
+  double outline_weight = ImageEdges::kIndependentPerPixel;
   std::string table;  ///< empty = kept in memory only
   std::string what;   ///< pattern of the scenes that are counted; empty = all
   bool json = false;
@@ -49,6 +50,7 @@ Result<FitTrialOptions> TrialOptionsFrom(const EvaluateFitsArguments& arguments)
   if (arguments.rotation_error_deg > 0.0 || arguments.translation_error_mm > 0.0)
     options.rig_error = CalibrationError{RadiansFromDegrees(arguments.rotation_error_deg),
                                          arguments.translation_error_mm / 1000.0};
+  options.outline_weight = arguments.outline_weight;
   FORESIGHT_CHECK(options.Check());
   return options;
 }
@@ -340,6 +342,12 @@ void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation) {
       ->add_option("--translation-error-mm", arguments->translation_error_mm,
                    "How far the lidar's believed pose is shifted from the true one")
       ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--outline-weight", arguments->outline_weight,
+          "What a pixel of an outline counts where fits look at the image; 0 = they do not")
+      ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--table", arguments->table,
                       "File for the outcomes, one JSON object a line; seeds that are in it already "

@@ -119,7 +119,7 @@ Status CheckInImage(const Roi& roi, const CameraModel& camera) {
 Result<Detection> FitInPlainRays(const RaysOfRegion& rays_of, const FitSubject& subject,
                                  const std::string& source, const FitOptions& options,
                                  const RunContext& context) {
-  FORESIGHT_TRY(Detection detection, FitInRegion(rays_of, subject.roi, options, context));
+  FORESIGHT_TRY(Detection detection, FitInRegion(rays_of, {}, subject.roi, options, context));
   OriginOf(detection).roi = subject.roi;
   OriginOf(detection).source = source;
   return detection;
@@ -227,13 +227,13 @@ FitAnswer FitIn(const FitSubject& subject, const FitArguments& arguments, const 
                            subject, "cloud", *options, context),
             {}};
   if (source == "raw")
-    return {
-        FitInScan({subject.rig, subject.cloud}, FitSource::kRaw, subject.roi, *options, context),
-        {}};
+    return {FitInScan({subject.rig, subject.cloud, subject.scan->scan.frames}, FitSource::kRaw,
+                      subject.roi, *options, context),
+            {}};
   auto depth = DepthFor(subject, arguments, source, context.Part(0.0, 0.6));
   if (!depth) return {tl::unexpected(depth.error()), {}};
-  auto detection = FitInScan({subject.rig, subject.cloud, &*depth}, FitSourceOf(source),
-                             subject.roi, *options, context.Part(0.6, 1.0));
+  auto detection = FitInScan({subject.rig, subject.cloud, subject.scan->scan.frames, &*depth},
+                             FitSourceOf(source), subject.roi, *options, context.Part(0.6, 1.0));
   return {std::move(detection), std::move(*depth)};
 }
 

@@ -5,6 +5,7 @@
 #include "core/base/atomic_file.h"
 #include "core/evaluation/fit_outcome_json.h"
 #include "core/evaluation/fit_populations.h"
+#include "core/evaluation/plain_cloud.h"
 #include "core/evaluation/verdict_fit.h"
 #include "core/evaluation/verdict_trial.h"
 
@@ -25,6 +26,7 @@ struct VerdictArguments {
 
 VerdictSource SourceOf(const FitOutcome& outcome) {
   if (outcome.source == "raw") return VerdictSource::kRaw;
+  if (outcome.source == kCloudSource) return VerdictSource::kCloud;
   return outcome.source.ends_with(kAloneSuffix) ? VerdictSource::kAlone : VerdictSource::kDense;
 }
 
@@ -130,9 +132,11 @@ void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
       ->required()
       ->check(CLI::IsMember(FitPopulationKinds()));
   fit->add_option("tables", arguments->tables, "Outcomes, one JSON object a line")->required();
-  fit->add_option("--source", arguments->source,
-                  "raw, dense (maps with the beams behind them) or alone (maps alone)")
-      ->check(CLI::IsMember({"raw", "dense", "alone"}))
+  fit->add_option(
+         "--source", arguments->source,
+         "raw (returns of scans), cloud (returns alone), dense (maps with the beams behind "
+         "them) or alone (maps alone)")
+      ->check(CLI::IsMember({"raw", "cloud", "dense", "alone"}))
       ->capture_default_str();
   fit->add_option("--population", arguments->population,
                   "How the outcomes were made, for the file: scenes, seeds, sources");

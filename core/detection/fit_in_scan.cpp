@@ -7,6 +7,8 @@
 
 #include "core/base/quantile.h"
 #include "core/depth/depth_method.h"
+#include "core/detection/fit_option_table.h"
+#include "core/detection/image_of_region.h"
 #include "core/fitting/range_noise.h"
 
 namespace foresight {
@@ -87,6 +89,10 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
   return FitValveOptions();
 }
 
+bool UsesImage(ObjectKind kind) {
+  return kind == ObjectKind::kDrill || kind == ObjectKind::kHandle;
+}
+
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                           BoxRays box_rays) {
   if (source == FitSource::kRaw)
@@ -134,11 +140,13 @@ Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
   return FitValve(rays, std::get<FitValveOptions>(options), context);
 }
 
-Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const Roi& roi,
-                              const FitOptions& options, const RunContext& context) {
+Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const ImageOfRays& image_of,
+                              const Roi& roi, const FitOptions& options,
+                              const RunContext& context) {
   const bool is_box = std::holds_alternative<BoxRoi>(roi);
   const auto rays_in_roi = [&](BoxRays box_rays) -> Result<RaySet> {
     FORESIGHT_TRY(RaySet rays, rays_of(roi, box_rays));
+    if (image_of && UsesImage(ObjectKindOf(options))) rays.image = image_of(rays);
     const bool on_door = std::holds_alternative<FitHandleOptions>(options);
     return on_door ? WithSurroundings(std::move(rays), rays_of) : std::move(rays);
   };
@@ -164,7 +172,13 @@ Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const R
   const auto rays_of = [&](const Roi& region, BoxRays box) {
     return RaysInScan(scan, source, region, box);
   };
-  FORESIGHT_TRY(Detection detection, FitInRegion(rays_of, roi, options, context));
+  const auto image_of = [&](const RaySet& rays) {
+    return ImageOfRegion(scan.frames, scan.rig, roi, rays, scan.outline_weight);
+  };
+  const bool looks_at_image = source != FitSource::kDepthAlone && scan.outline_weight > 0.0;
+  FORESIGHT_TRY(Detection detection,
+                FitInRegion(rays_of, looks_at_image ? ImageOfRays(image_of) : ImageOfRays(), roi,
+                            options, context));
   OriginOf(detection).roi = roi;
   OriginOf(detection).source = NameOf(
       {source, scan.depth != nullptr ? scan.depth->options.method : DepthMethod::kForesight});

@@ -2,19 +2,23 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 
+#include "core/base/shared_list.h"
 #include "core/depth/pipeline.h"
 #include "core/detection/detection.h"
 #include "core/fitting/cylinder/fit_cylinder.h"
 #include "core/fitting/drill/fit_drill.h"
 #include "core/fitting/handle/fit_handle.h"
+#include "core/fitting/solids/image_edges.h"
 #include "core/fitting/terrain/fit_terrain.h"
 #include "core/fitting/valve/fit_valve.h"
+#include "core/sensor/camera_frame.h"
 
 namespace foresight {
 
@@ -35,12 +39,15 @@ struct NamedSource {
 Result<NamedSource> FitSourceFromName(std::string_view name);
 std::string NameOf(const NamedSource& source);
 
-/// A scan as far as it has been processed. Nothing is owned.
+/// A scan as far as it has been processed. It owns none of it; frames are shared.
 struct ProcessedScan {
   const SensorRig& rig;
   const RegisteredScan& cloud;
-  const DepthResult* depth = nullptr;  ///< needed for kDepth and kDepthAlone
-  const MaskImage* mask = nullptr;     ///< instead of depth->mask, where a threshold was moved
+  SharedList<CameraFrame> frames = {};  ///< what the camera saw; none = beams alone
+  const DepthResult* depth = nullptr;   ///< needed for kDepth and kDepthAlone
+  const MaskImage* mask = nullptr;      ///< instead of depth->mask, where a threshold was moved
+  /// What a pixel of an outline counts; another value to choose it, 0 = the image is not looked at.
+  double outline_weight = ImageEdges::kIndependentPerPixel;
 };
 
 /// What to look for, and how; in the order of Detection's alternatives.
@@ -74,23 +81,31 @@ Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPl
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
                             const RunContext& context);
 
+/// Whether fits to a kind look at the image: those whose outline is known.
+bool UsesImage(ObjectKind kind);
+
 /// Gives the rays of a region.
 using RaysOfRegion = std::function<Result<RaySet>(const Roi&, BoxRays)>;
 
-/// The same for a region whose rays `rays_of` gives. Of a wheel, a drill or a lever that a box is
-/// drawn tightly round, the wall behind the box tells what stands in front of it, so the beams that
-/// went through count too. What stands in a large box, as a pier, stands in front of the far wall
-/// itself and may hide the object: where that fit is UNSURE or finds nothing, the rays that end
-/// inside are tried alone, and the answer of the higher probability is given. A terrain's box holds
-/// its ground. Of a cylinder the beams that went past on both sides fix the radius: they always
-/// count. A door handle is told what lies within 0.5 m of its region, too (RaySet::around). Fails
-/// as the first of both fits, and as `rays_of`.
-Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const Roi& roi,
-                              const FitOptions& options, const RunContext& context);
+/// Gives what the camera saw round the rays of the region; null where nothing shows it.
+using ImageOfRays = std::function<std::shared_ptr<const ImageEdges>(const RaySet&)>;
+
+/// The same for a region whose rays `rays_of` gives. A drill's outline is compared with the image
+/// that `image_of` gives; without `image_of` there is none. Of a wheel, a drill or a lever that a
+/// box is drawn tightly round, the wall behind the box tells what stands in front of it, so the
+/// beams that went through count too. What stands in a large box, as a pier, stands in front of the
+/// far wall itself and may hide the object: where that fit is UNSURE or finds nothing, the rays
+/// that end inside are tried alone, and the answer of the higher probability is given. A terrain's
+/// box holds its ground. Of a cylinder the beams that went past on both sides fix the radius: they
+/// always count. A door handle is told what lies within 0.5 m of its region, too (RaySet::around).
+/// Fails as the first of both fits, and as `rays_of`.
+Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const ImageOfRays& image_of,
+                              const Roi& roi, const FitOptions& options, const RunContext& context);
 
 /// From a region to a detection, with the noise and the thinning that belong to the source: the one
-/// way that every program takes, so that a number never differs between them. Region and source are
-/// noted in the result. Fails as RaysInScan and FitInRays do.
+/// way that every program takes, so that a number never differs between them. A depth map alone is
+/// judged without the image. Region and source are noted in the result. Fails as RaysInScan and
+/// FitInRays do.
 Result<Detection> FitInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,
                             const FitOptions& options, const RunContext& context);
 

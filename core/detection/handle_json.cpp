@@ -31,6 +31,8 @@ Json EvidenceJson(const HandleEvidence& evidence) {
           {"beside", evidence.beside},
           {"mirror_margin_nats", evidence.mirror_margin_nats},
           {"edges_nats", evidence.edges_nats},
+          {"image_nats", evidence.image_nats},
+          {"outline_nats_per_px", evidence.outline_nats_per_px},
           {"length_margin_nats", evidence.length_margin_nats},
           {"gain_nats", evidence.gain_nats},
           {"alternative_margin_nats", evidence.alternative_margin_nats},
@@ -47,7 +49,13 @@ HandleEvidence HandleEvidenceFrom(const Json& value) {
   evidence.covered = NumberFrom(value.at("covered"));
   evidence.beside = NumberFrom(value.at("beside"));
   evidence.mirror_margin_nats = NumberFrom(value.at("mirror_margin_nats"));
-  if (value.contains("edges_nats")) evidence.edges_nats = NumberFrom(value["edges_nats"]);
+  // Answers of earlier programs do not have all of these.
+  const auto newer = [&](const char* key) {
+    return value.contains(key) ? NumberFrom(value[key]) : 0.0;
+  };
+  evidence.edges_nats = newer("edges_nats");
+  evidence.image_nats = newer("image_nats");
+  evidence.outline_nats_per_px = newer("outline_nats_per_px");
   evidence.length_margin_nats = NumberFrom(value.at("length_margin_nats"));
   evidence.gain_nats = NumberFrom(value.at("gain_nats"));
   evidence.alternative_margin_nats = NumberFrom(value.at("alternative_margin_nats"));

@@ -72,14 +72,19 @@ Result<FitWorld> FitWorldFromString(const std::string& name) {
   return Fail(ErrorCode::kBadData, "world '{}' is none of home, varied, other", name);
 }
 
-bool FitTrialOptions::NeedsImage() const {
-  return std::any_of(sources.begin(), sources.end(),
-                     [](const NamedSource& source) { return source.source != FitSource::kRaw; });
+bool FitTrialOptions::NeedsImage(ObjectKind kind) const {
+  const bool for_beams = UsesImage(kind) && outline_weight > 0.0;
+  return for_beams || std::any_of(sources.begin(), sources.end(), [](const NamedSource& source) {
+           return source.source != FitSource::kRaw;
+         });
 }
 
 Status FitTrialOptions::Check() const {
   if (sources.empty() && !plain_cloud)
     return Fail(ErrorCode::kInvalidOptions, "trial of fits: no source is named");
+  if (!(outline_weight >= 0.0 && outline_weight <= 10.0))
+    return Fail(ErrorCode::kInvalidOptions, "trial of fits: outline weight {} is not in [0, 10]",
+                outline_weight);
   return rig_error ? rig_error->Check() : Status();
 }
 
@@ -92,7 +97,8 @@ Result<FitTrial> MakeFitTrial(const FitPopulation& population, std::uint64_t see
   scene.world.camera.samples_side = 1;
   FORESIGHT_CHECK(scene.world.Check());
   const World world(scene.scene, DefaultSensorRig(), scene.world);
-  FORESIGHT_TRY(Scan scan, Simulated(world, scene.plan, options.NeedsImage(), context));
+  FORESIGHT_TRY(Scan scan,
+                Simulated(world, scene.plan, options.NeedsImage(population.Kind()), context));
   if (const auto& error = options.rig_error ? options.rig_error : scene.rig_error)
     scan.rig = MiscalibratedRig(scan.rig, *error, seed);
   if (scene.scanned < 1.0) Interrupt(scene.scanned, scan);
@@ -113,7 +119,8 @@ Result<std::vector<FitOutcome>> RunFitTrial(const FitPopulation& population, std
   std::vector<FitOutcome> outcomes;
   std::map<DepthMethod, DepthResult> depths;
   for (const NamedSource& source : options.sources) {
-    ProcessedScan scan{trial.rig, trial.cloud};
+    ProcessedScan scan{trial.rig, trial.cloud, {trial.frame}};
+    scan.outline_weight = options.outline_weight;
     if (source.source != FitSource::kRaw) {
       if (!depths.contains(source.method)) {
         FORESIGHT_TRY(DepthResult depth,

@@ -57,7 +57,7 @@ struct FitTrial {
   World world;    ///< the true head in it
   SensorRig rig;  ///< the believed one
   RegisteredScan cloud;
-  CameraFrame frame;  ///< its image is empty where no dense source was asked for
+  CameraFrame frame;  ///< its image is empty where no fit needs it
   Roi roi;            ///< as an operator draws it
 
   /// Truth in the believed head's base.
@@ -109,8 +109,10 @@ struct FitTrialOptions {
   std::vector<NamedSource> sources = {{}};    ///< what is fitted to; the lidar's returns
   bool plain_cloud = false;                   ///< and, as kCloudSource, a cloud without its scan
   std::optional<CalibrationError> rig_error;  ///< of the believed rig; none = perfect
+  /// ProcessedScan::outline_weight; 0 = fits to returns see no image.
+  double outline_weight = ImageEdges::kIndependentPerPixel;
 
-  bool NeedsImage() const;
+  bool NeedsImage(ObjectKind kind) const;
   Status Check() const;
 };
 

@@ -22,7 +22,7 @@ Result<Detection> FitInPlainCloud(const PlainCloud& cloud, const SensorRig& rig,
   const auto rays_of = [&](const Roi& region, BoxRays box_rays) {
     return RaysInCloud(cloud.points, cloud.places, cloud.viewpoint, rig, region, {}, box_rays);
   };
-  return FitInRegion(rays_of, roi, options, context);
+  return FitInRegion(rays_of, {}, roi, options, context);
 }
 
 }  // namespace foresight

@@ -14,6 +14,7 @@
 namespace foresight {
 
 struct GridPlaces;
+class ImageEdges;
 
 /// One measurement with the line of sight it was made along.
 struct RangeRay {
@@ -45,6 +46,9 @@ struct RaySet {
   /// What lies round the region, the region's own rays among it: what an object stands on goes on
   /// beyond what an operator draws. Null where it is not known.
   std::shared_ptr<const RaySet> around = nullptr;
+  /// What the camera saw round the region; null where no image shows it. For objects whose outline
+  /// is known.
+  std::shared_ptr<const ImageEdges> image = nullptr;
 
   /// How many independent measurements a ray is worth, one at most.
   double Worth() const { return std::min(1.0, samples_per_ray); }

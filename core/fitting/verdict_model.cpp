@@ -48,7 +48,7 @@ VerdictModel ModelFrom(YamlMap& map) {
   const std::string source = map.Text("source");
   const auto known = VerdictSourceFromString(source);
   if (!known)
-    map.Fault(map.Node("source"), "source '" + source + "' is none of raw, dense and alone");
+    map.Fault(map.Node("source"), "source '" + source + "' is none of raw, cloud, dense and alone");
   model.source = known.value_or(VerdictSource::kRaw);
   model.population = map.Text("population");
   model.fits = map.Integer("fits");
@@ -78,6 +78,8 @@ const char* ToString(VerdictSource source) {
       return "raw";
     case VerdictSource::kDense:
       return "dense";
+    case VerdictSource::kCloud:
+      return "cloud";
     case VerdictSource::kAlone:
       return "alone";
   }
@@ -86,13 +88,13 @@ const char* ToString(VerdictSource source) {
 
 std::optional<VerdictSource> VerdictSourceFromString(std::string_view name) {
   for (const VerdictSource source :
-       {VerdictSource::kRaw, VerdictSource::kDense, VerdictSource::kAlone})
+       {VerdictSource::kRaw, VerdictSource::kCloud, VerdictSource::kDense, VerdictSource::kAlone})
     if (name == ToString(source)) return source;
   return std::nullopt;
 }
 
 VerdictSource VerdictSourceOf(const RaySet& rays) {
-  if (!rays.dense) return VerdictSource::kRaw;
+  if (!rays.dense) return rays.image ? VerdictSource::kRaw : VerdictSource::kCloud;
   return rays.beams ? VerdictSource::kDense : VerdictSource::kAlone;
 }
 
@@ -155,7 +157,9 @@ Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::st
 
 const VerdictModel* FindVerdictModel(std::string_view object, VerdictSource source) {
   static const Models models = LoadModels();
-  const auto found = models.find({std::string(object), source});
+  auto found = models.find({std::string(object), source});
+  if (found == models.end() && source == VerdictSource::kCloud)
+    found = models.find({std::string(object), VerdictSource::kRaw});
   return found == models.end() ? nullptr : &found->second;
 }
 

@@ -14,18 +14,20 @@ struct RaySet;
 
 /// What evidence was gathered from: it weighs differently.
 enum class VerdictSource {
-  kRaw,    ///< lidar returns
+  kRaw,    ///< lidar returns, and the image beside them for objects that look at it
+  kCloud,  ///< lidar returns alone
   kDense,  ///< a dense map, whose neighbouring rays are not independent, and the beams behind it
   kAlone,  ///< a dense map alone
 };
-/// "raw", "dense", "alone".
+/// "raw", "cloud", "dense", "alone".
 const char* ToString(VerdictSource source);
 /// nullopt for any other word.
 std::optional<VerdictSource> VerdictSourceFromString(std::string_view name);
 VerdictSource VerdictSourceOf(const RaySet& rays);
 
 /// The probability that a fit is right: logistic regression on standardised evidence. Every object
-/// has one for each source (terrain, which looks at no beams behind a map, none for kAlone).
+/// has one for each source (terrain, which looks at no beams behind a map, none for kAlone; what
+/// looks at no image, none for kCloud).
 /// The files are made by `foresightctl verdict fit`, docs/verdicts.md, and hold the population that
 /// they are true for.
 struct VerdictModel {
@@ -67,8 +69,9 @@ struct VerdictModel {
 /// Fails with kBadData, naming `source` and the line at fault.
 Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::string& source);
 
-/// resources/verdicts/<object>_<source>.yaml as it was when the program was built; nullptr where
-/// there is none, as before an object's first weights were fitted.
+/// resources/verdicts/<object>_<source>.yaml as it was when the program was built, kRaw's for
+/// kCloud where there is no other; nullptr where there is none, as before an object's first weights
+/// were fitted.
 const VerdictModel* FindVerdictModel(std::string_view object, VerdictSource source);
 /// The same of an object that has one. Throws ContractViolation where there is none.
 const VerdictModel& ShippedVerdictModel(std::string_view object, VerdictSource source);

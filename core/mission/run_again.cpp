@@ -139,8 +139,8 @@ class Worker {
     entry["source"] = NameOf(source);
     FitOptions options = *provenance.fit;
     FORESIGHT_CHECK(Change(options));
-    FORESIGHT_TRY(Detection found, FitInScan({rig_, cloud_, depth}, source.source, *provenance.roi,
-                                             options, context.Part(0.5, 1.0)));
+    FORESIGHT_TRY(Detection found, FitInScan({rig_, cloud_, scan_.frames, depth}, source.source,
+                                             *provenance.roi, options, context.Part(0.5, 1.0)));
     FORESIGHT_TRY(const Provenance made,
                   ProvenanceOfFit(scan_, source.source, depth, settings_.depth.mask, options,
                                   *provenance.roi));

@@ -53,12 +53,12 @@ Result<Detection> ScanWorkbench::Fit(const Provenance& provenance, const RunCont
     FORESIGHT_TRY(depth, Depth(provenance, context.Part(0.0, 0.5)));
   }
   if (!provenance.part)
-    return FitInScan({scan_->rig, cloud_, depth}, source.source, *provenance.roi, *provenance.fit,
-                     context.Part(0.5, 1.0));
+    return FitInScan({scan_->rig, cloud_, scan_->frames, depth}, source.source, *provenance.roi,
+                     *provenance.fit, context.Part(0.5, 1.0));
   FORESIGHT_TRY(const Scan part, TakePart(*scan_, *provenance.part));
   FORESIGHT_TRY(const RegisteredScan cloud, RegisterScan(part, context.Part(0.5, 0.55)));
-  return FitInScan({scan_->rig, cloud, depth}, source.source, *provenance.roi, *provenance.fit,
-                   context.Part(0.55, 1.0));
+  return FitInScan({scan_->rig, cloud, part.frames, depth}, source.source, *provenance.roi,
+                   *provenance.fit, context.Part(0.55, 1.0));
 }
 
 }  // namespace foresight

@@ -77,13 +77,14 @@ HalfFits::State StateOf(const std::vector<HalvesDifference>& differences,
 
 Result<Detection> FitInHalf(const RegisteredScan& half, const SensorRig& rig,
                             const KeptObject& object, const RunContext& context) {
+  // Both halves have one image: with it they would agree for its sake.
   if (object.source == FitSource::kRaw)
     return FitInScan({rig, half}, object.source, object.roi, object.options, context);
   if (object.frame == nullptr)
     return Fail(ErrorCode::kInvalidInput, "the image that it was fitted on is not in the scan");
   FORESIGHT_TRY(const DepthResult depth, ComputeDepthInFrame(half, rig, *object.frame, object.depth,
                                                              context.Part(0.0, 0.3)));
-  return FitInScan({rig, half, &depth}, object.source, object.roi, object.options,
+  return FitInScan({rig, half, {}, &depth}, object.source, object.roi, object.options,
                    context.Part(0.3, 1.0));
 }
 

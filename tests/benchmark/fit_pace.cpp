@@ -54,8 +54,8 @@ Status Measure(const std::string& kind, int count, std::uint64_t first_seed) {
     FORESIGHT_TRY(const FitTrial trial, MakeFitTrial(*population, first_seed + i, options, {}));
     FORESIGHT_TRY(const DepthResult depth, ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
                                                                DefaultsOf(dense.method), {}));
-    Fit(*population, trial, {trial.rig, trial.cloud}, FitSource::kRaw, raw);
-    Fit(*population, trial, {trial.rig, trial.cloud, &depth}, dense.source, of_map);
+    Fit(*population, trial, {trial.rig, trial.cloud, {trial.frame}}, FitSource::kRaw, raw);
+    Fit(*population, trial, {trial.rig, trial.cloud, {trial.frame}, &depth}, dense.source, of_map);
   }
   Print(kind, "lidar", raw);
   Print(kind, "dense", of_map);

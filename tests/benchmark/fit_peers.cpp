@@ -364,12 +364,13 @@ Status Run(const Arguments& arguments) {
     FORESIGHT_TRY(const FitTrial trial, MakeFitTrial(*population, seed, options, one_thread));
     for (const char* source : {"raw", "dense"})
       JudgePoses({*population, trial, source, {}, {}, {}, {}, {}, tallies}, arguments.poses);
-    RunSource(*population, trial, {trial.rig, trial.cloud}, FitSource::kRaw, arguments, tallies);
+    RunSource(*population, trial, {trial.rig, trial.cloud, {trial.frame}}, FitSource::kRaw,
+              arguments, tallies);
     FORESIGHT_TRY(const DepthResult depth,
                   ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
                                       DefaultsOf(DepthMethod::kForesight), one_thread));
-    RunSource(*population, trial, {trial.rig, trial.cloud, &depth}, FitSource::kDepthAlone,
-              arguments, tallies);
+    RunSource(*population, trial, {trial.rig, trial.cloud, {trial.frame}, &depth},
+              FitSource::kDepthAlone, arguments, tallies);
     fmt::print(stderr, "\r{} of {} scenes", done, arguments.count);
   }
   fmt::print(

@@ -171,7 +171,7 @@ struct CalibrationEndToEnd : testing::Test {
     std::nth_element(squares_m2.begin(), middle, squares_m2.end());
     errors->depth_m2 += *middle;
 
-    const auto found = FitValveInScan({rig, *cloud, &*depth}, FitSource::kRaw,
+    const auto found = FitValveInScan({rig, *cloud, {}, &*depth}, FitSource::kRaw,
                                       RoundTheValve(image.motor_angle_rad), {}, {});
     ASSERT_TRUE(found) << found.error().message;
     const auto camera_from_object =

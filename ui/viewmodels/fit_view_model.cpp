@@ -170,7 +170,7 @@ void FitViewModel::fit() {
                      mask = session_->Mask(), roi = *session_->Region(),
                      mask_options = session_->MaskOptions(), source = source_,
                      options](const RunContext& context) -> Result<Found> {
-    const ProcessedScan processed{scan->rig, *cloud, depth.get(), mask.get()};
+    const ProcessedScan processed{scan->rig, *cloud, scan->frames, depth.get(), mask.get()};
     FORESIGHT_TRY(Detection detection, FitInScan(processed, source, roi, options, context));
     FORESIGHT_TRY(Provenance provenance,
                   ProvenanceOfFit(*scan, source, depth.get(), mask_options, options, roi));

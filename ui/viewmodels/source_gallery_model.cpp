@@ -24,12 +24,13 @@ Result<Detection> FitTo(const DepthMethodInfo* method, const Subject& subject,
                         const RunContext& context) {
   const SensorRig& rig = subject.scan->rig;
   if (method == nullptr)
-    return FitInScan({rig, *subject.cloud}, FitSource::kRaw, subject.roi, subject.options, context);
+    return FitInScan({rig, *subject.cloud, subject.scan->frames}, FitSource::kRaw, subject.roi,
+                     subject.options, context);
   FORESIGHT_TRY(const DepthResult depth,
                 ComputeDepthInFrame(*subject.cloud, rig, subject.Frame(),
                                     DefaultsOf(method->method), context.Part(0.0, 0.7)));
-  return FitInScan({rig, *subject.cloud, &depth}, FitSource::kDepthAlone, subject.roi,
-                   subject.options, context.Part(0.7, 1.0));
+  return FitInScan({rig, *subject.cloud, subject.scan->frames, &depth}, FitSource::kDepthAlone,
+                   subject.roi, subject.options, context.Part(0.7, 1.0));
 }
 
 SourceAnswer AnswerOf(const std::string& source, const Result<Detection>& found,

@@ -263,7 +263,7 @@ void CloudPane::PrepareResiduals() {
   const auto work = [object = *object, candidate = session_->Candidate(), cloud = session_->Cloud(),
                      depth = session_->Depth(), mask = session_->Mask(),
                      raw](const RunContext&) -> Result<PointSet> {
-    FORESIGHT_TRY(const RaySet rays, RaysInScan({object.rig, *cloud, depth.get(), mask.get()},
+    FORESIGHT_TRY(const RaySet rays, RaysInScan({object.rig, *cloud, {}, depth.get(), mask.get()},
                                                 raw ? FitSource::kRaw : FitSource::kDepthAlone,
                                                 OriginOf(object.detection).roi));
     return PointsOf(ResidualsOf(object.detection, candidate, rays), object.rig);

@@ -27,9 +27,11 @@ constexpr double kMinHead_nats = 10.0;
 constexpr double kMinYawMargin_nats = 3.0;
 constexpr double kMinAnyFlipMargin_nats = 5.0;
 constexpr double kMinFlipLines_sigmas = 0.3;
-// 5 nats less were allowed before: of 702 right and 14 wrong answers 671 and 9 are left (lidar and
-// dense, `verdict fit drill ... --gate 'log_chuck>=0'`).
-constexpr double kMinChuck_nats = 0.0;
+// A chuck that nobody saw, or a kind without one, says nothing: lamps and blowers on a grip look
+// like that. Just above 0.
+constexpr double kMinChuck_nats = std::numeric_limits<double>::min();
+// Another shape that is so much likelier is not LIKELY a drill.
+constexpr double kFarAhead_nats = -5.0;
 constexpr double kBound = 0.01;  // of the range of a scale
 
 std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detection,
@@ -52,7 +54,9 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           support.flip_line_sigmas,
           Compressed(support.chuck_nats),
           Compressed(support.blunt_margin_nats),
-          support.proportions_nats};
+          support.proportions_nats,
+          support.outline.NatsPerPixel(),
+          Compressed(support.image_flip_nats)};
 }
 
 Gate AnyFlipGate(const DrillSupport& support, double limit_nats) {
@@ -72,6 +76,11 @@ Gate FlipLinesGate(const DrillSupport& support, double limit_sigmas) {
 }
 
 Gate ChuckGate(const DrillSupport& support, double limit_nats) {
+  if (support.chuck_nats == 0.0)
+    return {.what = "{} measurements tell whether it has a chuck",
+            .number = 0.0,
+            .limit = 1.0,
+            .advice = "it may be another tool"};
   return {.what = "the odds that it has a chuck are {}",
           .unit = Gate::Unit::kOdds,
           .number = support.chuck_nats,
@@ -250,7 +259,9 @@ std::vector<std::string> DrillFeatureNames() {
           "flip_line_sigmas",
           "log_chuck",
           "log_blunt_margin",
-          "proportions"};
+          "proportions",
+          "outline",
+          "log_image_flip"};
 }
 
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,
@@ -259,6 +270,10 @@ Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetecti
   Verdict verdict;
   verdict.features = FeaturesOf(rays, detection, support);
   verdict.probability = model.Probability(verdict.features);
+  const DrillEvidence& evidence = detection.evidence;
+  if (AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats, kFarAhead_nats)
+          .Failed())
+    verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
   verdict.failed_gates = FailedGates(rays, region, detection, drill, prior, support);
   model.AddReservation(verdict.failed_gates);
   verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());

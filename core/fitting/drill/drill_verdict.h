@@ -31,6 +31,10 @@ struct DrillSupport {
   double chuck_nats = 0.0;
   /// Log of the prior's density: how usual a drill of this place, size and build is.
   double proportions_nats = 0.0;
+  /// What the image says of its outline, and how far that is ahead of the drill turned by 180 deg;
+  /// 0 without an image.
+  OutlineSupport outline = {};
+  double image_flip_nats = 0.0;
 };
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.

@@ -60,6 +60,11 @@ Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
+RaySet WithoutImage(RaySet rays) {
+  rays.image = nullptr;
+  return rays;
+}
+
 void SortBest(std::vector<DrillState>& states) {
   std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) {
     return a.log_likelihood > b.log_likelihood;
@@ -75,7 +80,8 @@ class DrillFit {
         options_(options),
         around_(around),
         likelihood_(rays, around.planes),
-        coarse_(std::move(few_rays), around.planes),
+        coarse_(few_rays, around.planes),
+        coarse_beams_(WithoutImage(std::move(few_rays)), around.planes),
         table_(around.table.value_or(GuessedTable(around.foreground, options.up))),
         base_from_table_(FrameOf(table_, Mean(around.foreground))) {
     prior_.max_tilt_rad = options.max_body_tilt_rad;
@@ -89,13 +95,14 @@ class DrillFit {
     std::erase_if(central, [&](const Eigen::Vector3d& point) {
       return DistanceFromRegionCenter(likelihood_.rays(), point) > kMaxOffCenter_m;
     });
-    const auto bodies = FindBodies(coarse_, central, base_from_table_, kBodyRadius_m);
+    const auto bodies = FindBodies(coarse_beams_, central, base_from_table_, kBodyRadius_m);
     if (bodies.empty())
       return Fail(ErrorCode::kNoConvergence,
                   "nothing as tall as a drill stands in the region: draw it around the drill");
     context.Report(0.3, "turning the templates");
-    FORESIGHT_TRY(std::vector<DrillState> modes, FindModes(coarse_, options_.templates, bodies,
-                                                           base_from_table_, prior_, context));
+    FORESIGHT_TRY(
+        std::vector<DrillState> modes,
+        FindModes(coarse_beams_, options_.templates, bodies, base_from_table_, prior_, context));
     if (modes.empty())
       return Fail(ErrorCode::kNoConvergence,
                   "no template of a drill can be compared with the region: draw it around the "
@@ -224,6 +231,9 @@ class DrillFit {
     support.any_way_margin_nats =
         likelihood_(own_way.Model().parts, own_way.Pose(base_from_table_)) -
         likelihood_(model.parts, pose);
+    support.outline =
+        likelihood_.OfImage(detection.best.model.parts, detection.best.base_from_object);
+    support.image_flip_nats = support.outline.nats - likelihood_.OfImage(model.parts, pose).nats;
     support.flip_line_sigmas = likelihood_.DeviationsAhead(
         detection.best.model.parts, detection.best.base_from_object, model.parts, pose);
   }
@@ -290,6 +300,7 @@ class DrillFit {
   const SupportAndBackground& around_;
   SolidLikelihood likelihood_;
   SolidLikelihood coarse_;
+  SolidLikelihood coarse_beams_;  ///< where thousands of places are tried
   Plane table_;
   TableFrame base_from_table_;
   DrillPrior prior_;

@@ -17,7 +17,8 @@ double PlateReach(const DoorThing::Plate& plate) {
 
 DoorThing::DoorThing(const std::vector<HandleBar>& bars, const std::optional<Plate>& plate,
                      const Rigid<frame::Base, frame::Object>& base_from_object)
-    : plate_(plate),
+    : base_from_object_(base_from_object),
+      plate_(plate),
       object_from_base_(base_from_object.RotationMatrix().transpose()),
       position_(base_from_object.translation()) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -87,6 +88,30 @@ std::optional<BeamIntersection> DoorThing::Intersect(const RangeRay& ray, double
   return best;
 }
 
+std::vector<SolidPart> DoorThing::Parts() const {
+  std::vector<SolidPart> parts;
+  for (const Bar& bar : bars_)
+    parts.push_back({.name = "bar",
+                     .shape = SolidPart::Shape::kCapsule,
+                     .object_from_part = {Eigen::Quaterniond::FromTwoVectors(
+                                              Eigen::Vector3d::UnitZ(), bar.along),
+                                          bar.from + 0.5 * bar.length_m * bar.along},
+                     .size_m = {2.0 * bar.radius_m, 2.0 * bar.radius_m, bar.length_m}});
+  if (!plate_) return parts;
+  const double thickness_m = HandleModel::kPlateThickness_m;
+  SolidPart plate{.name = "plate",
+                  .shape = SolidPart::Shape::kBox,
+                  .object_from_part = {Eigen::Quaterniond::Identity(),
+                                       {0.0, 0.0, plate_->front_m - 0.5 * thickness_m}},
+                  .size_m = {2.0 * plate_->half_m.x(), 2.0 * plate_->half_m.y(), thickness_m}};
+  if (plate_->radius_m > 0.0) {
+    plate.shape = SolidPart::Shape::kCylinder;
+    plate.size_m.head<2>().setConstant(2.0 * plate_->radius_m);
+  }
+  parts.push_back(std::move(plate));
+  return parts;
+}
+
 DoorThing ThingOf(const HandleModel& model,
                   const Rigid<frame::Base, frame::Object>& base_from_object) {
   DoorThing::Plate plate;
@@ -102,8 +127,13 @@ IntersectBeam IntersectionWith(const DoorThing& thing) {
   return [&thing](const RangeRay& ray, double reach_m) { return thing.Intersect(ray, reach_m); };
 }
 
+OutlineSupport OfImage(const DoorThing& thing, const RaySet& rays) {
+  return rays.image ? rays.image->SupportOf(thing.Parts(), thing.base_from_object())
+                    : OutlineSupport();
+}
+
 double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood) {
-  return likelihood(IntersectionWith(thing));
+  return likelihood(IntersectionWith(thing)) + OfImage(thing, likelihood.rays()).nats;
 }
 
 }  // namespace foresight

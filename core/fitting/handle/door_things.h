@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fitting/beam_likelihood.h"
+#include "core/fitting/solids/image_edges.h"
 #include "core/objects/handle_model.h"
 
 namespace foresight {
@@ -25,6 +26,9 @@ class DoorThing {
 
   /// What the ray enters first, else what it passes by least.
   std::optional<BeamIntersection> Intersect(const RangeRay& ray, double reach_m) const;
+  /// The same as solids, for its outline in an image: bars with round ends.
+  std::vector<SolidPart> Parts() const;
+  const Rigid<frame::Base, frame::Object>& base_from_object() const { return base_from_object_; }
 
  private:
   struct LocalRay {
@@ -40,6 +44,7 @@ class DoorThing {
                                                       double reach_m);
   static std::optional<BeamIntersection> IntersectPlate(const LocalRay& ray, const Plate& plate);
 
+  Rigid<frame::Base, frame::Object> base_from_object_;
   std::vector<Bar> bars_;
   std::optional<Plate> plate_;
   Eigen::Matrix3d object_from_base_;
@@ -55,7 +60,10 @@ DoorThing ThingOf(const HandleModel& model,
 /// How rays pass a thing, which must outlive what is returned.
 IntersectBeam IntersectionWith(const DoorThing& thing);
 
-/// Log likelihood of all rays with that thing on the door.
+/// What the image says of its outline; nothing where there is none.
+OutlineSupport OfImage(const DoorThing& thing, const RaySet& rays);
+
+/// Log likelihood of all rays, and of the image, with that thing on the door.
 double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood);
 
 }  // namespace foresight

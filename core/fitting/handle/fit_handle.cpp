@@ -70,12 +70,13 @@ std::vector<Plane> PlanesOf(const DoorSurface& surface) {
 /// A lever and the best one that points the other way.
 struct TwoWays {
   HandleState best, mirrored;
-  // How much both kinds of evidence speak for the best one.
+  // How much each kind of evidence speaks for the best one.
   double beams_nats = 0.0;
   double edges_nats = 0.0;
+  double image_nats = 0.0;
 
-  double Ahead() const { return beams_nats + edges_nats; }
-  TwoWays Swapped() const { return {mirrored, best, -beams_nats, -edges_nats}; }
+  double Ahead() const { return beams_nats + edges_nats + image_nats; }
+  TwoWays Swapped() const { return {mirrored, best, -beams_nats, -edges_nats, -image_nats}; }
 };
 
 /// One handle's fit on one door while it lasts.
@@ -108,8 +109,12 @@ class HandleFit {
     const HandleScorer fine{likelihood_, base_from_door_, options_};
     const BeamLikelihood few(few_rays, std::vector<Plane>{door_}, HandleBeams());
     const HandleScorer coarse{few, base_from_door_, options_};
+    RaySet beams = few_rays;
+    beams.image = nullptr;
+    const BeamLikelihood few_beams(beams, std::vector<Plane>{door_}, HandleBeams());
     context.Report(0.1, "looking for bars");
-    std::vector<HandleState> levers = FindLevers(coarse, before_door_, random, context);
+    std::vector<HandleState> levers =
+        FindLevers({few_beams, base_from_door_, options_}, before_door_, random, context);
     if (context.Cancelled()) return Cancelled();
     if (levers.empty())
       return Fail(ErrorCode::kNoConvergence,
@@ -145,7 +150,10 @@ class HandleFit {
   TwoWays Weighed(TwoWays found, const RaySet* around) const {
     const double ahead = likelihood_.DeviationsAhead(IntersectionWith(ThingOf(found.best)),
                                                      IntersectionWith(ThingOf(found.mirrored)));
-    found.beams_nats = kNatsPerDeviation * std::max(0.0, ahead);
+    const RaySet& rays = likelihood_.rays();
+    found.beams_nats = kNatsPerDeviation * (rays.image ? ahead : std::max(0.0, ahead));
+    found.image_nats =
+        OfImage(ThingOf(found.best), rays).nats - OfImage(ThingOf(found.mirrored), rays).nats;
     if (around != nullptr)
       found.edges_nats = EdgesForWay(*around, door_, CandidateOf(found.best, base_from_door_));
     return found.Ahead() < 0.0 ? found.Swapped() : found;
@@ -241,6 +249,8 @@ class HandleFit {
     const double own = LogLikelihoodOf(ThingOf(best), likelihood_);
     evidence.mirror_margin_nats = found.Ahead();
     evidence.edges_nats = found.edges_nats;
+    evidence.image_nats = found.image_nats;
+    evidence.outline_nats_per_px = OfImage(ThingOf(best), likelihood_.rays()).NatsPerPixel();
     evidence.length_margin_nats = best.score - best_length;
     evidence.gain_nats = own - likelihood_.Nothing();
     evidence.alternative_margin_nats = std::numeric_limits<double>::infinity();

@@ -24,9 +24,11 @@ struct HandleEvidence {
   double covered = 0.0;       ///< of the lever's length, the fraction with agreeing hits
   double beside = 0.0;        ///< fraction of the rays round it that end before the door
   /// Odds against the best lever that points the other way: 0.75 for each deviation over scan lines
-  /// that it is behind, and edges_nats.
+  /// that it is behind, edges_nats and image_nats.
   double mirror_margin_nats = 0.0;
   double edges_nats = 0.0;               ///< what the door's edges say of the way (EdgesForWay)
+  double image_nats = 0.0;               ///< what the outline in the image says of the way
+  double outline_nats_per_px = 0.0;      ///< how well its outline lies on edges; 0 = no image
   double length_margin_nats = 0.0;       ///< ahead of the best one that is 20 mm shorter or longer
   double gain_nats = 0.0;                ///< ahead of the bare door
   double alternative_margin_nats = 0.0;  ///< ahead of the best knob, pull bar, bow or box

@@ -225,13 +225,17 @@ double BestBox(const BeamLikelihood& likelihood, const DoorFrame& base_from_door
     SolidPart box;
     box.shape = SolidPart::Shape::kBox;
     box.size_m = v.tail<3>();
-    const SolidTracer tracer({&box, 1}, PlacedAt(base_from_door, v[0], v[1], 0.5 * v[5], v[2]));
-    return likelihood(
-        [&tracer](const RangeRay& ray, double reach_m) -> std::optional<BeamIntersection> {
-          const SolidIntersection passed = tracer.IntersectWithDepth(ray, reach_m);
-          if (passed.part < 0) return std::nullopt;
-          return BeamIntersection{passed.clearance_m, passed.range_m};
-        });
+    const auto pose = PlacedAt(base_from_door, v[0], v[1], 0.5 * v[5], v[2]);
+    const SolidTracer tracer({&box, 1}, pose);
+    const OutlineSupport outline = likelihood.rays().image
+                                       ? likelihood.rays().image->SupportOf({&box, 1}, pose)
+                                       : OutlineSupport();
+    return outline.nats + likelihood([&tracer](const RangeRay& ray,
+                                               double reach_m) -> std::optional<BeamIntersection> {
+             const SolidIntersection passed = tracer.IntersectWithDepth(ray, reach_m);
+             if (passed.part < 0) return std::nullopt;
+             return BeamIntersection{passed.clearance_m, passed.range_m};
+           });
   };
   const HandleStep& h = handle.values;
   std::vector<Eigen::VectorXd> starts;

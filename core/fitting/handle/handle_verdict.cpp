@@ -60,7 +60,8 @@ std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detect
           std::log(std::max(1e-3, detection.beam_sigma_turn_rad)),
           std::abs(std::log(detection.best.model.length_m / HandlePrior::kLength_m)),
           proportions_nats,
-          std::log(std::max(1e-3, detection.sigma_normal_rad))};
+          std::log(std::max(1e-3, detection.sigma_normal_rad)),
+          evidence.outline_nats_per_px};
 }
 
 Gate MirrorGate(const HandleEvidence& evidence, double limit_nats) {
@@ -330,7 +331,8 @@ std::vector<std::string> HandleFeatureNames() {
           "log_sigma_turn",
           "abs_log_length",
           "proportions",
-          "log_sigma_normal"};
+          "log_sigma_normal",
+          "outline"};
 }
 
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,

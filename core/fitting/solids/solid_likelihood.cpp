@@ -33,7 +33,15 @@ double SolidLikelihood::operator()(
     std::span<const SolidPart> parts,
     const Rigid<frame::Base, frame::Object>& base_from_object) const {
   const double own = OfRays(parts, base_from_object);
-  return beams_ ? BeamModel::kMapWithBeams * own + beams_->OfRays(parts, base_from_object) : own;
+  const double seen = OfImage(parts, base_from_object).nats;
+  return seen +
+         (beams_ ? BeamModel::kMapWithBeams * own + beams_->OfRays(parts, base_from_object) : own);
+}
+
+OutlineSupport SolidLikelihood::OfImage(
+    std::span<const SolidPart> parts,
+    const Rigid<frame::Base, frame::Object>& base_from_object) const {
+  return rays_.image ? rays_.image->SupportOf(parts, base_from_object) : OutlineSupport();
 }
 
 double SolidLikelihood::OfRays(std::span<const SolidPart> parts,
@@ -95,6 +103,7 @@ SolidLikelihood SolidLikelihood::Near(std::span<const SolidPart> parts,
   SolidLikelihood near;
   near.rays_ = rays_;
   near.rays_.rays.clear();
+  near.rays_.image = nullptr;
   for (std::size_t i = 0; i < noise_.size(); ++i) {
     if (tracer.Intersect(rays_.rays[i], reach_m).part < 0) continue;
     near.rays_.rays.push_back(rays_.rays[i]);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fitting/ray_set.h"
+#include "core/fitting/solids/image_edges.h"
 #include "core/fitting/solids/solid_tracer.h"
 #include "core/geometry/plane.h"
 #include "core/objects/solid_part.h"
@@ -22,7 +23,8 @@ inline constexpr double kDrillEdgeError_m = 0.003;
 ///
 /// A ray that intersects a solid returns its range with probability 0.93 (or something nearer, or
 /// nonsense); one that passes within its footprint may have touched it; all others return one of
-/// the planes behind, or anything.
+/// the planes behind, or anything. Where an image shows the region (RaySet::image) the solids'
+/// outline must lie on its edges.
 class SolidLikelihood {
  public:
   /// `planes` = what lies behind: table, walls. Keeps a copy of the rays.
@@ -30,7 +32,7 @@ class SolidLikelihood {
 
   const RaySet& rays() const { return rays_; }
 
-  /// Log likelihood of all rays in nats, counted as independent measurements.
+  /// Log likelihood of all rays in nats, counted as independent measurements, and of the image.
   double operator()(std::span<const SolidPart> parts,
                     const Rigid<frame::Base, frame::Object>& base_from_object) const;
   /// Of each ray, weighted as in the sum; not of the beams behind a dense map.
@@ -43,10 +45,14 @@ class SolidLikelihood {
                          const Rigid<frame::Base, frame::Object>& base_from_first,
                          std::span<const SolidPart> second,
                          const Rigid<frame::Base, frame::Object>& base_from_second) const;
+  /// What the image says of their outline; nothing where there is none.
+  OutlineSupport OfImage(std::span<const SolidPart> parts,
+                         const Rigid<frame::Base, frame::Object>& base_from_object) const;
   /// The same with nothing there but the planes.
   double Nothing() const;
 
-  /// The same for the rays that pass within `reach_m` of these solids alone, without beams.
+  /// The same for the rays that pass within `reach_m` of these solids alone, without beams and
+  /// image.
   SolidLikelihood Near(std::span<const SolidPart> parts,
                        const Rigid<frame::Base, frame::Object>& base_from_object,
                        double reach_m) const;

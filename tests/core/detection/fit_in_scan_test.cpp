@@ -35,7 +35,7 @@ TEST(RaysInScan, AMapBringsTheBeamsBehindItUnlessItIsWantedAlone) {
   const auto depth = ComputeDepthInFrame(trial->cloud, trial->rig, trial->frame,
                                          DefaultsOf(DepthMethod::kForesight), {});
   ASSERT_TRUE(depth);
-  const ProcessedScan scan{trial->rig, trial->cloud, &*depth};
+  const ProcessedScan scan{trial->rig, trial->cloud, {trial->frame}, &*depth};
   const auto raw = RaysInScan(scan, FitSource::kRaw, trial->roi);
   const auto both = RaysInScan(scan, FitSource::kDepth, trial->roi);
   const auto alone = RaysInScan(scan, FitSource::kDepthAlone, trial->roi);
@@ -44,6 +44,32 @@ TEST(RaysInScan, AMapBringsTheBeamsBehindItUnlessItIsWantedAlone) {
   EXPECT_EQ(both->beams->rays.size(), raw->rays.size());
   EXPECT_EQ(alone->beams, nullptr);
   EXPECT_EQ(alone->rays.size(), both->rays.size());
+}
+
+/// What became of a fit to the lidar's returns of a scene at home, with the image or without.
+FitOutcome OutcomeOf(const char* kind, std::uint64_t seed, bool with_image) {
+  const auto population = MakeFitPopulation(kind).value();
+  const FitTrial trial = MakeFitTrial(*population, seed, {}, {}).value();
+  ProcessedScan scan{trial.rig, trial.cloud};
+  if (with_image) scan.frames = {trial.frame};
+  return population
+      ->Judge(trial,
+              FitInScan(scan, FitSource::kRaw, trial.roi, population->Options(trial.rig), {}))
+      .front();
+}
+
+TEST(FitInScan, TheImageTellsWhichWayADrillPointsWhereBeamsDoNot) {
+  for (const std::uint64_t seed : {20014, 20071}) {
+    EXPECT_FALSE(OutcomeOf("drill", seed, false).pose_ok) << seed;
+    EXPECT_TRUE(OutcomeOf("drill", seed, true).all_ok) << seed;
+  }
+}
+
+TEST(FitInScan, TheImageTellsWhichWayALeverPointsWhereBeamsDoNot) {
+  for (const std::uint64_t seed : {20098, 20112}) {
+    EXPECT_FALSE(OutcomeOf("handle", seed, false).pose_ok) << seed;
+    EXPECT_TRUE(OutcomeOf("handle", seed, true).all_ok) << seed;
+  }
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ class ExportMissionTest : public testing::Test {
                             *center + Eigen::Vector2d(50, 50));
     const FitOptions options = FitOptionsFor(ObjectKind::kValve, scan_.rig.robot_from_base);
     const Detection found =
-        FitInScan({scan_.rig, cloud_, nullptr}, FitSource::kRaw, roi, options, {}).value();
+        FitInScan({scan_.rig, cloud_, scan_.frames}, FitSource::kRaw, roi, options, {}).value();
     DetectionRecord record = NewDetectionRecord(
         scan_, found, ProvenanceOfFit(scan_, FitSource::kRaw, nullptr, {}, options, roi).value());
     record.scan_id = scan_id;

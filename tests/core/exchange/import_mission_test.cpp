@@ -140,7 +140,7 @@ TEST_F(ImportOfAnExport, ItsValveIsFoundWhereItWas) {
   const auto pose_in = [&](const Scan& scan) {
     const RegisteredScan cloud = RegisterScan(scan, {}).value();
     return CandidatePose(
-        FitInScan({scan.rig, cloud, nullptr}, FitSource::kRaw, roi, options, {}).value(), 0);
+        FitInScan({scan.rig, cloud, scan.frames}, FitSource::kRaw, roi, options, {}).value(), 0);
   };
   const auto was = pose_in(scan_), is = pose_in(imported);
   EXPECT_LT((was.translation() - is.translation()).norm(), 1e-4);

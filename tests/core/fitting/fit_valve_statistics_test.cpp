@@ -157,7 +157,7 @@ Result<ValveDetection> FitDense(const Scan& scan, const RegisteredScan& cloud, c
   FORESIGHT_TRY(AlignedSamples samples, AlignToImage(cloud, scan.rig, roi.motor_rad, {}));
   FORESIGHT_TRY(const DepthResult depth,
                 ComputeDepth(std::move(samples), scan.frames.front().image, options, {}));
-  return FitValveInScan({scan.rig, cloud, &depth}, FitSource::kDepth, roi, {}, {});
+  return FitValveInScan({scan.rig, cloud, {}, &depth}, FitSource::kDepth, roi, {}, {});
 }
 
 TEST_F(SimulatedValve, IsFoundInTheDenseDepthOfAFilterThatSparesThinThings) {

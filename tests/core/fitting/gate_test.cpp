@@ -239,6 +239,14 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
       "not stand evenly look like this");
   found.evidence.further_spoke_nats = 12.0;  // beams beside a spoke
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
+  found.best.model.spoke_radius_m = 0.04;
+  const Verdict flange = AssessValve(rays, rays, found, {});
+  EXPECT_EQ(flange.level, VerdictLevel::kUnsure);
+  EXPECT_EQ(
+      flange.reason,
+      "its 4 spokes fill 58 % of the wheel (at most 50 %): any round or flat thing looks like "
+      "this");
+  found.best.model.spoke_radius_m = 0.008;
   // Beams that touch it and the wall agree with a thin one.
   found.evidence.rim_nats = -48.5;
   EXPECT_THAT(AssessValve(rays, rays, found, {}).reason,
@@ -279,6 +287,43 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
     ExpectStatedGatesFail(AssessDrill(rays, rays, found, state, {}, support), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
+}
+
+TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
+  const RaySet rays = Fan();
+  const std::vector<DrillTemplate> kinds = ShippedDrillTemplates();
+  DrillState state;
+  state.kind = &kinds.front();
+  state.values[kDrillScale] = 1.0;
+  DrillDetection found;
+  found.best = CandidateOf(state, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}});
+  found.table = Plane();
+  found.evidence = {.rays = 441,
+                    .hits = 300,
+                    .inlier_ratio = 1.0,
+                    .rms_m = 0.008,
+                    .yaw_margin_nats = 100.0,
+                    .flip_margin_nats = 100.0,
+                    .head_nats = 200.0,
+                    .gain_nats = 1500.0,
+                    .alternative_margin_nats = 300.0,
+                    .best_alternative = "box and cylinder"};
+  DrillSupport support = {.beam_sigma_yaw_rad = 0.02,
+                          .any_flip_margin_nats = 90.0,
+                          .any_way_margin_nats = 80.0,
+                          .flip_line_sigmas = 5.0,
+                          .blunt_margin_nats = 50.0,
+                          .chuck_nats = 50.0,
+                          .proportions_nats = -1.0};
+  const auto chuck = ::testing::Contains(HasSubstr("whether it has a chuck"));
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(chuck));
+  support.chuck_nats = 0.0;
+  const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
+  EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);
+  EXPECT_THAT(unseen.failed_gates, chuck);
+  support.chuck_nats = 50.0;
+  found.evidence.alternative_margin_nats = -6.0;
+  EXPECT_EQ(AssessDrill(rays, rays, found, state, {}, support).level, VerdictLevel::kUnsure);
 }
 
 TEST(Reasons, ABetterAlternativeIsNotCalledAsGood) {

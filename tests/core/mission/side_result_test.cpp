@@ -71,7 +71,7 @@ struct SideResultTest : testing::Test {
                                         *center + Eigen::Vector2d(50, 50));
     const FitOptions options = FitOptionsFor(ObjectKind::kValve, scan.rig.robot_from_base);
     const Detection found =
-        FitInScan({scan.rig, cloud, nullptr}, FitSource::kRaw, roi, options, {}).value();
+        FitInScan({scan.rig, cloud, scan.frames}, FitSource::kRaw, roi, options, {}).value();
     DetectionRecord record = NewDetectionRecord(
         scan, found, ProvenanceOfFit(scan, FitSource::kRaw, nullptr, {}, options, roi).value());
     record.scan_id = scan_id;

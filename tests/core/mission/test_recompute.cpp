@@ -45,7 +45,8 @@ struct RecomputeTest : testing::Test {
                             *center + Eigen::Vector2d(50, 50));
     const FitOptions options = FitOptionsFor(ObjectKind::kValve, scan.rig.robot_from_base);
     const Detection found =
-        FitInScan({scan.rig, cloud, &depth}, FitSource::kDepth, roi, options, {}).value();
+        FitInScan({scan.rig, cloud, scan.frames, &depth}, FitSource::kDepth, roi, options, {})
+            .value();
     valve = NewDetectionRecord(
         scan, found,
         ProvenanceOfFit(scan, FitSource::kDepth, &depth, depth.options.mask, options, roi).value());

@@ -71,7 +71,7 @@ struct MissionReportTest : testing::Test {
     const Roi roi = ImageRoi::Rectangle(frame.motor_angle_rad, *center - Eigen::Vector2d(50, 50),
                                         *center + Eigen::Vector2d(50, 50));
     const FitOptions options = FitOptionsFor(ObjectKind::kValve, scan.rig.robot_from_base);
-    const Detection found = FitInScan({scan.rig, RegisterScan(scan, {}).value(), nullptr},
+    const Detection found = FitInScan({scan.rig, RegisterScan(scan, {}).value(), scan.frames},
                                       FitSource::kRaw, roi, options, {})
                                 .value();
     DetectionRecord record = NewDetectionRecord(
