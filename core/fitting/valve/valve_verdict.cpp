@@ -52,7 +52,7 @@ Gate FilledGate(const ValveModel& model) {
   const double circle_m = 2.0 * std::numbers::pi * kHalfWay * model.rim_radius_m;
   return {.what = fmt::format("its {} spokes fill {{}} of the wheel", model.spokes),
           .unit = Gate::Unit::kFraction,
-          .number = 2.0 * model.spokes * model.spoke_radius_m / circle_m,
+          .number = std::min(1.0, 2.0 * model.spokes * model.spoke_radius_m / circle_m),
           .side = Gate::Side::kAtMost,
           .limit = kMaxFilled,
           .advice = "any round or flat thing looks like this"};
