@@ -92,16 +92,32 @@ bool IsAravis(const std::string& target) {
   return StartsWithAny(target, {"arv", "glib", "gio/"});
 }
 
-const std::vector<std::string> kCoreOrder = {
-    "base",           "geometry",        "io",
-    "options",        "sensor",          "objects",
-    "simulation",     "registration",    "calibration",
-    "depth",          "fitting",         "fitting/valve",
-    "fitting/drill",  "fitting/terrain", "fitting/cylinder",
-    "fitting/handle", "detection",       "selfcheck",
-    "measure",        "evaluation",      "mission",
-    "pictures",       "report",          "exchange",
-    "mapping"};
+const std::vector<std::string> kCoreOrder = {"base",
+                                             "geometry",
+                                             "io",
+                                             "options",
+                                             "sensor",
+                                             "objects",
+                                             "simulation",
+                                             "registration",
+                                             "calibration",
+                                             "depth",
+                                             "fitting",
+                                             "fitting/solids",
+                                             "fitting/valve",
+                                             "fitting/drill",
+                                             "fitting/terrain",
+                                             "fitting/cylinder",
+                                             "fitting/handle",
+                                             "detection",
+                                             "selfcheck",
+                                             "measure",
+                                             "evaluation",
+                                             "mission",
+                                             "pictures",
+                                             "report",
+                                             "exchange",
+                                             "mapping"};
 
 std::ptrdiff_t CorePlace(const std::string& folder) {
   const std::string name = folder.substr(folder.find('/') + 1);

@@ -71,7 +71,7 @@ TEST(DrillPopulation, ToolsThatCameNearestAreNotConfirmed) {
 // Of both a region shows the end alone. Of one that was enough to tell where the drill is, the
 // other was taken for one that points the other way.
 TEST(DrillPopulation, HalfADrillThatTellsTheWholeIsSomethingToFind) {
-  const auto right = RunFitTrial(DrillPopulation(), 1066, {}, {});
+  const auto right = RunFitTrial(DrillPopulation(), 1517, {}, {});
   const auto turned = RunFitTrial(DrillPopulation(), 612, {}, {});
   ASSERT_TRUE(right && turned);
   for (const auto* outcomes : {&right, &turned}) {
