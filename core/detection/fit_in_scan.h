@@ -90,15 +90,15 @@ using RaysOfRegion = std::function<Result<RaySet>(const Roi&, BoxRays)>;
 /// Gives what the camera saw round the rays of the region; null where nothing shows it.
 using ImageOfRays = std::function<std::shared_ptr<const ImageEdges>(const RaySet&)>;
 
-/// The same for a region whose rays `rays_of` gives. A drill's outline is compared with the image
-/// that `image_of` gives; without `image_of` there is none. Of a wheel, a drill or a lever that a
-/// box is drawn tightly round, the wall behind the box tells what stands in front of it, so the
-/// beams that went through count too. What stands in a large box, as a pier, stands in front of the
-/// far wall itself and may hide the object: where that fit is UNSURE or finds nothing, the rays
-/// that end inside are tried alone, and the answer of the higher probability is given. A terrain's
-/// box holds its ground. Of a cylinder the beams that went past on both sides fix the radius: they
-/// always count. A door handle is told what lies within 0.5 m of its region, too (RaySet::around).
-/// Fails as the first of both fits, and as `rays_of`.
+/// The same for a region whose rays `rays_of` gives. The outline of a UsesImage kind is compared
+/// with the image that `image_of` gives; without `image_of` there is none. Of a wheel, a drill or a
+/// lever that a box is drawn tightly round, the wall behind the box tells what stands in front of
+/// it, so the beams that went through count too. What stands in a large box, as a pier, stands in
+/// front of the far wall itself and may hide the object: where that fit is UNSURE or finds nothing,
+/// the rays that end inside are tried alone, and the answer of the higher probability is given. A
+/// terrain's box holds its ground. Of a cylinder the beams that went past on both sides fix the
+/// radius: they always count. A door handle is told what lies within 0.5 m of its region, too
+/// (RaySet::around). Fails as the first of both fits, and as `rays_of`.
 Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const ImageOfRays& image_of,
                               const Roi& roi, const FitOptions& options, const RunContext& context);
 

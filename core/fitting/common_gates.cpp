@@ -29,6 +29,10 @@ Gate AgreementGate(const std::string& object, double fraction, double least) {
           .limit = least};
 }
 
+double BelowLikely(double probability) {
+  return std::min(probability, Verdict::kLikely - 0.01);
+}
+
 Gate AlternativeGate(const std::string& alternative, double ahead_nats, double least_nats) {
   return {.what = "the odds against a " + alternative + " in its place are {}",
           .unit = Gate::Unit::kOdds,

@@ -23,6 +23,9 @@ Gate SeeThroughGate(const std::string& object, double fraction, double most);
 /// @param fraction of the beams on the object, those with a range that agrees
 Gate AgreementGate(const std::string& object, double fraction, double least);
 
+/// The probability of an answer where a gate says that there is nothing to speak of: UNSURE.
+double BelowLikely(double probability);
+
 /// The odds against something else in the object's place.
 /// @param alternative what it may be: "box"
 /// @param ahead_nats log likelihood of the object ahead of it

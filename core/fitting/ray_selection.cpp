@@ -21,6 +21,11 @@ RaySet Thinned(const RaySet& rays, int count, Random& random) {
   return thinned;
 }
 
+RaySet WithoutImage(RaySet rays) {
+  rays.image = nullptr;
+  return rays;
+}
+
 std::shared_ptr<const RaySet> ThinnedBeams(const RaySet& rays, int count, int least,
                                            Random& random) {
   if (rays.beams == nullptr) return nullptr;

@@ -23,6 +23,9 @@ std::vector<T> RandomSubset(std::vector<T> values, int count, Random& random) {
 /// At most `count` rays; each then stands for more of a dense map's measurements.
 RaySet Thinned(const RaySet& rays, int count, Random& random);
 
+/// What the beams alone say.
+RaySet WithoutImage(RaySet rays);
+
 /// Fails with kInvalidInput for a noise, footprint, weight or viewpoint that is no use.
 Status CheckRayNoise(const RaySet& rays);
 

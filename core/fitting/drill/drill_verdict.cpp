@@ -279,7 +279,7 @@ Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetecti
   const DrillEvidence& evidence = detection.evidence;
   if (AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats, kFarAhead_nats)
           .Failed())
-    verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
+    verdict.probability = BelowLikely(verdict.probability);
   verdict.failed_gates = FailedGates(rays, region, detection, drill, prior, support);
   model.AddReservation(verdict.failed_gates);
   verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());

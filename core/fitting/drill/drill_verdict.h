@@ -38,7 +38,8 @@ struct DrillSupport {
 };
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
-/// The probability is the shipped model's (resources/verdicts/drill_raw and _dense); hard gates
+/// The probability is the shipped model's (resources/verdicts/drill_*), below LIKELY where
+/// a box or a cylinder is 150 : 1 likelier; hard gates
 /// keep what no probability should: a confirmed drill stands on a table near the region's centre,
 /// has enough measurements on it, is not seen through, shows its head and a chuck that is narrower,
 /// explains the rays better than a box and a cylinder, lies within the region, has no second

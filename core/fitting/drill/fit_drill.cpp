@@ -60,11 +60,6 @@ Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-RaySet WithoutImage(RaySet rays) {
-  rays.image = nullptr;
-  return rays;
-}
-
 void SortBest(std::vector<DrillState>& states) {
   std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) {
     return a.log_likelihood > b.log_likelihood;

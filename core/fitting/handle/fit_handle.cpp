@@ -109,9 +109,8 @@ class HandleFit {
     const HandleScorer fine{likelihood_, base_from_door_, options_};
     const BeamLikelihood few(few_rays, std::vector<Plane>{door_}, HandleBeams());
     const HandleScorer coarse{few, base_from_door_, options_};
-    RaySet beams = few_rays;
-    beams.image = nullptr;
-    const BeamLikelihood few_beams(beams, std::vector<Plane>{door_}, HandleBeams());
+    const BeamLikelihood few_beams(WithoutImage(few_rays), std::vector<Plane>{door_},
+                                   HandleBeams());
     context.Report(0.1, "looking for bars");
     std::vector<HandleState> levers =
         FindLevers({few_beams, base_from_door_, options_}, before_door_, random, context);

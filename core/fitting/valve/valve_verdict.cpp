@@ -217,7 +217,7 @@ Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetecti
   verdict.probability = model.Probability(verdict.features);
   if (const auto failed = FailedExistenceGates(detection, options); !failed.empty()) {
     verdict.failed_gates.insert(verdict.failed_gates.begin(), failed.begin(), failed.end());
-    verdict.probability = std::min(verdict.probability, Verdict::kLikely - 0.01);
+    verdict.probability = BelowLikely(verdict.probability);
   }
   verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
   verdict.reason =

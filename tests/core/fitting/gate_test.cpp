@@ -253,6 +253,20 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
               HasSubstr("the odds that there is a rim are "));
 }
 
+DrillState UsualDrill(const std::vector<DrillTemplate>& kinds) {
+  DrillState state;
+  state.kind = &kinds.front();
+  state.values[kDrillScale] = 1.0;
+  return state;
+}
+
+DrillDetection FoundOnATable(const DrillState& state) {
+  DrillDetection found;
+  found.best = CandidateOf(state, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}});
+  found.table = Plane();
+  return found;
+}
+
 TEST(Reasons, OfDrillsFailAsTheyAreStated) {
   Random random(12);
   const RaySet rays = Fan();
@@ -264,9 +278,7 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
     state.values[kDrillScale] = random.Uniform(state.kind->min_scale, state.kind->max_scale);
     if (random.Index(4) == 0) state.values[kDrillScale] = state.kind->max_scale;
     state.values[kDrillTiltX] = random.Uniform(0.0, 0.27);
-    DrillDetection found;
-    found.best = CandidateOf(state, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}});
-    found.table = Plane();
+    DrillDetection found = FoundOnATable(state);
     found.sigma_yaw_rad = random.Uniform(0.01, 0.2);
     found.evidence = {.rays = 441,
                       .hits = 20 + random.Index(400),
@@ -292,12 +304,8 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
 TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
   const RaySet rays = Fan();
   const std::vector<DrillTemplate> kinds = ShippedDrillTemplates();
-  DrillState state;
-  state.kind = &kinds.front();
-  state.values[kDrillScale] = 1.0;
-  DrillDetection found;
-  found.best = CandidateOf(state, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}});
-  found.table = Plane();
+  const DrillState state = UsualDrill(kinds);
+  DrillDetection found = FoundOnATable(state);
   found.evidence = {.rays = 441,
                     .hits = 300,
                     .inlier_ratio = 1.0,
@@ -329,12 +337,8 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
 TEST(Reasons, ABetterAlternativeIsNotCalledAsGood) {
   const RaySet rays = Fan();
   const std::vector<DrillTemplate> kinds = ShippedDrillTemplates();
-  DrillState state;
-  state.kind = &kinds.front();
-  state.values[kDrillScale] = 1.0;
-  DrillDetection found;
-  found.best = CandidateOf(state, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}});
-  found.table = Plane();
+  const DrillState state = UsualDrill(kinds);
+  DrillDetection found = FoundOnATable(state);
   found.evidence = {.hits = 300,
                     .inlier_ratio = 0.9,
                     .alternative_margin_nats = -41.0,
