@@ -1,6 +1,7 @@
 #include "core/objects/drill_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace foresight {
@@ -24,6 +25,13 @@ Eigen::Quaterniond BodyTurn(const Eigen::Vector2d& body_tilt_rad) {
   if (!(angle > 0.0)) return Eigen::Quaterniond::Identity();
   const Eigen::Vector3d axis(body_tilt_rad.x() / angle, body_tilt_rad.y() / angle, 0.0);
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
+}
+
+Eigen::Vector2d LeanOf(const Eigen::Quaterniond& turn) {
+  const Eigen::Vector3d axis = turn * Eigen::Vector3d::UnitZ();
+  const double sine = axis.head<2>().norm();
+  if (!(sine > 0.0)) return Eigen::Vector2d::Zero();
+  return std::atan2(sine, axis.z()) / sine * Eigen::Vector2d(-axis.y(), axis.x());
 }
 
 Wireframe WireframeOf(const DrillModel& model) {

@@ -35,6 +35,8 @@ struct DrillModel {
 
 /// The turn about the object's origin that a body's lean stands for.
 Eigen::Quaterniond BodyTurn(const Eigen::Vector2d& body_tilt_rad);
+/// The lean that takes the body's axis where `turn` takes it.
+Eigen::Vector2d LeanOf(const Eigen::Quaterniond& turn);
 
 Wireframe WireframeOf(const DrillModel& model);
 

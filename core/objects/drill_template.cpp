@@ -48,6 +48,43 @@ void Lengthen(SolidPart& body, double by_m) {
   Move(body, {0.0, 0.0, 0.5 * by_m});
 }
 
+/// The axis of a part that lies along x of the object; -1 = it does not.
+int AxisAlongX(const SolidPart& part) {
+  constexpr double kAlong = 0.99;
+  const Eigen::Vector3d x = part.object_from_part.Inverse().Rotate(Eigen::Vector3d::UnitX());
+  Eigen::Index axis = 0;
+  return x.cwiseAbs().maxCoeff(&axis) > kAlong ? static_cast<int>(axis) : -1;
+}
+
+/// Moves the ends of a part of the head: what reaches behind the body's axis gets longer there,
+/// what ends before it in front, and what begins before it moves.
+void Stretch(SolidPart& part, double front_m, double back_m) {
+  constexpr double kAtAxis_m = 0.005;
+  constexpr double kShortest_m = 0.005;
+  const int axis = AxisAlongX(part);
+  if (axis < 0) return;
+  const double half = 0.5 * part.size_m[axis], middle = part.object_from_part.translation().x();
+  const auto moved = [&](double end) {
+    return end < -kAtAxis_m ? end - back_m : end > kAtAxis_m ? end + front_m : end;
+  };
+  const double from = moved(middle - half);
+  const double to = std::max(moved(middle + half), from + kShortest_m);
+  part.size_m[axis] = to - from;
+  Move(part, {0.5 * (from + to) - middle, 0.0, 0.0});
+}
+
+void LengthenForward(SolidPart& part, double by_m) {
+  const int axis = AxisAlongX(part);
+  if (axis < 0) return;
+  const double by = std::max(by_m, -0.9 * part.size_m[axis]);
+  part.size_m[axis] += by;
+  Move(part, {0.5 * by, 0.0, 0.0});
+}
+
+void Widen(SolidPart& part, double fraction) {
+  if (part.shape != SolidPart::Shape::kBox) part.size_m.head<2>() *= fraction;
+}
+
 }  // namespace
 
 Status DrillTemplate::Check() const {
@@ -104,41 +141,65 @@ const SolidPart& DrillTemplate::Body() const {
 DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_rad,
                                double bit_length_m, const DrillProportions& proportions) const {
   const Rigid<frame::Object, frame::Object> lean(BodyTurn(body_tilt_rad), Eigen::Vector3d::Zero());
+  const Rigid<frame::Object, frame::Object> rake(BodyTurn({0.0, proportions.rake_rad}),
+                                                 Eigen::Vector3d::Zero());
   DrillModel model;
   model.template_name = name;
   model.scale = scale;
-  model.body_tilt_rad = body_tilt_rad;
+  model.body_tilt_rad = LeanOf(lean.rotation() * rake.rotation());
   model.bit_length_m = bit_length_m < kShortestBit_m ? 0.0 : bit_length_m;
   model.parts.reserve(parts.size() + 1);
   const double least_up_m = -0.5 * scale * Body().size_m.z();  // a short body stays one
   const Eigen::Vector3d up(0.0, 0.0, std::max(proportions.head_up_m, least_up_m));
-  const Eigen::Vector3d forward(proportions.head_forward_m, 0.0, 0.0);
   const double grasp_height_m = object_from_grasp.translation().z();
+  const double slope = std::tan(proportions.rake_rad);
+  const auto to_head = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
+    return up + slope * (at.z() + up.z()) * Eigen::Vector3d::UnitX();
+  };
   for (const SolidPart& part : parts) {
     SolidPart made = Scaled(part, scale);
-    if (part.name == kBody)
-      Lengthen(made, up.z());
-    else if (part.name == kFoot)
+    if (part.name == kFoot) {
       made.size_m.head<2>() *= proportions.foot_fraction;
-    else if (part.object_from_part.translation().z() > grasp_height_m)
-      Move(made, part.name == kTrigger ? up : Eigen::Vector3d(up + forward));
-    if (part.name != kFoot) made.object_from_part = lean * made.object_from_part;
+      Move(made, {proportions.foot_forward_m, 0.0, 0.0});
+      model.parts.push_back(std::move(made));
+      continue;
+    }
+    const bool of_head = part.name != kBody && part.name != kTrigger &&
+                         part.object_from_part.translation().z() > grasp_height_m;
+    if (of_head) {
+      Stretch(made, proportions.front_m, proportions.back_m);
+      if (part.name == kGearCase) Widen(made, proportions.nose_fraction);
+      if (part.name == kChuck) {
+        Widen(made, proportions.chuck_fraction);
+        LengthenForward(made, proportions.chuck_longer_m);
+      }
+      Move(made, to_head(made.object_from_part.translation()));
+    } else {
+      if (part.name == kBody) Lengthen(made, up.z());
+      if (part.name == kTrigger && part.object_from_part.translation().z() > grasp_height_m)
+        Move(made, up);
+      made.object_from_part = rake * made.object_from_part;
+    }
+    made.object_from_part = lean * made.object_from_part;
     model.parts.push_back(std::move(made));
   }
   // A bit is no part of the drill's size: it begins at the scaled chuck and keeps its own length.
-  const Eigen::Vector3d chuck_face = scale * chuck_face_m + up + forward;
+  Eigen::Vector3d chuck_face = scale * chuck_face_m;
+  if (bit_direction.x() > 0.5) chuck_face.x() += proportions.front_m + proportions.chuck_longer_m;
+  chuck_face += to_head(chuck_face);
   if (model.bit_length_m > 0.0) {
     SolidPart bit = Bit(chuck_face, bit_direction, bit_radius_m, model.bit_length_m);
     bit.object_from_part = lean * bit.object_from_part;
     model.parts.push_back(std::move(bit));
   }
   model.object_from_grasp =
-      lean * Rigid<frame::Object, frame::Object>(object_from_grasp.rotation(),
-                                                 scale * object_from_grasp.translation());
+      lean * rake *
+      Rigid<frame::Object, frame::Object>(object_from_grasp.rotation(),
+                                          scale * object_from_grasp.translation());
   // The trigger hangs under the head; a cut-out tool's switch stays with the grip.
   const double trigger_up_m = trigger_m.z() > grasp_height_m ? up.z() : 0.0;
   model.trigger_m =
-      lean * Eigen::Vector3d(scale * trigger_m + trigger_up_m * Eigen::Vector3d::UnitZ());
+      lean * (rake * Eigen::Vector3d(scale * trigger_m + trigger_up_m * Eigen::Vector3d::UnitZ()));
   model.bit_tip_m = lean * Eigen::Vector3d(chuck_face + model.bit_length_m * bit_direction);
   return model;
 }

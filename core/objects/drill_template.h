@@ -12,8 +12,14 @@ namespace foresight {
 /// What drills of one kind differ in beside their size.
 struct DrillProportions {
   double head_up_m = 0.0;  ///< of the head, the body that much longer; at most half of it shorter
-  double head_forward_m = 0.0;  ///< of head, chuck and bit against the body's axis
+  double front_m = 0.0;    ///< how much further the head's front, chuck and bit are in front
+  double back_m = 0.0;     ///< how much further the head's rear end is behind
+  double nose_fraction = 1.0;   ///< of the radius of the gear case
+  double chuck_fraction = 1.0;  ///< of the chuck's radius
+  double chuck_longer_m = 0.0;
   double foot_fraction = 1.0;   ///< of the foot's length and width
+  double foot_forward_m = 0.0;  ///< how much further the foot is in front of the body's axis
+  double rake_rad = 0.0;        ///< of the grip under a level head: positive = its top is in front
 };
 
 /// A kind of drill, read from a data file (resources/templates, docs/templates.md): the parts at
@@ -22,6 +28,8 @@ struct DrillTemplate {
   static constexpr const char* kBody = "body";          ///< the part that a hand goes round
   static constexpr const char* kFoot = "battery foot";  ///< parts that do not lean with the body
   static constexpr const char* kTrigger = "trigger";
+  static constexpr const char* kGearCase = "gear case";
+  static constexpr const char* kChuck = "chuck";
 
   std::string name;
   /// Foot, body, head, chuck, trigger... The body's axis is z; parts named "battery foot" do not

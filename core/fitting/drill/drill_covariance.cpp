@@ -22,19 +22,6 @@ namespace {
 constexpr std::array<double, 6> kFactors = {1.5, 1.3, 1.0, 1.8, 1.8, 1.4};
 constexpr std::array<double, 6> kAdded = {0.006, 0.0022, 0.003, 0.0, 0.0, 0.010};
 
-DrillStep PriorInformation(const DrillPrior& prior) {
-  DrillStep before = DrillStep::Ones();
-  before[kDrillZ] = 1.0 / Squared(prior.height_sigma_m);
-  before[kDrillYaw] = 0.1;
-  before[kDrillScale] = 1.0 / Squared(prior.scale_sigma);
-  before[kDrillTiltX] = before[kDrillTiltY] = 1.0 / Squared(prior.tilt_sigma_rad);
-  before[kDrillBit] = 1.0 / Squared(0.1);
-  before[kDrillHeadUp] = 1.0 / Squared(prior.head_up_sigma_m);
-  before[kDrillHeadForward] = 1.0 / Squared(prior.head_forward_sigma_m);
-  before[kDrillFoot] = 1.0 / Squared(prior.foot_sigma);
-  return before;
-}
-
 /// Covariance of the table's turns about the object's x and y, from the rays that end on it.
 Eigen::Matrix2d TableTiltCovariance(const RaySet& rays, const Plane& table,
                                     const Rigid<frame::Base, frame::Object>& base_from_object) {
@@ -139,7 +126,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
   const double weight = rays.Worth();
   slopes.information *= weight;
   slopes.scores *= weight;
-  slopes.information.diagonal() += PriorInformation(prior);
+  slopes.information.diagonal() += prior.Information();
   return slopes;
 }
 
@@ -150,7 +137,7 @@ double SetSigmas(const RaySet& rays, const DrillState& drill, const TableFrame& 
   constexpr double kUnknownTableTilt_rad = 0.03;
   const DrillSlopes slopes = SlopesOf(rays, drill, base_from_table, prior);
   const DrillInformation of_beams = slopes.information.ldlt().solve(DrillInformation::Identity());
-  const DrillInformation of_prior = PriorInformation(prior).asDiagonal();
+  const DrillInformation of_prior = prior.Information().asDiagonal();
   const DrillInformation covariance =
       CovarianceClusteredByLine(rays.rays, slopes.scores, slopes.information, of_prior);
   // From the table's frame to the object's own axes.
@@ -172,9 +159,13 @@ double SetSigmas(const RaySet& rays, const DrillState& drill, const TableFrame& 
   const Vector6 sigmas = detection.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   detection.sigma_position_m = sigmas.head<3>();
   detection.sigma_yaw_rad = sigmas[5];
-  const auto lean = [&](int tilt) { return std::sqrt(std::max(0.0, covariance(tilt, tilt))); };
-  detection.sigma_axis_rad = std::max(std::hypot(lean(kDrillTiltX), sigmas[3]),
-                                      std::hypot(lean(kDrillTiltY), sigmas[4], kGripError_rad));
+  const double sideways = covariance(kDrillTiltX, kDrillTiltX);
+  const double forward = covariance(kDrillTiltY, kDrillTiltY) +
+                         2.0 * covariance(kDrillTiltY, kDrillRake) +
+                         covariance(kDrillRake, kDrillRake);
+  const auto root = [](double variance) { return std::sqrt(std::max(0.0, variance)); };
+  detection.sigma_axis_rad = std::max(std::hypot(root(sideways), sigmas[3]),
+                                      std::hypot(root(forward), sigmas[4], kGripError_rad));
   return std::sqrt(std::max(0.0, of_beams(kDrillYaw, kDrillYaw)));
 }
 

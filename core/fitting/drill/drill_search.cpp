@@ -97,7 +97,10 @@ PatternSearchOptions Steps(LocalSearchEffort effort) {
   add({{kDrillTiltX, 0.050}});
   add({{kDrillTiltY, 0.050}});
   add({{kDrillHeadUp, 0.008}});
-  add({{kDrillHeadForward, 0.008}});
+  add({{kDrillFront, 0.008}});
+  add({{kDrillBack, 0.008}});
+  add({{kDrillRake, 0.050}});
+  add({{kDrillFootForward, 0.008}});
   add({{kDrillFoot, 0.080}});
   // Thicker or thinner, as tall and on as large a foot as before.
   add({{kDrillScale, 0.040}, {kDrillHeadUp, -0.040 * kHeadHeight_m}, {kDrillFoot, -0.040}});
@@ -105,6 +108,14 @@ PatternSearchOptions Steps(LocalSearchEffort effort) {
   if (effort == LocalSearchEffort::kCoarse) return options;
   add({{kDrillZ, 0.004}});
   add({{kDrillBit, 0.010}});
+  add({{kDrillNose, 0.08}});
+  add({{kDrillChuck, 0.08}});
+  add({{kDrillChuckLonger, 0.008}});
+  // The head slides; a longer chuck on a shorter nose.
+  add({{kDrillFront, 0.008}, {kDrillBack, -0.008}});
+  add({{kDrillFront, 0.008}, {kDrillChuckLonger, -0.008}});
+  // The grip leans under the head as it was.
+  add({{kDrillRake, 0.050}, {kDrillTiltY, -0.050}});
   return options;
 }
 
@@ -205,11 +216,11 @@ DrillState LocalSearch(const SolidLikelihood& likelihood, const DrillState& star
   };
   PatternSearchOptions options = Steps(effort);
   const double yaw = best.yaw();
-  for (const int tilt : {int{kDrillTiltX}, int{kDrillTiltY}}) {
+  for (const int tilt : {int{kDrillTiltX}, int{kDrillTiltY}, int{kDrillRake}}) {
     constexpr double kLean_rad = 0.05;
-    const Eigen::Vector2d along = tilt == kDrillTiltY
-                                      ? Eigen::Vector2d(std::cos(yaw), std::sin(yaw))
-                                      : Eigen::Vector2d(std::sin(yaw), -std::cos(yaw));
+    const Eigen::Vector2d along = tilt == kDrillTiltX
+                                      ? Eigen::Vector2d(std::sin(yaw), -std::cos(yaw))
+                                      : Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
     Eigen::VectorXd step = Eigen::VectorXd::Zero(kDrillParameters);
     step[tilt] = kLean_rad;
     step.head<2>() = -kTiltHeight_m * kLean_rad * along;

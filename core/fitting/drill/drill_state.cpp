@@ -1,5 +1,6 @@
 #include "core/fitting/drill/drill_state.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,7 +10,22 @@
 namespace foresight {
 namespace {
 
-constexpr double kReach = 3.0;  // sigmas of head and foot
+constexpr double kReach = 3.0;  // sigmas of a proportion
+
+struct Proportion {
+  DrillParameter parameter;
+  double DrillPrior::*sigma;
+};
+constexpr std::array kProportions = {
+    Proportion{kDrillHeadUp, &DrillPrior::head_up_sigma_m},
+    Proportion{kDrillFront, &DrillPrior::front_sigma_m},
+    Proportion{kDrillBack, &DrillPrior::back_sigma_m},
+    Proportion{kDrillNose, &DrillPrior::nose_sigma},
+    Proportion{kDrillChuck, &DrillPrior::chuck_sigma},
+    Proportion{kDrillChuckLonger, &DrillPrior::chuck_longer_sigma_m},
+    Proportion{kDrillFoot, &DrillPrior::foot_sigma},
+    Proportion{kDrillFootForward, &DrillPrior::foot_forward_sigma_m},
+    Proportion{kDrillRake, &DrillPrior::rake_sigma_rad}};
 
 }  // namespace
 
@@ -24,7 +40,15 @@ TableFrame FrameOf(const Plane& table, const Eigen::Vector3d& near_point) {
 DrillModel DrillState::Model() const {
   return kind->Make(values[kDrillScale], {values[kDrillTiltX], values[kDrillTiltY]},
                     values[kDrillBit],
-                    {values[kDrillHeadUp], values[kDrillHeadForward], 1.0 + values[kDrillFoot]});
+                    {.head_up_m = values[kDrillHeadUp],
+                     .front_m = values[kDrillFront],
+                     .back_m = values[kDrillBack],
+                     .nose_fraction = 1.0 + values[kDrillNose],
+                     .chuck_fraction = 1.0 + values[kDrillChuck],
+                     .chuck_longer_m = values[kDrillChuckLonger],
+                     .foot_fraction = 1.0 + values[kDrillFoot],
+                     .foot_forward_m = values[kDrillFootForward],
+                     .rake_rad = values[kDrillRake]});
 }
 
 Rigid<frame::Base, frame::Object> DrillState::Pose(const TableFrame& base_from_table) const {
@@ -40,21 +64,33 @@ double DrillPrior::operator()(const DrillState& state) const {
   if (v[kDrillScale] < state.kind->min_scale || v[kDrillScale] > state.kind->max_scale ||
       v[kDrillBit] < 0.0 || v[kDrillBit] > state.kind->max_bit_length_m || tilt > max_tilt_rad)
     return -std::numeric_limits<double>::infinity();
-  if (std::abs(v[kDrillHeadUp]) > kReach * head_up_sigma_m ||
-      std::abs(v[kDrillHeadForward]) > kReach * head_forward_sigma_m ||
-      std::abs(v[kDrillFoot]) > kReach * foot_sigma)
-    return -std::numeric_limits<double>::infinity();
-  return state.kind->log_prior -
-         0.5 *
-             (Squared(v[kDrillZ] / height_sigma_m) + Squared((v[kDrillScale] - 1.0) / scale_sigma) +
-              Squared(tilt / tilt_sigma_rad) + Squared(v[kDrillHeadUp] / head_up_sigma_m) +
-              Squared(v[kDrillHeadForward] / head_forward_sigma_m) +
-              Squared(v[kDrillFoot] / foot_sigma));
+  double deviations = Squared(v[kDrillZ] / height_sigma_m) +
+                      Squared((v[kDrillScale] - 1.0) / scale_sigma) +
+                      Squared(tilt / tilt_sigma_rad);
+  for (const auto& [parameter, sigma] : kProportions) {
+    if (std::abs(v[parameter]) > kReach * this->*sigma)
+      return -std::numeric_limits<double>::infinity();
+    deviations += Squared(v[parameter] / this->*sigma);
+  }
+  return state.kind->log_prior - 0.5 * deviations;
+}
+
+DrillStep DrillPrior::Information() const {
+  DrillStep information = DrillStep::Ones();
+  information[kDrillZ] = 1.0 / Squared(height_sigma_m);
+  information[kDrillYaw] = 0.1;
+  information[kDrillScale] = 1.0 / Squared(scale_sigma);
+  information[kDrillTiltX] = information[kDrillTiltY] = 1.0 / Squared(tilt_sigma_rad);
+  information[kDrillBit] = 1.0 / Squared(0.1);
+  for (const auto& [parameter, sigma] : kProportions)
+    information[parameter] = 1.0 / Squared(this->*sigma);
+  return information;
 }
 
 DrillPrior AnyProportions(DrillPrior prior) {
   prior.head_up_sigma_m *= 1.5;
-  prior.head_forward_sigma_m *= 2.5;  // +-45 mm
+  prior.front_sigma_m *= 1.5;
+  prior.back_sigma_m *= 1.5;
   prior.foot_sigma *= 1.5;
   return prior;
 }
@@ -64,8 +100,12 @@ DrillState Flipped(const DrillState& state) {
   flipped.values[kDrillYaw] += std::numbers::pi;
   flipped.values[kDrillTiltX] *= -1.0;
   flipped.values[kDrillTiltY] *= -1.0;
+  flipped.values[kDrillRake] *= -1.0;
+  flipped.values[kDrillFootForward] *= -1.0;
   // How far the head reaches to its new front is not known from its new back.
-  flipped.values[kDrillHeadForward] = 0.0;
+  for (const int p : {int{kDrillFront}, int{kDrillBack}, int{kDrillNose}, int{kDrillChuck},
+                      int{kDrillChuckLonger}})
+    flipped.values[p] = 0.0;
   return flipped;
 }
 

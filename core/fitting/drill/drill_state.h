@@ -20,8 +20,14 @@ enum DrillParameter {
   kDrillTiltY,
   kDrillBit,
   kDrillHeadUp,  ///< DrillProportions: drills of one kind are not alike
-  kDrillHeadForward,
-  kDrillFoot,  ///< size of the foot to that of the template - 1
+  kDrillFront,
+  kDrillBack,
+  kDrillNose,         ///< fraction - 1
+  kDrillChuck,        ///< fraction - 1
+  kDrillChuckLonger,  ///< metres
+  kDrillFoot,         ///< size of the foot to that of the template - 1
+  kDrillFootForward,
+  kDrillRake,
   kDrillParameters
 };
 using DrillStep = Eigen::Matrix<double, kDrillParameters, 1>;
@@ -48,14 +54,22 @@ struct DrillPrior {
   double height_sigma_m = 0.005;
   double max_tilt_rad = 0.2617993877991494;
   double scale_sigma = 0.08;
-  double tilt_sigma_rad = 0.07;         ///< 4 deg
-  double head_up_sigma_m = 0.012;       ///< against the template's
-  double head_forward_sigma_m = 0.006;  ///< its ends tell front from back: not free to slide
-  double foot_sigma = 0.12;             ///< fraction of its size
+  double tilt_sigma_rad = 0.07;    ///< 4 deg
+  double head_up_sigma_m = 0.012;  ///< against the template's
+  double front_sigma_m = 0.010;
+  double back_sigma_m = 0.014;
+  double nose_sigma = 0.15;   ///< fraction of its radius
+  double chuck_sigma = 0.15;  ///< fraction of its radius
+  double chuck_longer_sigma_m = 0.010;
+  double foot_sigma = 0.12;  ///< fraction of its size
+  double foot_forward_sigma_m = 0.008;
+  double rake_sigma_rad = 0.045;
 
   /// Log of the density without its constant; minus infinity outside the template's ranges and
-  /// beyond three sigmas of head and foot: that is another kind of drill.
+  /// beyond three sigmas of any proportion: that is another kind of drill.
   double operator()(const DrillState& state) const;
+  /// The diagonal of its information.
+  DrillStep Information() const;
 };
 
 /// A prior that hardly knows how drills are built: head and foot may be what fits best.

@@ -128,6 +128,8 @@ std::vector<std::string> FailedExistenceGates(const ValveDetection& detection,
   if (model.IsLever()) return failed;
   AddIfOutside(RimRadiusGate(model), 0.9 * options.min_rim_radius_m, 1.1 * options.max_rim_radius_m,
                failed);
+  if (model.spokes == 0)
+    failed.push_back("no spokes are seen: any round or flat thing looks like this");
   AddIfFailed(FilledGate(model), failed);
   return failed;
 }
@@ -138,9 +140,7 @@ void AddFailedShapeGates(const ValveDetection& detection, const FitValveOptions&
   const ValveModel& model = detection.best.model;
   if (model.IsLever()) {
     failed.push_back("a bar looks like a lever: check it in the image");
-  } else if (model.spokes == 0) {
-    failed.push_back("no spokes are seen: any round or flat thing looks like this");
-  } else {
+  } else if (model.spokes > 0) {
     AddIfFailed(RimGate(detection.evidence, kMinMargin_nats), failed);
     AddIfFailed(RimSeenGate(detection.evidence, kMinRimSeen), failed);
     AddIfFailed(EverySpokeGate(detection.evidence, kMinMargin_nats), failed);

@@ -247,6 +247,11 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
       "its 4 spokes fill 58 % of the wheel (at most 50 %): any round or flat thing looks like "
       "this");
   found.best.model.spoke_radius_m = 0.008;
+  found.best.model.spokes = 0;
+  const Verdict lid = AssessValve(rays, rays, found, {});
+  EXPECT_EQ(lid.level, VerdictLevel::kUnsure);
+  EXPECT_EQ(lid.reason, "no spokes are seen: any round or flat thing looks like this");
+  found.best.model.spokes = 4;
   // Beams that touch it and the wall agree with a thin one.
   found.evidence.rim_nats = -48.5;
   EXPECT_THAT(AssessValve(rays, rays, found, {}).reason,

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "tests/support/temporary_folder.h"
 
@@ -135,7 +139,8 @@ TEST(DrillTemplate, LeansEverythingButTheFoot) {
 
 TEST(DrillTemplate, AnotherHeadTakesChuckAndTriggerAlongButNotTheGrasp) {
   const DrillModel usual = Example().Make(1.2, {0.0, 0.0}, 0.05);
-  const DrillModel other = Example().Make(1.2, {0.0, 0.0}, 0.05, {0.015, -0.010, 1.0});
+  const DrillModel other =
+      Example().Make(1.2, {0.0, 0.0}, 0.05, {.head_up_m = 0.015, .front_m = -0.010});
   const Eigen::Vector3d moved(-0.010, 0.0, 0.015);
   EXPECT_NEAR((other.bit_tip_m - usual.bit_tip_m - moved).norm(), 0.0, kExact);
   EXPECT_NEAR((other.trigger_m - usual.trigger_m - Eigen::Vector3d(0.0, 0.0, 0.015)).norm(), 0.0,
@@ -149,16 +154,95 @@ TEST(DrillTemplate, AnotherHeadTakesChuckAndTriggerAlongButNotTheGrasp) {
 
 TEST(DrillTemplate, AnotherFootKeepsItsMiddleAndHeight) {
   const SolidPart usual = Example().Make(1.0, {0.0, 0.0}, 0.0).parts[0];
-  const SolidPart other = Example().Make(1.0, {0.0, 0.0}, 0.0, {0.0, 0.0, 0.8}).parts[0];
+  const SolidPart other = Example().Make(1.0, {0.0, 0.0}, 0.0, {.foot_fraction = 0.8}).parts[0];
   EXPECT_EQ(other.object_from_part.translation(), usual.object_from_part.translation());
   EXPECT_NEAR(other.size_m.x(), 0.8 * usual.size_m.x(), kExact);
   EXPECT_EQ(other.size_m.z(), usual.size_m.z());
 }
 
 TEST(DrillTemplate, AHeadPulledDownLeavesHalfTheBody) {
-  const DrillModel model = Example().Make(1.0, {0.0, 0.0}, 0.0, {-1.0, 0.0, 1.0});
+  const DrillModel model = Example().Make(1.0, {0.0, 0.0}, 0.0, {.head_up_m = -1.0});
   EXPECT_NEAR(model.parts[1].size_m.z(), 0.08, kExact);
   EXPECT_TRUE(model.Check());
+}
+
+const SolidPart& Named(const DrillModel& model, const std::string& name) {
+  const auto found = std::find_if(model.parts.begin(), model.parts.end(),
+                                  [&name](const SolidPart& part) { return part.name == name; });
+  EXPECT_NE(found, model.parts.end()) << name;
+  return *found;
+}
+
+/// Where a part of the barrel drill begins and ends along x.
+std::pair<double, double> ExtentAlongX(const DrillModel& model, const std::string& name) {
+  const SolidPart& part = Named(model, name);
+  const double half =
+      0.5 * (part.shape == SolidPart::Shape::kBox ? part.size_m.x() : part.size_m.z());
+  const double middle = part.object_from_part.translation().x();
+  return {middle - half, middle + half};
+}
+
+DrillTemplate Barrel() {
+  return ShippedDrillTemplates().front();
+}
+
+TEST(DrillTemplate, AHeadGrowsInFrontAndBehindByItself) {
+  const DrillModel usual = Barrel().Make(1.0, {0.0, 0.0}, 0.05);
+  const DrillModel longer = Barrel().Make(1.0, {0.0, 0.0}, 0.05, {.front_m = 0.02, .back_m = 0.03});
+  for (const auto& [name, back, front] :
+       {std::tuple("head", 0.03, 0.02), std::tuple("gear case", 0.0, 0.02),
+        std::tuple("chuck", -0.02, 0.02), std::tuple("bit", -0.02, 0.02)}) {
+    const auto [from, to] = ExtentAlongX(usual, name);
+    const auto [other_from, other_to] = ExtentAlongX(longer, name);
+    EXPECT_NEAR(other_from, from - back, kExact) << name;
+    EXPECT_NEAR(other_to, to + front, kExact) << name;
+  }
+}
+
+TEST(DrillTemplate, AChuckMayBeLongerAndANoseThinner) {
+  const DrillModel usual = Barrel().Make(1.0, {0.0, 0.0}, 0.0);
+  const DrillModel other = Barrel().Make(
+      1.0, {0.0, 0.0}, 0.0, {.nose_fraction = 0.8, .chuck_fraction = 0.5, .chuck_longer_m = -0.02});
+  EXPECT_NEAR(Named(other, "gear case").size_m.x(), 0.8 * Named(usual, "gear case").size_m.x(),
+              kExact);
+  EXPECT_NEAR(Named(other, "chuck").size_m.x(), 0.5 * Named(usual, "chuck").size_m.x(), kExact);
+  EXPECT_NEAR(ExtentAlongX(other, "chuck").first, ExtentAlongX(usual, "chuck").first, kExact);
+  EXPECT_NEAR(ExtentAlongX(other, "chuck").second, ExtentAlongX(usual, "chuck").second - 0.02,
+              kExact);
+  EXPECT_NEAR(other.bit_tip_m.x(), usual.bit_tip_m.x() - 0.02, kExact);
+  EXPECT_EQ(Named(other, "head").size_m, Named(usual, "head").size_m);
+  // However short: something is left of it.
+  EXPECT_TRUE(Barrel().Make(0.75, {0.0, 0.0}, 0.0, {.chuck_longer_m = -1.0}).Check());
+  EXPECT_TRUE(Barrel().Make(0.75, {0.0, 0.0}, 0.0, {.front_m = -1.0, .back_m = -1.0}).Check());
+}
+
+TEST(DrillTemplate, ARakedGripCarriesALevelHead) {
+  const double rake = 0.2;
+  const DrillModel model = Barrel().Make(1.0, {0.0, 0.0}, 0.0, {.rake_rad = rake});
+  const DrillModel usual = Barrel().Make(1.0, {0.0, 0.0}, 0.0);
+  const SolidPart& head = Named(model, "head");
+  EXPECT_NEAR((head.object_from_part.rotation().coeffs() -
+               Named(usual, "head").object_from_part.rotation().coeffs())
+                  .norm(),
+              0.0, kExact);
+  const double height = head.object_from_part.translation().z();
+  EXPECT_NEAR(head.object_from_part.translation().x() -
+                  Named(usual, "head").object_from_part.translation().x(),
+              height * std::tan(rake), kExact);
+  const Eigen::Vector3d grip =
+      Named(model, "body").object_from_part.Rotate(Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(std::atan2(grip.x(), grip.z()), rake, kExact);
+  EXPECT_NEAR((model.body_tilt_rad - Eigen::Vector2d(0.0, rake)).norm(), 0.0, kExact);
+  EXPECT_NEAR(ExtentAlongX(model, "battery foot").first, ExtentAlongX(usual, "battery foot").first,
+              kExact);
+}
+
+TEST(DrillModel, ALeanIsWhatItsTurnDoesToTheAxis) {
+  const std::vector<Eigen::Vector2d> leans = {{0.0, 0.0}, {0.1, -0.2}, {-0.3, 0.05}};
+  for (const Eigen::Vector2d& lean : leans)
+    EXPECT_NEAR((LeanOf(BodyTurn(lean)) - lean).norm(), 0.0, kExact);
+  const Eigen::Quaterniond about_z(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()));
+  EXPECT_EQ(LeanOf(about_z), Eigen::Vector2d::Zero());
 }
 
 TEST(DrillModel, IsDrawnWithItsBit) {

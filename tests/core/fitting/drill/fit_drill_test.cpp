@@ -120,7 +120,7 @@ TEST(FitDrill, PriorAllowsAnotherHeadAndFootWithinReasonOnly) {
   DrillState state;
   state.kind = &templates.front();
   state.values[kDrillScale] = 1.0;
-  for (const int p : {int{kDrillHeadUp}, int{kDrillHeadForward}, int{kDrillFoot}}) {
+  for (int p = kDrillHeadUp; p < kDrillParameters; ++p) {
     DrillState other = state;
     other.values[p] = 0.015;
     EXPECT_LT(prior(other), prior(state));
