@@ -30,6 +30,8 @@ enum DrillParameter {
   kDrillRake,
   kDrillParameters
 };
+/// Of these nothing, or hardly anything, is known before.
+constexpr int kDrillFreeParameters = kDrillHeadUp;
 using DrillStep = Eigen::Matrix<double, kDrillParameters, 1>;
 using DrillInformation = Eigen::Matrix<double, kDrillParameters, kDrillParameters>;
 

@@ -268,12 +268,13 @@ class DrillFit {
     return points;
   }
 
-  /// Half of Schwarz's penalty for each parameter that an alternative has more than the drill.
+  /// Half of Schwarz's penalty for each parameter that an alternative has more than the drill. What
+  /// drills of one kind differ in costs what its prior says instead.
   void SetAlternativeMargin(const DrillState& best, DrillDetection& detection) const {
     const auto& parts = detection.best.model.parts;
     const auto& pose = detection.best.base_from_object;
     const SolidLikelihood near = likelihood_.Near(parts, pose, kAlternativeReach_m);
-    const double own = near(parts, pose);
+    const double own = near(parts, pose) + prior_(best);
     const double measurements =
         std::max(2.0, static_cast<double>(near.rays().rays.size()) * near.rays().samples_per_ray);
     DrillEvidence& evidence = detection.evidence;
@@ -282,7 +283,7 @@ class DrillFit {
              near, ForegroundAt(detection.best), base_from_table_, best.values.head<2>())) {
       const double margin =
           own - alternative.log_likelihood +
-          0.5 * (alternative.parameters - kDrillParameters) * std::log(measurements);
+          0.5 * (alternative.parameters - kDrillFreeParameters) * std::log(measurements);
       if (!evidence.best_alternative.empty() && margin >= evidence.alternative_margin_nats)
         continue;
       evidence.alternative_margin_nats = margin;
