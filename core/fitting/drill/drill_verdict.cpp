@@ -34,6 +34,8 @@ constexpr double kImageTellsWay_nats = 15.0;
 // As sure as of its head. Lamps on a grip have up to 9.6 nats for a chuck; of 377 right drills at
 // home that are sure 338 have 10 and more (docs/evaluation.md, "The image beside the beams").
 constexpr double kMinChuck_nats = 10.0;
+// Chucks of cordless drills are 30 to 50 mm long; hot air tools and dryers end in nozzles.
+constexpr double kLongestChuck_m = 0.065;
 // Another shape that is so much likelier is not LIKELY a drill.
 constexpr double kFarAhead_nats = -5.0;
 constexpr double kBound = 0.01;  // of the range of a scale
@@ -142,6 +144,19 @@ void AddPartOutside(const RaySet& region, const DrillCandidate& drill,
   }
 }
 
+/// What ends a head and is longer than any chuck.
+void AddLongChuck(const DrillModel& model, std::vector<std::string>& failed) {
+  for (const SolidPart& part : model.parts)
+    if (part.name == DrillTemplate::kChuck)
+      AddIfFailed({.what = "its chuck is {} long",
+                   .unit = Gate::Unit::kLength,
+                   .number = part.size_m.z(),
+                   .side = Gate::Side::kAtMost,
+                   .limit = kLongestChuck_m,
+                   .advice = "it may be another tool"},
+                  failed);
+}
+
 /// What a size or a lean at its bound says.
 void AddFailedBoundGates(const DrillModel& model, const DrillState& drill, const DrillPrior& prior,
                          std::vector<std::string>& failed) {
@@ -180,6 +195,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
     AddIfFailed(gate, failed);
     if (gate.Failed()) break;
   }
+  AddLongChuck(model, failed);
   AddFailedBoundGates(model, drill, prior, failed);
   AddIfFailed(
       OffCenterGate(kObject, region,

@@ -335,6 +335,12 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);
   EXPECT_THAT(unseen.failed_gates, chuck);
   support.chuck_nats = 50.0;
+  // A nozzle.
+  for (SolidPart& part : found.best.model.parts)
+    if (part.name == DrillTemplate::kChuck) part.size_m.z() = 0.069;
+  EXPECT_THAT(
+      AssessDrill(rays, rays, found, state, {}, support).failed_gates,
+      ::testing::Contains("its chuck is 69 mm long (at most 65 mm): it may be another tool"));
   found.evidence.alternative_margin_nats = -6.0;
   EXPECT_EQ(AssessDrill(rays, rays, found, state, {}, support).level, VerdictLevel::kUnsure);
 }
