@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <utility>
 
 #include "core/geometry/angles.h"
 
@@ -70,30 +69,7 @@ void AddWall(const TerrainLayout& layout, Random& random, Scene& scene) {
          RandomConcrete(random), scene);
 }
 
-/// A block's side, give or take what blocks differ by.
-double BlockSide(Random& random) {
-  return random.Uniform(0.385, 0.402);
-}
-
-/// Up to a third longer or shorter than a block's side, and at least a tenth.
-double NearlyBlockSide(Random& random) {
-  const double off = random.Uniform(0.10, 0.33);
-  return BlockSide(random) * (random.Chance(0.6) ? 1.0 + off : 1.0 - off);
-}
-
 }  // namespace
-
-std::string AddCartons(const TerrainLayout& layout, Random& random, Scene& scene) {
-  const int count = 2 + random.Index(4);
-  for (int i = 0; i < count; ++i) {
-    Eigen::Vector3d size(NearlyBlockSide(random), BlockSide(random), random.Uniform(0.12, 0.30));
-    if (random.Chance(0.5)) std::swap(size.x(), size.y());
-    const Eigen::Vector3d place((i / 3 - 0.5) * 0.80, (i % 3 - 1) * 0.75, 0.5 * size.z());
-    AddBox("carton", size, layout.At(place, random.Uniform(-0.8, 0.8)), RandomConcrete(random),
-           scene);
-  }
-  return "cartons of nearly a block's size";
-}
 
 std::string AddTerrainDistractor(const TerrainLayout& layout, Random& random, Scene& scene) {
   switch (random.Index(7)) {

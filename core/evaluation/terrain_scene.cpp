@@ -23,8 +23,6 @@ constexpr double kFlatFraction = 0.15;
 constexpr double kJitter_m = 0.008;
 constexpr int kNegativeEvery = 6;
 constexpr std::uint64_t kScatterStream = 4344;
-constexpr std::uint64_t kCartonStream = 4547;
-constexpr int kCartonsEvery = 3;    // of the negatives
 constexpr int kScatteredEvery = 6;  // of the positives
 constexpr double kApart_m = 0.60;   // between the middles of scattered blocks
 
@@ -127,8 +125,6 @@ FitTrialScene RandomTerrainScene(std::uint64_t seed) {
   } else if (trial.positive) {
     AddField(layout, rows, random, *scene);
     trial.what = fmt::format("field of {} x {} blocks", rows, kBlockColumns);
-  } else if (Random cartons(seed, kCartonStream); cartons.Index(kCartonsEvery) == 0) {
-    trial.what = AddCartons(layout, cartons, *scene);
   } else {
     trial.what = AddTerrainDistractor(layout, random, *scene);
   }

@@ -280,13 +280,14 @@ std::optional<RaySet> RaysForCloserLook(const RaySet& region, const ValveCandida
 
 Status FitValveOptions::Check() const {
   if (!(min_rim_radius_m > 0.0) || !(max_rim_radius_m > min_rim_radius_m))
-    return Fail(ErrorCode::kInvalidOptions,
-                "valve fit: min_rim_radius_m {} and max_rim_radius_m {} make no range",
-                min_rim_radius_m, max_rim_radius_m);
+    return Fail(
+        ErrorCode::kInvalidOptions,
+        "valve fit: rims of {:.0f} to {:.0f} mm radius are no range: the smallest must be above "
+        "0 and below the largest",
+        1000.0 * min_rim_radius_m, 1000.0 * max_rim_radius_m);
   if (min_spokes < 2 || max_spokes > 6 || min_spokes > max_spokes)
-    return Fail(ErrorCode::kInvalidOptions,
-                "valve fit: min_spokes {} to max_spokes {} is not within 2 to 6", min_spokes,
-                max_spokes);
+    return Fail(ErrorCode::kInvalidOptions, "valve fit: {} to {} spokes are no range within 2 to 6",
+                min_spokes, max_spokes);
   if (circle_trials < 1)
     return Fail(ErrorCode::kInvalidOptions, "valve fit: circle_trials {} is below 1",
                 circle_trials);
