@@ -32,6 +32,8 @@ constexpr double kOtherWay_rad = 0.5;
 constexpr double kOwnReach_m = 0.04;  // of the points that a drill or its alternatives account for
 constexpr double kAlternativeReach_m =
     0.06;                                  // round the drill: what an alternative must explain too
+// What a proportion costs that is known about three times better after the fit than before.
+constexpr double kKnownProportion_nats = 1.0;
 constexpr double kUnknownHeight_m = 0.04;  // deviation of a foot's height without a table
 
 /// Streams of the seed: each stage draws its own numbers.
@@ -269,12 +271,13 @@ class DrillFit {
   }
 
   /// Half of Schwarz's penalty for each parameter that an alternative has more than the drill. What
-  /// drills of one kind differ in costs what its prior says instead.
+  /// drills of one kind differ in costs what its prior says instead, and that it was found.
   void SetAlternativeMargin(const DrillState& best, DrillDetection& detection) const {
     const auto& parts = detection.best.model.parts;
     const auto& pose = detection.best.base_from_object;
     const SolidLikelihood near = likelihood_.Near(parts, pose, kAlternativeReach_m);
-    const double own = near(parts, pose) + prior_(best);
+    const double own = near(parts, pose) + prior_(best) -
+                       kKnownProportion_nats * (kDrillParameters - kDrillFreeParameters);
     const double measurements =
         std::max(2.0, static_cast<double>(near.rays().rays.size()) * near.rays().samples_per_ray);
     DrillEvidence& evidence = detection.evidence;

@@ -45,7 +45,8 @@ TEST(SolidTracer, IntersectsWhatSmallStepsAlongTheRayIntersect) {
   Random random(5);
   int hits = 0, passes = 0, misses = 0;
   for (const DrillTemplate& kind : ShippedDrillTemplates()) {
-    const DrillModel model = kind.Make(1.1, {0.1, -0.05}, 0.05, {0.01, -0.01, 0.9});
+    const DrillModel model = kind.Make(1.1, {0.1, -0.05}, 0.05,
+                                       {.head_up_m = 0.01, .front_m = -0.01, .foot_fraction = 0.9});
     const SolidTracer tracer(model.parts, {});
     for (int i = 0; i < 150; ++i) {
       const RangeRay ray = RandomRay(random);
