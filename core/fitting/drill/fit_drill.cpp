@@ -31,7 +31,7 @@ constexpr double kBodyRadius_m = 0.027;
 constexpr double kOtherWay_rad = 0.5;
 constexpr double kOwnReach_m = 0.04;  // of the points that a drill or its alternatives account for
 constexpr double kAlternativeReach_m =
-    0.06;                                  // round the drill: what an alternative must explain too
+    0.06;  // round the drill: what an alternative must explain too
 // What a proportion costs that is known about three times better after the fit than before.
 constexpr double kKnownProportion_nats = 1.0;
 constexpr double kUnknownHeight_m = 0.04;  // deviation of a foot's height without a table
