@@ -34,7 +34,10 @@ void Fit(const FitPopulation& population, const FitTrial& trial, const Processed
   one.threads = 1;
   for (auto& [context, into] : {std::pair<RunContext, std::vector<double>*>{{}, &times.all_threads},
                                 {one, &times.one_thread}})
-    into->push_back(Seconds([&] { (void)FitInScan(scan, source, trial.roi, options, context); }));
+    into->push_back(Seconds([&] {
+      if (const auto found = FitInScan(scan, source, trial.roi, options, context); !found)
+        fmt::print(stderr, "seed {}: {}\n", trial.seed, found.error().message);
+    }));
 }
 
 void Print(const std::string& kind, const char* source, const Times& times) {
