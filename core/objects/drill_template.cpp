@@ -73,6 +73,7 @@ void Stretch(SolidPart& part, double front_m, double back_m) {
   Move(part, {0.5 * (from + to) - middle, 0.0, 0.0});
 }
 
+/// A part that lies along x grows at its front end; a tenth of it is left.
 void LengthenForward(SolidPart& part, double by_m) {
   const int axis = AxisAlongX(part);
   if (axis < 0) return;
@@ -81,8 +82,19 @@ void LengthenForward(SolidPart& part, double by_m) {
   Move(part, {0.5 * by, 0.0, 0.0});
 }
 
+/// Of round parts.
 void Widen(SolidPart& part, double fraction) {
   if (part.shape != SolidPart::Shape::kBox) part.size_m.head<2>() *= fraction;
+}
+
+/// Gives a part of the head, where the template has it, the drill's own front, back, nose and
+/// chuck.
+void ChangeHead(SolidPart& part, const DrillProportions& proportions) {
+  Stretch(part, proportions.front_m, proportions.back_m);
+  if (part.name == DrillTemplate::kGearCase) Widen(part, proportions.nose_fraction);
+  if (part.name != DrillTemplate::kChuck) return;
+  Widen(part, proportions.chuck_fraction);
+  LengthenForward(part, proportions.chuck_longer_m);
 }
 
 }  // namespace
@@ -153,6 +165,7 @@ DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_ra
   const Eigen::Vector3d up(0.0, 0.0, std::max(proportions.head_up_m, least_up_m));
   const double grasp_height_m = object_from_grasp.translation().z();
   const double slope = std::tan(proportions.rake_rad);
+  // By how much what is at a place of the template is moved to lie on the raked grip.
   const auto to_head = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
     return up + slope * (at.z() + up.z()) * Eigen::Vector3d::UnitX();
   };
@@ -167,12 +180,7 @@ DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_ra
     const bool of_head = part.name != kBody && part.name != kTrigger &&
                          part.object_from_part.translation().z() > grasp_height_m;
     if (of_head) {
-      Stretch(made, proportions.front_m, proportions.back_m);
-      if (part.name == kGearCase) Widen(made, proportions.nose_fraction);
-      if (part.name == kChuck) {
-        Widen(made, proportions.chuck_fraction);
-        LengthenForward(made, proportions.chuck_longer_m);
-      }
+      ChangeHead(made, proportions);
       Move(made, to_head(made.object_from_part.translation()));
     } else {
       if (part.name == kBody) Lengthen(made, up.z());

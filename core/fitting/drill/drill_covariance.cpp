@@ -17,8 +17,9 @@ namespace {
 // What no ray tells, that drills are no templates and tables no planes, along and about x, y and z:
 // the deviations of the rays are multiplied, and what every drill is off by is added in squares.
 // Chosen so that the spread over predicted of `evaluate-fits drill --first-seed 1 --count 80
-// --source raw` is near 1; with factors of 1 and nothing added it is 3.2, 1.9, 1.5, 1.7, 1.4
-// and 1.5.
+// --source raw` is near 1; with factors of 1 and nothing added it was 3.2, 1.9, 1.5, 1.7, 1.4
+// and 1.5. Both were chosen before a drill had proportions of its own (ADR 0028); what they give
+// since stands in docs/evaluation.md, "A nose and a grip of its own".
 constexpr std::array<double, 6> kFactors = {1.5, 1.3, 1.0, 1.8, 1.8, 1.4};
 constexpr std::array<double, 6> kAdded = {0.006, 0.0022, 0.003, 0.0, 0.0, 0.010};
 
@@ -57,10 +58,11 @@ Eigen::Matrix2d TableTiltCovariance(const RaySet& rays, const Plane& table,
          Squared(kMadeOf_rad) * Eigen::Matrix2d::Identity();
 }
 
-// By how much a grip leans forward of what the fitted template's says, beside what the rays know:
-// no drill has its template's grip. Without it the spread over predicted of the lean is 1.7 to 2.4
-// (`evaluate-fits drill --first-seed 1 --count 200 --source raw,foresight`, and --world varied from
-// 5001 on).
+// By how much a grip leans forward of the fitted one, beside what the rays know: no grip is a
+// straight cylinder. Without it the spread over predicted of the lean was 1.7 to 2.4, before a grip
+// could lean by itself (`evaluate-fits drill --first-seed 1 --count 200 --source raw,foresight`,
+// and
+// --world varied from 5001 on).
 constexpr double kGripError_rad = 0.036;
 
 /// What the rays know of a drill's parameters.

@@ -30,7 +30,8 @@ enum DrillParameter {
   kDrillRake,
   kDrillParameters
 };
-/// Of these nothing, or hardly anything, is known before.
+/// How many come first: place, way, size, lean and bit, which no template knows. The others are
+/// DrillProportions.
 constexpr int kDrillFreeParameters = kDrillHeadUp;
 using DrillStep = Eigen::Matrix<double, kDrillParameters, 1>;
 using DrillInformation = Eigen::Matrix<double, kDrillParameters, kDrillParameters>;

@@ -244,15 +244,15 @@ class DrillFit {
     std::vector<SolidPart> blunt = detection.best.model.parts;
     const auto head = std::find_if(blunt.begin(), blunt.end(),
                                    [](const SolidPart& part) { return part.name == "head"; });
-    const auto chuck = std::find_if(blunt.begin(), blunt.end(),
-                                    [](const SolidPart& part) { return part.name == "chuck"; });
+    const auto is_chuck = [](const SolidPart& part) { return part.name == DrillTemplate::kChuck; };
+    const auto chuck = std::find_if(blunt.begin(), blunt.end(), is_chuck);
     if (head != blunt.end() && chuck != blunt.end()) {
       chuck->size_m.head<2>().setConstant(head->size_m.y());
       support.blunt_margin_nats = own - likelihood_(blunt, pose);
       std::erase_if(blunt, [](const SolidPart& part) { return part.name == "bit"; });
       support.blunt_margin_nats =
           std::min(support.blunt_margin_nats, own - likelihood_(blunt, pose));
-      std::erase_if(blunt, [](const SolidPart& part) { return part.name == "chuck"; });
+      std::erase_if(blunt, is_chuck);
       support.chuck_nats = own - likelihood_(blunt, pose);
     }
   }
