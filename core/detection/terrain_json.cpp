@@ -17,7 +17,9 @@ Json EvidenceJson(const BlockEvidence& evidence) {
           {"see_through", evidence.see_through},
           {"outside", evidence.outside},
           {"confirmed_edges", evidence.confirmed_edges},
-          {"rms_m", evidence.rms_m}};
+          {"rms_m", evidence.rms_m},
+          {"size_margin", evidence.size_margin},
+          {"alike_size_margin", evidence.alike_size_margin}};
 }
 
 BlockEvidence BlockEvidenceFrom(const Json& value) {
@@ -28,6 +30,10 @@ BlockEvidence BlockEvidenceFrom(const Json& value) {
   evidence.outside = NumberFrom(value.at("outside"));
   evidence.confirmed_edges = IntegerIn(value, "confirmed_edges", 0, 4);
   evidence.rms_m = NumberFrom(value.at("rms_m"));
+  // Earlier programs did not write these.
+  for (const auto& [name, member] : {std::pair("size_margin", &evidence.size_margin),
+                                     std::pair("alike_size_margin", &evidence.alike_size_margin)})
+    if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;
 }
 

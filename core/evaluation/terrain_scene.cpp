@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/evaluation/terrain_distractors.h"
@@ -23,6 +24,8 @@ constexpr double kFlatFraction = 0.15;
 constexpr double kJitter_m = 0.008;
 constexpr int kNegativeEvery = 6;
 constexpr std::uint64_t kScatterStream = 4344;
+constexpr std::uint64_t kCartonStream = 4547;
+constexpr int kCartonsEvery = 3;    // of the negatives
 constexpr int kScatteredEvery = 6;  // of the positives
 constexpr double kApart_m = 0.60;   // between the middles of scattered blocks
 
@@ -35,35 +38,52 @@ Eigen::Quaterniond BlockTilt(int row, int column, Random& random) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(way < 2 ? tilt : -tilt, axis));
 }
 
-void AddCell(const TerrainLayout& layout, const Eigen::Vector2d& at, double yaw_rad, int layer,
-             const Eigen::Quaterniond& tilt, const Material& material, Random& random,
-             Scene& scene) {
+/// What stands in a cell: a block, or a carton that a fit may take for one.
+struct CellThing {
+  Eigen::Vector3d size_m = BlockObject().size_m;
+  bool block = true;
+};
+
+void AddCell(const CellThing& thing, const TerrainLayout& layout, const Eigen::Vector2d& at,
+             double yaw_rad, int layer, const Eigen::Quaterniond& tilt, const Material& material,
+             Random& random, Scene& scene) {
   const double base_m = layer * kLayer_m;
   if (layer > 0)
     AddBox("base", {0.38, 0.38, base_m}, layout.At({at.x(), at.y(), 0.5 * base_m}, yaw_rad),
            material, scene);
-  BlockObject block;
-  block.name = "block";
-  block.material = material;
   // How far the top's middle is above the lowest corner of the block.
   double height_m = 0.0;
   for (const double x : {-0.5, 0.5})
     for (const double y : {-0.5, 0.5})
       height_m = std::max(
           height_m,
-          -(tilt * Eigen::Vector3d(x * block.size_m.x(), y * block.size_m.y(), -block.size_m.z()))
+          -(tilt * Eigen::Vector3d(x * thing.size_m.x(), y * thing.size_m.y(), -thing.size_m.z()))
                .z());
   const Eigen::Vector3d shift(random.Uniform(-kJitter_m, kJitter_m),
                               random.Uniform(-kJitter_m, kJitter_m), 0.0);
   const auto cell = layout.At(Eigen::Vector3d(at.x(), at.y(), base_m + height_m) + shift,
                               yaw_rad + RadiansFromDegrees(random.Uniform(-1.5, 1.5)));
-  block.robot_from_object = {cell.rotation() * tilt, cell.translation()};
+  const Rigid<frame::Robot, frame::Object> top(cell.rotation() * tilt, cell.translation());
+  if (!thing.block) {
+    AddBox("carton", thing.size_m,
+           {top.rotation(), top * Eigen::Vector3d(0.0, 0.0, -0.5 * thing.size_m.z())}, material,
+           scene);
+    return;
+  }
+  BlockObject block;
+  block.name = "block";
+  block.material = material;
+  block.size_m = thing.size_m;
+  block.robot_from_object = top;
   AddBlock(block, scene);
 }
 
-/// A field of blocks that rises away from the robot.
-void AddField(const TerrainLayout& layout, int rows, Random& random, Scene& scene) {
-  const double pitch_m = random.Uniform(0.405, 0.440);
+/// A field that rises away from the robot.
+void AddField(const CellThing& thing, const TerrainLayout& layout, int rows, Random& random,
+              Scene& scene) {
+  const double wider_m =
+      thing.size_m.head<2>().maxCoeff() - BlockObject().size_m.head<2>().maxCoeff();
+  const double pitch_m = random.Uniform(0.405, 0.440) + std::max(0.0, wider_m);
   const Material one = RandomConcrete(random), other = RandomConcrete(random);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < kBlockColumns; ++column) {
@@ -72,12 +92,14 @@ void AddField(const TerrainLayout& layout, int rows, Random& random, Scene& scen
       const Eigen::Vector2d at((row - 0.5 * (rows - 1)) * pitch_m,
                                (column - 0.5 * (kBlockColumns - 1)) * pitch_m);
       const Eigen::Quaterniond tilt = BlockTilt(row, column, random);
-      AddCell(layout, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random, scene);
+      AddCell(thing, layout, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random,
+              scene);
     }
 }
 
-/// A few blocks that stand as they fell, in no rows.
-void AddScatteredBlocks(const TerrainLayout& layout, int rows, Random& random, Scene& scene) {
+/// A few that stand as they fell, in no rows.
+void AddScattered(const CellThing& thing, const TerrainLayout& layout, int rows, Random& random,
+                  Scene& scene) {
   const Material material = RandomConcrete(random);
   const int count = 2 + random.Index(5);
   std::vector<Eigen::Vector2d> places;
@@ -88,9 +110,28 @@ void AddScatteredBlocks(const TerrainLayout& layout, int rows, Random& random, S
       continue;
     places.push_back(at);
     const Eigen::Quaterniond tilt = BlockTilt(random.Index(4), random.Index(4), random);
-    AddCell(layout, at, random.Uniform(-std::numbers::pi, std::numbers::pi), random.Index(2), tilt,
-            material, random, scene);
+    AddCell(thing, layout, at, random.Uniform(-std::numbers::pi, std::numbers::pi), random.Index(2),
+            tilt, material, random, scene);
   }
+}
+
+/// One side is a block's, the other a tenth to a third longer or shorter.
+CellThing RandomCarton(Random& random) {
+  const double off = random.Uniform(0.10, 0.33);
+  CellThing carton{.size_m = {0.39 * (random.Chance(0.6) ? 1.0 + off : 1.0 - off),
+                              random.Uniform(0.385, 0.402), random.Uniform(0.12, 0.25)},
+                   .block = false};
+  if (random.Chance(0.5)) std::swap(carton.size_m.x(), carton.size_m.y());
+  return carton;
+}
+
+/// As blocks stand, so that nothing but their size tells them from blocks.
+void AddCartons(const TerrainLayout& layout, int rows, Random& random, Scene& scene) {
+  const CellThing carton = RandomCarton(random);
+  if (random.Chance(0.5))
+    AddField(carton, layout, rows, random, scene);
+  else
+    AddScattered(carton, layout, rows, random, scene);
 }
 
 ScanPlan RandomPlan(Random& random) {
@@ -120,11 +161,14 @@ FitTrialScene RandomTerrainScene(std::uint64_t seed) {
   trial.positive = random.Index(kNegativeEvery) != 0;
   Random scatter(seed, kScatterStream);
   if (trial.positive && scatter.Index(kScatteredEvery) == 0) {
-    AddScatteredBlocks(layout, rows, scatter, *scene);
+    AddScattered({}, layout, rows, scatter, *scene);
     trial.what = "scattered blocks";
   } else if (trial.positive) {
-    AddField(layout, rows, random, *scene);
+    AddField({}, layout, rows, random, *scene);
     trial.what = fmt::format("field of {} x {} blocks", rows, kBlockColumns);
+  } else if (Random cartons(seed, kCartonStream); cartons.Index(kCartonsEvery) == 0) {
+    AddCartons(layout, rows, cartons, *scene);
+    trial.what = "cartons of nearly a block's size";
   } else {
     trial.what = AddTerrainDistractor(layout, random, *scene);
   }

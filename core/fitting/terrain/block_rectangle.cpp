@@ -12,8 +12,6 @@
 namespace foresight {
 namespace {
 
-constexpr double kBand_m = 0.120;  // around a rectangle, where support speaks against it
-constexpr double kOutsideWeight = 0.7;
 // Of what rises beside a top only the foot says where the top ends: blocks lean over it higher up,
 // and a whole face falls on one line of the plane.
 constexpr double kOccupied_m = 0.050;
@@ -66,7 +64,7 @@ double Score(const std::vector<Piece>& pieces, const BlockRectangle& rectangle, 
     const double dy = piece.at.y() - rectangle.center.y();
     const double inside =
         std::min(half.x() - std::abs(c * dx + s * dy), half.y() - std::abs(c * dy - s * dx));
-    if (inside < -kBand_m) continue;
+    if (inside < -kRectangleBand_m) continue;
     const double fraction = std::clamp(0.5 + 0.5 * inside / softness_m, 0.0, 1.0);
     score += fraction * piece.inside + (1.0 - fraction) * piece.around;
   }

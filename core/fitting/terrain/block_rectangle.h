@@ -50,6 +50,10 @@ struct BlockRectangle {
   double Inside(const Eigen::Vector2d& at) const;
 };
 
+/// How far around a rectangle support speaks against it, and how much against what lies inside.
+inline constexpr double kRectangleBand_m = 0.120;
+inline constexpr double kOutsideWeight = 0.7;
+
 /// The smallest rectangle around most of the support (the outermost 1 % on each side left out).
 BlockRectangle BoundsOfSupport(const PlaneView& view);
 

@@ -11,9 +11,11 @@ namespace {
 
 constexpr double kLeastOffered = 0.40;  // of a block that is offered
 constexpr double kMaxSeeThrough = 0.30;
-constexpr double kLargestPatch = 5.0;   // blocks; more is ground or a floor
-constexpr double kMinLeftover = 0.15;   // of a block's area: a surface of its own
-constexpr double kOwnMargin_m = 0.015;  // support this near to a block is its own
+constexpr double kLargestPatch = 5.0;     // blocks; more is ground or a floor
+constexpr double kMinLeftover = 0.15;     // of a block's area: a surface of its own
+constexpr double kOwnMargin_m = 0.015;    // support this near to a block is its own
+constexpr int kMeasuredEdges = 2;         // of a block whose size counts for the others
+constexpr double kMostSizeMargin = 0.12;  // of it that counts for the others
 
 /// How far a return near an edge may lie from where the edge is.
 double EdgeBlur(const RaySet& rays, const SurfaceGrid& grid, const Eigen::Vector3d& at) {
@@ -188,6 +190,27 @@ void SurfaceCollector::PlaceTogether() {
         settled.in_rows ? RectangleEvidence::Row::kIn : RectangleEvidence::Row::kOut;
     block.evidence.row_gap_sigmas = settled.gap_sigmas;
   }
+}
+
+void SurfaceCollector::MeasureSizes() {
+  std::vector<FoundSurface*> blocks;
+  for (FoundSurface& surface : found)
+    if (surface.surface.kind == TerrainSurface::Kind::kBlock) blocks.push_back(&surface);
+  double sum = 0.0;
+  int measured = 0;
+  for (FoundSurface* block : blocks) {
+    std::vector<BlockRectangle> others;
+    for (const FoundSurface* other : blocks)
+      if (other != block && other->view == block->view) others.push_back(other->rectangle);
+    BlockEvidence& evidence = block->surface.evidence;
+    evidence.size_margin =
+        SizeMargin(views_[static_cast<std::size_t>(block->view)], block->rectangle, others);
+    if (evidence.confirmed_edges < kMeasuredEdges) continue;
+    sum += std::clamp(evidence.size_margin, -kMostSizeMargin, kMostSizeMargin);
+    ++measured;
+  }
+  for (FoundSurface* block : blocks)
+    block->surface.evidence.alike_size_margin = sum / std::max(1, measured);
 }
 
 }  // namespace foresight

@@ -34,6 +34,9 @@ class SurfaceCollector {
   /// gathers their evidence again there. Without rows, nothing changes.
   void PlaceTogether();
 
+  /// What speaks for the size of each block, beside the others on its plane, and for that of all.
+  void MeasureSizes();
+
   std::vector<FoundSurface> found;
 
  private:

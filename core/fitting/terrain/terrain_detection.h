@@ -20,6 +20,11 @@ struct BlockEvidence {
   double outside = 0.0;      ///< support beyond the rectangle, as a fraction of its area
   int confirmed_edges = 0;   ///< 0 to 4: support inside, none outside
   double rms_m = 0.0;        ///< of the points from the plane
+  /// How much better a block's size explains it than any that is a tenth and more longer or
+  /// shorter, as a fraction of its area; negative where another explains it better. And the mean of
+  /// that over the blocks of the region, which are alike.
+  double size_margin = 0.0;
+  double alike_size_margin = 0.0;
 };
 
 /// Where a foot may stand: the rectangle shrunk by a margin.

@@ -9,17 +9,23 @@
 namespace foresight {
 namespace {
 
-// What a confirmed block needs (`packaging/evaluate choice-terrain`; docs/evaluation.md, "Gates of
-// terrain"). Two edges do not tell a block from another box. Lidar returns, which lie far apart,
-// say too much of what lies beyond an edge.
-constexpr int kMinEdges = 3;
+// What a confirmed block needs (`packaging/evaluate choice-terrain`; docs/evaluation.md, "A carton
+// is no block"). Edges do not tell a block from a carton of nearly its size: the margins of sizes
+// do. Lidar returns, which lie far apart, say too much of what lies beyond an edge.
+constexpr int kMinEdges = 2;
 constexpr double kMinCover = 0.6;
-constexpr double kMaxOutside = 0.1;
-constexpr double kMaxOutsideOfReturns = 0.2;
+constexpr double kMaxOutside = 0.1, kMaxOutsideOfReturns = 0.2;
+// By how much another size may explain a block better, or all blocks of the region.
+constexpr double kMaxOtherSize = 0.05, kMaxOtherSizeOfReturns = 0.10;
+constexpr double kMaxOtherSizeOfAll = 0.015, kMaxOtherSizeOfAllReturns = 0.04;
+constexpr double kMaxPlaceSigma_m = 0.010;
 constexpr int kUnsureEdges = 1;  // no more than this: UNSURE
 // From here on less than 0.5 % of the toehold area that is offered has no block under it, on the
 // scenes that the weights were fitted to.
 constexpr double kWorthOffering = 0.80;
+
+constexpr double kFarOff = 0.3;  // a margin of sizes beyond this says no more
+constexpr double kUsualOtherSize = 0.01;
 
 std::string Edges(int count) {
   static constexpr const char* kWords[] = {"no edge", "one edge", "two edges", "three edges",
@@ -40,8 +46,32 @@ Gate EdgesGate(const BlockEvidence& evidence, int limit) {
           .limit = static_cast<double>(limit)};
 }
 
+Gate OtherSizeGate(const char* what, double size_margin, double limit) {
+  return {.what = fmt::format("another size than a block's explains {} better, by {{}} of its area",
+                              what),
+          .unit = Gate::Unit::kFraction,
+          .number = std::max(0.0, -size_margin),
+          .side = Gate::Side::kAtMost,
+          .limit = limit,
+          .advice = "measure it, or look at it from another side"};
+}
+
+double PlaceSigma(const TerrainSurface& block) {
+  return std::sqrt(block.covariance(0, 0) + block.covariance(1, 1));
+}
+
+Gate PlaceGate(const TerrainSurface& block, double limit_m) {
+  return {.what = "its place is known to {}",
+          .unit = Gate::Unit::kLength,
+          .number = PlaceSigma(block),
+          .side = Gate::Side::kAtMost,
+          .limit = limit_m,
+          .advice = "scan slower or move closer"};
+}
+
 /// Why a block must not be confirmed.
-std::vector<std::string> FailedGates(const BlockEvidence& evidence, bool of_map) {
+std::vector<std::string> FailedGates(const TerrainSurface& block, bool of_map) {
+  const BlockEvidence& evidence = block.evidence;
   std::vector<std::string> failed;
   AddIfFailed({.what = "part of a larger patch: {} of a block's area lies beyond it",
                .unit = Gate::Unit::kFraction,
@@ -51,6 +81,13 @@ std::vector<std::string> FailedGates(const BlockEvidence& evidence, bool of_map)
               failed);
   AddIfFailed(CoverGate(evidence, kMinCover), failed);
   AddIfFailed(EdgesGate(evidence, kMinEdges), failed);
+  AddIfFailed(
+      OtherSizeGate("it", evidence.size_margin, of_map ? kMaxOtherSize : kMaxOtherSizeOfReturns),
+      failed);
+  AddIfFailed(OtherSizeGate("all that is here", evidence.alike_size_margin,
+                            of_map ? kMaxOtherSizeOfAll : kMaxOtherSizeOfAllReturns),
+              failed);
+  AddIfFailed(PlaceGate(block, kMaxPlaceSigma_m), failed);
   return failed;
 }
 
@@ -81,12 +118,11 @@ std::vector<FeatureGate> FeatureGates(const TerrainSurface& block,
         .number = seen.rms_m,
         .side = Gate::Side::kAtMost,
         .limit = mean("rms")}},
-      {"log_sigma_place",
-       {.what = "its place is known to {}",
-        .unit = Gate::Unit::kLength,
-        .number = std::hypot(std::sqrt(block.covariance(0, 0)), std::sqrt(block.covariance(1, 1))),
-        .side = Gate::Side::kAtMost,
-        .limit = std::exp(mean("log_sigma_place"))}}};
+      {"size_margin",
+       OtherSizeGate("it", seen.size_margin, std::max(kUsualOtherSize, -mean("size_margin")))},
+      {"alike_size_margin", OtherSizeGate("all that is here", seen.alike_size_margin,
+                                          std::max(kUsualOtherSize, -mean("alike_size_margin")))},
+      {"log_sigma_place", PlaceGate(block, std::exp(mean("log_sigma_place")))}};
 }
 
 std::vector<double> FeaturesOf(const RaySet& rays, const TerrainSurface& block,
@@ -98,35 +134,37 @@ std::vector<double> FeaturesOf(const RaySet& rays, const TerrainSurface& block,
     least_inner = std::min(least_inner, edge.inner_support);
     most_outer = std::max(most_outer, edge.outer_support);
   }
-  return {
-      seen.cover,
-      seen.see_through,
-      seen.outside,
-      seen.confirmed_edges >= 3 ? 1.0 : 0.0,
-      seen.confirmed_edges >= 4 ? 1.0 : 0.0,
-      static_cast<double>(evidence.dropping_edges),
-      least_inner,
-      most_outer,
-      std::min(0.1, evidence.size_error_m),
-      std::log(std::max(1, seen.points)),
-      seen.rms_m,
-      block.toehold.slope_rad,
-      range_m,
-      rays.sigma_m,
-      std::log(std::max(1e-4, block.toehold.sigma_tilt_rad / kTiltSigmaFactor)),
-      evidence.row == RectangleEvidence::Row::kIn ? 1.0 : 0.0,
-      evidence.row == RectangleEvidence::Row::kOut ? 1.0 : 0.0,
-      evidence.row_gap_sigmas,
-      std::log(std::hypot(std::sqrt(block.covariance(0, 0)), std::sqrt(block.covariance(1, 1))))};
+  return {seen.cover,
+          seen.see_through,
+          seen.outside,
+          seen.confirmed_edges >= 3 ? 1.0 : 0.0,
+          seen.confirmed_edges >= 4 ? 1.0 : 0.0,
+          static_cast<double>(evidence.dropping_edges),
+          least_inner,
+          most_outer,
+          std::min(0.1, evidence.size_error_m),
+          std::log(std::max(1, seen.points)),
+          seen.rms_m,
+          block.toehold.slope_rad,
+          range_m,
+          rays.sigma_m,
+          std::log(std::max(1e-4, block.toehold.sigma_tilt_rad / kTiltSigmaFactor)),
+          evidence.row == RectangleEvidence::Row::kIn ? 1.0 : 0.0,
+          evidence.row == RectangleEvidence::Row::kOut ? 1.0 : 0.0,
+          evidence.row_gap_sigmas,
+          std::log(PlaceSigma(block)),
+          std::clamp(seen.size_margin, -kFarOff, kFarOff),
+          std::clamp(seen.alike_size_margin, -kFarOff, kFarOff)};
 }
 
 }  // namespace
 
 std::vector<std::string> TerrainFeatureNames() {
-  return {"cover",   "see_through", "outside",    "three_edges",    "four_edges",
-          "drops",   "least_inner", "most_outer", "size_error",     "log_points",
-          "rms",     "tilt",        "range",      "sigma",          "log_sigma_tilt",
-          "in_rows", "out_of_rows", "row_gap",    "log_sigma_place"};
+  return {
+      "cover",           "see_through", "outside",          "three_edges", "four_edges",  "drops",
+      "least_inner",     "most_outer",  "size_error",       "log_points",  "rms",         "tilt",
+      "range",           "sigma",       "log_sigma_tilt",   "in_rows",     "out_of_rows", "row_gap",
+      "log_sigma_place", "size_margin", "alike_size_margin"};
 }
 
 Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
@@ -136,7 +174,7 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
   Verdict verdict;
   verdict.features = FeaturesOf(rays, block, evidence);
   verdict.probability = model.Probability(verdict.features);
-  verdict.failed_gates = FailedGates(block.evidence, rays.dense);
+  verdict.failed_gates = FailedGates(block, rays.dense);
   model.AddReservation(verdict.failed_gates);
   const bool unsure =
       verdict.probability < kWorthOffering || block.evidence.confirmed_edges <= kUnsureEdges;

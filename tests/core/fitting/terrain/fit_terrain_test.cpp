@@ -118,6 +118,31 @@ TEST(FitTerrain, CoplanarNeighborsAreTwoBlocks) {
   EXPECT_NEAR(right, 0.20, 0.02);
 }
 
+TEST(FitTerrain, CartonsOfNearlyABlocksSizeAreNotConfirmed) {
+  const auto field_of = [](const Eigen::Vector2d& size_m) {
+    std::vector<Slab> slabs = {Ground(1.4)};
+    for (int row = 0; row < 2; ++row)
+      for (int column = 0; column < 3; ++column)
+        slabs.push_back(SlabAt(0.52 * (column - 1), 1.2 - 0.1 * row, 1.3 + 0.52 * row, size_m,
+                               (row + column) % 2 == 0 ? 14.0 : -8.0));
+    return slabs;
+  };
+  const auto of_another_size = [](const TerrainSurface& surface) {
+    const auto& failed = surface.verdict.failed_gates;
+    return surface.kind == Kind::kBlock &&
+           std::any_of(failed.begin(), failed.end(), [](const std::string& why) {
+             return why.starts_with("another size than a block's explains");
+           });
+  };
+  const auto count = [&](const Eigen::Vector2d& size_m) {
+    const TerrainDetection found = Fit(field_of(size_m));
+    return std::count_if(found.surfaces.begin(), found.surfaces.end(), of_another_size);
+  };
+  EXPECT_EQ(count(kBlock), 0);
+  EXPECT_EQ(count({0.45, 0.390}), 6);
+  EXPECT_EQ(count({0.397, 0.33}), 6);
+}
+
 TEST(FitTerrain, EveryRayKnowsItsSurface) {
   const RaySet rays = RaysOnto(OneBlock(), kStep_deg, kSigma_m, 1);
   const auto found = FitTerrain(rays, {}, {});

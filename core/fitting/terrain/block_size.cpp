@@ -1,0 +1,110 @@
+#include "core/fitting/terrain/block_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace foresight {
+namespace {
+
+constexpr double kSizeBin_m = 0.005;
+constexpr double kSizeReach = 0.35;    // of a side: how far either end may lie from where it should
+constexpr double kSameSize = 0.04;     // of a side: what edges and blocks are off by
+constexpr double kAnotherSize = 0.10;  // of a side: what counts as another size
+constexpr double kSizeCorner_m = 0.020;
+constexpr double kOfAnother_m = 0.015;  // support this near to another block is that one's
+
+/// Gains along one side of a rectangle, in bins from its lower end less the reach and the band.
+class SideProfile {
+ public:
+  SideProfile(double side_m)
+      : side_(Bins(side_m)),
+        reach_(Bins(kSizeReach * side_m)),
+        band_(Bins(kRectangleBand_m)),
+        first_m_(-0.5 * side_m - (reach_ + band_) * kSizeBin_m),
+        inside_(static_cast<std::size_t>(side_ + 2 * (reach_ + band_)) + 1, 0.0),
+        around_(inside_) {}
+
+  void Add(double at_m, double inside, double around) {
+    const double bin = std::floor((at_m - first_m_) / kSizeBin_m);
+    if (bin < 0.0 || bin >= static_cast<double>(inside_.size() - 1)) return;
+    inside_[static_cast<std::size_t>(bin) + 1] += inside;
+    around_[static_cast<std::size_t>(bin) + 1] += around;
+  }
+
+  /// The best score of a length that is nearly the side's, less the best of any other.
+  double MarginOfItsLength() {
+    const int same = static_cast<int>(std::lround(kSameSize * side_));
+    const int another = static_cast<int>(std::lround(kAnotherSize * side_));
+    const std::vector<double> best = BestOfLengths();
+    double of_side = -std::numeric_limits<double>::infinity(), of_another = of_side;
+    for (int longer = -reach_; longer <= reach_; ++longer) {
+      const double score = best[static_cast<std::size_t>(longer + reach_)];
+      if (std::abs(longer) <= same) of_side = std::max(of_side, score);
+      if (std::abs(longer) >= another) of_another = std::max(of_another, score);
+    }
+    return of_side - of_another;
+  }
+
+ private:
+  static int Bins(double length_m) { return static_cast<int>(std::lround(length_m / kSizeBin_m)); }
+  /// Of each length, from side - reach to side + reach, wherever it lies.
+  std::vector<double> BestOfLengths() {
+    for (auto* sums : {&inside_, &around_})
+      for (std::size_t i = 1; i < sums->size(); ++i) (*sums)[i] += (*sums)[i - 1];
+    std::vector<double> best(static_cast<std::size_t>(2 * reach_) + 1,
+                             -std::numeric_limits<double>::infinity());
+    for (int low = band_; low <= band_ + 2 * reach_; ++low)
+      for (int high = band_ + side_; high <= band_ + side_ + 2 * reach_; ++high) {
+        const int longer = high - low - side_;
+        if (std::abs(longer) > reach_) continue;
+        const double score = Sum(inside_, low, high) + Sum(around_, low - band_, low) +
+                             Sum(around_, high, high + band_);
+        double& kept = best[static_cast<std::size_t>(longer + reach_)];
+        kept = std::max(kept, score);
+      }
+    return best;
+  }
+
+  static double Sum(const std::vector<double>& sums, int from, int to) {
+    return sums[static_cast<std::size_t>(to)] - sums[static_cast<std::size_t>(from)];
+  }
+
+  int side_, reach_, band_;
+  double first_m_;
+  std::vector<double> inside_, around_;  ///< sums up to a bin, once asked
+};
+
+}  // namespace
+
+double SizeMargin(const PlaneView& view, const BlockRectangle& rectangle,
+                  std::span<const BlockRectangle> others) {
+  const Eigen::Vector2d half = 0.5 * rectangle.size_m;
+  const auto of_another = [&](const Eigen::Vector2d& at) {
+    return rectangle.Inside(at) < 0.0 &&
+           std::any_of(others.begin(), others.end(), [&](const BlockRectangle& other) {
+             return other.Inside(at) > -kOfAnother_m;
+           });
+  };
+  double margin_m2 = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 2; ++axis) {
+    SideProfile profile(rectangle.size_m[axis]);
+    const auto add = [&](const std::vector<PlaneView::Sample>& samples, bool support) {
+      for (const PlaneView::Sample& sample : samples) {
+        const Eigen::Vector2d local = rectangle.Local(sample.at);
+        if (std::abs(local[1 - axis]) > half[1 - axis] - kSizeCorner_m) continue;
+        const bool own = support && !of_another(sample.at);
+        profile.Add(local[axis], own ? sample.area_m2 : -sample.area_m2,
+                    own ? -kOutsideWeight * sample.area_m2 : 0.0);
+      }
+    };
+    add(view.support, true);
+    add(view.through, false);
+    add(view.occupied, false);
+    margin_m2 = std::min(margin_m2, profile.MarginOfItsLength());
+  }
+  return margin_m2 / rectangle.size_m.prod();
+}
+
+}  // namespace foresight
