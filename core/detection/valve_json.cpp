@@ -34,7 +34,8 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"weakest_spoke_nats", evidence.weakest_spoke_nats},
           {"weakest_spoke_middle_nats", evidence.weakest_spoke_middle_nats},
           {"further_spoke_nats", evidence.further_spoke_nats},
-          {"rim_nats", evidence.rim_nats}};
+          {"rim_nats", evidence.rim_nats},
+          {"weakest_arc_nats", evidence.weakest_arc_nats}};
 }
 
 ValveModel::Kind KindFrom(const std::string& name) {
@@ -68,7 +69,8 @@ ValveEvidence ValveEvidenceFrom(const Json& value) {
         std::pair("weakest_spoke_nats", &evidence.weakest_spoke_nats),
         std::pair("weakest_spoke_middle_nats", &evidence.weakest_spoke_middle_nats),
         std::pair("further_spoke_nats", &evidence.further_spoke_nats),
-        std::pair("rim_nats", &evidence.rim_nats)})
+        std::pair("rim_nats", &evidence.rim_nats),
+        std::pair("weakest_arc_nats", &evidence.weakest_arc_nats)})
     if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;
 }

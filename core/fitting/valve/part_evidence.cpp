@@ -1,8 +1,10 @@
 #include "core/fitting/valve/part_evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "core/fitting/valve/valve_tracer.h"
@@ -17,6 +19,7 @@ constexpr double kMiddleEnds = 0.8;
 // Where further spokes are looked for. Nearer to a spoke its own sides look like one.
 constexpr double kSpokeStep_rad = RadiansFromDegrees(5.0);
 constexpr double kBesideSpoke_rad = RadiansFromDegrees(15.0);
+constexpr int kArcs = 8;  // of a rim
 
 double SpokeLength(const ValveModel& model) {
   return std::hypot(model.rim_radius_m, model.dish_m);
@@ -39,6 +42,12 @@ struct SpokeNats {
     (along < 0.5 ? inner_half : outer_half) += gain;
   }
 };
+
+int ArcOf(const ValveIntersection& intersection) {
+  const double turns =
+      std::atan2(intersection.on_rim.y(), intersection.on_rim.x()) / (2.0 * std::numbers::pi) + 0.5;
+  return std::clamp(static_cast<int>(turns * kArcs), 0, kArcs - 1);
+}
 
 ValveCandidate Turned(const ValveCandidate& valve, double turn_rad) {
   ValveCandidate turned = valve;
@@ -77,7 +86,7 @@ double FurtherSpokeNats(const RayLikelihood& likelihood, const ValveCandidate& v
 
 void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve,
                         ValveEvidence& evidence) {
-  evidence.rim_nats = 0.0;
+  evidence.rim_nats = evidence.weakest_arc_nats = 0.0;
   evidence.weakest_spoke_nats = evidence.weakest_spoke_middle_nats = 0.0;
   evidence.further_spoke_nats = 0.0;
   if (valve.model.IsLever()) return;
@@ -86,15 +95,18 @@ void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& v
   const ValveTracer tracer(valve, ValveParts::kAll);
   const double length_m = SpokeLength(valve.model);
   std::vector<SpokeNats> spokes(static_cast<std::size_t>(valve.model.spokes));
+  std::array<double, kArcs> arcs = {};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const double gain = gains(static_cast<Eigen::Index>(i));
     if (gain == 0.0) continue;  // too far from all of it
     const ValveIntersection intersection = tracer.Intersect(rays[i]);
     if (intersection.part == ValvePart::kRim)
-      evidence.rim_nats += gain;
+      arcs[static_cast<std::size_t>(ArcOf(intersection))] += gain;
     else if (intersection.part == ValvePart::kSpoke)
       spokes[static_cast<std::size_t>(intersection.spoke)].Add(intersection, gain, length_m);
   }
+  evidence.rim_nats = std::accumulate(arcs.begin(), arcs.end(), 0.0);
+  evidence.weakest_arc_nats = *std::min_element(arcs.begin(), arcs.end());
   if (spokes.empty()) return;
   const auto weakest = [&](double SpokeNats::*nats) {
     double least = spokes.front().*nats;

@@ -36,6 +36,8 @@ struct ValveEvidence {
   double further_spoke_nats = 0.0;
   /// How much the beams on and beside the rim speak for it; 0 for a lever.
   double rim_nats = 0.0;
+  /// The same of the eighth of the rim that they speak for least.
+  double weakest_arc_nats = 0.0;
 };
 
 /// One answer to "where is the valve": the best one, or an alternative.

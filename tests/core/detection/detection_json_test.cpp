@@ -30,6 +30,7 @@ ValveDetection Sample() {
   detection.evidence.weakest_spoke_middle_nats = -1.5;
   detection.evidence.further_spoke_nats = 7.25;
   detection.evidence.rim_nats = 640.5;
+  detection.evidence.weakest_arc_nats = -4.5;
   detection.evidence.margin_line_sigmas = 2.25;
   detection.verdict = {VerdictLevel::kLikely, 0.83, "only 58 % of the rim is seen", {}};
   detection.alternatives = {detection.best};
@@ -63,6 +64,7 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->evidence.weakest_spoke_middle_nats, -1.5);
   EXPECT_EQ(read->evidence.further_spoke_nats, 7.25);
   EXPECT_EQ(read->evidence.rim_nats, 640.5);
+  EXPECT_EQ(read->evidence.weakest_arc_nats, -4.5);
   EXPECT_EQ(read->evidence.margin_line_sigmas, 2.25);
   EXPECT_EQ(read->best.brightness, 0.7);
   EXPECT_EQ(read->verdict.level, VerdictLevel::kLikely);
@@ -236,7 +238,7 @@ TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
   block.kind = TerrainSurface::Kind::kBlock;
   block.base_from_object = {Eigen::Quaterniond::Identity(), {0.5, 0.6, 2.0}};
   block.size_m = {0.397, 0.390};
-  block.evidence = {400, 0.9, 0.01, 0.02, 4, 0.004};
+  block.evidence = {400, 0.9, 0.01, 0.02, 4, 0.004, -0.07, 0.02};
   block.toehold = {{0.357, 0.350}, 0.26, 0.19, 0.002, 0.004};
   block.verdict = {VerdictLevel::kConfirmed, 0.98, "four edges", {}};
   block.shift_m = 0.031;
@@ -250,6 +252,8 @@ TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
   ASSERT_NE(read, nullptr);
   ASSERT_EQ(read->surfaces.size(), 2U);
   EXPECT_EQ(read->surfaces[0].evidence.confirmed_edges, 4);
+  EXPECT_EQ(read->surfaces[0].evidence.size_margin, -0.07);
+  EXPECT_EQ(read->surfaces[0].evidence.alike_size_margin, 0.02);
   EXPECT_EQ(read->surfaces[0].toehold.step_m, 0.19);
   EXPECT_TRUE(std::isnan(read->surfaces[1].toehold.step_m));
   EXPECT_EQ(read->surfaces[1].kind, TerrainSurface::Kind::kGround);

@@ -186,7 +186,8 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
                       .weakest_spoke_nats = random.Uniform(-20.0, 100.0),
                       .weakest_spoke_middle_nats = random.Uniform(-20.0, 100.0),
                       .further_spoke_nats = random.Uniform(0.0, 40.0),
-                      .rim_nats = random.Uniform(-20.0, 100.0)};
+                      .rim_nats = random.Uniform(-20.0, 100.0),
+                      .weakest_arc_nats = random.Uniform(-10.0, 50.0)};
     if (random.Index(3) == 0) found.evidence.margin_nats = random.Uniform(-5.0, 12.0);
     found.alternatives.push_back(found.best);
     found.alternatives.front().model.spokes = 5;
@@ -237,6 +238,12 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
       AssessValve(rays, rays, found, {}).reason,
       "the odds that there is one more spoke are 10^17 : 1 (at most 10^9 : 1): spokes that do "
       "not stand evenly look like this");
+  found.evidence.further_spoke_nats = 0.0;
+  found.evidence.weakest_arc_nats = -9.0;
+  EXPECT_EQ(AssessValve(rays, rays, found, {}).reason,
+            "the odds that every part of the rim is there are 1 : 8100 (at least 1 : 150): a wheel "
+            "whose rim is broken looks like this");
+  found.evidence.weakest_arc_nats = 0.0;     // something hides it
   found.evidence.further_spoke_nats = 12.0;  // beams beside a spoke
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
   found.best.model.spoke_radius_m = 0.04;
@@ -374,7 +381,9 @@ TEST(Reasons, OfBlocksFailAsTheyAreStated) {
                       .see_through = random.Uniform(0.0, 0.1),
                       .outside = random.Uniform(0.0, 0.2),
                       .confirmed_edges = random.Index(5),
-                      .rms_m = 0.006};
+                      .rms_m = 0.006,
+                      .size_margin = random.Uniform(-0.15, 0.1),
+                      .alike_size_margin = random.Uniform(-0.1, 0.1)};
     RectangleEvidence evidence;
     evidence.block = block.evidence;
     evidence.size_error_m = random.Uniform(0.0, 0.08);

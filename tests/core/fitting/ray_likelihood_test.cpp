@@ -171,6 +171,17 @@ TEST(ValveEvidence, HubAndRimSpeakForNoSpokeBetweenThem) {
   EXPECT_EQ(EvidenceOfParts(likelihood, more).weakest_spoke_middle_nats, 0.0);
 }
 
+TEST(ValveEvidence, BeamsSpeakAgainstAPartOfTheRimWhereThereIsNone) {
+  const ValveScene scene = FourSpokes();
+  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_arc_nats, 10.0);
+  ValveCandidate beside = scene.truth;
+  beside.base_from_object = {
+      beside.base_from_object.rotation(),
+      beside.base_from_object * Eigen::Vector3d(0.3 * beside.model.rim_radius_m, 0.0, 0.0)};
+  EXPECT_LT(EvidenceOfParts(likelihood, beside).weakest_arc_nats, -10.0);
+}
+
 TEST(ValveEvidence, BeamsSpeakForASpokeThatIsLeftOut) {
   const ValveScene scene = FourSpokes();
   const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
