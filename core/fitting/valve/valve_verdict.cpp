@@ -27,7 +27,7 @@ constexpr double kMinMargin_nats = 10.0;
 constexpr double kMinRimSeen = 0.4;
 // Where something hides a part of a rim no beam speaks for that part or against it. Of 120 wheels
 // that are right and CONFIRMED at home and under varied conditions the least is -3.3
-// (docs/evaluation.md, "A wheel in the image").
+// (docs/evaluation.md, "A piece of a rim").
 constexpr double kMinArc_nats = -5.0;
 // Beams beside a spoke or on what stands behind a wheel look like one more spoke by up to this
 // much. Of 363 wheels that are right and CONFIRMED on the seeds of `packaging/evaluate
