@@ -1,8 +1,10 @@
 #include "core/fitting/terrain/block_size.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace foresight {
@@ -18,7 +20,7 @@ constexpr double kOfAnother_m = 0.015;  // support this near to another block is
 /// Gains along one side of a rectangle, in bins from its lower end less the reach and the band.
 class SideProfile {
  public:
-  SideProfile(double side_m)
+  explicit SideProfile(double side_m)
       : side_(Bins(side_m)),
         reach_(Bins(kSizeReach * side_m)),
         band_(Bins(kRectangleBand_m)),
@@ -34,7 +36,7 @@ class SideProfile {
   }
 
   /// The best score of a length that is nearly the side's, less the best of any other.
-  double MarginOfItsLength() {
+  double MarginOfItsLength() const {
     const int same = static_cast<int>(std::lround(kSameSize * side_));
     const int another = static_cast<int>(std::lround(kAnotherSize * side_));
     const std::vector<double> best = BestOfLengths();
@@ -50,30 +52,35 @@ class SideProfile {
  private:
   static int Bins(double length_m) { return static_cast<int>(std::lround(length_m / kSizeBin_m)); }
   /// Of each length, from side - reach to side + reach, wherever it lies.
-  std::vector<double> BestOfLengths() {
-    for (auto* sums : {&inside_, &around_})
-      for (std::size_t i = 1; i < sums->size(); ++i) (*sums)[i] += (*sums)[i - 1];
+  std::vector<double> BestOfLengths() const {
+    const std::vector<double> inside = SumsOf(inside_), around = SumsOf(around_);
     std::vector<double> best(static_cast<std::size_t>(2 * reach_) + 1,
                              -std::numeric_limits<double>::infinity());
     for (int low = band_; low <= band_ + 2 * reach_; ++low)
       for (int high = band_ + side_; high <= band_ + side_ + 2 * reach_; ++high) {
         const int longer = high - low - side_;
         if (std::abs(longer) > reach_) continue;
-        const double score = Sum(inside_, low, high) + Sum(around_, low - band_, low) +
-                             Sum(around_, high, high + band_);
+        const double score = Sum(inside, low, high) + Sum(around, low - band_, low) +
+                             Sum(around, high, high + band_);
         double& kept = best[static_cast<std::size_t>(longer + reach_)];
         kept = std::max(kept, score);
       }
     return best;
   }
 
+  /// Of all bins up to each.
+  static std::vector<double> SumsOf(const std::vector<double>& bins) {
+    std::vector<double> sums(bins.size());
+    std::partial_sum(bins.begin(), bins.end(), sums.begin());
+    return sums;
+  }
   static double Sum(const std::vector<double>& sums, int from, int to) {
     return sums[static_cast<std::size_t>(to)] - sums[static_cast<std::size_t>(from)];
   }
 
   int side_, reach_, band_;
   double first_m_;
-  std::vector<double> inside_, around_;  ///< sums up to a bin, once asked
+  std::vector<double> inside_, around_;  ///< the first is empty
 };
 
 }  // namespace
@@ -87,24 +94,21 @@ double SizeMargin(const PlaneView& view, const BlockRectangle& rectangle,
              return other.Inside(at) > -kOfAnother_m;
            });
   };
-  double margin_m2 = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 2; ++axis) {
-    SideProfile profile(rectangle.size_m[axis]);
-    const auto add = [&](const std::vector<PlaneView::Sample>& samples, bool support) {
-      for (const PlaneView::Sample& sample : samples) {
-        const Eigen::Vector2d local = rectangle.Local(sample.at);
-        if (std::abs(local[1 - axis]) > half[1 - axis] - kSizeCorner_m) continue;
-        const bool own = support && !of_another(sample.at);
-        profile.Add(local[axis], own ? sample.area_m2 : -sample.area_m2,
-                    own ? -kOutsideWeight * sample.area_m2 : 0.0);
-      }
-    };
-    add(view.support, true);
-    add(view.through, false);
-    add(view.occupied, false);
-    margin_m2 = std::min(margin_m2, profile.MarginOfItsLength());
-  }
-  return margin_m2 / rectangle.size_m.prod();
+  std::array<SideProfile, 2> profiles = {SideProfile(rectangle.size_m.x()),
+                                         SideProfile(rectangle.size_m.y())};
+  const auto add = [&](const PlaneView::Sample& sample, bool own) {
+    const Eigen::Vector2d local = rectangle.Local(sample.at);
+    const double inside = own ? sample.area_m2 : -sample.area_m2;
+    const double around = own ? -kOutsideWeight * sample.area_m2 : 0.0;
+    for (int axis = 0; axis < 2; ++axis)
+      if (std::abs(local[1 - axis]) <= half[1 - axis] - kSizeCorner_m)
+        profiles[static_cast<std::size_t>(axis)].Add(local[axis], inside, around);
+  };
+  for (const PlaneView::Sample& sample : view.support) add(sample, !of_another(sample.at));
+  for (const auto* closed : {&view.through, &view.occupied})
+    for (const PlaneView::Sample& sample : *closed) add(sample, false);
+  return std::min(profiles[0].MarginOfItsLength(), profiles[1].MarginOfItsLength()) /
+         rectangle.size_m.prod();
 }
 
 }  // namespace foresight

@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-// What a confirmed block needs (`packaging/evaluate choice-terrain`; docs/evaluation.md, "A carton
+// What a confirmed block needs (`packaging/evaluate cartons-choice`; docs/evaluation.md, "A carton
 // is no block"). Edges do not tell a block from a carton of nearly its size: the margins of sizes
 // do. Lidar returns, which lie far apart, say too much of what lies beyond an edge.
 constexpr int kMinEdges = 2;

@@ -44,9 +44,7 @@ struct SpokeNats {
 };
 
 int ArcOf(const ValveIntersection& intersection) {
-  const double turns =
-      std::atan2(intersection.on_rim.y(), intersection.on_rim.x()) / (2.0 * std::numbers::pi) + 0.5;
-  return std::clamp(static_cast<int>(turns * kArcs), 0, kArcs - 1);
+  return std::clamp(static_cast<int>(intersection.FractionOfRim() * kArcs), 0, kArcs - 1);
 }
 
 ValveCandidate Turned(const ValveCandidate& valve, double turn_rad) {

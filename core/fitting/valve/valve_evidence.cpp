@@ -59,10 +59,9 @@ double BlockedGaps(const ValveCandidate& valve, const ValveTracer& tracer,
 
 /// Fraction of the middle line's bins that have support: of the rim's circle, or along a lever.
 int BinOf(const ValveIntersection& intersection, const ValveModel& model) {
-  const Eigen::Vector2d& on_rim = intersection.on_rim;
   const double fraction = model.IsLever()
                               ? intersection.along_m / std::max(model.lever_length_m, 1e-6)
-                              : std::atan2(on_rim.y(), on_rim.x()) / (2.0 * std::numbers::pi) + 0.5;
+                              : intersection.FractionOfRim();
   return std::clamp(static_cast<int>(fraction * kBins), 0, kBins - 1);
 }
 

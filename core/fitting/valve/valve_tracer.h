@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/fitting/ray_set.h"
 #include "core/fitting/valve/valve_state.h"
@@ -28,6 +30,10 @@ struct ValveIntersection {
   double along_m = 0.0;  ///< of the closest point of a spoke, lever or stem, from its beginning
   int spoke = 0;         ///< which one
 
+  /// How far round a rim its closest point lies, 0 to 1 from -x over -y.
+  double FractionOfRim() const {
+    return std::atan2(on_rim.y(), on_rim.x()) / (2.0 * std::numbers::pi) + 0.5;
+  }
   /// Gap between ray and part; negative when the ray intersects it.
   double Clearance() const { return offset_m - radius_m; }
   /// Range at which the ray enters the part, or passes it closest.

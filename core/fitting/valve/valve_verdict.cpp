@@ -25,8 +25,8 @@ constexpr double kMinMargin_nats = 10.0;
 // Of 247 wheels that are right and CONFIRMED on the seeds of `evaluate-fits valve --world varied`
 // in docs/evaluation.md the least seen is 42 % of its rim; of a cross, which has none, 0 to 75 %.
 constexpr double kMinRimSeen = 0.4;
-// Where something hides a part of a rim no beam speaks for that part or against it. Of 120 wheels
-// that are right and CONFIRMED at home and under varied conditions the least is -3.3
+// Where something hides a part of a rim no beam speaks for that part or against it. Of 94 wheels
+// that are right and CONFIRMED at home and under varied conditions the least is 0.4
 // (docs/evaluation.md, "A piece of a rim").
 constexpr double kMinArc_nats = -5.0;
 // Beams beside a spoke or on what stands behind a wheel look like one more spoke by up to this

@@ -37,6 +37,16 @@ std::vector<Slab> OneBlock(double right = 0.1, double ahead = 1.5, double turn_d
   return {Ground(1.4), SlabAt(right, 1.2, ahead, kBlock, 12.0, 0.0, turn_deg)};
 }
 
+/// Rows of three that rise away from the viewer, on the ground.
+std::vector<Slab> FieldOf(const Eigen::Vector2d& size_m, int rows, double pitch_m, double ahead_m) {
+  std::vector<Slab> slabs = {Ground(1.4)};
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < 3; ++column)
+      slabs.push_back(SlabAt(pitch_m * (column - 1), 1.2 - 0.1 * row, ahead_m + pitch_m * row,
+                             size_m, (row + column) % 2 == 0 ? 14.0 : -8.0));
+  return slabs;
+}
+
 TEST(FitTerrain, FindsATiltedBlockAndItsPose) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const TerrainDetection found = Fit(OneBlock(), seed);
@@ -60,11 +70,7 @@ TEST(FitTerrain, AFewBeamsThatReadSomethingFarBehindTakeNoBlockAway) {
 }
 
 TEST(FitTerrain, BlocksInRowsArePlacedByTheirNeighborsToo) {
-  std::vector<Slab> slabs = {Ground(1.4)};
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      slabs.push_back(SlabAt(0.43 * (column - 1), 1.2 - 0.1 * row, 1.2 + 0.43 * row, kBlock,
-                             (row + column) % 2 == 0 ? 14.0 : -8.0));
+  const std::vector<Slab> slabs = FieldOf(kBlock, 3, 0.43, 1.2);
   FitTerrainOptions alone;
   alone.place_together = false;
   const auto mean_error_m = [&](const FitTerrainOptions& options) {
@@ -119,14 +125,6 @@ TEST(FitTerrain, CoplanarNeighborsAreTwoBlocks) {
 }
 
 TEST(FitTerrain, CartonsOfNearlyABlocksSizeAreNotConfirmed) {
-  const auto field_of = [](const Eigen::Vector2d& size_m) {
-    std::vector<Slab> slabs = {Ground(1.4)};
-    for (int row = 0; row < 2; ++row)
-      for (int column = 0; column < 3; ++column)
-        slabs.push_back(SlabAt(0.52 * (column - 1), 1.2 - 0.1 * row, 1.3 + 0.52 * row, size_m,
-                               (row + column) % 2 == 0 ? 14.0 : -8.0));
-    return slabs;
-  };
   const auto of_another_size = [](const TerrainSurface& surface) {
     const auto& failed = surface.verdict.failed_gates;
     return surface.kind == Kind::kBlock &&
@@ -135,7 +133,7 @@ TEST(FitTerrain, CartonsOfNearlyABlocksSizeAreNotConfirmed) {
            });
   };
   const auto count = [&](const Eigen::Vector2d& size_m) {
-    const TerrainDetection found = Fit(field_of(size_m));
+    const TerrainDetection found = Fit(FieldOf(size_m, 2, 0.52, 1.3));
     return std::count_if(found.surfaces.begin(), found.surfaces.end(), of_another_size);
   };
   EXPECT_EQ(count(kBlock), 0);
