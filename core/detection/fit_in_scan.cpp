@@ -90,7 +90,7 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
 }
 
 bool UsesImage(ObjectKind kind) {
-  return kind == ObjectKind::kDrill || kind == ObjectKind::kHandle;
+  return kind == ObjectKind::kValve || kind == ObjectKind::kDrill || kind == ObjectKind::kHandle;
 }
 
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,

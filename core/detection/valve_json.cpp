@@ -35,7 +35,10 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"weakest_spoke_middle_nats", evidence.weakest_spoke_middle_nats},
           {"further_spoke_nats", evidence.further_spoke_nats},
           {"rim_nats", evidence.rim_nats},
-          {"weakest_arc_nats", evidence.weakest_arc_nats}};
+          {"weakest_arc_nats", evidence.weakest_arc_nats},
+          {"outline_nats_per_px", evidence.outline_nats_per_px},
+          {"weakest_outline_nats_per_px", evidence.weakest_outline_nats_per_px},
+          {"further_outline_nats_per_px", evidence.further_outline_nats_per_px}};
 }
 
 ValveModel::Kind KindFrom(const std::string& name) {
@@ -70,7 +73,10 @@ ValveEvidence ValveEvidenceFrom(const Json& value) {
         std::pair("weakest_spoke_middle_nats", &evidence.weakest_spoke_middle_nats),
         std::pair("further_spoke_nats", &evidence.further_spoke_nats),
         std::pair("rim_nats", &evidence.rim_nats),
-        std::pair("weakest_arc_nats", &evidence.weakest_arc_nats)})
+        std::pair("weakest_arc_nats", &evidence.weakest_arc_nats),
+        std::pair("outline_nats_per_px", &evidence.outline_nats_per_px),
+        std::pair("weakest_outline_nats_per_px", &evidence.weakest_outline_nats_per_px),
+        std::pair("further_outline_nats_per_px", &evidence.further_outline_nats_per_px)})
     if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;
 }

@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,9 +27,14 @@ constexpr double kJitter_m = 0.008;
 constexpr int kNegativeEvery = 6;
 constexpr std::uint64_t kScatterStream = 4344;
 constexpr std::uint64_t kCartonStream = 4547;
-constexpr int kCartonsEvery = 3;    // of the negatives
+constexpr int kCartonsEvery = 3;  // of the negatives
+constexpr std::uint64_t kMixedStream = 4549;
+constexpr int kMixedEvery = 4;      // of the positives
 constexpr int kScatteredEvery = 6;  // of the positives
 constexpr double kApart_m = 0.60;   // between the middles of scattered blocks
+constexpr double kBlockSide_m = 0.39;
+constexpr double kLeastOff = 0.10, kMostOff = 0.33;  // of a carton's side
+constexpr double kLongestCarton_m = (1.0 + kMostOff) * kBlockSide_m;
 
 /// Stands on its lowest edge: tilted about x (towards y or away) or y, or flat.
 Eigen::Quaterniond BlockTilt(int row, int column, Random& random) {
@@ -78,11 +85,13 @@ void AddCell(const CellThing& thing, const TerrainLayout& layout, const Eigen::V
   AddBlock(block, scene);
 }
 
-/// A field that rises away from the robot.
-void AddField(const CellThing& thing, const TerrainLayout& layout, int rows, Random& random,
-              Scene& scene) {
-  const double wider_m =
-      thing.size_m.head<2>().maxCoeff() - BlockObject().size_m.head<2>().maxCoeff();
+/// Gives what stands in the next cell.
+using NextThing = std::function<CellThing()>;
+
+/// A field that rises away from the robot; the longest side of what stands in it is `longest_m`.
+void AddField(const NextThing& next, double longest_m, const TerrainLayout& layout, int rows,
+              Random& random, Scene& scene) {
+  const double wider_m = longest_m - BlockObject().size_m.head<2>().maxCoeff();
   const double pitch_m = random.Uniform(0.405, 0.440) + std::max(0.0, wider_m);
   const Material one = RandomConcrete(random), other = RandomConcrete(random);
   for (int row = 0; row < rows; ++row)
@@ -92,13 +101,13 @@ void AddField(const CellThing& thing, const TerrainLayout& layout, int rows, Ran
       const Eigen::Vector2d at((row - 0.5 * (rows - 1)) * pitch_m,
                                (column - 0.5 * (kBlockColumns - 1)) * pitch_m);
       const Eigen::Quaterniond tilt = BlockTilt(row, column, random);
-      AddCell(thing, layout, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random,
+      AddCell(next(), layout, at, 0.0, layer, tilt, random.Uniform() < 0.7 ? one : other, random,
               scene);
     }
 }
 
 /// A few that stand as they fell, in no rows.
-void AddScattered(const CellThing& thing, const TerrainLayout& layout, int rows, Random& random,
+void AddScattered(const NextThing& next, const TerrainLayout& layout, int rows, Random& random,
                   Scene& scene) {
   const Material material = RandomConcrete(random);
   const int count = 2 + random.Index(5);
@@ -110,15 +119,16 @@ void AddScattered(const CellThing& thing, const TerrainLayout& layout, int rows,
       continue;
     places.push_back(at);
     const Eigen::Quaterniond tilt = BlockTilt(random.Index(4), random.Index(4), random);
-    AddCell(thing, layout, at, random.Uniform(-std::numbers::pi, std::numbers::pi), random.Index(2),
-            tilt, material, random, scene);
+    AddCell(next(), layout, at, random.Uniform(-std::numbers::pi, std::numbers::pi),
+            random.Index(2), tilt, material, random, scene);
   }
 }
 
-/// One side is a block's, the other a tenth to a third longer or shorter.
-CellThing RandomCarton(Random& random) {
-  const double off = random.Uniform(0.10, 0.33);
-  CellThing carton{.size_m = {0.39 * (random.Chance(0.6) ? 1.0 + off : 1.0 - off),
+/// One side is a block's, the other a tenth to a third longer or shorter; shorter alone where
+/// there is no room.
+CellThing RandomCarton(Random& random, bool room = true) {
+  const double off = random.Uniform(kLeastOff, kMostOff);
+  CellThing carton{.size_m = {kBlockSide_m * (random.Chance(0.6) && room ? 1.0 + off : 1.0 - off),
                               random.Uniform(0.385, 0.402), random.Uniform(0.12, 0.25)},
                    .block = false};
   if (random.Chance(0.5)) std::swap(carton.size_m.x(), carton.size_m.y());
@@ -128,10 +138,50 @@ CellThing RandomCarton(Random& random) {
 /// As blocks stand, so that nothing but their size tells them from blocks.
 void AddCartons(const TerrainLayout& layout, int rows, Random& random, Scene& scene) {
   const CellThing carton = RandomCarton(random);
+  const auto next = [&carton] { return carton; };
   if (random.Chance(0.5))
-    AddField(carton, layout, rows, random, scene);
+    AddField(next, carton.size_m.head<2>().maxCoeff(), layout, rows, random, scene);
   else
-    AddScattered(carton, layout, rows, random, scene);
+    AddScattered(next, layout, rows, random, scene);
+}
+
+CellThing JustBlocks() {
+  return {};
+}
+
+/// What stands among blocks in a mixed region: a carton, or half a block and less.
+CellThing RandomAmongBlocks(bool room, Random& random) {
+  if (random.Chance(0.6)) return RandomCarton(random, room);
+  CellThing piece{.size_m = {random.Uniform(0.15, 0.30), random.Uniform(0.15, 0.40),
+                             random.Uniform(0.08, 0.25)},
+                  .block = false};
+  if (random.Chance(0.5)) std::swap(piece.size_m.x(), piece.size_m.y());
+  return piece;
+}
+
+/// Blocks, and other things among them as often as `fraction` says.
+NextThing Mixed(double fraction, bool room, Random& random) {
+  return [fraction, room, &random] {
+    return random.Chance(fraction) ? RandomAmongBlocks(room, random) : CellThing();
+  };
+}
+
+/// What holds at least some blocks. Returns what.
+std::string AddBlocks(std::uint64_t seed, const TerrainLayout& layout, int rows, Random& random,
+                      Scene& scene) {
+  Random scatter(seed, kScatterStream), mix(seed, kMixedStream);
+  const bool mixed = mix.Index(kMixedEvery) == 0, room = mix.Chance(0.5);
+  const double fraction = mix.Uniform(0.1, 0.6);
+  const NextThing next = mixed ? Mixed(fraction, room, mix) : NextThing(JustBlocks);
+  const std::string among = mixed ? ", other things among them" : "";
+  if (scatter.Index(kScatteredEvery) == 0) {
+    AddScattered(next, layout, rows, scatter, scene);
+    return "scattered blocks" + among;
+  }
+  const double longest_m =
+      mixed && room ? kLongestCarton_m : BlockObject().size_m.head<2>().maxCoeff();
+  AddField(next, longest_m, layout, rows, random, scene);
+  return fmt::format("field of {} x {} blocks", rows, kBlockColumns) + among;
 }
 
 ScanPlan RandomPlan(Random& random) {
@@ -159,13 +209,8 @@ FitTrialScene RandomTerrainScene(std::uint64_t seed) {
   FitTrialScene trial;
   AddHall(layout, random, *scene);
   trial.positive = random.Index(kNegativeEvery) != 0;
-  Random scatter(seed, kScatterStream);
-  if (trial.positive && scatter.Index(kScatteredEvery) == 0) {
-    AddScattered({}, layout, rows, scatter, *scene);
-    trial.what = "scattered blocks";
-  } else if (trial.positive) {
-    AddField({}, layout, rows, random, *scene);
-    trial.what = fmt::format("field of {} x {} blocks", rows, kBlockColumns);
+  if (trial.positive) {
+    trial.what = AddBlocks(seed, layout, rows, random, *scene);
   } else if (Random cartons(seed, kCartonStream); cartons.Index(kCartonsEvery) == 0) {
     AddCartons(layout, rows, cartons, *scene);
     trial.what = "cartons of nearly a block's size";

@@ -180,58 +180,72 @@ std::optional<double> ImageEdges::ResponseAt(const Eigen::Vector2d& pixel, std::
          down * ((1.0 - right) * response(x, y + 1) + right * response(x + 1, y + 1));
 }
 
+bool ImageEdges::IsOutline(const Eigen::Vector2d& at, const Eigen::Vector2d& across,
+                           const RangeAlong& range_along) const {
+  const auto ray_a = RayThrough(at - kAside_px * across);
+  const auto ray_b = RayThrough(at + kAside_px * across);
+  if (!ray_a || !ray_b) return false;
+  const auto range_a = range_along(*ray_a), range_b = range_along(*ray_b);
+  if (range_a.has_value() != range_b.has_value()) return true;
+  return range_a.has_value() && std::abs(*range_a - *range_b) > kStep_m;
+}
+
+std::vector<ImageEdges::Piece> ImageEdges::PiecesAlong(std::span<const Edge> edges,
+                                                       const RangeAlong& range_along) const {
+  std::vector<Piece> pieces;
+  if (Empty()) return pieces;
+  for (const Edge& edge : edges) {
+    const Eigen::Vector2d along = edge.to_px - edge.from_px;
+    const double length_px = along.norm();
+    if (!(length_px > 0.0)) continue;
+    const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()) / length_px;
+    const std::size_t turn = TurnOf(across, kTurns);
+    const int count = std::max(1, static_cast<int>(length_px / kPiece_px + 0.5));
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector2d at = edge.from_px + (i + 0.5) / count * along;
+      if (range_along && !IsOutline(at, across, range_along)) continue;
+      if (const auto response = ResponseAt(at, turn))
+        pieces.push_back({at, *response, length_px / count});
+    }
+  }
+  return pieces;
+}
+
 std::vector<ImageEdges::Piece> ImageEdges::PiecesOf(
     std::span<const SolidPart> parts,
     const Rigid<frame::Base, frame::Object>& base_from_object) const {
-  std::vector<Piece> pieces;
-  if (Empty()) return pieces;
-  const SolidTracer tracer(parts, base_from_object);
-  const auto enters = [&](const Eigen::Vector3d& ray) {
-    const SolidIntersection entry =
-        tracer.Intersect({.origin = eye_, .direction = ray, .range_m = 0.0}, 0.0);
-    return entry.Hits() ? std::optional(entry.range_m) : std::nullopt;
-  };
-  const auto is_outline = [&](const Eigen::Vector2d& at, const Eigen::Vector2d& across) {
-    const auto ray_a = RayThrough(at - kAside_px * across);
-    const auto ray_b = RayThrough(at + kAside_px * across);
-    if (!ray_a || !ray_b) return false;
-    const auto range_a = enters(*ray_a), range_b = enters(*ray_b);
-    if (range_a.has_value() != range_b.has_value()) return true;
-    return range_a.has_value() && std::abs(*range_a - *range_b) > kStep_m;
-  };
+  if (Empty()) return {};
+  std::vector<Edge> edges;
   for (const SolidPart& part : parts) {
     const auto base_from_part = base_from_object * part.object_from_part;
     const auto camera_from_part = view_.camera_from_base * base_from_part;
     for (const PartEdge& edge : EdgesSeenFrom(part, base_from_part.Inverse() * eye_)) {
       const auto from = view_.camera.Project(camera_from_part * edge.from);
       const auto to = view_.camera.Project(camera_from_part * edge.to);
-      if (!from || !to) continue;
-      const Eigen::Vector2d along = *to - *from;
-      const double length_px = along.norm();
-      if (!(length_px > 0.0)) continue;
-      const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()) / length_px;
-      const std::size_t turn = TurnOf(across, kTurns);
-      const int count = std::max(1, static_cast<int>(length_px / kPiece_px + 0.5));
-      for (int i = 0; i < count; ++i) {
-        const Eigen::Vector2d at = *from + (i + 0.5) / count * along;
-        if (!is_outline(at, across)) continue;
-        if (const auto response = ResponseAt(at, turn))
-          pieces.push_back({at, *response, length_px / count});
-      }
+      if (from && to) edges.push_back({*from, *to});
     }
   }
-  return pieces;
+  const SolidTracer tracer(parts, base_from_object);
+  return PiecesAlong(edges, [&](const Eigen::Vector3d& ray) {
+    const SolidIntersection entry =
+        tracer.Intersect({.origin = eye_, .direction = ray, .range_m = 0.0}, 0.0);
+    return entry.Hits() ? std::optional(entry.range_m) : std::nullopt;
+  });
+}
+
+OutlineSupport ImageEdges::SupportOf(std::span<const Piece> pieces) const {
+  OutlineSupport support;
+  for (const Piece& piece : pieces) {
+    support.nats += independent_per_px_ * piece.length_px * NatsOf(piece.response);
+    support.length_px += piece.length_px;
+  }
+  return support;
 }
 
 OutlineSupport ImageEdges::SupportOf(
     std::span<const SolidPart> parts,
     const Rigid<frame::Base, frame::Object>& base_from_object) const {
-  OutlineSupport support;
-  for (const Piece& piece : PiecesOf(parts, base_from_object)) {
-    support.nats += independent_per_px_ * piece.length_px * NatsOf(piece.response);
-    support.length_px += piece.length_px;
-  }
-  return support;
+  return SupportOf(PiecesOf(parts, base_from_object));
 }
 
 }  // namespace foresight

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -64,6 +65,26 @@ class ImageEdges {
   std::vector<Piece> PiecesOf(std::span<const SolidPart> parts,
                               const Rigid<frame::Base, frame::Object>& base_from_object) const;
 
+  /// An edge as the image shows it.
+  struct Edge {
+    Eigen::Vector2d from_px;
+    Eigen::Vector2d to_px;
+  };
+  /// Where a ray from Eye(), in base, first enters what is looked at; nothing where it misses that.
+  using RangeAlong = std::function<std::optional<double>(const Eigen::Vector3d&)>;
+  /// The pieces of edges of anything else, where they are an outline; without `range_along` all of
+  /// them.
+  std::vector<Piece> PiecesAlong(std::span<const Edge> edges, const RangeAlong& range_along) const;
+  /// What pieces say together.
+  OutlineSupport SupportOf(std::span<const Piece> pieces) const;
+
+  const Eigen::Vector3d& Eye() const { return eye_; }
+  /// Where a point of base lies, also beside what is kept of the image; nothing where the lens does
+  /// not see it.
+  std::optional<Eigen::Vector2d> PixelOf(const Eigen::Vector3d& point) const {
+    return view_.camera.Project(view_.camera_from_base * point);
+  }
+
   /// What a response is worth, nats: right outlines against wrong ones.
   static double NatsOf(double response);
 
@@ -72,6 +93,8 @@ class ImageEdges {
 
   void FindEdges(const ColorImage& image);
   std::optional<Eigen::Vector3d> RayThrough(const Eigen::Vector2d& pixel) const;
+  bool IsOutline(const Eigen::Vector2d& at, const Eigen::Vector2d& across,
+                 const RangeAlong& range_along) const;
   /// `turn`: which of the directions lies across.
   std::optional<double> ResponseAt(const Eigen::Vector2d& pixel, std::size_t turn) const;
 

@@ -11,6 +11,7 @@
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/valve/lever_search.h"
 #include "core/fitting/valve/local_search.h"
+#include "core/fitting/valve/outline_evidence.h"
 #include "core/fitting/valve/part_evidence.h"
 #include "core/fitting/valve/ray_likelihood.h"
 #include "core/fitting/valve/refine.h"
@@ -246,6 +247,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   if (valves.size() > 1)
     detection.evidence.margin_line_sigmas = likelihood.DeviationsAhead(valves[0], valves[1]);
   AddEvidenceOfParts(likelihood, detection.best, detection.evidence);
+  if (region.image) AddEvidenceOfOutline(*region.image, detection.best, detection.evidence);
   WidenSigmas(likelihood.Footprints(), detection);
   detection.verdict = AssessValve(rays, region, detection, options);
   return detection;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/fitting/valve/valve_tracer.h"
-#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
@@ -16,9 +15,6 @@ namespace {
 // Of a spoke's length, as a fraction: beams nearer to its ends touch hub or rim, too.
 constexpr double kMiddleBegins = 0.3;
 constexpr double kMiddleEnds = 0.8;
-// Where further spokes are looked for. Nearer to a spoke its own sides look like one.
-constexpr double kSpokeStep_rad = RadiansFromDegrees(5.0);
-constexpr double kBesideSpoke_rad = RadiansFromDegrees(15.0);
 constexpr int kArcs = 8;  // of a rim
 
 double SpokeLength(const ValveModel& model) {

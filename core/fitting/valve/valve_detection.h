@@ -38,6 +38,13 @@ struct ValveEvidence {
   double rim_nats = 0.0;
   /// The same of the eighth of the rim that they speak for least.
   double weakest_arc_nats = 0.0;
+  /// How well the outline of rim and spokes lies on the image's edges, nats a pixel: all of it, and
+  /// the part that does worst. 0 without an image.
+  double outline_nats_per_px = 0.0;
+  double weakest_outline_nats_per_px = 0.0;
+  /// The same of one more spoke, at the angle between the spokes where the image shows it best; 0
+  /// without spokes.
+  double further_outline_nats_per_px = 0.0;
 };
 
 /// One answer to "where is the valve": the best one, or an alternative.

@@ -166,10 +166,25 @@ double ChanceOfBeingOff(const ValveDetection& detection) {
 }
 
 std::vector<std::string> ValveFeatureNames() {
-  return {"log_margin",         "margin_line_sigmas", "gain_per_hit",   "log_hits",
-          "inlier_ratio",       "see_through",        "blocked_gaps",   "arc_coverage",
-          "weakest_spoke_gain", "log_sigma_along",    "log_sigma_tilt", "log_chance_off",
-          "log_size",           "log_width",          "disc",           "lever"};
+  return {"log_margin",
+          "margin_line_sigmas",
+          "gain_per_hit",
+          "log_hits",
+          "inlier_ratio",
+          "see_through",
+          "blocked_gaps",
+          "arc_coverage",
+          "weakest_spoke_gain",
+          "log_sigma_along",
+          "log_sigma_tilt",
+          "log_chance_off",
+          "log_size",
+          "log_width",
+          "disc",
+          "lever",
+          "outline",
+          "weakest_outline",
+          "further_outline"};
 }
 
 std::vector<double> ValveFeatures(const RaySet& rays, const ValveDetection& detection) {
@@ -193,7 +208,10 @@ std::vector<double> ValveFeatures(const RaySet& rays, const ValveDetection& dete
           std::log(size_m),
           std::log(std::max(1e-3, model.tube_radius_m)),
           disc ? 1.0 : 0.0,
-          model.IsLever() ? 1.0 : 0.0};
+          model.IsLever() ? 1.0 : 0.0,
+          evidence.outline_nats_per_px,
+          evidence.weakest_outline_nats_per_px,
+          evidence.further_outline_nats_per_px};
 }
 
 }  // namespace foresight

@@ -31,6 +31,9 @@ ValveDetection Sample() {
   detection.evidence.further_spoke_nats = 7.25;
   detection.evidence.rim_nats = 640.5;
   detection.evidence.weakest_arc_nats = -4.5;
+  detection.evidence.outline_nats_per_px = 0.125;
+  detection.evidence.weakest_outline_nats_per_px = -0.25;
+  detection.evidence.further_outline_nats_per_px = 0.0625;
   detection.evidence.margin_line_sigmas = 2.25;
   detection.verdict = {VerdictLevel::kLikely, 0.83, "only 58 % of the rim is seen", {}};
   detection.alternatives = {detection.best};
@@ -65,6 +68,9 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->evidence.further_spoke_nats, 7.25);
   EXPECT_EQ(read->evidence.rim_nats, 640.5);
   EXPECT_EQ(read->evidence.weakest_arc_nats, -4.5);
+  EXPECT_EQ(read->evidence.outline_nats_per_px, 0.125);
+  EXPECT_EQ(read->evidence.weakest_outline_nats_per_px, -0.25);
+  EXPECT_EQ(read->evidence.further_outline_nats_per_px, 0.0625);
   EXPECT_EQ(read->evidence.margin_line_sigmas, 2.25);
   EXPECT_EQ(read->best.brightness, 0.7);
   EXPECT_EQ(read->verdict.level, VerdictLevel::kLikely);

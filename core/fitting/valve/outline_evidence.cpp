@@ -1,0 +1,161 @@
+#include "core/fitting/valve/outline_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/fitting/valve/part_evidence.h"
+#include "core/fitting/valve/valve_tracer.h"
+
+namespace foresight {
+namespace {
+
+constexpr int kRimChords = 48;
+constexpr int kBarPieces = 4;
+
+/// A point of a part's middle line, in the object's frame, with the ellipse that is its section.
+struct Section {
+  Eigen::Vector3d middle;
+  Eigen::Vector3d width_axis;  ///< of length 1, across the middle line
+  Eigen::Vector3d depth_axis;  ///< of length 1, across both
+  double width_m;              ///< half of it
+  double depth_m;
+};
+using MiddleLine = std::vector<Section>;
+
+MiddleLine RimOf(const ValveModel& model) {
+  MiddleLine rim;
+  for (int i = 0; i <= kRimChords; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kRimChords;
+    const Eigen::Vector3d outwards(std::cos(angle), std::sin(angle), 0.0);
+    rim.push_back({model.rim_radius_m * outwards, outwards, Eigen::Vector3d::UnitZ(),
+                   model.tube_radius_m, model.RimDepth()});
+  }
+  return rim;
+}
+
+MiddleLine BarOf(const Eigen::Vector3d& begin, const Eigen::Vector3d& end, double width_m,
+                 double depth_m) {
+  const Eigen::Vector3d width_axis = Eigen::Vector3d::UnitZ().cross(end - begin).normalized();
+  const Eigen::Vector3d depth_axis = (end - begin).cross(width_axis).normalized();
+  MiddleLine bar;
+  for (int i = 0; i <= kBarPieces; ++i)
+    bar.push_back({begin + static_cast<double>(i) / kBarPieces * (end - begin), width_axis,
+                   depth_axis, width_m, depth_m});
+  return bar;
+}
+
+MiddleLine SpokeOf(const ValveModel& model, double angle) {
+  const Eigen::Vector3d outwards(std::cos(angle), std::sin(angle), 0.0);
+  const Eigen::Vector3d hub(0.0, 0.0, -model.dish_m);
+  const Eigen::Vector3d begin = hub + model.hub_radius_m * outwards;
+  const Eigen::Vector3d end = (model.rim_radius_m - model.tube_radius_m) * outwards;
+  return BarOf(begin, end, model.spoke_radius_m, model.SpokeDepth());
+}
+
+double AngleOfSpoke(const ValveModel& model, int spoke) {
+  return 2.0 * std::numbers::pi * spoke / model.spokes;
+}
+
+/// A valve seen from the camera.
+class SeenValve {
+ public:
+  SeenValve(const ImageEdges& image, const ValveCandidate& valve)
+      : image_(image), valve_(valve), tracer_(valve, ValveParts::kAll) {
+    eye_in_object_ = valve.base_from_object.Inverse() * image.Eye();
+  }
+
+  /// Where a part's outline is the valve's.
+  std::vector<ImageEdges::Piece> PiecesOf(const MiddleLine& part) const {
+    return image_.PiecesAlong(SidesOf(part), [this](const Eigen::Vector3d& ray) {
+      const ValveIntersection entry =
+          tracer_.Intersect({.origin = image_.Eye(), .direction = ray, .range_m = 0.0}, 0.0);
+      return entry.Clearance() < 0.0 ? std::optional(entry.Range()) : std::nullopt;
+    });
+  }
+
+  /// Both sides of a part that the valve has not.
+  std::vector<ImageEdges::Piece> PiecesOfFurther(const MiddleLine& part) const {
+    return image_.PiecesAlong(SidesOf(part), nullptr);
+  }
+
+ private:
+  /// Where the sections of a part end, as the camera sees them, on either side.
+  std::vector<ImageEdges::Edge> SidesOf(const MiddleLine& part) const {
+    std::vector<ImageEdges::Edge> sides;
+    for (const double side : {-1.0, 1.0}) {
+      std::optional<Eigen::Vector2d> last;
+      for (const Section& section : part) {
+        const auto pixel = image_.PixelOf(valve_.base_from_object * EndOf(section, side));
+        if (last && pixel) sides.push_back({*last, *pixel});
+        last = pixel;
+      }
+    }
+    return sides;
+  }
+
+  /// The point of an ellipse that is furthest across the sight.
+  Eigen::Vector3d EndOf(const Section& section, double side) const {
+    const Eigen::Vector3d sight = section.middle - eye_in_object_;
+    const double across_width = -sight.dot(section.depth_axis);
+    const double across_depth = sight.dot(section.width_axis);
+    const double width_m = section.width_m * section.width_m * across_width;
+    const double depth_m = section.depth_m * section.depth_m * across_depth;
+    const double reach = std::hypot(section.width_m * across_width, section.depth_m * across_depth);
+    if (!(reach > 0.0)) return section.middle;
+    return section.middle +
+           side / reach * (width_m * section.width_axis + depth_m * section.depth_axis);
+  }
+
+  const ImageEdges& image_;
+  const ValveCandidate& valve_;
+  ValveTracer tracer_;
+  Eigen::Vector3d eye_in_object_;
+};
+
+std::vector<MiddleLine> PartsOf(const ValveModel& model) {
+  if (model.IsLever())
+    return {BarOf(Eigen::Vector3d(model.hub_radius_m, 0.0, 0.0),
+                  Eigen::Vector3d(model.lever_length_m, 0.0, 0.0), model.tube_radius_m,
+                  model.tube_radius_m)};
+  std::vector<MiddleLine> parts = {RimOf(model)};
+  for (int i = 0; i < model.spokes; ++i) parts.push_back(SpokeOf(model, AngleOfSpoke(model, i)));
+  return parts;
+}
+
+double FurtherOutline(const ImageEdges& image, const SeenValve& seen, const ValveModel& model) {
+  double best = -std::numeric_limits<double>::infinity();
+  const double sector = 2.0 * std::numbers::pi / model.spokes;
+  for (int i = 0; i < model.spokes; ++i)
+    for (double turn = kBesideSpoke_rad; turn <= sector - kBesideSpoke_rad;
+         turn += kSpokeStep_rad) {
+      const OutlineSupport support =
+          image.SupportOf(seen.PiecesOfFurther(SpokeOf(model, AngleOfSpoke(model, i) + turn)));
+      if (support.length_px >= kLeastOutline_px) best = std::max(best, support.NatsPerPixel());
+    }
+  return std::isfinite(best) ? best : 0.0;
+}
+
+}  // namespace
+
+void AddEvidenceOfOutline(const ImageEdges& image, const ValveCandidate& valve,
+                          ValveEvidence& evidence) {
+  const SeenValve seen(image, valve);
+  OutlineSupport all;
+  double weakest = std::numeric_limits<double>::infinity();
+  for (const MiddleLine& part : PartsOf(valve.model)) {
+    const OutlineSupport support = image.SupportOf(seen.PiecesOf(part));
+    all.nats += support.nats;
+    all.length_px += support.length_px;
+    if (support.length_px >= kLeastOutline_px) weakest = std::min(weakest, support.NatsPerPixel());
+  }
+  evidence.outline_nats_per_px = all.NatsPerPixel();
+  evidence.weakest_outline_nats_per_px = std::isfinite(weakest) ? weakest : 0.0;
+  evidence.further_outline_nats_per_px = valve.model.IsLever() || valve.model.spokes == 0
+                                             ? 0.0
+                                             : FurtherOutline(image, seen, valve.model);
+}
+
+}  // namespace foresight
