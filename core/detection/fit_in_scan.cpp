@@ -41,6 +41,18 @@ RaySet WithSurroundings(RaySet rays, const RaysOfRegion& rays_of) {
   return rays;
 }
 
+Result<Detection> FitOf(const RaySet& rays, const FitOptions& options, const RunContext& context) {
+  if (const auto* drill = std::get_if<FitDrillOptions>(&options))
+    return FitDrill(rays, *drill, context);
+  if (const auto* terrain = std::get_if<FitTerrainOptions>(&options))
+    return FitTerrain(rays, *terrain, context);
+  if (const auto* handle = std::get_if<FitHandleOptions>(&options))
+    return FitHandle(rays, *handle, context);
+  if (const auto* cylinder = std::get_if<FitCylinderOptions>(&options))
+    return FitCylinder(rays, *cylinder, context);
+  return FitValve(rays, std::get<FitValveOptions>(options), context);
+}
+
 }  // namespace
 
 Result<NamedSource> FitSourceFromName(std::string_view name) {
@@ -129,15 +141,10 @@ Result<RaySet> RaysInCloud(std::span<const Eigen::Vector3d> points, const GridPl
 
 Result<Detection> FitInRays(const RaySet& rays, const FitOptions& options,
                             const RunContext& context) {
-  if (const auto* drill = std::get_if<FitDrillOptions>(&options))
-    return FitDrill(rays, *drill, context);
-  if (const auto* terrain = std::get_if<FitTerrainOptions>(&options))
-    return FitTerrain(rays, *terrain, context);
-  if (const auto* handle = std::get_if<FitHandleOptions>(&options))
-    return FitHandle(rays, *handle, context);
-  if (const auto* cylinder = std::get_if<FitCylinderOptions>(&options))
-    return FitCylinder(rays, *cylinder, context);
-  return FitValve(rays, std::get<FitValveOptions>(options), context);
+  return FitOf(rays, options, context).transform([&](Detection detection) {
+    OriginOf(detection).image = rays.image != nullptr;
+    return detection;
+  });
 }
 
 Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const ImageOfRays& image_of,

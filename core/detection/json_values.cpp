@@ -182,14 +182,16 @@ Roi RoiFrom(const Json& value) {
 void AddOrigin(const FitOrigin& origin, Json& object) {
   object["roi"] = ToJson(origin.roi);
   object["source"] = origin.source;
+  object["image"] = origin.image;
   object["seconds"] = origin.seconds;
 }
 
 FitOrigin OriginFrom(const Json& object) {
   FitOrigin origin;
   origin.roi = RoiFrom(object.at("roi"));
-  // Records older than the choice of sources have none.
+  // Older records have neither.
   origin.source = object.value("source", origin.source);
+  origin.image = object.value("image", origin.image);
   origin.seconds = NumberFrom(object.at("seconds"));
   return origin;
 }

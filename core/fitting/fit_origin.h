@@ -11,6 +11,7 @@ namespace foresight {
 struct FitOrigin {
   Roi roi;                     ///< where it was looked for
   std::string source = "raw";  ///< "raw" = lidar returns, else the depth method's name
+  bool image = false;          ///< the scan's image was looked at beside it
   double seconds = 0.0;        ///< the fit took
 };
 

@@ -168,7 +168,8 @@ void DetectionCard::Show(const FoundObject& object, int candidate, bool is_curre
   const auto behind = MarginBehindBest(found, candidate);
   answer_->setToolTip(behind ? tr("%1 nats behind the best answer").arg(*behind, 0, 'f', 0)
                              : QString());
-  const QString source = QString::fromStdString(SourceTitle(OriginOf(found).source));
+  QString source = QString::fromStdString(SourceTitle(OriginOf(found).source));
+  if (OriginOf(found).image) source = tr("%1 and the image").arg(source);
   rows << std::pair(tr("Fitted to"), object.by_robot ? tr("%1, on the robot").arg(source) : source)
        << std::pair(tr("Lines"), LinesText(object.part))
        << std::pair(tr("Scan"), object.scan_time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")))

@@ -205,7 +205,7 @@ std::vector<ImageEdges::Piece> ImageEdges::PiecesAlong(std::span<const Edge> edg
       const Eigen::Vector2d at = edge.from_px + (i + 0.5) / count * along;
       if (range_along && !IsOutline(at, across, range_along)) continue;
       if (const auto response = ResponseAt(at, turn))
-        pieces.push_back({at, *response, length_px / count});
+        pieces.push_back({at, *response, length_px / count, turn});
     }
   }
   return pieces;
@@ -231,6 +231,15 @@ std::vector<ImageEdges::Piece> ImageEdges::PiecesOf(
         tracer.Intersect({.origin = eye_, .direction = ray, .range_m = 0.0}, 0.0);
     return entry.Hits() ? std::optional(entry.range_m) : std::nullopt;
   });
+}
+
+std::vector<ImageEdges::Piece> ImageEdges::Moved(std::span<const Piece> pieces,
+                                                 const Eigen::Vector2d& by_px) const {
+  std::vector<Piece> moved;
+  for (const Piece& piece : pieces)
+    if (const auto response = ResponseAt(piece.pixel + by_px, piece.turn))
+      moved.push_back({piece.pixel + by_px, *response, piece.length_px, piece.turn});
+  return moved;
 }
 
 OutlineSupport ImageEdges::SupportOf(std::span<const Piece> pieces) const {

@@ -61,6 +61,7 @@ class ImageEdges {
     Eigen::Vector2d pixel;
     double response = 0.0;
     double length_px = 0.0;
+    std::size_t turn = 0;  ///< which of the directions that are looked at lies across
   };
   std::vector<Piece> PiecesOf(std::span<const SolidPart> parts,
                               const Rigid<frame::Base, frame::Object>& base_from_object) const;
@@ -75,6 +76,9 @@ class ImageEdges {
   /// The pieces of edges of anything else, where they are an outline; without `range_along` all of
   /// them.
   std::vector<Piece> PiecesAlong(std::span<const Edge> edges, const RangeAlong& range_along) const;
+  /// The same pieces as if they lay beside where they do: a rig that is off by little moves all of
+  /// an outline alike. What leaves the region is left out.
+  std::vector<Piece> Moved(std::span<const Piece> pieces, const Eigen::Vector2d& by_px) const;
   /// What pieces say together.
   OutlineSupport SupportOf(std::span<const Piece> pieces) const;
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kRimChords = 48;
 constexpr int kBarPieces = 4;
+constexpr int kMostMove_px = 4;  // what rig and fit may be off by
 
 /// A point of a part's middle line, in the object's frame, with the ellipse that is its section.
 struct Section {
@@ -125,14 +126,32 @@ std::vector<MiddleLine> PartsOf(const ValveModel& model) {
   return parts;
 }
 
-double FurtherOutline(const ImageEdges& image, const SeenValve& seen, const ValveModel& model) {
+using Pieces = std::vector<ImageEdges::Piece>;
+
+/// By how much the outline must move for the image's edges to lie on it: rig and fit are off.
+Eigen::Vector2d BestMove(const ImageEdges& image, const Pieces& outline) {
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double most = image.SupportOf(outline).nats;
+  for (int x = -kMostMove_px; x <= kMostMove_px; ++x)
+    for (int y = -kMostMove_px; y <= kMostMove_px; ++y) {
+      const Eigen::Vector2d move(x, y);
+      const double nats = image.SupportOf(image.Moved(outline, move)).nats;
+      if (!(nats > most)) continue;
+      most = nats;
+      best = move;
+    }
+  return best;
+}
+
+double FurtherOutline(const ImageEdges& image, const SeenValve& seen, const ValveModel& model,
+                      const Eigen::Vector2d& move) {
   double best = -std::numeric_limits<double>::infinity();
   const double sector = 2.0 * std::numbers::pi / model.spokes;
   for (int i = 0; i < model.spokes; ++i)
     for (double turn = kBesideSpoke_rad; turn <= sector - kBesideSpoke_rad;
          turn += kSpokeStep_rad) {
-      const OutlineSupport support =
-          image.SupportOf(seen.PiecesOfFurther(SpokeOf(model, AngleOfSpoke(model, i) + turn)));
+      const OutlineSupport support = image.SupportOf(
+          image.Moved(seen.PiecesOfFurther(SpokeOf(model, AngleOfSpoke(model, i) + turn)), move));
       if (support.length_px >= kLeastOutline_px) best = std::max(best, support.NatsPerPixel());
     }
   return std::isfinite(best) ? best : 0.0;
@@ -143,19 +162,23 @@ double FurtherOutline(const ImageEdges& image, const SeenValve& seen, const Valv
 void AddEvidenceOfOutline(const ImageEdges& image, const ValveCandidate& valve,
                           ValveEvidence& evidence) {
   const SeenValve seen(image, valve);
-  OutlineSupport all;
-  double weakest = std::numeric_limits<double>::infinity();
+  std::vector<Pieces> parts;
+  Pieces outline;
   for (const MiddleLine& part : PartsOf(valve.model)) {
-    const OutlineSupport support = image.SupportOf(seen.PiecesOf(part));
-    all.nats += support.nats;
-    all.length_px += support.length_px;
+    parts.push_back(seen.PiecesOf(part));
+    outline.insert(outline.end(), parts.back().begin(), parts.back().end());
+  }
+  const Eigen::Vector2d move = BestMove(image, outline);
+  double weakest = std::numeric_limits<double>::infinity();
+  for (const Pieces& part : parts) {
+    const OutlineSupport support = image.SupportOf(image.Moved(part, move));
     if (support.length_px >= kLeastOutline_px) weakest = std::min(weakest, support.NatsPerPixel());
   }
-  evidence.outline_nats_per_px = all.NatsPerPixel();
+  evidence.outline_nats_per_px = image.SupportOf(image.Moved(outline, move)).NatsPerPixel();
   evidence.weakest_outline_nats_per_px = std::isfinite(weakest) ? weakest : 0.0;
   evidence.further_outline_nats_per_px = valve.model.IsLever() || valve.model.spokes == 0
                                              ? 0.0
-                                             : FurtherOutline(image, seen, valve.model);
+                                             : FurtherOutline(image, seen, valve.model, move);
 }
 
 }  // namespace foresight

@@ -41,6 +41,7 @@ ValveDetection Sample() {
   detection.origin.roi = ImageRoi::Rectangle(0.25, {10.0, 20.0}, {30.5, 40.0});
   detection.origin.seconds = 0.4;
   detection.origin.source = "jbu";
+  detection.origin.image = true;
   detection.verdict.features = {0.5, -3.25};
   detection.verdict.failed_gates = {"too few measurements", "a disc fits as well"};
   detection.covariance = PoseCovariance::Identity() * 1e-6;
@@ -78,6 +79,7 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   ASSERT_EQ(read->alternatives.size(), 1U);
   EXPECT_EQ(read->alternatives[0].model.spokes, 2);
   EXPECT_EQ(read->origin.source, "jbu");
+  EXPECT_TRUE(read->origin.image);
   EXPECT_EQ(read->verdict.features, sample.verdict.features);
   EXPECT_EQ(read->verdict.failed_gates, sample.verdict.failed_gates);
   EXPECT_EQ(read->covariance, sample.covariance);

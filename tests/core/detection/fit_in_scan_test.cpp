@@ -72,5 +72,21 @@ TEST(FitInScan, TheImageTellsWhichWayALeverPointsWhereBeamsDoNot) {
   }
 }
 
+TEST(FitInScan, TheImageTellsOfAValveWhetherItsPartsAreThereAndNotWhereItIs) {
+  const auto population = MakeFitPopulation("valve").value();
+  const FitTrial trial = MakeFitTrial(*population, 3, {}, {}).value();
+  const auto fit = [&](const SharedList<CameraFrame>& frames) {
+    ProcessedScan scan{trial.rig, trial.cloud};
+    scan.frames = frames;
+    return FitValveInScan(scan, FitSource::kRaw, trial.roi, FitValveOptions(), {}).value();
+  };
+  const ValveDetection with = fit({trial.frame}), without = fit({});
+  EXPECT_TRUE(with.origin.image);
+  EXPECT_FALSE(without.origin.image);
+  EXPECT_GT(with.evidence.outline_nats_per_px, 0.0);
+  EXPECT_EQ(without.evidence.outline_nats_per_px, 0.0);
+  EXPECT_EQ(with.best.base_from_object.Matrix(), without.best.base_from_object.Matrix());
+}
+
 }  // namespace
 }  // namespace foresight
