@@ -21,6 +21,10 @@ struct VerdictArguments {
   std::vector<std::string> features;  ///< other ones than the program's; empty = those
   std::vector<std::string> gates;     ///< more than the program's: "rim_nats>=10"
   bool no_gates = false;              ///< the program's are not asked
+  std::string odds_of;
+  double from = 0.0;
+  double to = 1.0;
+  int bins = 10;
   bool json = false;
 };
 
@@ -120,6 +124,67 @@ Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&
   return ExitCode::kDone;
 }
 
+Result<ExitCode> PrintOdds(VerdictArguments arguments, const RunContext&) {
+  FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
+  const auto source = VerdictSourceFromString(arguments.source);
+  if (!source)
+    return Fail(ErrorCode::kInvalidOptions, "--source {} is not known", arguments.source);
+  arguments.no_gates = true;
+  const std::vector<std::string> features = population->FeatureNames();
+  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes, OutcomesFrom(arguments, *source, features));
+  FORESIGHT_TRY(
+      const std::vector<OddsBin> odds,
+      OddsOf(arguments.odds_of, arguments.from, arguments.to, arguments.bins, features, outcomes));
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const OddsBin& bin : odds) {
+    json.push_back({{"from", bin.from},
+                    {"to", bin.to},
+                    {"right", bin.right},
+                    {"wrong", bin.wrong},
+                    {"nats", bin.nats}});
+    if (!arguments.json)
+      PrintLine(fmt::format("{:9.4f} to {:9.4f}: {:5} right, {:5} of another thing, {:5.1f} nats",
+                            bin.from, bin.to, bin.right, bin.wrong, bin.nats));
+  }
+  if (arguments.json) PrintJson(json);
+  return ExitCode::kDone;
+}
+
+/// What answers both commands look at.
+void AddAnswers(CLI::App& command, const std::shared_ptr<VerdictArguments>& arguments) {
+  command.add_option("object", arguments->kind, "valve, drill, terrain or handle")
+      ->required()
+      ->check(CLI::IsMember(FitPopulationKinds()));
+  command.add_option("tables", arguments->tables, "Outcomes, one JSON object a line")->required();
+  command
+      .add_option(
+          "--source", arguments->source,
+          "raw (returns of scans), cloud (returns alone), dense (maps with the beams behind "
+          "them) or alone (maps alone)")
+      ->check(CLI::IsMember({"raw", "cloud", "dense", "alone"}))
+      ->capture_default_str();
+  command.add_flag("--json", arguments->json, "Print a JSON object");
+}
+
+void AddOdds(CLI::App& verdict, Invocation& invocation) {
+  const auto arguments = std::make_shared<VerdictArguments>();
+  CLI::App* odds = verdict.add_subcommand(
+      "odds", "What a number says for an answer: how often right answers have it, and others");
+  AddAnswers(*odds, arguments);
+  odds->add_option("--of", arguments->odds_of, "A feature or evidence: size_margin")->required();
+  odds->add_option("--from", arguments->from, "Where the first bin begins")->capture_default_str();
+  odds->add_option("--to", arguments->to, "Where the last one ends")->capture_default_str();
+  odds->add_option("--bins", arguments->bins, "How many there are")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
+  odds->add_option("--gate", arguments->gates,
+                   "Only answers that keep this: 'confirmed_edges>=2'; may be given again")
+      ->allow_extra_args(false);
+  odds->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext& context) { return PrintOdds(*arguments, context); };
+  });
+}
+
 }  // namespace
 
 void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
@@ -128,16 +193,7 @@ void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
   const auto arguments = std::make_shared<VerdictArguments>();
   CLI::App* fit = verdict->add_subcommand(
       "fit", "Fit the weights of a probability to judged answers (evaluate-fits --table)");
-  fit->add_option("object", arguments->kind, "valve, drill, terrain or handle")
-      ->required()
-      ->check(CLI::IsMember(FitPopulationKinds()));
-  fit->add_option("tables", arguments->tables, "Outcomes, one JSON object a line")->required();
-  fit->add_option(
-         "--source", arguments->source,
-         "raw (returns of scans), cloud (returns alone), dense (maps with the beams behind "
-         "them) or alone (maps alone)")
-      ->check(CLI::IsMember({"raw", "cloud", "dense", "alone"}))
-      ->capture_default_str();
+  AddAnswers(*fit, arguments);
   fit->add_option("--population", arguments->population,
                   "How the outcomes were made, for the file: scenes, seeds, sources");
   fit->add_option("-o,--out", arguments->out,
@@ -152,10 +208,10 @@ void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false);
   fit->add_flag("--no-gates", arguments->no_gates,
                 "Count as if the program asked nothing but --gate");
-  fit->add_flag("--json", arguments->json, "Print a JSON object");
   fit->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) { return FitVerdict(*arguments, context); };
   });
+  AddOdds(*verdict, invocation);
 }
 
 }  // namespace foresight

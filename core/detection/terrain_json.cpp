@@ -19,7 +19,7 @@ Json EvidenceJson(const BlockEvidence& evidence) {
           {"confirmed_edges", evidence.confirmed_edges},
           {"rms_m", evidence.rms_m},
           {"size_margin", evidence.size_margin},
-          {"alike_size_margin", evidence.alike_size_margin}};
+          {"size_nats", evidence.size_nats}};
 }
 
 BlockEvidence BlockEvidenceFrom(const Json& value) {
@@ -32,7 +32,7 @@ BlockEvidence BlockEvidenceFrom(const Json& value) {
   evidence.rms_m = NumberFrom(value.at("rms_m"));
   // Earlier programs did not write these.
   for (const auto& [name, member] : {std::pair("size_margin", &evidence.size_margin),
-                                     std::pair("alike_size_margin", &evidence.alike_size_margin)})
+                                     std::pair("size_nats", &evidence.size_nats)})
     if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;
 }

@@ -146,7 +146,7 @@ FitOutcome JudgeOne(const TerrainSurface& found, std::span<const TrueBlock> bloc
   outcome.reason = found.verdict.reason;
   outcome.evidence = {{"confirmed_edges", static_cast<double>(found.evidence.confirmed_edges)},
                       {"size_margin", found.evidence.size_margin},
-                      {"alike_size_margin", found.evidence.alike_size_margin}};
+                      {"size_nats", found.evidence.size_nats}};
   outcome.errors = {{"false_area", FalseArea(found, blocks)}};
   const int nearest = Nearest(found, blocks);
   if (nearest < 0) return outcome;

@@ -79,4 +79,35 @@ Status ReplaceFeatures(const std::vector<std::string>& wanted,
   return {};
 }
 
+Result<std::vector<OddsBin>> OddsOf(const std::string& name, double from, double to, int bins,
+                                    const std::vector<std::string>& features,
+                                    const std::vector<FitOutcome>& outcomes) {
+  FORESIGHT_CHECK(CheckName(name, features, outcomes));
+  if (!(to > from) || bins < 1)
+    return Fail(ErrorCode::kInvalidOptions, "{} bins from {} to {} are none", bins, from, to);
+  std::vector<OddsBin> odds(static_cast<std::size_t>(bins));
+  const double width = (to - from) / bins;
+  for (std::size_t i = 0; i < odds.size(); ++i) {
+    odds[i].from = from + static_cast<double>(i) * width;
+    odds[i].to = odds[i].from + width;
+  }
+  int all_right = bins, all_wrong = bins;
+  for (const FitOutcome& outcome : outcomes) {
+    if (outcome.world == FitWorld::kOther)
+      return Fail(ErrorCode::kInvalidOptions,
+                  "these are answers of the other world, which judges only");
+    if (!outcome.found || !outcome.verdict.failed_gates.empty()) continue;
+    if (outcome.pose_ok != outcome.all_ok) continue;  // the object, but not quite right
+    const double number = NumberOf(outcome, features, name);
+    if (!std::isfinite(number)) continue;
+    const auto bin = static_cast<std::size_t>(
+        std::clamp(std::floor((number - from) / width), 0.0, static_cast<double>(bins - 1)));
+    ++(outcome.all_ok ? odds[bin].right : odds[bin].wrong);
+    ++(outcome.all_ok ? all_right : all_wrong);
+  }
+  for (OddsBin& bin : odds)
+    bin.nats = std::log((bin.right + 1.0) / all_right) - std::log((bin.wrong + 1.0) / all_wrong);
+  return odds;
+}
+
 }  // namespace foresight

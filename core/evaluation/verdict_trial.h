@@ -32,4 +32,21 @@ Status AddTrialGate(const TrialGate& gate, const std::vector<std::string>& featu
 Status ReplaceFeatures(const std::vector<std::string>& wanted,
                        const std::vector<std::string>& features, std::vector<FitOutcome>& outcomes);
 
+/// Among answers whose number lies from `from` up to `to`: those that are right in every respect,
+/// those that took another thing for the object, and the log of the ratio of both as fractions of
+/// all such answers, each bin with one more of both.
+struct OddsBin {
+  double from = 0.0;
+  double to = 0.0;
+  int right = 0;
+  int wrong = 0;
+  double nats = 0.0;
+};
+/// What a number, a feature or evidence, says for an answer: what constants that turn it into nats
+/// are made of. Answers with a failed gate do not count; what lies beyond the first or the last bin
+/// counts there. Fails as AddTrialGate does, and for answers of the other world.
+Result<std::vector<OddsBin>> OddsOf(const std::string& name, double from, double to, int bins,
+                                    const std::vector<std::string>& features,
+                                    const std::vector<FitOutcome>& outcomes);
+
 }  // namespace foresight

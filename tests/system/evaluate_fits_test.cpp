@@ -1,6 +1,7 @@
 // Trying fits on drawn scenes, from the command line.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -110,6 +111,25 @@ std::string TableOfMany(const TemporaryFolder& folder) {
     table << FitOutcomeToJson(outcome) << "\n";
   }
   return folder / "many.jsonl";
+}
+
+TEST(VerdictOddsCommand, WhatANumberSaysForAnAnswerIsCounted) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      RunProgram(FORESIGHTCTL, {"verdict", "odds", "drill", TableOfMany(folder), "--of", "rms_m",
+                                "--from", "0", "--to", "0.03", "--bins", "2", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto bins = nlohmann::json::parse(result.output);
+  ASSERT_EQ(bins.size(), 2u);
+  // Of 100 right answers 50 have 0.01, of 100 others none.
+  EXPECT_EQ(bins[0]["right"], 50);
+  EXPECT_EQ(bins[0]["wrong"], 0);
+  EXPECT_NEAR(bins[0]["nats"], std::log(51.0), 1e-9);
+  EXPECT_NEAR(bins[1]["nats"], std::log(51.0 / 101.0), 1e-9);
+  EXPECT_EQ(
+      RunProgram(FORESIGHTCTL, {"verdict", "odds", "drill", TableOfMany(folder), "--of", "rim"})
+          .exit_code,
+      2);
 }
 
 TEST(VerdictFitCommand, CountsWithGatesThatTheProgramDoesNotHaveAndWritesNothing) {

@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/terrain/alike_sizes.h"
 #include "core/fitting/terrain/block_lattice.h"
+#include "core/fitting/terrain/block_size.h"
 
 namespace foresight {
 namespace {
 
 constexpr double kLeastOffered = 0.40;  // of a block that is offered
 constexpr double kMaxSeeThrough = 0.30;
-constexpr double kLargestPatch = 5.0;     // blocks; more is ground or a floor
-constexpr double kMinLeftover = 0.15;     // of a block's area: a surface of its own
-constexpr double kOwnMargin_m = 0.015;    // support this near to a block is its own
-constexpr int kMeasuredEdges = 2;         // of a block whose size counts for the others
-constexpr double kMostSizeMargin = 0.12;  // of it that counts for the others
+constexpr double kLargestPatch = 5.0;   // blocks; more is ground or a floor
+constexpr double kMinLeftover = 0.15;   // of a block's area: a surface of its own
+constexpr double kOwnMargin_m = 0.015;  // support this near to a block is its own
+constexpr int kMeasuredEdges = 2;       // of a block whose size was measured
 
 /// How far a return near an edge may lie from where the edge is.
 double EdgeBlur(const RaySet& rays, const SurfaceGrid& grid, const Eigen::Vector3d& at) {
@@ -196,8 +197,7 @@ void SurfaceCollector::MeasureSizes() {
   std::vector<FoundSurface*> blocks;
   for (FoundSurface& surface : found)
     if (surface.surface.kind == TerrainSurface::Kind::kBlock) blocks.push_back(&surface);
-  double sum = 0.0;
-  int measured = 0;
+  std::vector<double> own_nats;
   for (FoundSurface* block : blocks) {
     std::vector<BlockRectangle> others;
     for (const FoundSurface* other : blocks)
@@ -205,12 +205,12 @@ void SurfaceCollector::MeasureSizes() {
     BlockEvidence& evidence = block->surface.evidence;
     evidence.size_margin =
         SizeMargin(views_[static_cast<std::size_t>(block->view)], block->rectangle, others);
-    if (evidence.confirmed_edges < kMeasuredEdges) continue;
-    sum += std::clamp(evidence.size_margin, -kMostSizeMargin, kMostSizeMargin);
-    ++measured;
+    own_nats.push_back(evidence.confirmed_edges < kMeasuredEdges
+                           ? std::nan("")
+                           : NatsOfSize(evidence.size_margin, rays_.dense));
   }
-  for (FoundSurface* block : blocks)
-    block->surface.evidence.alike_size_margin = sum / std::max(1, measured);
+  const std::vector<double> nats = NatsAmongOthers(own_nats);
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i]->surface.evidence.size_nats = nats[i];
 }
 
 }  // namespace foresight

@@ -21,10 +21,11 @@ struct BlockEvidence {
   int confirmed_edges = 0;   ///< 0 to 4: support inside, none outside
   double rms_m = 0.0;        ///< of the points from the plane
   /// How much better a block's size explains it than any that is a tenth and more longer or
-  /// shorter, as a fraction of its area; negative where another explains it better. And the mean of
-  /// that over the blocks of the region, which are alike.
+  /// shorter, as a fraction of its area; negative where another explains it better.
   double size_margin = 0.0;
-  double alike_size_margin = 0.0;
+  /// The odds, in nats, that it has a block's size, by its own margin and those of the other tops
+  /// of the region (NatsAmongOthers).
+  double size_nats = 0.0;
 };
 
 /// Where a foot may stand: the rectangle shrunk by a margin.

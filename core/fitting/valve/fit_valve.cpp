@@ -240,7 +240,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   for (std::size_t i = 1; i < valves.size() && i <= kAlternatives; ++i)
     detection.alternatives.push_back(WithUpwardSpoke(valves[i]));
   SetSigmas(InformationAt(likelihood.Footprints(), detection.best, {}), detection);
-  detection.evidence = GatherEvidence(likelihood.Footprints(), detection.best);
+  detection.evidence = GatherEvidence(likelihood.MeasuredFootprints(), detection.best);
   detection.evidence.margin_nats =
       valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
   detection.evidence.gain_nats = detection.best.log_likelihood - nothing;

@@ -43,6 +43,10 @@ class RayLikelihood {
 
   /// Of its rays, without the beams behind a map.
   const BeamFootprints& Footprints() const { return footprints_; }
+  /// Of Measured().
+  const BeamFootprints& MeasuredFootprints() const {
+    return beams_ ? beams_->MeasuredFootprints() : footprints_;
+  }
 
  private:
   /// Density of the measured range of a ray without a valve.

@@ -28,7 +28,8 @@ void SetSigmas(const ValveInformation& information, ValveDetection& detection);
 /// disc is NaN.
 void SetCovariance(const PoseCovariance& covariance, ValveDetection& detection);
 
-/// Independent measurements on the valve: a dense map has fewer than rays.
+/// Independent measurements on the valve: a map without its beams has fewer than rays. The evidence
+/// is that of the beams behind a map where they are known.
 double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
 
 /// In base: of a wheel its centre, of a lever halfway along its bar.

@@ -261,7 +261,7 @@ TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
   ASSERT_EQ(read->surfaces.size(), 2U);
   EXPECT_EQ(read->surfaces[0].evidence.confirmed_edges, 4);
   EXPECT_EQ(read->surfaces[0].evidence.size_margin, -0.07);
-  EXPECT_EQ(read->surfaces[0].evidence.alike_size_margin, 0.02);
+  EXPECT_EQ(read->surfaces[0].evidence.size_nats, 0.02);
   EXPECT_EQ(read->surfaces[0].toehold.step_m, 0.19);
   EXPECT_TRUE(std::isnan(read->surfaces[1].toehold.step_m));
   EXPECT_EQ(read->surfaces[1].kind, TerrainSurface::Kind::kGround);

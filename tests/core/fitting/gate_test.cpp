@@ -383,7 +383,7 @@ TEST(Reasons, OfBlocksFailAsTheyAreStated) {
                       .confirmed_edges = random.Index(5),
                       .rms_m = 0.006,
                       .size_margin = random.Uniform(-0.15, 0.1),
-                      .alike_size_margin = random.Uniform(-0.1, 0.1)};
+                      .size_nats = random.Uniform(-3.0, 5.0)};
     RectangleEvidence evidence;
     evidence.block = block.evidence;
     evidence.size_error_m = random.Uniform(0.0, 0.08);

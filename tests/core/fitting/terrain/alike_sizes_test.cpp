@@ -1,0 +1,48 @@
+#include "core/fitting/terrain/alike_sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace foresight {
+namespace {
+
+TEST(AlikeSizes, AMapsMarginSaysMoreThanLidarReturns) {
+  EXPECT_GT(NatsOfSize(0.05, true), NatsOfSize(0.05, false));
+  EXPECT_LT(NatsOfSize(-0.15, true), NatsOfSize(-0.15, false));
+  EXPECT_LT(NatsOfSize(-0.15, false), 0.0);
+  EXPECT_EQ(NatsOfSize(0.5, true), NatsOfSize(0.05, true)) << "there is no larger margin";
+  EXPECT_EQ(NatsOfSize(-0.5, true), NatsOfSize(-0.19, true));
+}
+
+TEST(AlikeSizes, TheOthersTellOfATopThatIsNotMeasured) {
+  const double unknown = std::nan("");
+  const std::vector<double> blocks = {unknown, 3.0, 3.0, 3.0, 3.0};
+  const std::vector<double> cartons = {unknown, -3.0, -3.0, -3.0, -3.0};
+  EXPECT_GT(NatsAmongOthers(blocks)[0], 2.0);
+  EXPECT_LT(NatsAmongOthers(cartons)[0], -2.0);
+  EXPECT_NEAR(NatsAmongOthers(std::vector<double>{unknown})[0], 0.0, 1e-9) << "nothing is known";
+}
+
+TEST(AlikeSizes, WhereAllAreBlocksOneThatIsHardToSeeIsOne) {
+  const std::vector<double> blocks = {-1.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0};
+  EXPECT_GT(NatsAmongOthers(blocks)[0], 1.5);
+}
+
+TEST(AlikeSizes, AmongOtherThingsOneTellsForItself) {
+  // Half are blocks: what a top's own size says decides.
+  const std::vector<double> mixed = {4.0, 4.0, 4.0, 4.0, -5.0, -5.0, -5.0, -5.0};
+  const std::vector<double> nats = NatsAmongOthers(mixed);
+  EXPECT_GT(nats[0], 1.0);
+  EXPECT_LT(nats[7], -1.5);
+}
+
+TEST(AlikeSizes, ACartonAmongBlocksIsNone) {
+  const std::vector<double> one_carton = {-6.0, 4.0, 4.0, 4.0, 4.0, 4.0};
+  EXPECT_LT(NatsAmongOthers(one_carton)[0], 1.5);
+  EXPECT_GT(NatsAmongOthers(one_carton)[1], 2.0);
+}
+
+}  // namespace
+}  // namespace foresight
