@@ -9,7 +9,7 @@
 namespace foresight {
 namespace {
 
-// What a confirmed block needs (`packaging/evaluate cartons-choice`; docs/evaluation.md, "A carton
+// What a confirmed block needs (`packaging/evaluate mixed-choice`; docs/evaluation.md, "A carton
 // is no block"). Edges do not tell a block from a carton of nearly its size: the margins of sizes
 // do. Lidar returns, which lie far apart, say too much of what lies beyond an edge.
 constexpr int kMinEdges = 2;
@@ -45,12 +45,13 @@ Gate EdgesGate(const BlockEvidence& evidence, int limit) {
           .limit = static_cast<double>(limit)};
 }
 
-Gate SizeGate(const BlockEvidence& evidence, double limit_nats) {
+Gate SizeGate(const BlockEvidence& evidence, double limit_nats, bool of_map) {
   return {.what = "the odds that it has a block's size are {}",
           .unit = Gate::Unit::kOdds,
           .number = evidence.size_nats,
           .limit = limit_nats,
-          .advice = "measure it, or look at it from another side"};
+          .advice = of_map ? "measure it, or look at it from another side"
+                           : "lidar returns hardly show edges, fit to the dense map"};
 }
 
 double PlaceSigma(const TerrainSurface& block) {
@@ -78,7 +79,7 @@ std::vector<std::string> FailedGates(const TerrainSurface& block, bool of_map) {
               failed);
   AddIfFailed(CoverGate(evidence, kMinCover), failed);
   AddIfFailed(EdgesGate(evidence, kMinEdges), failed);
-  AddIfFailed(SizeGate(evidence, kMinSize_nats), failed);
+  AddIfFailed(SizeGate(evidence, kMinSize_nats, of_map), failed);
   AddIfFailed(PlaceGate(block, kMaxPlaceSigma_m), failed);
   return failed;
 }
@@ -109,7 +110,7 @@ std::vector<FeatureGate> FeatureGates(const TerrainSurface& block,
             .number = seen.rms_m,
             .side = Gate::Side::kAtMost,
             .limit = mean("rms")}},
-          {"size_nats", SizeGate(seen, mean("size_nats"))},
+          {"size_nats", SizeGate(seen, mean("size_nats"), model.source == VerdictSource::kDense)},
           {"log_sigma_place", PlaceGate(block, std::exp(mean("log_sigma_place")))}};
 }
 

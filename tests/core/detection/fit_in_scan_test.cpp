@@ -72,6 +72,26 @@ TEST(FitInScan, TheImageTellsWhichWayALeverPointsWhereBeamsDoNot) {
   }
 }
 
+TEST(FitInScan, BeamsThatWentThroughAValveAreBeamsAndNotPixelsOfAMap) {
+  const auto population = MakeFitPopulation("valve").value();
+  FitTrialOptions options;
+  options.sources = {{FitSource::kDepth, DepthMethod::kForesight}};
+  const FitTrial trial = MakeFitTrial(*population, 3, options, {}).value();
+  const DepthResult depth = ComputeDepthInFrame(trial.cloud, trial.rig, trial.frame,
+                                                DefaultsOf(DepthMethod::kForesight), {})
+                                .value();
+  const ProcessedScan scan{trial.rig, trial.cloud, {trial.frame}, &depth};
+  FitValveOptions all;
+  all.max_rays = 100000;
+  const auto rays_of = [&](FitSource source) {
+    return FitValveInScan(scan, source, trial.roi, all, {}).value().evidence.rays;
+  };
+  // A map has more pixels there than the scan has beams.
+  const int beams = rays_of(FitSource::kRaw);
+  EXPECT_EQ(rays_of(FitSource::kDepth), beams);
+  EXPECT_GT(rays_of(FitSource::kDepthAlone), beams);
+}
+
 TEST(FitInScan, TheImageTellsOfAValveWhetherItsPartsAreThereAndNotWhereItIs) {
   const auto population = MakeFitPopulation("valve").value();
   const FitTrial trial = MakeFitTrial(*population, 3, {}, {}).value();

@@ -129,7 +129,7 @@ TEST(FitTerrain, CartonsOfNearlyABlocksSizeAreNotConfirmed) {
     const auto& failed = surface.verdict.failed_gates;
     return surface.kind == Kind::kBlock &&
            std::any_of(failed.begin(), failed.end(), [](const std::string& why) {
-             return why.starts_with("another size than a block's explains");
+             return why.starts_with("the odds that it has a block's size");
            });
   };
   const auto count = [&](const Eigen::Vector2d& size_m) {
