@@ -101,6 +101,10 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
   return FitValveOptions();
 }
 
+FitSource UsualSourceFor(ObjectKind kind, bool has_depth) {
+  return kind == ObjectKind::kTerrain && has_depth ? FitSource::kDepth : FitSource::kRaw;
+}
+
 bool UsesImage(ObjectKind kind) {
   return kind == ObjectKind::kValve || kind == ObjectKind::kDrill || kind == ObjectKind::kHandle;
 }

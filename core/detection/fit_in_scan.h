@@ -59,6 +59,11 @@ using FitOptions = std::variant<FitValveOptions, FitDrillOptions, FitTerrainOpti
 FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>& robot_from_base,
                          const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
+/// What a fit is given where nobody says otherwise: a map shows a block's edges finer than lidar
+/// returns do (docs/evaluation.md, "Blocks among other things"); of other objects both are as good,
+/// and returns need no map.
+FitSource UsualSourceFor(ObjectKind kind, bool has_depth);
+
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as
 /// RaysFromScan and RaysFromDepth do, and with kState for a depth that is not there.
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,

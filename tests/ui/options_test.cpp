@@ -91,6 +91,19 @@ TEST_F(OptionsTest, EachMethodKeepsItsOwnOptions) {
   EXPECT_EQ(depth.Options().local_plane.ridge, 0.1);
 }
 
+TEST_F(OptionsTest, ATerrainIsFittedToTheMapWhereThereIsOneUntilTheOperatorChooses) {
+  fit.SetTool(ObjectKind::kTerrain, true);
+  EXPECT_EQ(fit.From(), FitSource::kRaw) << "there is no map yet";
+  session.SetScan(SharedScan());
+  ASSERT_TRUE(Computed());
+  EXPECT_EQ(fit.From(), FitSource::kDepth);
+  fit.SetTool(ObjectKind::kValve, true);
+  EXPECT_EQ(fit.From(), FitSource::kRaw);
+  fit.SetSource(FitSource::kDepthAlone);
+  fit.SetTool(ObjectKind::kTerrain, true);
+  EXPECT_EQ(fit.From(), FitSource::kDepthAlone) << "what was chosen stays";
+}
+
 TEST_F(OptionsTest, WhatIsFoundNamesEveryOptionAndIsFoundAgain) {
   session.SetScan(SharedScan());
   ASSERT_TRUE(Computed());

@@ -213,6 +213,7 @@ void ObjectsPanel::TakeName(const QListWidgetItem* item) {
 }
 
 void ObjectsPanel::ShowFit() {
+  source_->setCurrentIndex(static_cast<int>(fit_->From()));
   fit_button_->setText(tr("Fit %1").arg(TitleOf(fit_->Kind()).toLower()));
 }
 

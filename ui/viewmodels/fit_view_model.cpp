@@ -37,6 +37,10 @@ void FitViewModel::SetShape(RegionShape shape) {
   Q_EMIT changed();
 }
 
+FitSource FitViewModel::From() const {
+  return source_.value_or(UsualSourceFor(kind_, session_->Depth() != nullptr));
+}
+
 void FitViewModel::SetSource(FitSource source) {
   source_ = source;
   Q_EMIT changed();
@@ -64,7 +68,7 @@ void FitViewModel::leaveTools() {
 
 bool FitViewModel::CanFit() const {
   const bool has_points =
-      source_ == FitSource::kRaw ? session_->Cloud() != nullptr : session_->Depth() != nullptr;
+      From() == FitSource::kRaw ? session_->Cloud() != nullptr : session_->Depth() != nullptr;
   return session_->ScanToFit() && session_->Region() && has_points && !runner_.Busy();
 }
 
@@ -168,7 +172,7 @@ void FitViewModel::fit() {
   if (!session_->CurrentScan()) part = PartOf(*scan, session_->Part().of_lines);
   const auto work = [scan, part, cloud = session_->Cloud(), depth = session_->Depth(),
                      mask = session_->Mask(), roi = *session_->Region(),
-                     mask_options = session_->MaskOptions(), source = source_,
+                     mask_options = session_->MaskOptions(), source = From(),
                      options](const RunContext& context) -> Result<Found> {
     const ProcessedScan processed{scan->rig, *cloud, scan->frames, depth.get(), mask.get()};
     FORESIGHT_TRY(Detection detection, FitInScan(processed, source, roi, options, context));

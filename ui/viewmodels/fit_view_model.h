@@ -40,7 +40,8 @@ class FitViewModel : public QObject {
   ObjectKind Kind() const { return kind_; }
   RegionShape Shape() const { return shape_; }
   void SetShape(RegionShape shape);
-  FitSource From() const { return source_; }
+  /// What the operator chose, else what is usual for `Kind`.
+  FitSource From() const;
   void SetSource(FitSource source);
   bool CanFit() const;
   TaskRunner* Runner() { return &runner_; }
@@ -88,7 +89,7 @@ class FitViewModel : public QObject {
   SessionModel* session_;
   std::string fitting_in_;  ///< uuid of the scan of the last fit
   TaskRunner runner_{session_->Tasks()};
-  FitSource source_ = FitSource::kRaw;
+  std::optional<FitSource> source_;  ///< that the operator chose
   RegionShape shape_ = RegionShape::kRectangle;
   ObjectKind kind_ = ObjectKind::kValve;
   /// What the operator chose, by the option's key.
