@@ -50,6 +50,10 @@ struct RaySet {
   /// is known.
   std::shared_ptr<const ImageEdges> image = nullptr;
 
+  /// What was measured: the beams behind a map where they are known, else these rays. A map is
+  /// smooth where an object ends, and says "behind" of pixels that no beam went past.
+  const RaySet& Measured() const { return beams ? *beams : *this; }
+
   /// How many independent measurements a ray is worth, one at most.
   double Worth() const { return std::min(1.0, samples_per_ray); }
 };

@@ -43,7 +43,7 @@ constexpr double kBound = 0.01;  // of the range of a scale
 std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detection,
                                const DrillSupport& support) {
   const DrillEvidence& evidence = detection.evidence;
-  const double hits = std::max(1.0, rays.Worth() * evidence.hits);
+  const double hits = std::max(1.0, rays.Measured().Worth() * evidence.hits);
   return {Compressed(evidence.yaw_margin_nats),
           Compressed(evidence.head_nats),
           Compressed(evidence.alternative_margin_nats),
@@ -184,7 +184,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
   std::vector<std::string> failed;
   if (!detection.table)
     failed.push_back("no table is seen under it: draw the region a little lower");
-  AddIfFailed(MeasurementsGate(kObject, rays.Worth() * evidence.hits, kMinHits), failed);
+  AddIfFailed(MeasurementsGate(kObject, rays.Measured().Worth() * evidence.hits, kMinHits), failed);
   AddIfFailed(SeeThroughGate(kObject, evidence.see_through, kMaxSeeThrough), failed);
   // As likely as the drill, or not looked at, is not behind: the limit is just above 0.
   AddIfFailed(AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
@@ -241,12 +241,13 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
 
 DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill) {
   const SolidTracer tracer(drill.model.parts, drill.base_from_object);
-  const double agree_m = BeamModel::kAgreeSigmas * std::hypot(rays.sigma_m, kDrillTemplateError_m);
+  const double agree_m =
+      BeamModel::kAgreeSigmas * std::hypot(rays.Measured().sigma_m, kDrillTemplateError_m);
   DrillEvidence evidence;
   int agreeing = 0;
   int behind = 0;
   double square_sum = 0.0;
-  for (const RangeRay& ray : rays.rays) {
+  for (const RangeRay& ray : rays.Measured().rays) {
     ++evidence.rays;
     const SolidIntersection intersection = tracer.Intersect(ray, 0.0);
     if (!intersection.Hits()) continue;

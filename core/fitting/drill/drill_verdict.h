@@ -9,7 +9,8 @@
 
 namespace foresight {
 
-/// Counts what the rays of a region say about a drill; the likelihoods are left at 0.
+/// Counts what was measured in a region says about a drill (RaySet::Measured); the likelihoods are
+/// left at 0.
 DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill);
 
 /// What Verdict::features holds, in its order.

@@ -142,7 +142,7 @@ void SetSigmas(const ValveInformation& information, ValveDetection& detection) {
 }
 
 double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence) {
-  return evidence.hits * (rays.beams ? rays.beams->Worth() : rays.Worth());
+  return evidence.hits * rays.Measured().Worth();
 }
 
 Eigen::Vector3d MiddleOf(const ValveCandidate& valve) {
