@@ -50,8 +50,9 @@ Gate SizeGate(const BlockEvidence& evidence, double limit_nats, bool of_map) {
           .unit = Gate::Unit::kOdds,
           .number = evidence.size_nats,
           .limit = limit_nats,
-          .advice = of_map ? "measure it, or look at it from another side"
-                           : "lidar returns hardly show edges, fit to the dense map"};
+          .advice = of_map
+                        ? "measure it, or look at it from another side"
+                        : "lidar returns hardly show edges, fit to the dense map if there is one"};
 }
 
 double PlaceSigma(const TerrainSurface& block) {
