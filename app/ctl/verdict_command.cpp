@@ -34,6 +34,11 @@ VerdictSource SourceOf(const FitOutcome& outcome) {
   return outcome.source.ends_with(kAloneSuffix) ? VerdictSource::kAlone : VerdictSource::kDense;
 }
 
+Result<VerdictSource> SourceFrom(const VerdictArguments& arguments) {
+  if (const auto source = VerdictSourceFromString(arguments.source)) return *source;
+  return Fail(ErrorCode::kInvalidOptions, "--source {} is not known", arguments.source);
+}
+
 /// The answers of one source, as if the program had the arguments' features and gates.
 Result<std::vector<FitOutcome>> OutcomesFrom(const VerdictArguments& arguments,
                                              VerdictSource source,
@@ -97,9 +102,7 @@ nlohmann::ordered_json ToJson(const VerdictFit& fit) {
 
 Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&) {
   FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
-  const auto source = VerdictSourceFromString(arguments.source);
-  if (!source)
-    return Fail(ErrorCode::kInvalidOptions, "--source {} is not known", arguments.source);
+  FORESIGHT_TRY(const VerdictSource source, SourceFrom(arguments));
   if (!arguments.out.empty() && !arguments.features.empty())
     return Fail(ErrorCode::kInvalidOptions,
                 "--features is a trial: the program computes its own features, and cannot use "
@@ -108,10 +111,10 @@ Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&
     return Fail(ErrorCode::kInvalidOptions,
                 "--out needs --population: the file says what its weights are true for");
   const std::vector<std::string> features = population->FeatureNames();
-  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes, OutcomesFrom(arguments, *source, features));
+  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes, OutcomesFrom(arguments, source, features));
   VerdictFitOptions options;
   options.object = arguments.kind;
-  options.source = *source;
+  options.source = source;
   options.population = arguments.population;
   options.features = arguments.features.empty() ? features : arguments.features;
   FORESIGHT_TRY(const VerdictFit fit, FitVerdictModel(outcomes, options));
@@ -126,12 +129,10 @@ Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&
 
 Result<ExitCode> PrintOdds(VerdictArguments arguments, const RunContext&) {
   FORESIGHT_TRY(const std::unique_ptr<FitPopulation> population, MakeFitPopulation(arguments.kind));
-  const auto source = VerdictSourceFromString(arguments.source);
-  if (!source)
-    return Fail(ErrorCode::kInvalidOptions, "--source {} is not known", arguments.source);
+  FORESIGHT_TRY(const VerdictSource source, SourceFrom(arguments));
   arguments.no_gates = true;
   const std::vector<std::string> features = population->FeatureNames();
-  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes, OutcomesFrom(arguments, *source, features));
+  FORESIGHT_TRY(const std::vector<FitOutcome> outcomes, OutcomesFrom(arguments, source, features));
   FORESIGHT_TRY(
       const std::vector<OddsBin> odds,
       OddsOf(arguments.odds_of, arguments.from, arguments.to, arguments.bins, features, outcomes));
@@ -150,7 +151,7 @@ Result<ExitCode> PrintOdds(VerdictArguments arguments, const RunContext&) {
   return ExitCode::kDone;
 }
 
-/// What answers both commands look at.
+/// Which answers a command looks at.
 void AddAnswers(CLI::App& command, const std::shared_ptr<VerdictArguments>& arguments) {
   command.add_option("object", arguments->kind, "valve, drill, terrain or handle")
       ->required()

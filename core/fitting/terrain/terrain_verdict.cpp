@@ -20,8 +20,8 @@ constexpr double kMaxOutside = 0.1, kMaxOutsideOfReturns = 0.2;
 constexpr double kMinSize_nats = 1.5;
 constexpr double kMaxPlaceSigma_m = 0.010;
 constexpr int kUnsureEdges = 1;  // no more than this: UNSURE
-// From here on less than 0.5 % of the toehold area that is offered has no block under it, on the
-// scenes that the weights were fitted to.
+// From here on, with the odds above, less than 0.5 % of the toehold area that is offered has no
+// block under it, on the scenes at home that the weights were fitted to.
 constexpr double kWorthOffering = 0.90;
 
 constexpr double kFarOff = 0.3;  // a margin of sizes beyond this says no more

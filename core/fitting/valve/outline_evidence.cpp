@@ -146,10 +146,8 @@ Eigen::Vector2d BestMove(const ImageEdges& image, const Pieces& outline) {
 double FurtherOutline(const ImageEdges& image, const SeenValve& seen, const ValveModel& model,
                       const Eigen::Vector2d& move) {
   double best = -std::numeric_limits<double>::infinity();
-  const double sector = 2.0 * std::numbers::pi / model.spokes;
   for (int i = 0; i < model.spokes; ++i)
-    for (double turn = kBesideSpoke_rad; turn <= sector - kBesideSpoke_rad;
-         turn += kSpokeStep_rad) {
+    for (const double turn : TurnsToFurtherSpokes(model)) {
       const OutlineSupport support = image.SupportOf(
           image.Moved(seen.PiecesOfFurther(SpokeOf(model, AngleOfSpoke(model, i) + turn)), move));
       if (support.length_px >= kLeastOutline_px) best = std::max(best, support.NatsPerPixel());

@@ -5,13 +5,13 @@
 
 namespace foresight {
 
+inline constexpr double kLeastOutline_px = 8.0;
+
 /// What an image says of a fitted valve's parts: ValveEvidence::outline_nats_per_px,
 /// weakest_outline_nats_per_px and further_outline_nats_per_px. Beams place the valve, to a pixel
 /// or two; the image is asked only whether edges lie where rim and spokes (or a lever's bar) end.
 /// A part that shows less than kLeastOutline_px of its outline is not asked for.
 void AddEvidenceOfOutline(const ImageEdges& image, const ValveCandidate& valve,
                           ValveEvidence& evidence);
-
-inline constexpr double kLeastOutline_px = 8.0;
 
 }  // namespace foresight

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fitting/valve/valve_tracer.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 // Of a spoke's length, as a fraction: beams nearer to its ends touch hub or rim, too.
 constexpr double kMiddleBegins = 0.3;
 constexpr double kMiddleEnds = 0.8;
+constexpr double kSpokeStep_rad = RadiansFromDegrees(5.0);
+constexpr double kBesideSpoke_rad = RadiansFromDegrees(15.0);
 constexpr int kArcs = 8;  // of a rim
 
 double SpokeLength(const ValveModel& model) {
@@ -57,9 +60,8 @@ double FurtherSpokeNats(const RayLikelihood& likelihood, const ValveCandidate& v
                         const Eigen::VectorXd& gains) {
   const std::vector<RangeRay>& rays = likelihood.Measured().rays;
   const double length_m = SpokeLength(valve.model);
-  const double sector = 2.0 * std::numbers::pi / valve.model.spokes;
   double most = 0.0;
-  for (double turn = kBesideSpoke_rad; turn <= sector - kBesideSpoke_rad; turn += kSpokeStep_rad) {
+  for (const double turn : TurnsToFurtherSpokes(valve.model)) {
     const ValveCandidate turned = Turned(valve, turn);
     const Eigen::VectorXd turned_gains = likelihood.Gains(turned);
     const ValveTracer tracer(turned, ValveParts::kAll);
@@ -77,6 +79,14 @@ double FurtherSpokeNats(const RayLikelihood& likelihood, const ValveCandidate& v
 }
 
 }  // namespace
+
+std::vector<double> TurnsToFurtherSpokes(const ValveModel& model) {
+  const double sector = 2.0 * std::numbers::pi / model.spokes;
+  std::vector<double> turns;
+  for (double turn = kBesideSpoke_rad; turn <= sector - kBesideSpoke_rad; turn += kSpokeStep_rad)
+    turns.push_back(turn);
+  return turns;
+}
 
 void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve,
                         ValveEvidence& evidence) {

@@ -33,8 +33,7 @@ class RayLikelihood {
   /// The same with no valve there at all.
   double Nothing() const;
 
-  /// What was measured: the beams behind a dense map where they are known, else the rays.
-  const RaySet& Measured() const { return beams_ ? beams_->Measured() : rays_; }
+  const RaySet& Measured() const { return rays_.Measured(); }
   /// How much each of the measured rays speaks for a valve against none, in nats.
   Eigen::VectorXd Gains(const ValveCandidate& valve) const;
   /// How many deviations `first` is ahead of `second` when the scan lines of what was measured, and
