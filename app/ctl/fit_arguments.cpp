@@ -104,6 +104,9 @@ void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
 }
 
 void AddFitArguments(CLI::App& command, FitArguments& arguments) {
+  constexpr bool kHasDepth = true;  // a scan's map is computed where it is wanted
+  if (UsualSourceFor(arguments.kind, kHasDepth) == FitSource::kDepth)
+    arguments.source = kDepthAlias;
   AddSubjectArguments(command, arguments);
   CLI::Option* head = AddLinkOptions(command, arguments.link);
   command

@@ -96,6 +96,7 @@ TEST_F(FitOfACloud, BlocksAreFoundWhereTheCloudsUpIsWhatUpSays) {
   const auto here =
       nlohmann::json::parse(Ctl({"fit", "terrain", mission_, Box(center, size), "--json"}).output);
   ASSERT_GE(blocks(here), 2) << here.dump();
+  EXPECT_EQ(here["source"], "foresight") << "a terrain is fitted to the depth map by default";
   const ProgramResult result =
       Ctl({"fit", "terrain", "--cloud", turned_, "--up", "0,-1,0", "--viewpoint",
            Numbers(CameraLikeFromRobot() * head_),

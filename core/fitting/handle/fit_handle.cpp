@@ -244,7 +244,9 @@ class HandleFit {
     for (const HandleState& other : others)
       detection.alternatives.push_back(CandidateOf(other, base_from_door_));
     HandleEvidence& evidence = detection.evidence;
-    evidence = GatherEvidence(likelihood_, door_, detection.best);
+    // The margins compare answers to the same rays; the place is told by those that know it best.
+    const HandleCandidate placed = CandidateOf(WithTrueStandoff(best), base_from_door_);
+    evidence = GatherEvidence(likelihood_, door_, placed);
     const double own = LogLikelihoodOf(ThingOf(best), likelihood_);
     evidence.mirror_margin_nats = found.Ahead();
     evidence.edges_nats = found.edges_nats;
@@ -254,7 +256,7 @@ class HandleFit {
     evidence.gain_nats = own - likelihood_.Nothing();
     evidence.alternative_margin_nats = std::numeric_limits<double>::infinity();
     // Half of Schwarz's penalty for each parameter that an alternative has more.
-    const double measurements = std::max(2.0, evidence.hits * region_.samples_per_ray);
+    const double measurements = std::max(2.0, evidence.hits * region_.Measured().samples_per_ray);
     for (const HandleAlternative& alternative : alternatives) {
       const double margin =
           own - alternative.log_likelihood +
@@ -264,8 +266,7 @@ class HandleFit {
       evidence.best_alternative = alternative.name;
     }
     detection.verdict = AssessHandle(likelihood_.rays(), detection, options_, best.score - own);
-    // The margins compare answers to the same rays; the place is told by those that know it best.
-    detection.best = CandidateOf(WithTrueStandoff(best), base_from_door_);
+    detection.best = placed;
     return detection;
   }
 

@@ -51,6 +51,8 @@ struct HandleDetection {
   double sigma_length_m = 0.0;
   /// Of the turn as independent beams would have it: the verdict's weights were fitted to that.
   double beam_sigma_turn_rad = 0.0;
+  /// Of the pivot's place as independent lines would have it, for the verdict as well.
+  double line_sigma_pivot_m = 0.0;
   PoseCovariance covariance = PoseCovariance::Constant(std::nan(""));
   Plane door;  ///< in base, its normal towards the viewer
   HandleEvidence evidence;

@@ -48,7 +48,7 @@ constexpr const char* kNotYet =
 std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detection,
                                double proportions_nats) {
   const HandleEvidence& evidence = detection.evidence;
-  const double hits = std::max(1.0, rays.Worth() * evidence.hits);
+  const double hits = std::max(1.0, rays.Measured().Worth() * evidence.hits);
   return {evidence.mirror_margin_nats,
           Compressed(evidence.length_margin_nats),
           Compressed(evidence.alternative_margin_nats),
@@ -62,7 +62,8 @@ std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detect
           std::abs(std::log(detection.best.model.length_m / HandlePrior::kLength_m)),
           proportions_nats,
           std::log(std::max(1e-3, detection.sigma_normal_rad)),
-          evidence.outline_nats_per_px};
+          evidence.outline_nats_per_px,
+          std::log(std::max(1e-4, detection.line_sigma_pivot_m))};
 }
 
 Gate MirrorGate(const HandleEvidence& evidence, double limit_nats) {
@@ -92,7 +93,8 @@ std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection
   constexpr double kBound_m = 0.002;
   const HandleEvidence& evidence = detection.evidence;
   std::vector<std::string> failed;
-  AddIfFailed(MeasurementsGate(kObject, region.Worth() * evidence.hits, kMinHits), failed);
+  AddIfFailed(MeasurementsGate(kObject, region.Measured().Worth() * evidence.hits, kMinHits),
+              failed);
   AddIfFailed(SeeThroughGate(kObject, evidence.see_through, kMaxSeeThrough), failed);
   AddIfFailed(MirrorGate(evidence, kMinMirror_nats), failed);
   AddIfFailed(OffCenterGate(kObject, region, MiddleOf(detection.best)), failed);
@@ -128,6 +130,12 @@ std::vector<FeatureGate> FeatureGates(const HandleDetection& detection, const Ve
             .number = detection.beam_sigma_turn_rad,
             .side = Gate::Side::kAtMost,
             .limit = std::exp(mean("log_sigma_turn"))}},
+          {"log_sigma_pivot",
+           {.what = "its beams know its place to {}",
+            .unit = Gate::Unit::kLength,
+            .number = detection.line_sigma_pivot_m,
+            .side = Gate::Side::kAtMost,
+            .limit = std::exp(mean("log_sigma_pivot"))}},
           {"mirror_margin", MirrorGate(evidence, mean("mirror_margin"))},
           {"log_length_margin",
            {.what = "the odds against a lever that is 20 mm shorter or longer are {}",
@@ -246,8 +254,10 @@ HandleCovariances CovariancesOf(const HandleScorer& scorer, const HandleState& h
 
 }  // namespace
 
-HandleEvidence GatherEvidence(const BeamLikelihood& likelihood, const Plane& door,
+HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door,
                               const HandleCandidate& handle) {
+  const BeamLikelihood& likelihood =
+      of_region.BehindMap() != nullptr ? *of_region.BehindMap() : of_region;
   const DoorThing thing = ThingOf(handle.model, handle.base_from_object);
   const auto object_from_base = handle.base_from_object.Inverse();
   const RaySet& rays = likelihood.rays();
@@ -316,6 +326,9 @@ void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDete
   detection.sigma_turn_rad = sigmas[5];
   detection.sigma_length_m =
       std::sqrt(own.of_lines(kHandleLength, kHandleLength) + Squared(kLengthAdded_m));
+  detection.line_sigma_pivot_m =
+      std::sqrt(std::max(0.0, own.of_lines.topLeftCorner<2, 2>().trace() +
+                                  own.of_lines(kHandleStandoff, kHandleStandoff)));
   detection.beam_sigma_turn_rad = std::sqrt(std::max(0.0, own.of_beams(kHandleTurn, kHandleTurn)));
 }
 
@@ -333,7 +346,8 @@ std::vector<std::string> HandleFeatureNames() {
           "abs_log_length",
           "proportions",
           "log_sigma_normal",
-          "outline"};
+          "outline",
+          "log_sigma_pivot"};
 }
 
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,

@@ -7,7 +7,8 @@
 
 namespace foresight {
 
-/// Counts what the rays say about a handle; the likelihoods are left at 0.
+/// Counts what was measured says about a handle, the beams behind a map where they are known; the
+/// likelihoods are left at 0.
 HandleEvidence GatherEvidence(const BeamLikelihood& likelihood, const Plane& door,
                               const HandleCandidate& handle);
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/terrain/plane_grouping.h"
@@ -34,14 +35,16 @@ Status CheckRays(const RaySet& rays, const SurfaceGrid& grid) {
   return {};
 }
 
-/// Blocks first, nearest first.
+/// Blocks that are offered first, then other blocks, then the rest; of each the nearest first.
 std::vector<std::size_t> Order(const std::vector<TerrainSurface>& surfaces,
                                const Eigen::Vector3d& viewpoint) {
   std::vector<std::size_t> order(surfaces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t i) {
-    return std::pair(static_cast<int>(surfaces[i].kind),
-                     (surfaces[i].base_from_object.translation() - viewpoint).norm());
+    const TerrainSurface& surface = surfaces[i];
+    return std::tuple(static_cast<int>(surface.kind),
+                      surface.verdict.level == VerdictLevel::kUnsure,
+                      (surface.base_from_object.translation() - viewpoint).norm());
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
@@ -58,18 +61,19 @@ TerrainDetection Detect(const RaySet& rays, const SurfaceGrid& grid,
   }
   TellGround(options.up, drops, surfaces);
   MeasureSteps(options.up, surfaces);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].kind == TerrainSurface::Kind::kBlock)
+      surfaces[i].verdict = AssessBlock(rays, surfaces[i], found[i].evidence);
+    else
+      surfaces[i].toehold.size_m.setZero();
+  }
   TerrainDetection detection;
   detection.labels.assign(rays.rays.size(), -1);
   for (const std::size_t i : Order(surfaces, grid.viewpoint())) {
-    TerrainSurface& surface = surfaces[i];
-    if (surface.kind == TerrainSurface::Kind::kBlock)
-      surface.verdict = AssessBlock(rays, surface, found[i].evidence);
-    else
-      surface.toehold.size_m.setZero();
     for (const int point : found[i].points)
       detection.labels[static_cast<std::size_t>(grid[point].ray)] =
           static_cast<int>(detection.surfaces.size());
-    detection.surfaces.push_back(std::move(surface));
+    detection.surfaces.push_back(std::move(surfaces[i]));
   }
   detection.verdict = AssessTerrain(detection.surfaces);
   return detection;

@@ -66,7 +66,7 @@ const char* ToString(TerrainSurface::Kind kind);
 
 /// All surfaces of a region.
 struct TerrainDetection {
-  std::vector<TerrainSurface> surfaces;  ///< blocks first, nearest first
+  std::vector<TerrainSurface> surfaces;  ///< offered blocks, other blocks, the rest; nearest first
   /// Which surface each ray of the region belongs to, for colours; -1 = none.
   std::vector<int> labels;
   Verdict verdict;  ///< of the whole: as good as its worst block that is offered as a foothold

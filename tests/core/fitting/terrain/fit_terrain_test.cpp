@@ -97,6 +97,32 @@ TEST(FitTerrain, BlocksInRowsArePlacedByTheirNeighborsToo) {
   EXPECT_LT(mean_error_m({}), 0.8 * mean_error_m(alone));
 }
 
+// The first surface is the pose that is offered first.
+TEST(FitTerrain, BlocksThatAreOfferedComeBeforeThoseThatAreUnsure) {
+  int unsure_and_nearer = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const RaySet rays = RaysOnto(FieldOf(kBlock, 3, 0.43, 1.2), 0.6, 0.015, seed);
+    const auto found = FitTerrain(rays, {}, {});
+    ASSERT_TRUE(found) << found.error().message;
+    const auto distance_m = [&](const TerrainSurface& surface) {
+      return (surface.base_from_object.translation() - rays.viewpoint).norm();
+    };
+    double farthest_offered_m = 0.0;
+    bool unsure_came = false;
+    for (const TerrainSurface& surface : found->surfaces) {
+      if (surface.kind != Kind::kBlock) break;
+      const bool unsure = surface.verdict.level == VerdictLevel::kUnsure;
+      EXPECT_TRUE(unsure || !unsure_came);
+      unsure_came = unsure_came || unsure;
+      if (unsure)
+        unsure_and_nearer += distance_m(surface) < farthest_offered_m;
+      else
+        farthest_offered_m = std::max(farthest_offered_m, distance_m(surface));
+    }
+  }
+  EXPECT_GT(unsure_and_nearer, 0) << "by distance alone the order would be the same";
+}
+
 TEST(FitTerrain, GroundIsGroundAndNoFoothold) {
   const TerrainDetection found = Fit({Ground(1.4)});
   EXPECT_EQ(Count(found, Kind::kBlock), 0);
