@@ -1,3 +1,5 @@
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +23,7 @@ struct VerdictArguments {
   std::vector<std::string> features;  ///< other ones than the program's; empty = those
   std::vector<std::string> gates;     ///< more than the program's: "rim_nats>=10"
   bool no_gates = false;              ///< the program's are not asked
+  bool no_pairs = false;              ///< each number counts by itself
   std::string odds_of;
   double from = 0.0;
   double to = 1.0;
@@ -69,6 +72,11 @@ nlohmann::ordered_json ToJson(const SureAnswers::Count& count) {
   return {{"right", count.right}, {"wrong", count.wrong}, {"negatives", count.negatives}};
 }
 
+std::string PairText(double ridge) {
+  return std::isfinite(ridge) ? fmt::format("with pairs, ridge {:.0f}", ridge)
+                              : std::string("without pairs");
+}
+
 void Print(const VerdictFit& fit) {
   const VerdictModel& model = fit.model;
   PrintLine(
@@ -76,6 +84,11 @@ void Print(const VerdictFit& fit) {
                   "(cross-validated)",
                   model.object, ToString(model.source), model.fits, model.right, model.auc,
                   model.ece, fit.log_loss));
+  std::string tried;
+  for (std::size_t i = 0; i < fit.log_losses.size(); ++i)
+    tried += fmt::format("{}{:.3f} {}", i > 0 ? ", " : "", fit.log_losses[i],
+                         PairText(fit.pair_ridges[i]));
+  PrintLine(fmt::format("  log loss {}; taken: {}", tried, PairText(fit.pair_ridge)));
   for (const SureAnswers& sure : fit.sure)
     PrintLine(fmt::format(
         "  {}: of {} right answers, called as sure as CONFIRMED by weights that have not seen "
@@ -97,6 +110,7 @@ nlohmann::ordered_json ToJson(const VerdictFit& fit) {
           {"auc", FiniteOrNull(fit.model.auc)},
           {"ece", FiniteOrNull(fit.model.ece)},
           {"log_loss", fit.log_loss},
+          {"pair_ridge", FiniteOrNull(fit.pair_ridge)},
           {"worlds", worlds}};
 }
 
@@ -117,6 +131,7 @@ Result<ExitCode> FitVerdict(const VerdictArguments& arguments, const RunContext&
   options.source = source;
   options.population = arguments.population;
   options.features = arguments.features.empty() ? features : arguments.features;
+  if (arguments.no_pairs) options.pair_ridges = {std::numeric_limits<double>::infinity()};
   FORESIGHT_TRY(const VerdictFit fit, FitVerdictModel(outcomes, options));
   if (!arguments.out.empty())
     FORESIGHT_CHECK(WriteFileAtomically(arguments.out, fit.model.ToYaml()));
@@ -209,6 +224,8 @@ void AddVerdictCommand(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false);
   fit->add_flag("--no-gates", arguments->no_gates,
                 "Count as if the program asked nothing but --gate");
+  fit->add_flag("--no-pairs", arguments->no_pairs,
+                "Weights of each number by itself, not of pairs of them");
   fit->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext& context) { return FitVerdict(*arguments, context); };
   });

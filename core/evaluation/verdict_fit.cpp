@@ -63,28 +63,54 @@ void Standardise(const std::vector<Example>& examples, VerdictModel& model) {
   }
 }
 
-/// Newton's method on the penalised log likelihood; the bias is not penalised.
-void SolveWeights(const std::vector<Example>& examples, double ridge, VerdictModel& model) {
+/// What the log odds are linear in: a constant, the features in deviations, and their pairs.
+struct Design {
+  Eigen::MatrixXd x;           ///< (examples x columns)
+  Eigen::VectorXd pair_means;  ///< of the pairs' columns before they were standardised
+  Eigen::VectorXd pair_deviations;
+};
+
+Design DesignOf(const std::vector<Example>& examples, const VerdictModel& model, bool pairs) {
   const auto rows = static_cast<Eigen::Index>(examples.size());
-  const auto columns = static_cast<Eigen::Index>(model.features.size()) + 1;
-  Eigen::MatrixXd x(rows, columns);
-  Eigen::VectorXd y(rows), counts(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const Example& example = examples[static_cast<std::size_t>(i)];
-    x(i, 0) = 1.0;
-    y(i) = example.right ? 1.0 : 0.0;
-    counts(i) = example.weight;
-    for (Eigen::Index f = 1; f < columns; ++f) {
-      const auto& feature = model.features[static_cast<std::size_t>(f - 1)];
+  const auto features = static_cast<Eigen::Index>(model.features.size());
+  const auto pair_count =
+      pairs ? static_cast<Eigen::Index>(VerdictModel::PairsOf(model.features.size())) : 0;
+  Design design{Eigen::MatrixXd(rows, 1 + features + pair_count), Eigen::VectorXd(pair_count),
+                Eigen::VectorXd(pair_count)};
+  Eigen::MatrixXd& x = design.x;
+  x.col(0).setOnes();
+  for (Eigen::Index f = 0; f < features; ++f) {
+    const auto& feature = model.features[static_cast<std::size_t>(f)];
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const double value =
+          examples[static_cast<std::size_t>(i)].values[static_cast<std::size_t>(f)];
       // As VerdictModel::Probability clamps.
-      x(i, f) = std::clamp(
-          (example.values[static_cast<std::size_t>(f - 1)] - feature.mean) / feature.deviation,
-          -4.0, 4.0);
+      x(i, 1 + f) = std::clamp((value - feature.mean) / feature.deviation, -4.0, 4.0);
     }
   }
-  Eigen::VectorXd penalty = Eigen::VectorXd::Constant(columns, ridge);
-  penalty(0) = 0.0;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(columns);
+  Eigen::Index pair = 0;
+  for (Eigen::Index f = 0; pair < pair_count; ++f)
+    for (Eigen::Index g = 0; g <= f; ++g, ++pair) {
+      auto column = x.col(1 + features + pair);
+      column = x.col(1 + f).cwiseProduct(x.col(1 + g));
+      design.pair_means[pair] = column.mean();
+      column.array() -= design.pair_means[pair];
+      design.pair_deviations[pair] =
+          std::max(std::sqrt(column.squaredNorm() / static_cast<double>(rows)), kLeastDeviation);
+      column /= design.pair_deviations[pair];
+    }
+  return design;
+}
+
+/// Newton's method on the penalised log likelihood.
+Eigen::VectorXd SolveWeights(const std::vector<Example>& examples, const Eigen::MatrixXd& x,
+                             const Eigen::VectorXd& penalty) {
+  Eigen::VectorXd y(x.rows()), counts(x.rows());
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    y(i) = examples[static_cast<std::size_t>(i)].right ? 1.0 : 0.0;
+    counts(i) = examples[static_cast<std::size_t>(i)].weight;
+  }
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.cols());
   for (int step = 0; step < kNewtonSteps; ++step) {
     const Eigen::VectorXd p = (1.0 / (1.0 + (-(x * weights)).array().exp())).matrix();
     const Eigen::VectorXd curvature =
@@ -97,20 +123,33 @@ void SolveWeights(const std::vector<Example>& examples, double ridge, VerdictMod
     weights += change;
     if (change.norm() < 1e-9) break;
   }
-  model.bias = weights(0);
-  for (Eigen::Index f = 1; f < columns; ++f)
-    model.features[static_cast<std::size_t>(f - 1)].weight = weights(f);
+  return weights;
 }
 
-VerdictModel Fitted(const std::vector<Example>& examples, double ridge, VerdictModel model) {
+/// The bias is not penalised.
+VerdictModel Fitted(const std::vector<Example>& examples, double ridge, double pair_ridge,
+                    VerdictModel model) {
   Standardise(examples, model);
-  SolveWeights(examples, ridge, model);
+  const Design design = DesignOf(examples, model, std::isfinite(pair_ridge));
+  const auto features = static_cast<Eigen::Index>(model.features.size());
+  const Eigen::Index pair_count = design.pair_means.size();
+  Eigen::VectorXd penalty = Eigen::VectorXd::Constant(design.x.cols(), ridge);
+  penalty(0) = 0.0;
+  penalty.tail(pair_count).setConstant(pair_ridge);
+  const Eigen::VectorXd weights = SolveWeights(examples, design.x, penalty);
+  for (Eigen::Index f = 0; f < features; ++f)
+    model.features[static_cast<std::size_t>(f)].weight = weights(1 + f);
+  const Eigen::VectorXd of_products =
+      weights.tail(pair_count).cwiseQuotient(design.pair_deviations);
+  model.pairs.assign(of_products.begin(), of_products.end());
+  model.bias = weights(0) - of_products.dot(design.pair_means);
   return model;
 }
 
 /// Probability of each example by a model that has not seen its scene.
 std::vector<double> CrossValidated(const std::vector<Example>& examples,
-                                   const VerdictFitOptions& options, const VerdictModel& blank) {
+                                   const VerdictFitOptions& options, double pair_ridge,
+                                   const VerdictModel& blank) {
   const auto folds = static_cast<std::uint64_t>(options.folds);
   std::vector<double> probabilities(examples.size(), 0.0);
   for (std::uint64_t fold = 0; fold < folds; ++fold) {
@@ -118,7 +157,7 @@ std::vector<double> CrossValidated(const std::vector<Example>& examples,
     for (const Example& example : examples)
       if (example.seed % folds != fold) others.push_back(example);
     if (others.empty()) continue;
-    const VerdictModel model = Fitted(others, options.ridge, blank);
+    const VerdictModel model = Fitted(others, options.ridge, pair_ridge, blank);
     for (std::size_t i = 0; i < examples.size(); ++i)
       if (examples[i].seed % folds == fold)
         probabilities[i] = model.Probability(examples[i].values);
@@ -173,6 +212,8 @@ Status VerdictFitOptions::Check() const {
   if (!(ridge >= 0.0) || folds < 2)
     return Fail(ErrorCode::kInvalidOptions, "verdict of {}: ridge {} or folds {} is not usable",
                 object, ridge, folds);
+  if (pair_ridges.empty() || !(*std::min_element(pair_ridges.begin(), pair_ridges.end()) > 0.0))
+    return Fail(ErrorCode::kInvalidOptions, "verdict of {}: a pair_ridge must be above 0", object);
   return {};
 }
 
@@ -201,7 +242,18 @@ Result<VerdictFit> FitVerdictModel(std::span<const FitOutcome> outcomes,
   blank.fits = static_cast<int>(examples.size());
   blank.right = right;
   for (const std::string& name : options.features) blank.features.push_back({name, 0.0, 1.0, 0.0});
-  const std::vector<double> left_out = CrossValidated(examples, options, blank);
+  VerdictFit fit;
+  fit.pair_ridges = options.pair_ridges;
+  std::vector<double> left_out;
+  for (const double pair_ridge : options.pair_ridges) {
+    std::vector<double> tried = CrossValidated(examples, options, pair_ridge, blank);
+    const double loss = LogLossOf(examples, tried);
+    fit.log_losses.push_back(loss);
+    if (!left_out.empty() && loss >= fit.log_loss) continue;
+    fit.log_loss = loss;
+    fit.pair_ridge = pair_ridge;
+    left_out = std::move(tried);
+  }
   std::vector<bool> labels;
   std::vector<double> weights;
   for (const Example& example : examples) {
@@ -210,8 +262,9 @@ Result<VerdictFit> FitVerdictModel(std::span<const FitOutcome> outcomes,
   }
   blank.auc = AreaUnderRoc(left_out, labels);
   blank.ece = CalibrationErrorOf(left_out, labels, weights);
-  return VerdictFit{Fitted(examples, options.ridge, blank), LogLossOf(examples, left_out),
-                    CountSure(examples, left_out)};
+  fit.model = Fitted(examples, options.ridge, fit.pair_ridge, blank);
+  fit.sure = CountSure(examples, left_out);
+  return fit;
 }
 
 }  // namespace foresight

@@ -67,6 +67,8 @@ VerdictModel ModelFrom(YamlMap& map) {
     model.features.push_back(feature);
   }
   if (model.features.empty()) map.Fault("there are no features");
+  if (map.Has("pairs"))
+    model.pairs = map.Numbers("pairs", VerdictModel::PairsOf(model.features.size()));
   return model;
 }
 
@@ -98,25 +100,39 @@ VerdictSource VerdictSourceOf(const RaySet& rays) {
   return rays.beams ? VerdictSource::kDense : VerdictSource::kAlone;
 }
 
-std::vector<double> VerdictModel::Contributions(std::span<const double> values) const {
+std::vector<double> VerdictModel::Standardised(std::span<const double> values) const {
   FORESIGHT_EXPECTS(values.size() == features.size(), "as many values as the model has features");
+  std::vector<double> z;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    z.push_back(std::isfinite(values[i])
+                    ? std::clamp((values[i] - features[i].mean) / features[i].deviation, -kFarthest,
+                                 kFarthest)
+                    : std::nan(""));
+  return z;
+}
+
+std::vector<double> VerdictModel::Contributions(std::span<const double> values) const {
+  const std::vector<double> z = Standardised(values);
   std::vector<double> contributions;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Feature& feature = features[i];
-    contributions.push_back(
-        std::isfinite(values[i])
-            ? feature.weight *
-                  std::clamp((values[i] - feature.mean) / feature.deviation, -kFarthest, kFarthest)
-            : std::nan(""));
-  }
+  for (std::size_t i = 0; i < z.size(); ++i) contributions.push_back(features[i].weight * z[i]);
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < z.size() && !pairs.empty(); ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      const double both = pairs[pair++] * z[i] * z[j];
+      contributions[i] += both;
+      if (j < i) contributions[j] += both;
+    }
   return contributions;
 }
 
 double VerdictModel::Probability(std::span<const double> values) const {
+  const std::vector<double> z = Standardised(values);
   double sum = bias;
-  for (const double contribution : Contributions(values)) {
-    if (std::isnan(contribution)) return 0.0;
-    sum += contribution;
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (std::isnan(z[i])) return 0.0;
+    sum += features[i].weight * z[i];
+    for (std::size_t j = 0; j <= i && !pairs.empty(); ++j) sum += pairs[pair++] * z[i] * z[j];
   }
   return 1.0 / (1.0 + std::exp(-sum));
 }
@@ -143,7 +159,15 @@ std::string VerdictModel::ToYaml() const {
   for (const Feature& feature : features)
     yaml += fmt::format("  - {{name: {}, mean: {:.6g}, deviation: {:.6g}, weight: {:.6g}}}\n",
                         feature.name, feature.mean, feature.deviation, feature.weight);
-  return yaml;
+  if (pairs.empty()) return yaml;
+  yaml += "pairs: [\n";
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    yaml += "  ";
+    for (std::size_t j = 0; j <= i; ++j) yaml += fmt::format("{:.6g}, ", pairs[pair++]);
+    yaml += fmt::format(" # {}\n", features[i].name);
+  }
+  return yaml + "]\n";
 }
 
 Result<VerdictModel> VerdictModelFromYaml(const std::string& yaml, const std::string& source) {

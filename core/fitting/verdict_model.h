@@ -25,11 +25,13 @@ const char* ToString(VerdictSource source);
 std::optional<VerdictSource> VerdictSourceFromString(std::string_view name);
 VerdictSource VerdictSourceOf(const RaySet& rays);
 
-/// The probability that a fit is right: logistic regression on standardised evidence. Every object
-/// has one for each source (terrain, which looks at no beams behind a map, none for kAlone; what
-/// looks at no image, none for kCloud).
-/// The files are made by `foresightctl verdict fit`, docs/verdicts.md, and hold the population that
-/// they are true for.
+/// The probability that a fit is right: logistic regression on standardised evidence z and, where
+/// they help, on its products in pairs,
+///   log odds = bias + w z + sum over i >= j of q_ij z_i z_j,
+/// as what a number is worth depends on others: see-through says less where few beams hit (ADR
+/// 0029). Every object has one for each source (terrain, which looks at no beams behind a map, none
+/// for kAlone; what looks at no image, none for kCloud). The files are made by `foresightctl
+/// verdict fit`, docs/verdicts.md, and hold the population that they are true for.
 struct VerdictModel {
   struct Feature {
     std::string name;
@@ -47,13 +49,19 @@ struct VerdictModel {
   double ece = 0.0;        ///< expected calibration error, cross-validated
   std::vector<Feature> features;
   double bias = 0.0;
+  /// q_ij of each pair of features, i >= j, row by row of i; empty = none.
+  std::vector<double> pairs;
+
+  static constexpr std::size_t PairsOf(std::size_t features) {
+    return features * (features + 1) / 2;
+  }
 
   /// In [0, 1]; 0 where a value is not finite. Values beyond 4 deviations count as 4: nothing is
   /// known out there. Throws ContractViolation for another number of values than features.
   double Probability(std::span<const double> values) const;
 
-  /// What each value adds to the logarithm of the odds, against a value at its mean. NaN where it
-  /// is not finite. Values as for Probability.
+  /// What each value adds to the logarithm of the odds, against that value at its mean and the
+  /// others as they are. NaN where it is not finite. Values as for Probability.
   std::vector<double> Contributions(std::span<const double> values) const;
 
   /// Why nothing may be CONFIRMED by this model: its population is too small to promise 98 of 100.
@@ -64,6 +72,10 @@ struct VerdictModel {
   static constexpr int kLeastFits = 150;
 
   std::string ToYaml() const;
+
+ private:
+  /// z: in deviations from the mean, within what was seen; NaN where a value is not finite.
+  std::vector<double> Standardised(std::span<const double> values) const;
 };
 
 /// Fails with kBadData, naming `source` and the line at fault.

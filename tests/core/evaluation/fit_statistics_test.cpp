@@ -148,6 +148,37 @@ TEST(VerdictFit, FindsTheLogisticThatTheAnswersWereDrawnFrom) {
   EXPECT_NEAR(model->Probability(middle), 0.5, 0.05);
 }
 
+TEST(VerdictFit, TakesPairsWhereOneNumberSaysWhatAnotherIsWorth) {
+  VerdictFitOptions options;
+  options.object = "valve";
+  options.features = {"margin", "noise"};
+  std::vector<FitOutcome> outcomes = DrawnFromALogistic(2000);
+  // By itself neither says anything: right where both are high or both are low.
+  Random random(11);
+  for (FitOutcome& outcome : outcomes) {
+    const double margin = 0.5 * (outcome.verdict.features[0] - 5.0);
+    const double noise = outcome.verdict.features[1];
+    outcome.all_ok = random.Uniform() < 1.0 / (1.0 + std::exp(-3.0 * margin * noise));
+  }
+  const auto fit = FitVerdictModel(outcomes, options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_TRUE(std::isfinite(fit->pair_ridge));
+  EXPECT_GT(fit->model.auc, 0.8);
+  ASSERT_EQ(fit->model.pairs.size(), 3u);
+  EXPECT_NEAR(fit->model.pairs[1], 3.0, 0.4);
+  const double both_high[] = {8.0, 1.5}, one_high[] = {8.0, -1.5};
+  EXPECT_GT(fit->model.Probability(both_high), 0.99);
+  EXPECT_LT(fit->model.Probability(one_high), 0.01);
+  options.pair_ridges = {std::numeric_limits<double>::infinity()};
+  const auto without = FitVerdictModel(outcomes, options);
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(without->model.pairs.empty());
+  EXPECT_LT(without->model.auc, 0.6);
+  EXPECT_GT(without->log_loss, 1.3 * fit->log_loss);
+  options.pair_ridges = {0.0};
+  EXPECT_EQ(FitVerdictModel(outcomes, options).error().code, ErrorCode::kInvalidOptions);
+}
+
 TEST(VerdictFit, CountsWhatWouldBeSureByWorld) {
   VerdictFitOptions options;
   options.object = "valve";

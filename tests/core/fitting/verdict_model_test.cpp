@@ -38,6 +38,39 @@ TEST(VerdictModel, IsLogisticInStandardisedEvidence) {
   EXPECT_NEAR(TwoFeatures().Probability(values), 1.0 / (1.0 + std::exp(-1.5)), 1e-12);
 }
 
+VerdictModel WithPairs() {
+  VerdictModel model = TwoFeatures();
+  model.pairs = {0.1, 0.7, -0.3};  // margin with itself, see-through with it and with itself
+  return model;
+}
+
+TEST(VerdictModel, PairsOfEvidenceCountByTheirProducts) {
+  const double values[] = {4.5, 0.15};  // 1 deviation each
+  EXPECT_NEAR(WithPairs().Probability(values), 1.0 / (1.0 + std::exp(-2.0)), 1e-12);
+  const double doubled[] = {6.0, 0.05};  // 2 and -1: 0.5 + 4 + 1 + 0.4 - 1.4 - 0.3
+  EXPECT_NEAR(WithPairs().Probability(doubled), 1.0 / (1.0 + std::exp(-4.2)), 1e-12);
+}
+
+TEST(VerdictModel, AContributionIsWhatTheOddsChangeByWhereTheValueIsAtItsMean) {
+  const auto log_odds = [](double margin, double see_through) {
+    const double p = WithPairs().Probability(std::vector<double>{margin, see_through});
+    return std::log(p / (1.0 - p));
+  };
+  const auto contributions = WithPairs().Contributions(std::vector<double>{6.0, 0.05});
+  EXPECT_NEAR(contributions[0], log_odds(6.0, 0.05) - log_odds(3.0, 0.05), 1e-12);
+  EXPECT_NEAR(contributions[1], log_odds(6.0, 0.05) - log_odds(6.0, 0.1), 1e-12);
+}
+
+TEST(VerdictModel, PairsSurviveTheirFileAndMustBeAsManyAsThereAre) {
+  const auto read = VerdictModelFromYaml(WithPairs().ToYaml(), "pairs.yaml");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->pairs, WithPairs().pairs);
+  VerdictModel one_missing = WithPairs();
+  std::string text = one_missing.ToYaml();
+  text.replace(text.find("0.7, "), 5, "");
+  EXPECT_FALSE(VerdictModelFromYaml(text, "pairs.yaml"));
+}
+
 TEST(VerdictModel, EvidenceBeyondAllThatWasSeenCountsAsTheFarthestSeen) {
   const double far[] = {9.0, 0.1};
   const double absurd[] = {1e9, 0.1};

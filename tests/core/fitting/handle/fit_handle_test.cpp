@@ -201,8 +201,9 @@ TEST(FitHandle, OfTwentyLeversAtUsualNoiseMostAreRight) {
     if (!found) continue;
     const bool is_right = PivotError_m(*found, truth) < 0.020 && TurnError_deg(*found, truth) < 8.0;
     right += is_right;
-    likely += found->verdict.level == VerdictLevel::kLikely;
-    likely_wrong += found->verdict.level == VerdictLevel::kLikely && !is_right;
+    const bool is_likely = found->verdict.level != VerdictLevel::kUnsure;
+    likely += is_likely;
+    likely_wrong += is_likely && !is_right;
   }
   EXPECT_GE(right, 18) << "of " << kSeeds;
   EXPECT_EQ(likely_wrong, 0) << "of " << likely;
