@@ -52,6 +52,7 @@ DoorHeights DoorPoints::LeastSquares(const std::optional<DoorEdge>& edge,
                                      const Agrees& agrees) const {
   // A ridge for what no point tells: no step without an edge.
   Eigen::Matrix4d normal = 1e-9 * Eigen::Matrix4d::Identity();
+  normal.diagonal().segment<2>(1).array() += Squared(sigma_m_ / slope_sigma_rad_) / worth_;
   DoorHeights right = DoorHeights::Zero();
   for (const Eigen::Vector3d& at : points_) {
     if (!agrees(at)) continue;

@@ -51,6 +51,8 @@ class DoorPoints {
       : points_(std::move(points)), sigma_m_(sigma_m), worth_(worth) {}
 
   std::size_t size() const { return points_.size(); }
+  /// The door's normal is z already, to so much: slopes are held near 0 by that.
+  void ExpectSlopes(double sigma_rad) { slope_sigma_rad_ = sigma_rad; }
   /// Keeps at most about `most` of them, every n-th of them.
   void Thin(std::size_t most);
 
@@ -81,6 +83,7 @@ class DoorPoints {
   std::vector<Eigen::Vector3d> points_;
   double sigma_m_;
   double worth_;
+  double slope_sigma_rad_ = std::numeric_limits<double>::infinity();
 };
 
 /// The points of rays that end near a door and not on its handle, in the lever's frame.

@@ -6,6 +6,7 @@ namespace foresight {
 namespace {
 
 constexpr std::size_t kLeastRays = 40;
+constexpr double kNormalSigma_rad = 0.006;  // of DoorAmongLevels
 
 Plane PlaneOf(const DoorHeights& heights, double step_m, const DoorFrame& base_from_door) {
   const Eigen::Vector3d normal =
@@ -16,9 +17,10 @@ Plane PlaneOf(const DoorHeights& heights, double step_m, const DoorFrame& base_f
 
 }  // namespace
 
-DoorSurface DoorRound(const RaySet& rays, const Plane& rough, const HandleCandidate& handle) {
-  const DoorPoints door =
-      PointsRound(rays, rough, handle, [](const Eigen::Vector3d&) { return true; });
+DoorSurface DoorRound(const RaySet& rays, const Plane& rough, bool normal_known,
+                      const HandleCandidate& handle) {
+  DoorPoints door = PointsRound(rays, rough, handle, [](const Eigen::Vector3d&) { return true; });
+  if (normal_known) door.ExpectSlopes(kNormalSigma_rad);
   DoorSurface surface{.door = rough};
   if (door.size() < kLeastRays) return surface;
   const DoorFrame base_from_door = LeverFrame(rough, handle);

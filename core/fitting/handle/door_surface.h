@@ -19,6 +19,9 @@ struct DoorSurface {
 /// clearly better (Schwarz's criterion), those. Their edge is straight, within 10 deg of a right
 /// angle to the lever and beside it, as a leaf's is. A plane through a leaf and its frame is
 /// several degrees off. Where too few rays are left `rough` stays. O(rays x edges that are tried).
-DoorSurface DoorRound(const RaySet& rays, const Plane& rough, const HandleCandidate& handle);
+/// @param normal_known the rough plane's normal is that of DoorAmongLevels: it may change by what
+/// that one is off by
+DoorSurface DoorRound(const RaySet& rays, const Plane& rough, bool normal_known,
+                      const HandleCandidate& handle);
 
 }  // namespace foresight

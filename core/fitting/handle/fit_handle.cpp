@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/fitting/gate.h"
+#include "core/fitting/handle/door_normal.h"
 #include "core/fitting/handle/door_surface.h"
 #include "core/fitting/handle/handle_search.h"
 #include "core/fitting/handle/handle_verdict.h"
@@ -278,12 +279,6 @@ class HandleFit {
   std::vector<Eigen::Vector3d> before_door_;  ///< in the door's frame
 };
 
-/// What was measured round the region; null = it is not known.
-const RaySet* SurroundingBeams(const RaySet& region) {
-  const RaySet* around = region.around.get();
-  return around != nullptr && around->beams ? around->beams.get() : around;
-}
-
 }  // namespace
 
 Status FitHandleOptions::Check() const {
@@ -313,17 +308,21 @@ Result<HandleDetection> FitHandle(const RaySet& all_rays, const FitHandleOptions
   if (!split.wall)
     return Fail(ErrorCode::kNoConvergence,
                 "no door is seen in the region: draw it a little larger around the handle");
+  const RaySet* around = SurroundingBeams(region);
+  const Plane door = around != nullptr
+                         ? DoorAmongLevels(*around, region.Measured(), *split.wall, door_random)
+                         : *split.wall;
   RaySet few_rays = Thinned(rays, kCoarseRays, thinning);
   few_rays.beams = nullptr;
   rays.beams = ThinnedBeams(region, options.max_rays, kMinRays, thinning);
-  const HandleFit first(region, rays, {.door = *split.wall}, options);
+  const HandleFit first(region, rays, {.door = door}, options);
   FORESIGHT_TRY(TwoWays levers, first.Search(few_rays, random, context));
   context.Report(0.6, "looking at the door again");
   const DoorSurface surface =
-      DoorRound(rays, *split.wall, CandidateOf(levers.best, first.base_from_door()));
+      DoorRound(rays, door, around != nullptr, CandidateOf(levers.best, first.base_from_door()));
   const HandleFit fit(region, rays, surface, options);
   FORESIGHT_TRY(levers, fit.SearchFrom(levers, first.base_from_door(), context));
-  levers = fit.Weighed(levers, SurroundingBeams(region));
+  levers = fit.Weighed(levers, around);
   FORESIGHT_TRY(HandleDetection detection, fit.Fit(levers, context));
   detection.origin.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

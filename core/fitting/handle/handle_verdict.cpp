@@ -11,6 +11,7 @@
 #include "core/fitting/common_gates.h"
 #include "core/fitting/compressed_nats.h"
 #include "core/fitting/gate.h"
+#include "core/fitting/handle/door_normal.h"
 #include "core/fitting/line_covariance.h"
 #include "core/fitting/verdict_model.h"
 
@@ -26,7 +27,7 @@ constexpr double kRound_m = 0.03;  // beside the handle
 // with what the beams say but for the door's normal. Chosen so that the spreads over predicted that
 // packaging/refit-verdicts prints of its training scenes are near 1 (docs/evaluation.md, "The door
 // again").
-constexpr std::array<double, 6> kSigmaFactors = {1.0, 4.0, 1.0, 2.0, 2.0, 1.0};
+constexpr std::array<double, 6> kSigmaFactors = {1.0, 4.0, 1.0, 2.0, 2.4, 1.0};
 constexpr std::array<double, 6> kSigmaAdded = {0.0035, 0.0018, 0.0055, 0.0, 0.0, 0.019};  // m, rad
 constexpr double kLengthAdded_m = 0.009;
 
@@ -144,13 +145,16 @@ double DoorRange(const RangeRay& ray, const Plane& door) {
   return -door.Distance(ray.origin) / door.normal.dot(ray.direction);
 }
 
-/// Of the normal about the door's x and y, in the frame of the handle.
+/// Of the normal about the door's x and y, in the frame of the handle: what lies round the region
+/// knows it best.
 Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door,
                              const Rigid<frame::Object, frame::Base>& object_from_base) {
   constexpr double kFlatness_rad = 0.004;  // no door is a plane
   std::vector<Eigen::Vector2d> on_door;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const RangeRay& ray : likelihood.rays().rays) {
+  const RaySet* around = SurroundingBeams(likelihood.rays());
+  const RaySet& rays = around != nullptr ? *around : likelihood.rays();
+  for (const RangeRay& ray : rays.rays) {
     if (std::abs(door.Distance(ray.Point())) > BeamModel::kAgreeSigmas * likelihood.Sigma())
       continue;
     on_door.push_back((object_from_base * ray.Point()).head<2>());
@@ -159,7 +163,7 @@ Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& at : on_door)
     squares += (at - mean / static_cast<double>(on_door.size())).cwiseAbs2();
-  squares *= likelihood.rays().Worth();
+  squares *= rays.Worth();
   const auto sigma = [&](double spread2) {
     return std::hypot(kFlatness_rad, likelihood.Sigma() / std::sqrt(std::max(spread2, 1e-4)));
   };

@@ -59,7 +59,7 @@ TEST(DoorSurface, ALeafAndItsFrameAreTwoPlanes) {
     const RaySet rays = RaysTo(true, 0.008, seed);
     const Plane rough = ThroughAll(rays);
     ASSERT_GT(OffDeg(rough), 3.0) << "a plane through both";
-    const DoorSurface found = DoorRound(rays, rough, Handle());
+    const DoorSurface found = DoorRound(rays, rough, false, Handle());
     EXPECT_LT(OffDeg(found.door), 0.7) << "seed " << seed;
     EXPECT_NEAR(found.door.offset, -kLeaf_m, 0.003) << "the leaf, where the pivot is";
     ASSERT_TRUE(found.beside) << "seed " << seed;
@@ -70,7 +70,7 @@ TEST(DoorSurface, ALeafAndItsFrameAreTwoPlanes) {
 TEST(DoorSurface, AFlatDoorHasNoEdge) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const RaySet rays = RaysTo(false, 0.015, seed);
-    const DoorSurface found = DoorRound(rays, ThroughAll(rays), Handle());
+    const DoorSurface found = DoorRound(rays, ThroughAll(rays), false, Handle());
     EXPECT_FALSE(found.beside) << "seed " << seed;
     EXPECT_LT(OffDeg(found.door), 1.0);
     EXPECT_NEAR(found.door.offset, -kLeaf_m, 0.003);
@@ -81,7 +81,7 @@ TEST(DoorSurface, TooFewRaysLeaveTheRoughPlane) {
   RaySet rays = RaysTo(false, 0.010, 1);
   rays.rays.resize(30);
   const Plane rough{-Eigen::Vector3d::UnitX(), -kLeaf_m};
-  const DoorSurface found = DoorRound(rays, rough, Handle());
+  const DoorSurface found = DoorRound(rays, rough, false, Handle());
   EXPECT_EQ(found.door.offset, rough.offset);
   EXPECT_FALSE(found.beside);
 }
