@@ -181,12 +181,21 @@ void AddKnob(Random& random, Builder& body) {
 void AddPullBar(Random& random, Builder& body) {
   const double length_m = random.Uniform(0.09, 0.45), out_m = random.Uniform(0.030, 0.075);
   const double radius_m = random.Uniform(0.005, 0.015);
-  const double over_m = random.Chance(0.5) ? 0.0 : random.Uniform(0.01, 0.03);
+  const double over_m = random.Chance(0.5) ? 0.0 : random.Uniform(0.05, 0.30) * length_m;
   const Eigen::Vector3d end(0.5 * length_m, 0.0, out_m), post(0.5 * length_m - over_m, 0.0, out_m);
   const Eigen::Vector3d mirror(-1.0, 1.0, 1.0), foot(1.0, 1.0, 0.0);
   body.Bar(-end.x() * Eigen::Vector3d::UnitX() + Eigen::Vector3d(0.0, 0.0, out_m), end, radius_m);
   body.Bar(post, post.cwiseProduct(foot), radius_m);
   body.Bar(post.cwiseProduct(mirror), post.cwiseProduct(mirror).cwiseProduct(foot), radius_m);
+}
+
+/// One post in the middle, as pulls of lockers have.
+void AddBarOnPost(Random& random, Builder& body) {
+  const double half_m = 0.5 * random.Uniform(0.08, 0.20), out_m = random.Uniform(0.030, 0.070);
+  const double radius_m = random.Uniform(0.005, 0.013);
+  if (random.Chance(0.5)) AddPlate(HandleModel::Plate::kRosette, random, body);
+  body.Bar({-half_m, 0.0, out_m}, {half_m, 0.0, out_m}, radius_m);
+  body.Disc(random.Uniform(0.7, 1.2) * radius_m, 0.0, out_m);
 }
 
 /// A bent rod.
@@ -291,6 +300,7 @@ constexpr std::array kThings = {
     Thing{"pull bar", AddPullBar},
     Thing{"pull bar", AddPullBar},
     Thing{"bow", AddBow},
+    Thing{"bar on a post", AddBarOnPost},
     Thing{"thumb turn", AddThumbTurn},
     Thing{"cable", AddCable},
     Thing{"bracket", AddBracket},

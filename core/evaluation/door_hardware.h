@@ -25,8 +25,9 @@ struct DoorHardware {
 /// returned ends, on round and square rosettes and on long plates, with and without a lock beside
 /// them. Level and to either side; one in eight turned, as a window's or one that is held down.
 DoorHardware DrawLever(Random& random, const Material& material, const Material& other);
-/// What is meant to be no lever handle: knobs, pull bars and bows with two posts, a bare lock, a
-/// thumb turn, a cable on clips, a bracket, a light switch, a pipe, a hook, a hinge, a bolt.
+/// What is meant to be no lever handle: knobs, pull bars and bows with two posts, bars on one, a
+/// bare lock, a thumb turn, a cable on clips, a bracket, a light switch, a pipe, a hook, a hinge, a
+/// bolt.
 DoorHardware DrawOtherDoorThing(Random& random, const Material& material, const Material& other);
 
 /// A door's frame in robot; `yaw_rad` = the way to it, seen from above, when it is faced squarely.

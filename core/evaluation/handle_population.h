@@ -11,8 +11,9 @@ namespace foresight {
 /// plates, often over a lock; level and to either side, one in eight turned up to 90 deg; on a leaf
 /// in its frame in a wall, 0.85 to 1.15 m high and 0.55 to 1.5 m ahead, seen up to 40 deg from the
 /// side; range noise of 4 to 20 mm, lines 0.2 to 0.7 deg apart. Negatives: a bare door, knobs, pull
-/// bars and bows with two posts, thumb turns, bare locks, cables, brackets, switch boxes, pipes,
-/// hooks, hinges, bolts. Which is which is measured on what was drawn (DoorThingMeasures).
+/// bars and bows with two posts, bars on one, thumb turns, bare locks, cables, brackets, switch
+/// boxes, pipes, hooks, hinges, bolts. Which is which is measured on what was drawn
+/// (DoorThingMeasures).
 ///
 /// The pose is right where the pivot is within 20 mm, the lever's direction within 10 deg and the
 /// door's normal within 5 deg; everything is, where the pivot is within 15 mm, the direction within

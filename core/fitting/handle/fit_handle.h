@@ -21,10 +21,10 @@ struct FitHandleOptions {
 /// Finds one door handle in a region: the door's plane, what stands 20 to 110 mm before it, bars
 /// through pairs of those points with the pivot at either end, then the beam model of every ray
 /// (BeamLikelihood), with straight and returned ends, a rosette and a long plate, against a knob, a
-/// pull bar, a bow and a box. The pose is in base, its frame that of HandleModel; its z is the
-/// door's normal. The same rays, options and seed give the same answer on any number of threads.
-/// Fails with kTooFewPoints, kNoConvergence (no door, nothing like a lever before it), with a
-/// message that says what to do, kInvalidOptions and kCancelled. About half a second.
+/// pull bar, a bow, a bar on a post and a box. The pose is in base, its frame that of HandleModel;
+/// its z is the door's normal. The same rays, options and seed give the same answer on any number
+/// of threads. Fails with kTooFewPoints, kNoConvergence (no door, nothing like a lever before it),
+/// with a message that says what to do, kInvalidOptions and kCancelled. About half a second.
 Result<HandleDetection> FitHandle(const RaySet& rays, const FitHandleOptions& options,
                                   const RunContext& context);
 

@@ -26,13 +26,14 @@ struct HandleEvidence {
   /// Odds against the best lever that points the other way: 0.75 for each deviation over scan lines
   /// that it is behind, edges_nats and image_nats.
   double mirror_margin_nats = 0.0;
-  double edges_nats = 0.0;               ///< what the door's edges say of the way (EdgesForWay)
-  double image_nats = 0.0;               ///< what the outline in the image says of the way
-  double outline_nats_per_px = 0.0;      ///< how well its outline lies on edges; 0 = no image
-  double length_margin_nats = 0.0;       ///< ahead of the best one that is 20 mm shorter or longer
-  double gain_nats = 0.0;                ///< ahead of the bare door
-  double alternative_margin_nats = 0.0;  ///< ahead of the best knob, pull bar, bow or box
-  std::string best_alternative;          ///< "knob", "pull bar", "bow", "box"
+  double edges_nats = 0.0;           ///< what the door's edges say of the way (EdgesForWay)
+  double image_nats = 0.0;           ///< what the outline in the image says of the way
+  double outline_nats_per_px = 0.0;  ///< how well its outline lies on edges; 0 = no image
+  double length_margin_nats = 0.0;   ///< ahead of the best one that is 20 mm shorter or longer
+  double gain_nats = 0.0;            ///< ahead of the bare door
+  double alternative_margin_nats =
+      0.0;                       ///< ahead of the best knob, pull bar, bow, bar on a post or box
+  std::string best_alternative;  ///< "knob", "pull bar", "bow", "bar on a post", "box"
 };
 
 /// One answer to "where is the handle".

@@ -161,24 +161,56 @@ double BestKnob(const BeamLikelihood& likelihood, const DoorFrame& base_from_doo
   return BestOf(starts, Eigen::Vector4d(0.012, 0.012, 0.010, 0.008), score);
 }
 
-/// A bar on a post at each end: middle, turn, height, length, radius.
+/// A bar on two posts: middle, turn, height, length, radius, and how far the posts stand from its
+/// ends.
 double BestPullBar(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
                    const HandleState& handle, const Eigen::Vector2d& middle, double largest_m) {
+  constexpr double kMostInset = 0.35;  // of the length
   const auto score = [&](const Eigen::VectorXd& v) {
-    if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > 0.6 || v[5] < 0.004 || v[5] > 0.022)
+    if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > 0.6 || v[5] < 0.004 || v[5] > 0.022 ||
+        v[6] < 0.0 || v[6] > kMostInset * v[4])
+      return kNever;
+    const Eigen::Vector3d end(0.5 * v[4], 0.0, 0.0), post(0.5 * v[4] - v[6], 0.0, 0.0);
+    const Eigen::Vector3d down(0.0, 0.0, -v[3]);
+    const std::vector<HandleBar> bars = {
+        {-end, end, v[5]}, {-post, -post + down, v[5]}, {post, post + down, v[5]}};
+    return LogLikelihoodOf(
+        DoorThing(bars, std::nullopt, PlacedAt(base_from_door, v[0], v[1], v[3], v[2])),
+        likelihood);
+  };
+  const HandleStep& h = handle.values;
+  const double long_m = std::max(h[kHandleLength], largest_m);
+  std::vector<Eigen::VectorXd> starts;
+  for (const auto& [length_m, inset] :
+       {std::pair(h[kHandleLength], 0.0), std::pair(long_m, 0.0), std::pair(long_m, 0.2)}) {
+    Eigen::VectorXd start(7);
+    start << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], length_m, h[kHandleRadius],
+        inset * length_m;
+    starts.push_back(start);
+  }
+  Eigen::VectorXd steps(7);
+  steps << 0.010, 0.010, 0.12, 0.008, 0.016, 0.003, 0.012;
+  return BestOf(starts, steps, score);
+}
+
+/// A bar on one post in its middle: middle, turn, height, length, radius.
+double BestBarOnPost(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
+                     const HandleState& handle, const std::vector<Eigen::Vector2d>& middles) {
+  const auto score = [&](const Eigen::VectorXd& v) {
+    if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > 0.4 || v[5] < 0.004 || v[5] > 0.022)
       return kNever;
     const Eigen::Vector3d end(0.5 * v[4], 0.0, 0.0), down(0.0, 0.0, -v[3]);
-    const std::vector<HandleBar> bars = {
-        {-end, end, v[5]}, {-end, -end + down, v[5]}, {end, end + down, v[5]}};
+    const std::vector<HandleBar> bars = {{-end, end, v[5]}, {Eigen::Vector3d::Zero(), down, v[5]}};
     return LogLikelihoodOf(
         DoorThing(bars, std::nullopt, PlacedAt(base_from_door, v[0], v[1], v[3], v[2])),
         likelihood);
   };
   const HandleStep& h = handle.values;
   std::vector<Eigen::VectorXd> starts;
-  for (const double length_m : {h[kHandleLength], std::max(h[kHandleLength], largest_m)}) {
+  for (const Eigen::Vector2d& middle : middles) {
     Eigen::VectorXd start(6);
-    start << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], length_m, h[kHandleRadius];
+    start << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], h[kHandleLength],
+        h[kHandleRadius];
     starts.push_back(start);
   }
   Eigen::VectorXd steps(6);
@@ -313,7 +345,7 @@ std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likel
   }
   const Eigen::Vector2d seen = mean + (0.5 * (low + high) - way.dot(mean)) * way;
   const double largest_m = high - low;
-  std::array<double, 6> best{};
+  std::array<double, 7> best{};
   const std::function<double()> climbs[best.size()] = {
       [&] {
         return BestKnob(likelihood, base_from_door, {pivot, middle, mean});
@@ -321,14 +353,18 @@ std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likel
       [&] { return BestPullBar(likelihood, base_from_door, handle, middle, 0.0); },
       [&] { return BestPullBar(likelihood, base_from_door, handle, seen, largest_m); },
       [&] { return BestBow(likelihood, base_from_door, handle, seen, largest_m); },
+      [&] {
+        return BestBarOnPost(likelihood, base_from_door, handle, {middle, seen});
+      },
       [&] { return BestBox(likelihood, base_from_door, handle, middle, h[kHandleLength]); },
       [&] { return BestBox(likelihood, base_from_door, handle, seen, largest_m); }};
   ParallelFor(static_cast<int>(best.size()), context,
               [&](int i) { best[static_cast<std::size_t>(i)] = climbs[i](); });
   return {{"knob", 4, best[0]},
-          {"pull bar", 6, std::max(best[1], best[2])},
+          {"pull bar", 7, std::max(best[1], best[2])},
           {"bow", 6, best[3]},
-          {"box", 6, std::max(best[4], best[5])}};
+          {"bar on a post", 6, best[4]},
+          {"box", 6, std::max(best[5], best[6])}};
 }
 
 }  // namespace foresight

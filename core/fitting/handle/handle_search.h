@@ -27,7 +27,7 @@ HandleState OtherLength(const HandleScorer& scorer, const HandleState& lever, do
 
 /// Something else that may sit there.
 struct HandleAlternative {
-  std::string name;  ///< "knob", "pull bar", "bow", "box"
+  std::string name;  ///< "knob", "pull bar", "bow", "bar on a post", "box"
   int parameters = 0;
   double log_likelihood = 0.0;
 };

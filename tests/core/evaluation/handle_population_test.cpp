@@ -101,8 +101,8 @@ TEST(HandlePopulation, ShowsLeversToBothSidesAndEveryOtherThing) {
   EXPECT_NEAR(negatives, kScenes / 6, 25);
   EXPECT_GT(right, kScenes / 4);
   EXPECT_GT(left, kScenes / 4);
-  for (const char* name :
-       {"a bare door", "a knob", "a pull bar", "a cable", "a bracket", "a switch box", "a pipe"})
+  for (const char* name : {"a bare door", "a knob", "a pull bar", "a bar on a post", "a cable",
+                           "a bracket", "a switch box", "a pipe"})
     EXPECT_TRUE(drawn.contains(name)) << name;
 }
 

@@ -77,6 +77,13 @@ TEST(DoorSurface, AFlatDoorHasNoEdge) {
   }
 }
 
+TEST(DoorSurface, ANormalThatIsKnownIsKept) {
+  const RaySet rays = RaysTo(true, 0.030, 3);  // more noise than the step
+  const Plane rough{-Eigen::Vector3d::UnitX(), -kLeaf_m};
+  EXPECT_GT(OffDeg(DoorRound(rays, rough, false, Handle()).door), 1.0);
+  EXPECT_LT(OffDeg(DoorRound(rays, rough, true, Handle()).door), 0.5);
+}
+
 TEST(DoorSurface, TooFewRaysLeaveTheRoughPlane) {
   RaySet rays = RaysTo(false, 0.010, 1);
   rays.rays.resize(30);
