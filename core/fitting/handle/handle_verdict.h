@@ -22,12 +22,13 @@ void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDete
 std::vector<std::string> HandleFeatureNames();
 
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
-/// The probability is the shipped model's (resources/verdicts/handle_*); the verdict is UNSURE
-/// where a lever that points the other way is less than 2 : 1 or another thing less than 150 : 1
-/// behind. Gates say what else speaks against it: few measurements on it, beams that went through
-/// it, a lever that points the other way or a knob, a pull bar, a bow or a box that explain the
-/// rays as well, a place far from the region's centre, a length at a bound. Without a model, as
-/// before the first weights, the probability is NaN and what fails a gate UNSURE.
+/// The probability is the shipped model's (resources/verdicts/handle_*); the verdict is LIKELY at
+/// most, as too many of the answers that would have been CONFIRMED were wrong, and UNSURE where a
+/// lever that points the other way is less than 2 : 1 or another thing less than 150 : 1 behind.
+/// Gates say what else speaks against it: few measurements on it, beams that went through it, a
+/// lever that points the other way or one of HandleAlternative that explains the rays as well, a
+/// place far from the region's centre, a length at a bound. Without a model, as before the first
+/// weights, the probability is NaN and what fails a gate UNSURE.
 /// @param region the rays that it was looked for in
 /// @param proportions_nats log of the prior's density: how usual a handle of this build is
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
