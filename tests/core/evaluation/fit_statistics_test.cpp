@@ -160,9 +160,10 @@ TEST(VerdictFit, TakesPairsWhereOneNumberSaysWhatAnotherIsWorth) {
     const double noise = outcome.verdict.features[1];
     outcome.all_ok = random.Uniform() < 1.0 / (1.0 + std::exp(-3.0 * margin * noise));
   }
+  options.pair_ridges = {std::numeric_limits<double>::infinity(), 1.0};
   const auto fit = FitVerdictModel(outcomes, options);
   ASSERT_TRUE(fit) << fit.error().message;
-  EXPECT_TRUE(std::isfinite(fit->pair_ridge));
+  EXPECT_EQ(fit->pair_ridge, 1.0);
   EXPECT_GT(fit->model.auc, 0.8);
   ASSERT_EQ(fit->model.pairs.size(), 3u);
   EXPECT_NEAR(fit->model.pairs[1], 3.0, 0.4);

@@ -197,7 +197,10 @@ TEST(FitHandle, OfTwentyLeversAtUsualNoiseMostAreRight) {
     Random random(seed, 77);
     const double length_m = random.Uniform(0.095, 0.155), sigma_m = random.Uniform(0.004, 0.014);
     const Pose truth = OnDoor(random.Uniform(-std::numbers::pi, std::numbers::pi));
-    const auto found = FitHandle(RaysOf(DoorWithHandle(truth, length_m), sigma_m, seed), {}, {});
+    const auto scene = DoorWithHandle(truth, length_m);
+    RaySet rays = RaysOf(scene, sigma_m, seed);
+    rays.around = std::make_shared<const RaySet>(RaysOf(scene, sigma_m, seed, 0.4));
+    const auto found = FitHandle(rays, {}, {});
     if (!found) continue;
     const bool is_right = PivotError_m(*found, truth) < 0.020 && TurnError_deg(*found, truth) < 8.0;
     right += is_right;
