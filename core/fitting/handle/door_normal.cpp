@@ -155,8 +155,7 @@ double LevelOf(const std::vector<double>& heights_m, double sigma_m) {
 }  // namespace
 
 const RaySet* SurroundingBeams(const RaySet& region) {
-  const RaySet* around = region.around.get();
-  return around != nullptr && around->beams ? around->beams.get() : around;
+  return region.around ? &region.around->Measured() : nullptr;
 }
 
 Plane DoorAmongLevels(const RaySet& around, const RaySet& region, const Plane& rough,

@@ -31,8 +31,8 @@ struct HandleEvidence {
   double outline_nats_per_px = 0.0;  ///< how well its outline lies on edges; 0 = no image
   double length_margin_nats = 0.0;   ///< ahead of the best one that is 20 mm shorter or longer
   double gain_nats = 0.0;            ///< ahead of the bare door
-  double alternative_margin_nats =
-      0.0;                       ///< ahead of the best knob, pull bar, bow, bar on a post or box
+  /// Ahead of the best knob, pull bar, bow, bar on a post or box.
+  double alternative_margin_nats = 0.0;
   std::string best_alternative;  ///< "knob", "pull bar", "bow", "bar on a post", "box"
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -161,61 +162,67 @@ double BestKnob(const BeamLikelihood& likelihood, const DoorFrame& base_from_doo
   return BestOf(starts, Eigen::Vector4d(0.012, 0.012, 0.010, 0.008), score);
 }
 
-/// A bar on two posts: middle, turn, height, length, radius, and how far the posts stand from its
-/// ends.
+/// Log likelihood of a bar (middle, turn, height, length, radius) on posts along it.
+double BarOnPosts(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
+                  const Eigen::VectorXd& v, double most_length_m,
+                  std::initializer_list<double> posts_m) {
+  if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > most_length_m || v[5] < 0.004 ||
+      v[5] > 0.022)
+    return kNever;
+  const Eigen::Vector3d end(0.5 * v[4], 0.0, 0.0);
+  std::vector<HandleBar> bars = {{-end, end, v[5]}};
+  for (const double post_m : posts_m)
+    bars.push_back({{post_m, 0.0, 0.0}, {post_m, 0.0, -v[3]}, v[5]});
+  return LogLikelihoodOf(
+      DoorThing(bars, std::nullopt, PlacedAt(base_from_door, v[0], v[1], v[3], v[2])), likelihood);
+}
+
+/// Where a bar is looked for first, as the handle's lever is.
+Eigen::VectorXd BarLike(const HandleState& handle, const Eigen::Vector2d& middle, double length_m) {
+  const HandleStep& h = handle.values;
+  Eigen::VectorXd bar(6);
+  bar << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], length_m, h[kHandleRadius];
+  return bar;
+}
+
+Eigen::VectorXd BarSteps() {
+  Eigen::VectorXd steps(6);
+  steps << 0.010, 0.010, 0.12, 0.008, 0.016, 0.003;
+  return steps;
+}
+
+Eigen::VectorXd With(const Eigen::VectorXd& values, double last) {
+  Eigen::VectorXd more(values.size() + 1);
+  more << values, last;
+  return more;
+}
+
+/// A bar on two posts, and how far these stand from its ends.
 double BestPullBar(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
                    const HandleState& handle, const Eigen::Vector2d& middle, double largest_m) {
   constexpr double kMostInset = 0.35;  // of the length
   const auto score = [&](const Eigen::VectorXd& v) {
-    if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > 0.6 || v[5] < 0.004 || v[5] > 0.022 ||
-        v[6] < 0.0 || v[6] > kMostInset * v[4])
-      return kNever;
-    const Eigen::Vector3d end(0.5 * v[4], 0.0, 0.0), post(0.5 * v[4] - v[6], 0.0, 0.0);
-    const Eigen::Vector3d down(0.0, 0.0, -v[3]);
-    const std::vector<HandleBar> bars = {
-        {-end, end, v[5]}, {-post, -post + down, v[5]}, {post, post + down, v[5]}};
-    return LogLikelihoodOf(
-        DoorThing(bars, std::nullopt, PlacedAt(base_from_door, v[0], v[1], v[3], v[2])),
-        likelihood);
+    if (v[6] < 0.0 || v[6] > kMostInset * v[4]) return kNever;
+    const double post_m = 0.5 * v[4] - v[6];
+    return BarOnPosts(likelihood, base_from_door, v, 0.6, {-post_m, post_m});
   };
-  const HandleStep& h = handle.values;
-  const double long_m = std::max(h[kHandleLength], largest_m);
-  std::vector<Eigen::VectorXd> starts;
-  for (const auto& [length_m, inset] :
-       {std::pair(h[kHandleLength], 0.0), std::pair(long_m, 0.0), std::pair(long_m, 0.2)}) {
-    Eigen::VectorXd start(7);
-    start << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], length_m, h[kHandleRadius],
-        inset * length_m;
-    starts.push_back(start);
-  }
-  Eigen::VectorXd steps(7);
-  steps << 0.010, 0.010, 0.12, 0.008, 0.016, 0.003, 0.012;
-  return BestOf(starts, steps, score);
+  const double lever_m = handle.values[kHandleLength], long_m = std::max(lever_m, largest_m);
+  std::vector<Eigen::VectorXd> starts = {With(BarLike(handle, middle, lever_m), 0.0),
+                                         With(BarLike(handle, middle, long_m), 0.2 * long_m)};
+  if (long_m > lever_m) starts.push_back(With(BarLike(handle, middle, long_m), 0.0));
+  return BestOf(starts, With(BarSteps(), 0.012), score);
 }
 
-/// A bar on one post in its middle: middle, turn, height, length, radius.
+/// A bar on one post in its middle.
 double BestBarOnPost(const BeamLikelihood& likelihood, const DoorFrame& base_from_door,
                      const HandleState& handle, const std::vector<Eigen::Vector2d>& middles) {
   const auto score = [&](const Eigen::VectorXd& v) {
-    if (v[3] < 0.02 || v[3] > 0.10 || v[4] < 0.05 || v[4] > 0.4 || v[5] < 0.004 || v[5] > 0.022)
-      return kNever;
-    const Eigen::Vector3d end(0.5 * v[4], 0.0, 0.0), down(0.0, 0.0, -v[3]);
-    const std::vector<HandleBar> bars = {{-end, end, v[5]}, {Eigen::Vector3d::Zero(), down, v[5]}};
-    return LogLikelihoodOf(
-        DoorThing(bars, std::nullopt, PlacedAt(base_from_door, v[0], v[1], v[3], v[2])),
-        likelihood);
+    return BarOnPosts(likelihood, base_from_door, v, 0.4, {0.0});
   };
-  const HandleStep& h = handle.values;
   std::vector<Eigen::VectorXd> starts;
-  for (const Eigen::Vector2d& middle : middles) {
-    Eigen::VectorXd start(6);
-    start << middle.x(), middle.y(), h[kHandleTurn], h[kHandleStandoff], h[kHandleLength],
-        h[kHandleRadius];
-    starts.push_back(start);
-  }
-  Eigen::VectorXd steps(6);
-  steps << 0.010, 0.010, 0.12, 0.008, 0.016, 0.003;
-  return BestOf(starts, steps, score);
+  for (const Eigen::Vector2d& middle : middles)
+    starts.push_back(BarLike(handle, middle, handle.values[kHandleLength]));
+  return BestOf(starts, BarSteps(), score);
 }
 
 /// A rod bent from foot to foot: middle, turn, height, length, radius.

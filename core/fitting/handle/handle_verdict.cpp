@@ -45,6 +45,11 @@ constexpr const char* kNotYet =
     "a door handle is never confirmed yet: of answers as sure as that too many were wrong on "
     "scenes that were drawn to find out";
 
+/// Of what was measured: the beams behind a map, or a map that comes alone.
+const BeamLikelihood& OfMeasured(const BeamLikelihood& likelihood) {
+  return likelihood.BehindMap() != nullptr ? *likelihood.BehindMap() : likelihood;
+}
+
 std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detection,
                                double proportions_nats) {
   const HandleEvidence& evidence = detection.evidence;
@@ -242,8 +247,7 @@ struct HandleCovariances {
 
 HandleCovariances CovariancesOf(const HandleScorer& scorer, const HandleState& handle,
                                 const Plane& door) {
-  const BeamLikelihood* behind = scorer.likelihood.BehindMap();
-  const BeamLikelihood& likelihood = behind != nullptr ? *behind : scorer.likelihood;
+  const BeamLikelihood& likelihood = OfMeasured(scorer.likelihood);
   const BeamSlopes beams = SlopesOf(likelihood, scorer, handle, door);
   const double worth = likelihood.rays().Worth();
   const HandleInformation prior = PriorInformation();
@@ -259,8 +263,7 @@ HandleCovariances CovariancesOf(const HandleScorer& scorer, const HandleState& h
 
 HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door,
                               const HandleCandidate& handle) {
-  const BeamLikelihood& likelihood =
-      of_region.BehindMap() != nullptr ? *of_region.BehindMap() : of_region;
+  const BeamLikelihood& likelihood = OfMeasured(of_region);
   const DoorThing thing = ThingOf(handle.model, handle.base_from_object);
   const auto object_from_base = handle.base_from_object.Inverse();
   const RaySet& rays = likelihood.rays();
