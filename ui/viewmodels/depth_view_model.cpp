@@ -37,6 +37,9 @@ DepthViewModel::DepthViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {
   connect(session_, &SessionModel::imageChanged, this,
           [this] { automatic_ ? compute() : cancel(); });
+  const auto tell = [this] { session_->SetDepthComing(runner_.Busy() && !session_->Depth()); };
+  connect(&runner_, &TaskRunner::changed, this, tell);
+  connect(session_, &SessionModel::depthChanged, this, tell);
 }
 
 void DepthViewModel::setThreshold(double threshold) {

@@ -18,9 +18,14 @@ Result<ImageRoi> RegionThrough(RegionShape shape, double motor_rad,
 
 FitViewModel::FitViewModel(SessionModel* session, QObject* parent)
     : QObject(parent), session_(session) {
-  for (auto signal : {&SessionModel::cloudChanged, &SessionModel::depthChanged,
-                      &SessionModel::roiChanged, &SessionModel::scanChanged})
+  for (auto signal :
+       {&SessionModel::cloudChanged, &SessionModel::depthChanged, &SessionModel::roiChanged,
+        &SessionModel::scanChanged, &SessionModel::depthComingChanged})
     connect(session_, signal, this, &FitViewModel::changed);
+  // Queued: the mask follows its map.
+  for (auto signal : {&SessionModel::depthChanged, &SessionModel::depthComingChanged})
+    connect(session_, signal, this, &FitViewModel::FitIfReady, Qt::QueuedConnection);
+  connect(session_, &SessionModel::scanChanged, this, &FitViewModel::StopWaiting);
   connect(session_, &SessionModel::scanChanged, this, [this] {
     // An image that came, or the rest of the lines, does not make the answer worthless.
     if (!session_->ShownScan() || session_->ShownScan()->uuid != fitting_in_) runner_.cancel();
@@ -38,7 +43,8 @@ void FitViewModel::SetShape(RegionShape shape) {
 }
 
 FitSource FitViewModel::From() const {
-  return source_.value_or(UsualSourceFor(kind_, session_->Depth() != nullptr));
+  return source_.value_or(
+      UsualSourceFor(kind_, session_->Depth() != nullptr || session_->DepthComing()));
 }
 
 void FitViewModel::SetSource(FitSource source) {
@@ -159,8 +165,16 @@ FitOptions FitViewModel::UsualOptionsFor(ObjectKind kind) const {
 }
 
 void FitViewModel::fit() {
+  StopWaiting();
   if (!session_->ShownScan() || !session_->Region()) return;
   if (!CanFit() && !runner_.Busy()) {
+    if (session_->DepthComing()) {
+      waiting_ = true;
+      session_->Report({Notice::Level::kInfo, tr("%1 waits for the depth map.").arg(Doing()),
+                        tr("It begins by itself; or choose lidar points and press Fit.")});
+      Q_EMIT changed();
+      return;
+    }
     session_->Report({Notice::Level::kWarning, tr("There are no points to fit to yet."),
                       tr("Wait until the depth is computed, then press Fit.")});
     return;
@@ -183,6 +197,17 @@ void FitViewModel::fit() {
   };
   runner_.Run<Found>(Doing(), work,
                      [this, scan, part](const Result<Found>& found) { Accept(scan, part, found); });
+}
+
+void FitViewModel::FitIfReady() {
+  // Where the map failed the usual source is another one now.
+  if (waiting_ && (CanFit() || !session_->DepthComing())) fit();
+}
+
+void FitViewModel::StopWaiting() {
+  if (!waiting_) return;
+  waiting_ = false;
+  Q_EMIT changed();
 }
 
 void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan,

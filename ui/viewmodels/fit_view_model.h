@@ -40,10 +40,12 @@ class FitViewModel : public QObject {
   ObjectKind Kind() const { return kind_; }
   RegionShape Shape() const { return shape_; }
   void SetShape(RegionShape shape);
-  /// What the operator chose, else what is usual for `Kind`.
+  /// What the operator chose, else what is usual for `Kind` where a depth map is there or coming.
   FitSource From() const;
   void SetSource(FitSource source);
   bool CanFit() const;
+  /// Whether a fit begins by itself as soon as the depth map that it needs is there.
+  bool Waiting() const { return waiting_; }
   TaskRunner* Runner() { return &runner_; }
   /// The programs' defaults for the head's mounting, and what the operator chose; a terrain is also
   /// compared with the last one of an earlier scan that the operator accepted.
@@ -69,6 +71,7 @@ class FitViewModel : public QObject {
   /// Drawing a region only selects it.
   void setRegionTool(bool on);
   void leaveTools();
+  /// At once or, where the depth map that it needs is being computed, as soon as that is there.
   void fit();
   /// The usual options of `Kind` again.
   void resetOptions();
@@ -78,6 +81,8 @@ class FitViewModel : public QObject {
 
  private:
   QString Doing() const;
+  void FitIfReady();
+  void StopWaiting();
   /// What was found, with all that is needed to find it again.
   struct Found {
     Detection detection;
@@ -94,6 +99,7 @@ class FitViewModel : public QObject {
   ObjectKind kind_ = ObjectKind::kValve;
   /// What the operator chose, by the option's key.
   std::map<ObjectKind, std::map<std::string, OptionValue>> chosen_;
+  bool waiting_ = false;
   bool object_tool_ = false;
   bool region_tool_ = false;
 };

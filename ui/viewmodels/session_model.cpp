@@ -95,6 +95,12 @@ void SessionModel::SetDepth(std::shared_ptr<const DepthResult> depth) {
   Q_EMIT depthChanged();
 }
 
+void SessionModel::SetDepthComing(bool coming) {
+  if (coming == depth_coming_) return;
+  depth_coming_ = coming;
+  Q_EMIT depthComingChanged();
+}
+
 void SessionModel::SetMask(std::shared_ptr<const MaskImage> mask,
                            const ConfidenceMaskOptions& options) {
   mask_ = std::move(mask);

@@ -113,6 +113,9 @@ class SessionModel : public QObject {
 
   void SetDepth(std::shared_ptr<const DepthResult> depth);
   const std::shared_ptr<const DepthResult>& Depth() const { return depth_; }
+  /// Whether the first depth of the image is being computed.
+  bool DepthComing() const { return depth_coming_; }
+  void SetDepthComing(bool coming);
   /// A mask of the depth map, and what made it.
   void SetMask(std::shared_ptr<const MaskImage> mask, const ConfidenceMaskOptions& options);
   const ConfidenceMaskOptions& MaskOptions() const { return mask_options_; }
@@ -166,6 +169,7 @@ class SessionModel : public QObject {
   void imageChanged();
   void cloudChanged();
   void depthChanged();
+  void depthComingChanged();
   void maskChanged();
   void roiChanged();
   void objectsChanged();
@@ -193,6 +197,7 @@ class SessionModel : public QObject {
   CloudPart part_;
   SensorRig rig_;
   std::shared_ptr<const DepthResult> depth_;
+  bool depth_coming_ = false;
   std::shared_ptr<const MaskImage> mask_;
   ConfidenceMaskOptions mask_options_;
   std::optional<Roi> roi_;
