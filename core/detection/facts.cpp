@@ -143,6 +143,9 @@ void AddFacts(const HandleDetection& handle, int candidate, const RobotFromBase&
   if (candidate > 0) return;
   facts.push_back({OperatorText("Length"), WithSigma(Millimetres(handle.best.model.length_m),
                                                      Millimetres(handle.sigma_length_m, 1))});
+  constexpr double kNoticed_m = 0.005;
+  if (handle.best.model.behind_m > kNoticed_m)
+    facts.push_back({OperatorText("Behind its pivot"), Millimetres(handle.best.model.behind_m)});
   facts.push_back({OperatorText("Off the door"), Millimetres(handle.best.model.standoff_m)});
   facts.push_back({OperatorText("Turned round"), OddsAgainst(handle.evidence.mirror_margin_nats)});
   facts.push_back({OperatorText("Door's edge"), DoorsEdge(handle.evidence)});

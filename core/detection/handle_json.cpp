@@ -80,16 +80,16 @@ Plane PlaneFrom(const Json& value) {
 }  // namespace
 
 Json ToJson(const HandleModel& model) {
-  return {{"length_m", model.length_m},
-          {"radius_m", model.radius_m},
-          {"standoff_m", model.standoff_m},
-          {"returned", model.returned},
-          {"plate", ToString(model.plate)}};
+  return {{"length_m", model.length_m}, {"behind_m", model.behind_m},
+          {"radius_m", model.radius_m}, {"standoff_m", model.standoff_m},
+          {"returned", model.returned}, {"plate", ToString(model.plate)}};
 }
 
 HandleModel HandleModelFrom(const Json& value) {
   HandleModel model;
   model.length_m = SizeIn(value, "length_m");
+  // Files of versions before 2026-11-28 know no piece behind the pivot.
+  if (value.contains("behind_m")) model.behind_m = NumberFrom(value.at("behind_m"));
   model.radius_m = SizeIn(value, "radius_m");
   model.standoff_m = SizeIn(value, "standoff_m");
   model.returned = value.at("returned").get<bool>();

@@ -73,15 +73,16 @@ std::vector<Eigen::Vector2d> FlatSection(double width_m, double depth_m) {
           {-x, y - cut}, {-x, -y + cut}, {-x + cut, -y}, {x - cut, -y}};
 }
 
-/// The way that a lever's middle line takes in its own frame, from the pivot to the end.
-std::vector<Eigen::Vector3d> LeverPath(double length_m, double standoff_m, double bow_m,
-                                       double lift_m) {
+/// The way that a lever's middle line takes in its own frame, from what lies behind the pivot to
+/// the end.
+std::vector<Eigen::Vector3d> LeverPath(const HandleModel& model, double bow_m, double lift_m) {
   constexpr int kPieces = 10;
   std::vector<Eigen::Vector3d> path;
+  if (model.behind_m > 0.0) path.emplace_back(-model.behind_m, 0.0, model.standoff_m);
   for (int i = 0; i <= kPieces; ++i) {
     const double s = static_cast<double>(i) / kPieces;
-    path.emplace_back(s * length_m, bow_m * 4.0 * s * (1.0 - s),
-                      standoff_m + lift_m * std::sin(kPi * s));
+    path.emplace_back(s * model.length_m, bow_m * 4.0 * s * (1.0 - s),
+                      model.standoff_m + lift_m * std::sin(kPi * s));
   }
   return path;
 }
@@ -109,8 +110,16 @@ LeverDrawing DrawSection(Random& random) {
   return drawing;
 }
 
+/// Most levers end at their pivot; some go on for a little, a few for much of their length.
+double DrawBehind(double length_m, Random& random) {
+  const double kind = random.Uniform();
+  if (kind < 0.6) return 0.0;
+  if (kind < 0.85) return random.Uniform(0.004, 0.030);
+  return random.Uniform(0.030, 0.6 * length_m);
+}
+
 void AddLeverBody(const HandleModel& model, const LeverDrawing& drawing, Builder& body) {
-  const auto path = LeverPath(model.length_m, model.standoff_m, drawing.bow_m, drawing.lift_m);
+  const auto path = LeverPath(model, drawing.bow_m, drawing.lift_m);
   if (drawing.round && drawing.taper == 1.0) {
     for (std::size_t i = 1; i < path.size(); ++i) body.Bar(path[i - 1], path[i], model.radius_m);
   } else {
@@ -325,6 +334,7 @@ DoorHardware DrawLever(Random& random, const Material& material, const Material&
   model.standoff_m = random.Uniform(0.040, 0.068);
   model.returned = random.Chance(0.35);
   model.plate = random.Chance(0.35) ? HandleModel::Plate::kLong : HandleModel::Plate::kRosette;
+  model.behind_m = DrawBehind(model.length_m, random);
   const double side = random.Chance(0.5) ? 0.0 : kPi;
   double lean = RadiansFromDegrees(4.0 * random.Normal());
   if (random.Chance(0.125)) lean = RadiansFromDegrees(random.Uniform(-90.0, 90.0));

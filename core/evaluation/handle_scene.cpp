@@ -138,8 +138,9 @@ void AddLever(const DoorHardware& lever, const DoorPose& robot_from_door, FitTri
   truth.name = lever.name;
   truth.robot_from_object = robot_from_door * lever.door_from_handle;
   truth.model = lever.model;
-  trial.focus_m = truth.robot_from_object * Eigen::Vector3d(0.5 * lever.model.length_m, 0.0, 0.0);
-  trial.focus_radius_m = 0.5 * lever.model.length_m + 0.025;
+  const double length_m = lever.model.length_m, behind_m = lever.model.behind_m;
+  trial.focus_m = truth.robot_from_object * Eigen::Vector3d(0.5 * (length_m - behind_m), 0.0, 0.0);
+  trial.focus_radius_m = 0.5 * (length_m + behind_m) + 0.025;
   trial.what = std::string(lever.model.plate == HandleModel::Plate::kLong ? "lever on a long plate"
                                                                           : "lever on a rosette") +
                (lever.model.returned ? ", end bent back" : "");

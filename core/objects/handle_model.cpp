@@ -32,10 +32,10 @@ std::vector<Eigen::Vector3d> OutlineOf(const HandleModel& model) {
   std::vector<Eigen::Vector3d> outline;
   for (int i = 0; i <= 2 * kCorners; ++i) {
     const double angle = std::numbers::pi * (static_cast<double>(i) / kCorners - 0.5);
-    const double at = i <= kCorners ? model.length_m : 0.0;
+    const double at = i <= kCorners ? model.length_m : -model.behind_m;
     outline.emplace_back(at + model.radius_m * std::cos(angle), model.radius_m * std::sin(angle),
                          0.0);
-    if (i == kCorners) outline.emplace_back(0.0, model.radius_m, 0.0);
+    if (i == kCorners) outline.emplace_back(-model.behind_m, model.radius_m, 0.0);
   }
   outline.push_back(outline.front());
   return outline;
@@ -69,6 +69,9 @@ Status HandleModel::Check() const {
     return Fail(ErrorCode::kInvalidOptions,
                 "door handle: length_m {}, radius_m {} or standoff_m {} is not within 0 to 1",
                 length_m, radius_m, standoff_m);
+  if (!(behind_m >= 0.0 && behind_m <= length_m))
+    return Fail(ErrorCode::kInvalidOptions,
+                "door handle: behind_m {} is not within 0 and length_m {}", behind_m, length_m);
   return {};
 }
 
@@ -81,7 +84,7 @@ double HandleModel::Distance(const Eigen::Vector3d& point) const {
 std::vector<HandleBar> BarsOf(const HandleModel& model) {
   const Eigen::Vector3d end(model.length_m, 0.0, 0.0);
   std::vector<HandleBar> bars = {
-      {Eigen::Vector3d::Zero(), end, model.radius_m},
+      {{-model.behind_m, 0.0, 0.0}, end, model.radius_m},
       {Eigen::Vector3d::Zero(), {0.0, 0.0, -model.standoff_m}, kNeckPerLever * model.radius_m}};
   const double back_m = model.standoff_m - model.radius_m - HandleModel::kReturnGap_m;
   if (model.returned && back_m > 0.0)

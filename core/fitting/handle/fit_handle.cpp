@@ -31,7 +31,9 @@ constexpr std::size_t kFine = 3;
 constexpr double kLeastBefore_m = 0.020, kMostBefore_m = 0.110;
 constexpr double kBeforeSigmas = 1.5;
 constexpr int kFootprintSamples = 3;
-constexpr double kMapLacks_m = 0.009;  // of a bar's height over its door: training scenes' median
+// Of a bar's height over its door: what training scenes lack in their median, at home and under
+// varied conditions together.
+constexpr double kMapLacks_m = 0.009, kBeamsLack_m = 0.003;
 constexpr double kMostOff_m = 0.016, kOffStep_m = 0.001;  // beams against their map
 constexpr double kOtherLength_m = 0.020;  // of the alternatives; what a hand would notice
 
@@ -150,10 +152,9 @@ class HandleFit {
   TwoWays Weighed(TwoWays found, const RaySet* around) const {
     const double ahead = likelihood_.DeviationsAhead(IntersectionWith(ThingOf(found.best)),
                                                      IntersectionWith(ThingOf(found.mirrored)));
-    const RaySet& rays = likelihood_.rays();
-    found.beams_nats = kNatsPerDeviation * (rays.image ? ahead : std::max(0.0, ahead));
-    found.image_nats =
-        OfImage(ThingOf(found.best), rays).nats - OfImage(ThingOf(found.mirrored), rays).nats;
+    found.beams_nats =
+        kNatsPerDeviation * (likelihood_.rays().image ? ahead : std::max(0.0, ahead));
+    found.image_nats = OutlineOf(found.best).nats - OutlineOf(found.mirrored).nats;
     if (around != nullptr)
       found.edges_nats = EdgesForWay(*around, door_, CandidateOf(found.best, base_from_door_));
     return found.Ahead() < 0.0 ? found.Swapped() : found;
@@ -174,6 +175,18 @@ class HandleFit {
     return foresight::ThingOf(state.Model(), state.Pose(base_from_door_));
   }
 
+  /// What the image says of the lever, on the plate and with the end that lie best on its edges:
+  /// beams take a rosette and the lock below it for a long plate, and that must not speak against
+  /// the way that the lever points.
+  OutlineSupport OutlineOf(const HandleState& lever) const {
+    OutlineSupport best = OfImage(ThingOf(lever), likelihood_.rays());
+    for (const HandleState& variant : VariantsOf(lever))
+      if (const auto support = OfImage(ThingOf(variant), likelihood_.rays());
+          support.nats > best.nats)
+        best = support;
+    return best;
+  }
+
   static bool PointsTheOtherWay(const HandleState& a, const HandleState& b) {
     return std::cos(a.values[kHandleTurn] - b.values[kHandleTurn]) < 0.0;
   }
@@ -189,13 +202,14 @@ class HandleFit {
     return {};
   }
 
-  /// A map smooths a bar into its door: how far it stands off is better known by the beams behind
-  /// the map, and of a map alone by what maps lack.
+  /// A bar that is narrower than a footprint is drawn to its door, and a map smooths it into the
+  /// door: how far it stands off is better known by the beams behind the map, and then by what
+  /// beams and maps lack.
   HandleState WithTrueStandoff(const HandleState& lever) const {
     HandleState best = lever;
-    if (!likelihood_.rays().dense) return best;
-    if (likelihood_.BehindMap() == nullptr) {
-      best.values[kHandleStandoff] += kMapLacks_m;
+    const bool map = likelihood_.rays().dense, alone = map && likelihood_.BehindMap() == nullptr;
+    if (!map || alone) {
+      best.values[kHandleStandoff] += alone ? kMapLacks_m : kBeamsLack_m;
       return best;
     }
     const HandleScorer beams{*likelihood_.BehindMap(), base_from_door_, options_};
@@ -209,6 +223,7 @@ class HandleFit {
       best = tried;
     }
     best.score = lever.score;
+    best.values[kHandleStandoff] += kBeamsLack_m;
     return best;
   }
 
@@ -252,7 +267,7 @@ class HandleFit {
     evidence.mirror_margin_nats = found.Ahead();
     evidence.edges_nats = found.edges_nats;
     evidence.image_nats = found.image_nats;
-    evidence.outline_nats_per_px = OfImage(ThingOf(best), likelihood_.rays()).NatsPerPixel();
+    evidence.outline_nats_per_px = OutlineOf(best).NatsPerPixel();
     evidence.length_margin_nats = best.score - best_length;
     evidence.gain_nats = own - likelihood_.Nothing();
     evidence.alternative_margin_nats = std::numeric_limits<double>::infinity();

@@ -71,18 +71,30 @@ bool AlikeHandles(const HandleState& a, const HandleState& b) {
                                  2.0 * std::numbers::pi)) < 0.25;
 }
 
+constexpr std::array kPivotsAlong = {0.12, 0.24, 0.36};  // of the whole bar
+
 /// The variant of ends and plates that explains the rays best, the sizes as they are.
-HandleState BestVariant(const HandleScorer& scorer, const HandleState& state) {
+HandleState BestEnds(const HandleScorer& scorer, const HandleState& state) {
   HandleState best = state;
   best.score = scorer(state);
-  for (const bool returned : {false, true})
-    for (const auto plate : {HandleModel::Plate::kRosette, HandleModel::Plate::kLong}) {
-      HandleState variant = state;
-      variant.returned = returned;
-      variant.plate = plate;
-      variant.score = scorer(variant);
-      if (variant.score > best.score) best = variant;
-    }
+  for (HandleState& variant : VariantsOf(state)) {
+    variant.score = scorer(variant);
+    if (variant.score > best.score) best = variant;
+  }
+  return best;
+}
+
+/// ... and of pivots along the same bar.
+HandleState BestVariant(const HandleScorer& scorer, const HandleState& state) {
+  HandleState best = BestEnds(scorer, state);
+  const HandleState with_ends = best;
+  const double behind_m = state.values[kHandleBehind];
+  const double bar_m = behind_m + state.values[kHandleLength];
+  for (const double along : kPivotsAlong) {
+    HandleState variant = WithPivotAlong(with_ends, along * bar_m - behind_m);
+    variant.score = scorer(variant);
+    if (variant.score > best.score) best = variant;
+  }
   return best;
 }
 
@@ -93,19 +105,24 @@ HandleState Climbed(const HandleScorer& scorer, const HandleState& start, double
   constexpr double kLever_m = 0.06;
   HandleStep lengths;
   lengths << first_step_m, first_step_m, first_step_m / kLever_m, first_step_m, first_step_m,
-      0.3 * first_step_m;
+      first_step_m, 0.3 * first_step_m;
   PatternSearchOptions options;
   options.rounds = rounds;
   for (int i = 0; i < kHandleParameters; ++i)
     if (i != kHandleLength || which == Lengths::kAny)
       options.steps.push_back(lengths[i] * Eigen::VectorXd::Unit(kHandleParameters, i));
-  // The pivot's end by itself, while the other end stays; and a turn about the lever's middle.
+  // The pivot's end by itself, while the other end stays; the pivot alone; and a turn about the
+  // lever's middle.
   const double turn = start.values[kHandleTurn];
   Eigen::VectorXd pivot = Eigen::VectorXd::Zero(kHandleParameters);
   pivot[kHandleX] = -first_step_m * std::cos(turn);
   pivot[kHandleY] = -first_step_m * std::sin(turn);
   pivot[kHandleLength] = first_step_m;
-  if (which == Lengths::kAny) options.steps.push_back(pivot);
+  if (which == Lengths::kAny) {
+    options.steps.push_back(pivot);
+    pivot[kHandleBehind] = -first_step_m;
+    options.steps.push_back(pivot);
+  }
   Eigen::VectorXd about = Eigen::VectorXd::Zero(kHandleParameters);
   about[kHandleTurn] = first_step_m / kLever_m;
   about[kHandleX] = first_step_m * std::sin(turn);
@@ -321,12 +338,10 @@ HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEff
 HandleState OtherLength(const HandleScorer& scorer, const HandleState& lever, double longer_m) {
   HandleState best;
   best.score = kNever;
-  for (const double of_pivot : {0.0, 1.0}) {
-    HandleState other = lever;
-    const double turn = lever.values[kHandleTurn];
-    other.values[kHandleLength] += longer_m;
-    other.values[kHandleX] -= of_pivot * longer_m * std::cos(turn);
-    other.values[kHandleY] -= of_pivot * longer_m * std::sin(turn);
+  HandleState at_end = lever, at_pivot = WithPivotAlong(lever, -longer_m);
+  at_end.values[kHandleLength] += longer_m;
+  at_pivot.values[kHandleBehind] = lever.values[kHandleBehind];
+  for (HandleState other : {at_end, at_pivot, WithPivotAlong(lever, -longer_m)}) {
     if (!std::isfinite(scorer(other))) continue;
     other = Climbed(scorer, other, 0.006, 3, Lengths::kAsItIs);
     if (other.score > best.score) best = other;
@@ -342,7 +357,7 @@ std::vector<HandleAlternative> FitHandleAlternatives(const BeamLikelihood& likel
   const HandleStep& h = handle.values;
   const Eigen::Vector2d way(std::cos(h[kHandleTurn]), std::sin(h[kHandleTurn]));
   const Eigen::Vector2d pivot = h.head<2>();
-  const Eigen::Vector2d middle = pivot + 0.5 * h[kHandleLength] * way;
+  const Eigen::Vector2d middle = pivot + 0.5 * (h[kHandleLength] - h[kHandleBehind]) * way;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   double low = 1e9, high = -1e9;
   for (const Eigen::Vector3d& point : before_door) {

@@ -17,12 +17,13 @@ std::vector<HandleState> FindLevers(const HandleScorer& scorer,
 
 enum class HandleEffort { kCoarse, kFine };
 
-/// Climbs the score over all parameters; with kFine also over straight and returned ends and both
-/// plates. The result's score is never below the start's.
+/// Climbs the score over all parameters; with kFine also over straight and returned ends, both
+/// plates and pivots further along the lever. The result's score is never below the start's.
 HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEffort effort);
 
-/// The best lever that is `longer_m` longer (negative: shorter), with its free end where the
-/// lever's is or its pivot's end; minus infinity where none of that length is built.
+/// The best lever that is `longer_m` longer (negative: shorter): its free end is where the lever's
+/// is, or its pivot is, or its pivot alone is elsewhere on the bar; minus infinity where none of
+/// that length is built.
 HandleState OtherLength(const HandleScorer& scorer, const HandleState& lever, double longer_m);
 
 /// Something else that may sit there.

@@ -23,6 +23,7 @@ DoorFrame DoorFrameOf(const Plane& door, const Eigen::Vector3d& near_point) {
 HandleModel HandleState::Model() const {
   HandleModel model;
   model.length_m = values[kHandleLength];
+  model.behind_m = values[kHandleBehind];
   model.radius_m = values[kHandleRadius];
   model.standoff_m = values[kHandleStandoff];
   model.returned = returned;
@@ -41,6 +42,7 @@ double HandleScorer::operator()(const HandleState& state) const {
   const HandleStep& v = state.values;
   const bool built =
       v[kHandleLength] >= options.min_length_m && v[kHandleLength] <= options.max_length_m &&
+      v[kHandleBehind] >= 0.0 && v[kHandleBehind] <= HandlePrior::kMostBehind * v[kHandleLength] &&
       v[kHandleStandoff] >= kLeastStandoff_m && v[kHandleStandoff] <= kLargestStandoff_m &&
       v[kHandleRadius] >= kLeastRadius_m && v[kHandleRadius] <= kLargestRadius_m;
   if (!built) return -std::numeric_limits<double>::infinity();
@@ -48,7 +50,8 @@ double HandleScorer::operator()(const HandleState& state) const {
   const double prior =
       -0.5 * (Squared((v[kHandleStandoff] - Prior::kStandoff_m) / Prior::kStandoffSigma_m) +
               Squared((v[kHandleRadius] - Prior::kRadius_m) / Prior::kRadiusSigma_m) +
-              Squared((v[kHandleLength] - Prior::kLength_m) / Prior::kLengthSigma_m));
+              Squared((v[kHandleLength] - Prior::kLength_m) / Prior::kLengthSigma_m)) -
+      v[kHandleBehind] / Prior::kBehind_m;
   return prior + LogLikelihoodOf(ThingOf(state.Model(), state.Pose(base_from_door)), likelihood);
 }
 
@@ -67,10 +70,33 @@ HandleState OnDoor(const HandleState& state, const DoorFrame& base_from_door,
 HandleState Mirrored(const HandleState& state) {
   HandleState mirrored = state;
   const double turn = state.values[kHandleTurn];
-  mirrored.values[kHandleX] += state.values[kHandleLength] * std::cos(turn);
-  mirrored.values[kHandleY] += state.values[kHandleLength] * std::sin(turn);
+  const double pivot_m = state.values[kHandleLength] - state.values[kHandleBehind];
+  mirrored.values[kHandleX] += pivot_m * std::cos(turn);
+  mirrored.values[kHandleY] += pivot_m * std::sin(turn);
   mirrored.values[kHandleTurn] = std::remainder(turn + std::numbers::pi, 2.0 * std::numbers::pi);
   return mirrored;
+}
+
+HandleState WithPivotAlong(const HandleState& state, double by_m) {
+  HandleState moved = state;
+  const double turn = state.values[kHandleTurn];
+  moved.values[kHandleX] += by_m * std::cos(turn);
+  moved.values[kHandleY] += by_m * std::sin(turn);
+  moved.values[kHandleLength] -= by_m;
+  moved.values[kHandleBehind] += by_m;
+  return moved;
+}
+
+std::array<HandleState, 4> VariantsOf(const HandleState& state) {
+  std::array<HandleState, 4> variants;
+  std::size_t i = 0;
+  for (const bool returned : {false, true})
+    for (const auto plate : {HandleModel::Plate::kRosette, HandleModel::Plate::kLong}) {
+      variants[i] = state;
+      variants[i].returned = returned;
+      variants[i++].plate = plate;
+    }
+  return variants;
 }
 
 HandleCandidate CandidateOf(const HandleState& state, const DoorFrame& base_from_door) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "core/fitting/handle/door_things.h"
 #include "core/fitting/handle/fit_handle.h"
@@ -14,6 +15,7 @@ enum HandleParameter {
   kHandleTurn,  ///< of the lever about the door's normal
   kHandleStandoff,
   kHandleLength,
+  kHandleBehind,
   kHandleRadius,
   kHandleParameters
 };
@@ -43,6 +45,9 @@ struct HandlePrior {
   static constexpr double kRadiusSigma_m = 0.0025;
   static constexpr double kLength_m = 0.120;
   static constexpr double kLengthSigma_m = 0.025;
+  static constexpr double kBehind_m = 0.012;       ///< mean of an exponential
+  static constexpr double kBehindSigma_m = 0.006;  ///< most levers end at their pivot
+  static constexpr double kMostBehind = 0.8;       ///< of the length; beyond, it is a bar on a post
 };
 
 /// What a handle is scored against.
@@ -61,6 +66,11 @@ HandleState OnDoor(const HandleState& state, const DoorFrame& base_from_door,
 
 /// The lever that covers the same place and points the other way.
 HandleState Mirrored(const HandleState& state);
+/// The lever that covers the same place and has its pivot `by_m` further along.
+HandleState WithPivotAlong(const HandleState& state, double by_m);
+
+/// The same with either end and on either plate.
+std::array<HandleState, 4> VariantsOf(const HandleState& state);
 
 HandleCandidate CandidateOf(const HandleState& state, const DoorFrame& base_from_door);
 

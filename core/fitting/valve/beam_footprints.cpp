@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/quantile.h"
+#include "core/fitting/beam_model.h"
 #include "core/fitting/line_normals.h"
 #include "core/fitting/wall.h"
 
@@ -20,6 +22,9 @@ constexpr double kBrightnessSpread = 0.15;  // of the logarithm, over one valve
 constexpr double kNeighbourhood_rad = 0.015;
 constexpr double kFarFraction = 0.8;
 constexpr double kWallSigmas = 4.0;
+constexpr double kTailQuantile = 0.98, kTailOfNormal = 2.326;  // of |z| for a normal z
+constexpr double kLongestTail = 2.5;
+constexpr std::size_t kLeastBehind = 60;
 
 /// Integral of sqrt(1 - x^2) from 0 to x.
 double CircleArea(double x) {
@@ -40,7 +45,26 @@ BeamFootprints::BeamFootprints(const RaySet& rays, const std::optional<Plane>& w
     footprints_[i].across_line = 0.5 * rays.footprint_height_rad * normal;
     footprints_[i].along_line = 0.5 * rays.footprint_rad * normal.cross(ray.direction);
   }
-  if (wall) LookBehind();
+  if (!wall) return;
+  LookBehind();
+  MeasureTail();
+}
+
+// Nothing but noise ends behind a wall.
+void BeamFootprints::MeasureTail() {
+  std::vector<double> behind_m;
+  for (std::size_t i = 0; i < footprints_.size(); ++i) {
+    const double error_m = rays_.rays[i].range_m - footprints_[i].wall_m;
+    if (footprints_[i].before_wall && error_m > 0.0) behind_m.push_back(error_m);
+  }
+  if (behind_m.size() < kLeastBehind) return;
+  const double far_m = Quantile(std::move(behind_m), kTailQuantile);
+  tail_ = std::clamp(far_m / (kTailOfNormal * sigma_m_), 1.0, kLongestTail);
+}
+
+double BeamFootprints::Agreement(const ExpectedRange& expected) const {
+  const double longer = (tail_ * tail_ - 1.0) * sigma_m_ * sigma_m_;
+  return BeamModel::kAgreeSigmas * std::sqrt(expected.sigma_m * expected.sigma_m + longer);
 }
 
 // A spoke that is not there would explain every return from a pipe or a body between wheel and wall

@@ -44,6 +44,9 @@ class BeamFootprints {
   /// with there is not known.
   bool BeforeWall(std::size_t i) const { return footprints_[i].before_wall; }
   double Sigma() const { return sigma_m_; }
+  /// How far off a range may be that agrees with `expected`: as far as most ranges of the wall are,
+  /// whose errors may have longer tails than a normal distribution's.
+  double Agreement(const ExpectedRange& expected) const;
 
  private:
   /// Half extents for a metre of range, in base.
@@ -55,10 +58,12 @@ class BeamFootprints {
   };
 
   void LookBehind();
+  void MeasureTail();
 
   const RaySet& rays_;
   std::optional<Plane> wall_;
   double sigma_m_;
+  double tail_ = 1.0;  ///< how much further off than normal errors the worst ones are
   std::vector<Footprint> footprints_;
 };
 

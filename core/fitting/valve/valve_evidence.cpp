@@ -89,7 +89,7 @@ ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandid
     const ExpectedRange expected = footprints.Expect(i, intersection, valve.brightness);
     if (intersection.Clearance() >= 0.0 || expected.fraction < kIntersectedFraction) continue;
     const double error = ray.range_m - expected.range_m;
-    const double agree_m = BeamModel::kAgreeSigmas * expected.sigma_m;
+    const double agree_m = footprints.Agreement(expected);
     const bool agrees = std::abs(error) <= agree_m;
     if (intersection.part == ValvePart::kSpoke) {
       PartSupport& spoke = spokes[static_cast<std::size_t>(intersection.spoke)];

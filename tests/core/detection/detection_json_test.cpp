@@ -142,7 +142,7 @@ TEST(DetectionJson, ADrillSaysWhereToGraspAndByHowMuchItBeatsItsAlternatives) {
 HandleDetection SampleHandle() {
   HandleDetection handle;
   handle.best.base_from_object = {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.1, 0.2, 1.0}};
-  handle.best.model = {0.131, 0.0095, 0.052, true, HandleModel::Plate::kLong};
+  handle.best.model = {0.131, 0.021, 0.0095, 0.052, true, HandleModel::Plate::kLong};
   handle.best.log_likelihood = 90.0;
   handle.door = {-Eigen::Vector3d::UnitY(), 0.2};
   handle.sigma_length_m = 0.004;
@@ -166,6 +166,7 @@ TEST(DetectionJson, ADoorHandleSurvivesTheRoundTripAndSaysHowFarTheFlippedOneIsB
   EXPECT_EQ(read->best.model.plate, HandleModel::Plate::kLong);
   EXPECT_EQ(read->door.offset, 0.2);
   EXPECT_EQ(read->alternatives[1].model.length_m, 0.111);
+  EXPECT_EQ(read->best.model.behind_m, 0.021);
   EXPECT_EQ(DetectionToJson(*read, {}), text);
   EXPECT_EQ(nlohmann::json::parse(text)["alternatives"][0]["margin_nats"], 12.0);
 }
@@ -173,11 +174,21 @@ TEST(DetectionJson, ADoorHandleSurvivesTheRoundTripAndSaysHowFarTheFlippedOneIsB
 TEST(DetectionJson, ADoorHandleThatIsLongerThanAMetreOrOnAnUnknownPlateIsRefused) {
   for (const auto& [key, value] : {std::pair<const char*, nlohmann::json>{"length_m", 1.5},
                                    {"length_m", -0.1},
+                                   {"behind_m", -0.001},
+                                   {"behind_m", 0.5},
                                    {"plate", "round"}}) {
     nlohmann::json wrong = nlohmann::json::parse(DetectionToJson(SampleHandle(), {}));
     wrong["best"]["model"][key] = value;
     EXPECT_FALSE(DetectionFromJson(wrong.dump())) << key;
   }
+}
+
+TEST(DetectionJson, ADoorHandleOfBeforeLeversWentOnBehindTheirPivotEndsThere) {
+  nlohmann::json older = nlohmann::json::parse(DetectionToJson(SampleHandle(), {}));
+  older["best"]["model"].erase("behind_m");
+  const auto read = DetectionFromJson(older.dump());
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(std::get<HandleDetection>(*read).best.model.behind_m, 0.0);
 }
 
 TEST(DetectionJson, ACylinderSurvivesTheRoundTripWithoutAProbability) {

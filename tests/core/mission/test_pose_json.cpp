@@ -33,7 +33,8 @@ std::vector<PoseMessage> Samples() {
   std::vector<PoseMessage> samples(6, SamplePose());
   samples[1].parameters = Drill();
   samples[2].parameters = Surface();
-  samples[4].parameters = HandleParameters{{0.131, 0.0095, 0.052, true, HandleModel::Plate::kLong}};
+  samples[4].parameters =
+      HandleParameters{{0.131, 0.018, 0.0095, 0.052, true, HandleModel::Plate::kLong}};
   samples[5].parameters = CylinderParameters{{0.05, 0.7}};
   samples[5].probability.reset();
   samples[3].is_winner = false;
