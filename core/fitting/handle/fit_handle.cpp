@@ -206,12 +206,15 @@ class HandleFit {
   /// door: how far it stands off is better known by the beams behind the map, and then by what
   /// beams and maps lack.
   HandleState WithTrueStandoff(const HandleState& lever) const {
+    const bool map_alone = likelihood_.rays().dense && likelihood_.BehindMap() == nullptr;
+    HandleState best = likelihood_.BehindMap() ? WithStandoffOfBeams(lever) : lever;
+    best.values[kHandleStandoff] += map_alone ? kMapLacks_m : kBeamsLack_m;
+    return best;
+  }
+
+  /// As far off the door as the beams behind the map say; the score stays the map's.
+  HandleState WithStandoffOfBeams(const HandleState& lever) const {
     HandleState best = lever;
-    const bool map = likelihood_.rays().dense, alone = map && likelihood_.BehindMap() == nullptr;
-    if (!map || alone) {
-      best.values[kHandleStandoff] += alone ? kMapLacks_m : kBeamsLack_m;
-      return best;
-    }
     const HandleScorer beams{*likelihood_.BehindMap(), base_from_door_, options_};
     double best_score = beams(best);
     for (double off_m = -kMostOff_m; off_m <= kMostOff_m; off_m += kOffStep_m) {
@@ -222,8 +225,6 @@ class HandleFit {
       best_score = score;
       best = tried;
     }
-    best.score = lever.score;
-    best.values[kHandleStandoff] += kBeamsLack_m;
     return best;
   }
 
