@@ -22,6 +22,7 @@ constexpr double kHandleFlipped_deg = 90.0;
 
 struct HandleErrors {
   double pivot_mm = 0.0;
+  Eigen::Vector3d place_mm;  ///< found less true, along the axes of the truth
   double direction_deg = 0.0;
   double normal_deg = 0.0;
   double length_mm = 0.0;  ///< found less true
@@ -38,8 +39,9 @@ HandleErrors Compare(const HandleCandidate& found,
   const auto axis = [&](const Eigen::Vector3d& unit) {
     return Angle_deg(truth_from_found.Rotate(unit), unit);
   };
-  return {1000.0 * truth_from_found.translation().norm(), axis(Eigen::Vector3d::UnitX()),
-          axis(Eigen::Vector3d::UnitZ()), 1000.0 * (found.model.length_m - truth.length_m)};
+  return {1000.0 * truth_from_found.translation().norm(), 1000.0 * truth_from_found.translation(),
+          axis(Eigen::Vector3d::UnitX()), axis(Eigen::Vector3d::UnitZ()),
+          1000.0 * (found.model.length_m - truth.length_m)};
 }
 
 }  // namespace
@@ -64,6 +66,9 @@ std::vector<FitOutcome> HandlePopulation::Judge(const FitTrial& trial,
   const auto base_from_truth = trial.TrueBaseFromRobot() * truth.robot_from_object;
   const HandleErrors errors = Compare(detection.best, base_from_truth, truth.model);
   outcome.errors = {{"pivot_mm", errors.pivot_mm},
+                    {"along_mm", errors.place_mm.x()},
+                    {"across_mm", errors.place_mm.y()},
+                    {"out_mm", errors.place_mm.z()},
                     {"direction_deg", errors.direction_deg},
                     {"normal_deg", errors.normal_deg},
                     {"length_mm", std::abs(errors.length_mm)},

@@ -39,6 +39,8 @@ Material Metal(Random& random) {
   return metal;
 }
 
+constexpr double kFar_m = 1.1;  // half of the handles
+
 /// The door's frame in robot: z = its normal, towards the viewer, y up, the origin at the pivot's
 /// place on its face.
 struct Place {
@@ -167,7 +169,10 @@ FitTrialScene RandomHandleScene(std::uint64_t seed) {
       AddLever(lever, place.robot_from_door, trial, *scene);
     else
       SetFocus(lever, place.robot_from_door, trial);
-    if (!trial.positive) trial.what = "a lever by its drawing alone";
+    if (!trial.positive)
+      trial.what = "a lever by its drawing alone";
+    else if (place.distance_m > kFar_m)
+      trial.what += ", beyond 1.1 m";
     Hang(lever.parts, place.robot_from_door, *scene);
     Hang(lever.beside, place.robot_from_door, *scene);
   } else {

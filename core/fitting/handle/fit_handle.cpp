@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -31,9 +32,9 @@ constexpr std::size_t kFine = 3;
 constexpr double kLeastBefore_m = 0.020, kMostBefore_m = 0.110;
 constexpr double kBeforeSigmas = 1.5;
 constexpr int kFootprintSamples = 3;
-// Of a bar's height over its door: what training scenes lack in their median, at home and under
-// varied conditions together.
-constexpr double kMapLacks_m = 0.009, kBeamsLack_m = 0.003;
+// Of a bar's height over its door, in proportion to the range as footprints are: what training
+// scenes lack in their median, at home and under varied conditions together.
+constexpr double kMapLacks = 0.009, kBeamsLack = 0.004;
 constexpr double kMostOff_m = 0.016, kOffStep_m = 0.001;  // beams against their map
 constexpr double kOtherLength_m = 0.020;  // of the alternatives; what a hand would notice
 
@@ -179,12 +180,12 @@ class HandleFit {
   /// beams take a rosette and the lock below it for a long plate, and that must not speak against
   /// the way that the lever points.
   OutlineSupport OutlineOf(const HandleState& lever) const {
-    OutlineSupport best = OfImage(ThingOf(lever), likelihood_.rays());
+    std::optional<OutlineSupport> best;
     for (const HandleState& variant : VariantsOf(lever))
       if (const auto support = OfImage(ThingOf(variant), likelihood_.rays());
-          support.nats > best.nats)
+          !best || support.nats > best->nats)
         best = support;
-    return best;
+    return *best;
   }
 
   static bool PointsTheOtherWay(const HandleState& a, const HandleState& b) {
@@ -202,14 +203,22 @@ class HandleFit {
     return {};
   }
 
-  /// A bar that is narrower than a footprint is drawn to its door, and a map smooths it into the
-  /// door: how far it stands off is better known by the beams behind the map, and then by what
-  /// beams and maps lack.
-  HandleState WithTrueStandoff(const HandleState& lever) const {
+  /// What the standoff that was found lacks. A bar that is narrower than a footprint is drawn to
+  /// its door, and a map smooths it into the door: the beams behind the map know it better, and
+  /// what beams and maps lack is known.
+  double StandoffLacking(const HandleState& lever) const {
     const bool map_alone = likelihood_.rays().dense && likelihood_.BehindMap() == nullptr;
-    HandleState best = likelihood_.BehindMap() ? WithStandoffOfBeams(lever) : lever;
-    best.values[kHandleStandoff] += map_alone ? kMapLacks_m : kBeamsLack_m;
-    return best;
+    const HandleState found = likelihood_.BehindMap() ? WithStandoffOfBeams(lever) : lever;
+    const Eigen::Vector3d pivot = lever.Pose(base_from_door_).translation();
+    const double range_m = (pivot - likelihood_.rays().viewpoint).norm();
+    return found.values[kHandleStandoff] - lever.values[kHandleStandoff] +
+           range_m * (map_alone ? kMapLacks : kBeamsLack);
+  }
+
+  /// An answer, `by_m` further off the door than the rays had it.
+  HandleCandidate Placed(HandleState lever, double by_m) const {
+    lever.values[kHandleStandoff] += by_m;
+    return CandidateOf(lever, base_from_door_);
   }
 
   /// As far off the door as the beams behind the map say; the score stays the map's.
@@ -258,11 +267,12 @@ class HandleFit {
       tried = true;
     }
     SortBest(others);
+    const double lacking_m = StandoffLacking(best);
     for (const HandleState& other : others)
-      detection.alternatives.push_back(CandidateOf(other, base_from_door_));
+      detection.alternatives.push_back(Placed(other, lacking_m));
     HandleEvidence& evidence = detection.evidence;
     // The margins compare answers to the same rays; the place is told by those that know it best.
-    const HandleCandidate placed = CandidateOf(WithTrueStandoff(best), base_from_door_);
+    const HandleCandidate placed = Placed(best, lacking_m);
     evidence = GatherEvidence(likelihood_, door_, placed);
     const double own = LogLikelihoodOf(ThingOf(best), likelihood_);
     evidence.mirror_margin_nats = found.Ahead();
