@@ -21,27 +21,6 @@ namespace {
 
 using Kind = SessionCapture::Kind;
 
-QString InWords(StopLamp::State state) {
-  using State = StopLamp::State;
-  switch (state) {
-    case State::kWaiting:
-      return RecordPage::tr("not captured yet");
-    case State::kLooking:
-      return RecordPage::tr("looking for the boards");
-    case State::kNoImage:
-      return RecordPage::tr("no image");
-    case State::kNoBoard:
-      return RecordPage::tr("no board in the image");
-    case State::kOneBoard:
-      return RecordPage::tr("one board found");
-    case State::kBothBoards:
-      return RecordPage::tr("all boards found");
-    case State::kExcluded:
-      break;
-  }
-  return RecordPage::tr("left out by you");
-}
-
 QString TextOf(const BoardImageRow& row) {
   using State = BoardImageRow::State;
   switch (row.state) {
@@ -232,7 +211,7 @@ void RecordPage::ShowSelected() {
   QString text = tr("%1, %2°: %3")
                      .arg(row.name)
                      .arg(DegreesFromRadians(lamp->motor_rad), 0, 'g', 4)
-                     .arg(InWords(lamp->state));
+                     .arg(StandLamps::InWords(lamp->state));
   if (std::isfinite(lamp->rms_px)) text += tr(", rms %1 px").arg(lamp->rms_px, 0, 'f', 2);
   if (!lamp->fault.isEmpty()) text += tr(" (%1)").arg(lamp->fault);
   if (lamp->stands_out) text += tr("; it fits much worse than the others");

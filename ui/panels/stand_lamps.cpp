@@ -23,30 +23,9 @@ QString Degrees(double angle_rad) {
   return QString::number(DegreesFromRadians(angle_rad), 'g', 4);
 }
 
-QString WordsOf(StopLamp::State state) {
-  using State = StopLamp::State;
-  switch (state) {
-    case State::kWaiting:
-      return StandLamps::tr("not captured yet");
-    case State::kLooking:
-      return StandLamps::tr("looking for the boards");
-    case State::kNoImage:
-      return StandLamps::tr("no image");
-    case State::kNoBoard:
-      return StandLamps::tr("no board in the image");
-    case State::kOneBoard:
-      return StandLamps::tr("one board");
-    case State::kBothBoards:
-      return StandLamps::tr("all boards of the stand");
-    case State::kExcluded:
-      break;
-  }
-  return StandLamps::tr("left out");
-}
-
 QString TipOf(const StandPlaceRow& row, const StopLamp& lamp) {
-  QString text =
-      StandLamps::tr("%1, %2°: %3").arg(row.name, Degrees(lamp.motor_rad), WordsOf(lamp.state));
+  QString text = StandLamps::tr("%1, %2°: %3")
+                     .arg(row.name, Degrees(lamp.motor_rad), StandLamps::InWords(lamp.state));
   if (lamp.has_lines) text += StandLamps::tr(", lidar lines");
   if (std::isfinite(lamp.rms_px)) text += StandLamps::tr(", rms %1 px").arg(lamp.rms_px, 0, 'f', 2);
   if (lamp.stands_out) text += StandLamps::tr("\nIt fits much worse than the others.");
@@ -54,6 +33,27 @@ QString TipOf(const StandPlaceRow& row, const StopLamp& lamp) {
 }
 
 }  // namespace
+
+QString StandLamps::InWords(StopLamp::State state) {
+  using State = StopLamp::State;
+  switch (state) {
+    case State::kWaiting:
+      return tr("not captured yet");
+    case State::kLooking:
+      return tr("looking for the boards");
+    case State::kNoImage:
+      return tr("no image");
+    case State::kNoBoard:
+      return tr("no board in the image");
+    case State::kOneBoard:
+      return tr("one board found");
+    case State::kBothBoards:
+      return tr("all boards found");
+    case State::kExcluded:
+      break;
+  }
+  return tr("left out by you");
+}
 
 StandLamps::StandLamps(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);

@@ -19,6 +19,9 @@ class StandLamps : public QWidget {
 
   void Show(const std::vector<StandPlaceRow>& places, int selected_place, int selected_stop);
 
+  /// "no board in the image".
+  static QString InWords(StopLamp::State state);
+
   /// The middle of a lamp.
   QPoint PlaceOf(int place, int stop) const;
 
