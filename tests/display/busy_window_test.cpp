@@ -14,8 +14,10 @@
 namespace foresight {
 namespace {
 
+using testing::AnyOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::SizeIs;
 
 struct BusyWindow : Workstation {
   static Workbench& Bench() { return running->bench(); }
@@ -79,14 +81,18 @@ TEST_F(BusyWindow, ALiveSweepBeginsWhileAnImportAReportAndAMapAreMade) {
   ASSERT_EQ(ScansOf(imported).size(), 1u);
   EXPECT_NE(ScansOf(imported)[0], uuid);
   EXPECT_EQ(Bench().review.session.CurrentScan()->uuid, ScansOf(imported)[0]);
-  // Report and map are of the scans that there were.
-  EXPECT_THAT(told, Contains(HasSubstr("Wrote report.html and report.pdf of " +
-                                       std::to_string(before.size()) + " scans")));
+  // Report and map are of the scans that there were when their tasks came to read: the live one is
+  // among them where a busy machine let it end first.
+  const auto reports_of = [](std::size_t scans) {
+    return Contains(
+        HasSubstr("Wrote report.html and report.pdf of " + std::to_string(scans) + " scans"));
+  };
+  EXPECT_THAT(told, AnyOf(reports_of(before.size()), reports_of(expected.size())));
   const QString written = QDir(folder.path()).filePath(QFileInfo(live).completeBaseName());
   EXPECT_GT(QFileInfo(written + "-report/report.html").size(), 1000);
   EXPECT_GT(QFileInfo(written + "-report/report.pdf").size(), 10'000);
   ASSERT_NE(Bench().live.map.Map(), nullptr);
-  EXPECT_EQ(Bench().live.map.Map()->map.scans.size(), before.size());
+  EXPECT_THAT(Bench().live.map.Map()->map.scans, SizeIs(AnyOf(before.size(), expected.size())));
   for (const std::string& text : told) EXPECT_EQ(text.find("failed"), std::string::npos) << text;
 
   Bench().backToLive();
