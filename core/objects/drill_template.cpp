@@ -21,7 +21,7 @@ bool WithinHand(const Eigen::Vector3d& point_m) {
 SolidPart Bit(const Eigen::Vector3d& chuck_face_m, const Eigen::Vector3d& direction,
               double radius_m, double length_m) {
   SolidPart bit;
-  bit.name = "bit";
+  bit.name = DrillTemplate::kBit;
   bit.shape = SolidPart::Shape::kCylinder;
   bit.object_from_part = {RotationBetween(Eigen::Vector3d::UnitZ(), direction),
                           chuck_face_m + 0.5 * length_m * direction};

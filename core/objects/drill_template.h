@@ -29,7 +29,9 @@ struct DrillTemplate {
   static constexpr const char* kFoot = "battery foot";  ///< parts that do not lean with the body
   static constexpr const char* kTrigger = "trigger";
   static constexpr const char* kGearCase = "gear case";
+  static constexpr const char* kHead = "head";
   static constexpr const char* kChuck = "chuck";
+  static constexpr const char* kBit = "bit";  ///< no template has one: a fit adds it
 
   std::string name;
   /// Foot, body, head, chuck, trigger... The body's axis is z; parts named "battery foot" do not

@@ -201,6 +201,23 @@ Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
   return modes;
 }
 
+DrillState OfKind(const SolidLikelihood& likelihood, const DrillTemplate& kind,
+                  const DrillState& state, const TableFrame& base_from_table,
+                  const DrillPrior& prior) {
+  DrillState best;
+  best.log_likelihood = -std::numeric_limits<double>::infinity();
+  for (const double scale : kScales) {
+    DrillState tried;
+    tried.kind = &kind;
+    for (const int p : {int{kDrillX}, int{kDrillY}, int{kDrillZ}, int{kDrillYaw}})
+      tried.values[p] = state.values[p];
+    tried.values[kDrillScale] = std::clamp(scale, kind.min_scale, kind.max_scale);
+    tried.log_likelihood = Score(likelihood, tried, base_from_table, prior);
+    if (best.kind == nullptr || tried.log_likelihood > best.log_likelihood) best = tried;
+  }
+  return best;
+}
+
 DrillState LocalSearch(const SolidLikelihood& likelihood, const DrillState& start,
                        const TableFrame& base_from_table, const DrillPrior& prior,
                        LocalSearchEffort effort) {

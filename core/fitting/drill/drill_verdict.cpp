@@ -131,7 +131,7 @@ std::vector<Gate> DirectionGates(const DrillEvidence& evidence, const DrillSuppo
 void AddPartOutside(const RaySet& region, const DrillCandidate& drill,
                     std::vector<std::string>& failed) {
   for (const SolidPart& part : drill.model.parts) {
-    if (part.name == "bit") continue;
+    if (part.name == DrillTemplate::kBit) continue;
     const Gate gate{.what = fmt::format("its {} lies {{}} outside of the region", part.name),
                     .unit = Gate::Unit::kLength,
                     .number = DistanceFromRays(

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -26,6 +27,7 @@ constexpr std::size_t kMinForeground = 25;
 constexpr int kCoarseRays = 500;
 constexpr std::size_t kCoarseModes = 10;
 constexpr std::size_t kFineModes = 4;
+constexpr std::size_t kFineRivals = 2;  // of other templates in the leader's place
 constexpr std::size_t kAlternatives = 3;
 constexpr double kBodyRadius_m = 0.027;
 constexpr double kOtherWay_rad = 0.5;
@@ -113,37 +115,50 @@ class DrillFit {
     return modes;
   }
 
-  /// The dangerous error is a drill that points the wrong way: the leader is turned by 180 deg, and
-  /// again for as long as that is better. The last one, which was not, joins the modes.
-  DrillState TestFlip(std::vector<DrillState>& modes) const {
+  /// The dangerous error is a drill that points the wrong way. The leader is turned by 180 deg, and
+  /// every other template stands in its place either way round, for as long as one of these is
+  /// better: a search that began with one template may have missed the other way of another. Those
+  /// that were not better join the modes; the best one that points the other way is returned.
+  Result<DrillState> TestFlip(std::vector<DrillState>& modes, const RunContext& context) const {
     constexpr int kMostTurns = 4;
-    DrillState flipped;
     for (int i = 0; i < kMostTurns; ++i) {
-      flipped = LocalSearch(likelihood_, Flipped(modes.front()), base_from_table_, prior_,
-                            LocalSearchEffort::kFine);
-      const bool better = flipped.log_likelihood > modes.front().log_likelihood;
-      modes.insert(modes.begin() + (better ? 0 : 1), flipped);
-      if (!better) break;
+      const DrillState leader = modes.front();
+      std::vector<DrillState> rivals;
+      for (const DrillTemplate& kind : options_.templates) {
+        if (&kind == leader.kind) continue;
+        for (const DrillState& way : {leader, Flipped(leader)})
+          rivals.push_back(OfKind(coarse_, kind, way, base_from_table_, prior_));
+      }
+      FORESIGHT_CHECK(
+          LocalSearchOfAll(coarse_, rivals, rivals.size(), LocalSearchEffort::kCoarse, context));
+      if (rivals.size() > kFineRivals) rivals.resize(kFineRivals);
+      rivals.push_back(Flipped(leader));
+      FORESIGHT_CHECK(
+          LocalSearchOfAll(likelihood_, rivals, rivals.size(), LocalSearchEffort::kFine, context));
+      modes.insert(modes.end(), rivals.begin(), rivals.end());
+      SortBest(modes);
+      if (!(modes.front().log_likelihood > leader.log_likelihood)) break;
     }
-    SortBest(modes);
-    return flipped;
+    for (const DrillState& mode : modes)
+      if (TurnBetween(mode.yaw(), modes.front().yaw()) > 0.5 * std::numbers::pi) return mode;
+    return Flipped(modes.front());
   }
 
   Result<DrillDetection> Detection(std::vector<DrillState> modes, const RunContext& context) const {
-    const DrillState flipped = TestFlip(modes);
+    FORESIGHT_TRY(const DrillState flipped, TestFlip(modes, context));
     const DrillState& best = modes.front();
     DrillDetection detection;
     detection.best = CandidateOf(best, base_from_table_);
     detection.table = around_.table;
-    for (std::size_t i = 1; i < modes.size() && detection.alternatives.size() < kAlternatives; ++i)
-      detection.alternatives.push_back(CandidateOf(modes[i], base_from_table_));
+    for (const DrillState& mode : OtherPlaces(modes))
+      detection.alternatives.push_back(CandidateOf(mode, base_from_table_));
     DrillSupport support;
     detection.evidence = GatherEvidence(likelihood_.rays(), detection.best);
     SetMargins(modes, flipped.log_likelihood, detection);
     support.proportions_nats = prior_(best);
     DrillState any_flipped, any_own_way;
     const std::function<void()> independent[] = {
-        [&] { any_flipped = OfAnyProportions(Flipped(best)); },
+        [&] { any_flipped = OfAnyProportions(flipped); },
         [&] { any_own_way = OfAnyProportions(best); },
         [&] { SetAlternativeMargin(best, detection); },
         [&] {
@@ -178,17 +193,32 @@ class DrillFit {
     return {};
   }
 
-  /// Of modes that climbed to the same place the best stays.
+  static bool SamePlace(const DrillState& a, const DrillState& b) {
+    return TurnBetween(a.yaw(), b.yaw()) < 0.2 &&
+           (a.values.head<2>() - b.values.head<2>()).norm() < 0.02;
+  }
+
+  /// Of modes of one template that climbed to the same place the best stays.
   static void DropDuplicates(std::vector<DrillState>& modes) {
     std::vector<DrillState> kept;
-    for (const DrillState& mode : modes) {
-      const auto same = [&](const DrillState& other) {
-        return other.kind == mode.kind && TurnBetween(other.yaw(), mode.yaw()) < 0.2 &&
-               (other.values.head<2>() - mode.values.head<2>()).norm() < 0.02;
-      };
-      if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(mode);
-    }
+    for (const DrillState& mode : modes)
+      if (std::none_of(kept.begin(), kept.end(), [&](const DrillState& other) {
+            return other.kind == mode.kind && SamePlace(other, mode);
+          }))
+        kept.push_back(mode);
     modes = std::move(kept);
+  }
+
+  /// What an operator is shown beside the first: the best that stand elsewhere or point elsewhere.
+  static std::vector<DrillState> OtherPlaces(const std::vector<DrillState>& modes) {
+    std::vector<DrillState> shown = {modes.front()};
+    for (const DrillState& mode : modes)
+      if (shown.size() <= kAlternatives &&
+          std::none_of(shown.begin(), shown.end(),
+                       [&](const DrillState& other) { return SamePlace(other, mode); }))
+        shown.push_back(mode);
+    shown.erase(shown.begin());
+    return shown;
   }
 
   void SetMargins(const std::vector<DrillState>& modes, double flipped_log_likelihood,
@@ -242,14 +272,15 @@ class DrillFit {
     const auto& pose = detection.best.base_from_object;
     const double own = best.log_likelihood - prior_(best);
     std::vector<SolidPart> blunt = detection.best.model.parts;
-    const auto head = std::find_if(blunt.begin(), blunt.end(),
-                                   [](const SolidPart& part) { return part.name == "head"; });
+    const auto head = std::find_if(blunt.begin(), blunt.end(), [](const SolidPart& part) {
+      return part.name == DrillTemplate::kHead;
+    });
     const auto is_chuck = [](const SolidPart& part) { return part.name == DrillTemplate::kChuck; };
     const auto chuck = std::find_if(blunt.begin(), blunt.end(), is_chuck);
     if (head != blunt.end() && chuck != blunt.end()) {
       chuck->size_m.head<2>().setConstant(head->size_m.y());
       support.blunt_margin_nats = own - likelihood_(blunt, pose);
-      std::erase_if(blunt, [](const SolidPart& part) { return part.name == "bit"; });
+      std::erase_if(blunt, [](const SolidPart& part) { return part.name == DrillTemplate::kBit; });
       support.blunt_margin_nats =
           std::min(support.blunt_margin_nats, own - likelihood_(blunt, pose));
       std::erase_if(blunt, is_chuck);

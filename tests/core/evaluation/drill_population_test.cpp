@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <set>
 #include <string>
 
+#include "core/detection/fit_in_scan.h"
 #include "core/evaluation/drill_population.h"
 #include "core/evaluation/other_tool.h"
 #include "core/evaluation/table_tools.h"
 #include "core/evaluation/varied_drill.h"
+#include "core/evaluation/varied_world.h"
 
 namespace foresight {
 namespace {
@@ -82,6 +85,18 @@ TEST(DrillPopulation, HalfADrillThatTellsTheWholeIsSomethingToFind) {
   EXPECT_TRUE(right->front().positive);
   EXPECT_FALSE(turned->front().all_ok);
   EXPECT_FALSE(turned->front().positive);
+}
+
+// The search had climbed with another template, turned round, and never tried the drill's own.
+TEST(DrillPopulation, EveryTemplateIsTriedEitherWayRound) {
+  FitTrialOptions options;
+  options.sources = {*FitSourceFromName("foresight")};
+  const auto population = MakeVaried(std::make_unique<DrillPopulation>());
+  for (const std::uint64_t seed : {5028u, 5101u}) {
+    const auto outcomes = RunFitTrial(*population, seed, options, {});
+    ASSERT_TRUE(outcomes) << seed << ": " << outcomes.error().message;
+    EXPECT_TRUE(outcomes->front().all_ok) << seed;
+  }
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/fitting/drill/alternative_shapes.h"
 #include "core/fitting/drill/drill_search.h"
@@ -94,6 +96,25 @@ TEST(FitDrill, GivesTheSameAnswerTwice) {
   EXPECT_EQ(a->best.log_likelihood, b->best.log_likelihood);
   EXPECT_EQ(a->best.base_from_object.translation(), b->best.base_from_object.translation());
   EXPECT_EQ(a->verdict.reason, b->verdict.reason);
+}
+
+// Of every template one stands in the same place: these are one answer to an operator.
+TEST(FitDrill, AlternativesStandOrPointElsewhere) {
+  const auto& found = UsualFit();
+  ASSERT_TRUE(found);
+  std::vector<DrillCandidate> shown = {found->best};
+  for (const DrillCandidate& alternative : found->alternatives) {
+    for (const DrillCandidate& other : shown)
+      EXPECT_TRUE(PlaceError(alternative.base_from_object, other.base_from_object) > 0.015 ||
+                  YawError(alternative.base_from_object, other.base_from_object) > 5.0);
+    shown.push_back(alternative);
+  }
+  EXPECT_GE(shown.size(), 2u);
+  const bool turned = std::any_of(
+      found->alternatives.begin(), found->alternatives.end(), [&](const DrillCandidate& other) {
+        return YawError(other.base_from_object, found->best.base_from_object) > 90.0;
+      });
+  EXPECT_TRUE(turned);
 }
 
 TEST(FitDrill, ADrillBuiltUnlikeEveryTemplateStillPointsTheRightWay) {
