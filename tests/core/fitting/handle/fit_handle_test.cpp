@@ -6,9 +6,11 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "core/base/random.h"
 #include "core/fitting/handle/door_things.h"
+#include "core/fitting/handle/handle_verdict.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/ray_caster.h"
 #include "core/simulation/shapes.h"
@@ -200,6 +202,22 @@ TEST(FitHandle, OfABarThatLooksTheSameEitherWayTheDoorsEdgeSaysWhichWayItPoints)
       EXPECT_GT(found->evidence.edges_nats, 3.0);
     }
   }
+}
+
+TEST(FitHandle, ALeverThatTheNearestEdgeSpeaksAgainstIsNotConfirmed) {
+  const RaySet rays = RaysOf(DoorWithHandle(OnDoor(0.0), 0.125), 0.004, 3);
+  auto found = FitHandle(rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  const auto objects = [&](double edges_nats) {
+    found->evidence.edges_nats = edges_nats;
+    const auto gates = AssessHandle(rays, *found, {}, 0.0).failed_gates;
+    return std::any_of(gates.begin(), gates.end(), [](const std::string& gate) {
+      return gate.find("by where the door ends") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(objects(-4.0));
+  EXPECT_FALSE(objects(0.0));  // no edge was found
+  EXPECT_FALSE(objects(4.0));
 }
 
 TEST(FitHandle, OfTwentyLeversAtUsualNoiseMostAreRight) {
