@@ -49,17 +49,10 @@ std::vector<DrillState> BestByYaw(const SolidLikelihood& likelihood, const Drill
                                   const DrillPrior& prior) {
   std::vector<DrillState> best(kYaws);
   for (int i = 0; i < kYaws; ++i) {
-    DrillState& leading = best[static_cast<std::size_t>(i)];
-    leading.log_likelihood = -std::numeric_limits<double>::infinity();
-    for (const double scale : kScales) {
-      DrillState tried;
-      tried.kind = &kind;
-      tried.values.head<2>() = body;
-      tried.values[kDrillYaw] = 2.0 * std::numbers::pi * i / kYaws;
-      tried.values[kDrillScale] = std::clamp(scale, kind.min_scale, kind.max_scale);
-      tried.log_likelihood = Score(likelihood, tried, base_from_table, prior);
-      if (tried.log_likelihood > leading.log_likelihood) leading = tried;
-    }
+    DrillState at;
+    at.values.head<2>() = body;
+    at.values[kDrillYaw] = 2.0 * std::numbers::pi * i / kYaws;
+    best[static_cast<std::size_t>(i)] = OfKind(likelihood, kind, at, base_from_table, prior);
   }
   return best;
 }

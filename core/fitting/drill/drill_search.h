@@ -25,13 +25,13 @@ Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
                                           const TableFrame& base_from_table,
                                           const DrillPrior& prior, const RunContext& context);
 
-enum class LocalSearchEffort { kCoarse, kFine };
-
 /// Another template where a drill stands, the way that it points, in the size that explains the
 /// rays best, its proportions those of the template.
 DrillState OfKind(const SolidLikelihood& likelihood, const DrillTemplate& kind,
                   const DrillState& state, const TableFrame& base_from_table,
                   const DrillPrior& prior);
+
+enum class LocalSearchEffort { kCoarse, kFine };
 
 /// Climbs the likelihood over all parameters of a drill, the bit's length by trying lengths first.
 /// The result's log_likelihood is never below the start's under the same likelihood.
