@@ -9,6 +9,7 @@
 #include "tests/support/file_size_limit.h"
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
+#include "ui/viewmodels/no_scan_hint.h"
 
 namespace foresight {
 namespace {
@@ -170,6 +171,22 @@ TEST_F(RecordingTest, AFileWithAScanIsClosedAsOneFileAndNotLeftBehind) {
   EXPECT_TRUE(QFileInfo::exists(path));
   EXPECT_FALSE(QFileInfo::exists(path + "-wal"));
   EXPECT_TRUE(RecordingViewModel::LeftBehind(folder.path()).isEmpty());
+}
+
+TEST_F(RecordingTest, TheSessionKnowsHowManyScansTheMissionHeldBefore) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  ASSERT_TRUE(AllWritten());
+  EXPECT_EQ(session.EarlierScans(), 0) << "a scan of this sitting is none from before";
+  EXPECT_EQ(NoScanHint(session), "No scan yet: press Scan (Space)");
+  recording.reset();
+  SessionModel later(SessionMode::kSimulation, &tasks);
+  RecordingViewModel again(&later);
+  ASSERT_TRUE(again.Begin(path));
+  ASSERT_TRUE(WaitFor([&] { return later.EarlierScans() > 0; }));
+  EXPECT_EQ(later.EarlierScans(), 1);
+  EXPECT_FALSE(later.CurrentScan()) << "what was seen before is not shown as what is seen now";
+  EXPECT_TRUE(NoScanHint(later).contains("in the list of scans"));
 }
 
 TEST_F(RecordingTest, WhatIsDecidedJustBeforeTheEndIsWrittenToo) {

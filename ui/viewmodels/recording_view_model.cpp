@@ -226,8 +226,10 @@ void RecordingViewModel::refreshList() {
       },
       [this](Result<Listed> listed) {
         if (!listed) return;  // the file itself is not in danger; the next change lists again
+        const bool first = listed->file != list_file_;
         list_file_ = listed->file;
         scans_ = std::move(listed->scans);
+        if (first) session_->SetEarlierScans(static_cast<int>(scans_.size()));
         Q_EMIT changed();
       });
 }

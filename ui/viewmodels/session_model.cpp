@@ -63,6 +63,12 @@ void SessionModel::GiveUpScan() {
   Q_EMIT scanChanged();
 }
 
+void SessionModel::SetEarlierScans(int count) {
+  if (count == earlier_scans_) return;
+  earlier_scans_ = count;
+  Q_EMIT earlierScansChanged();
+}
+
 QDateTime SessionModel::ScanTime() const {
   if (!ShownScan() || ShownScan()->start_utc_ns == 0) return {};
   return QDateTime::fromMSecsSinceEpoch(BeginUtc_ns(*ShownScan()) / 1'000'000);

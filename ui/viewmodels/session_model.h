@@ -94,6 +94,9 @@ class SessionModel : public QObject {
   /// The scan that was expected will not come.
   void GiveUpScan();
   QDateTime ScanTime() const;
+  /// How many scans the mission file held when the session went on in it.
+  int EarlierScans() const { return earlier_scans_; }
+  void SetEarlierScans(int count);
 
   void SelectImage(int index);
   int ImageIndex() const { return image_index_; }
@@ -166,6 +169,7 @@ class SessionModel : public QObject {
 
  Q_SIGNALS:
   void scanChanged();
+  void earlierScansChanged();
   void imageChanged();
   void cloudChanged();
   void depthChanged();
@@ -191,6 +195,7 @@ class SessionModel : public QObject {
   NotesModel notes_{&undo_};
   std::shared_ptr<const Scan> scan_;
   bool expects_scan_ = false;
+  int earlier_scans_ = 0;
   std::shared_ptr<const Scan> arriving_;
   int image_index_ = -1;
   std::shared_ptr<const RegisteredScan> cloud_;

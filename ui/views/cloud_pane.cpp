@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "core/detection/fit_in_scan.h"
+#include "ui/viewmodels/no_scan_hint.h"
 #include "ui/views/color_bar.h"
 
 namespace foresight {
@@ -21,7 +22,7 @@ constexpr std::size_t kMapBudget = 500'000;
 }  // namespace
 
 CloudPane::CloudPane(const CloudModels& models, QWidget* parent)
-    : Pane(new CloudCanvas, tr("No scan yet: press Scan (Space)"), parent),
+    : Pane(new CloudCanvas, NoScanHint(*models.session), parent),
       session_(models.session),
       map_(models.map),
       clip_(models.clip),
@@ -32,13 +33,14 @@ CloudPane::CloudPane(const CloudModels& models, QWidget* parent)
   FitViewModel* fit = models.fit;
   BuildControls();
   BindMap();
-  connect(session_, &SessionModel::scanChanged, this, [this] {
-    const bool replay = session_->Mode() == SessionMode::kReplay;
-    SetHint(session_->ExpectsScan() && replay ? tr("No line had come at this moment")
-            : session_->ExpectsScan()         ? tr("Scanning …")
-            : session_->CurrentScan()         ? tr("Preparing the cloud …")
-                                              : tr("No scan yet: press Scan (Space)"));
-  });
+  for (auto signal : {&SessionModel::scanChanged, &SessionModel::earlierScansChanged})
+    connect(session_, signal, this, [this] {
+      const bool replay = session_->Mode() == SessionMode::kReplay;
+      SetHint(session_->ExpectsScan() && replay ? tr("No line had come at this moment")
+              : session_->ExpectsScan()         ? tr("Scanning …")
+              : session_->CurrentScan()         ? tr("Preparing the cloud …")
+                                                : NoScanHint(*session_));
+    });
   connect(session_, &SessionModel::cloudChanged, this, [this] {
     if (Shown() != Source::kMap) Prepare();
   });

@@ -8,6 +8,7 @@
 
 #include "core/geometry/angles.h"
 #include "ui/viewmodels/age_text.h"
+#include "ui/viewmodels/no_scan_hint.h"
 
 namespace foresight {
 namespace {
@@ -21,7 +22,7 @@ double ShownAngle(const CameraFrame& frame) {
 
 ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* layers,
                      QWidget* parent)
-    : Pane(new ImageCanvas, tr("No scan yet: press Scan (Space)"), parent),
+    : Pane(new ImageCanvas, NoScanHint(*session), parent),
       session_(session),
       layers_(layers),
       canvas_(static_cast<ImageCanvas*>(Pane::Canvas())),
@@ -36,10 +37,11 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* 
             : review ? tr("Open a mission for review (Ctrl+O), or choose one of its scans")
             : session_->ExpectsScan() ? tr("Scanning: the image appears when it is taken")
             : session_->CurrentScan() ? tr("This scan holds no image")
-                                      : tr("No scan yet: press Scan (Space)"));
+                                      : NoScanHint(*session_));
   };
   show_hint();
-  connect(session_, &SessionModel::scanChanged, this, show_hint);
+  for (auto signal : {&SessionModel::scanChanged, &SessionModel::earlierScansChanged})
+    connect(session_, signal, this, show_hint);
   connect(session_, &SessionModel::scanChanged, this, &ImagePane::FillChoice);
   connect(session_, &SessionModel::imageChanged, this, &ImagePane::ShowImage);
   connect(session_, &SessionModel::objectsChanged, this, &ImagePane::ShowOutlines);
