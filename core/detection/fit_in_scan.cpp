@@ -1,15 +1,14 @@
 #include "core/detection/fit_in_scan.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "core/base/quantile.h"
 #include "core/depth/depth_method.h"
 #include "core/detection/fit_option_table.h"
 #include "core/detection/image_of_region.h"
 #include "core/fitting/range_noise.h"
+#include "core/fitting/ray_selection.h"
 
 namespace foresight {
 namespace {
@@ -18,7 +17,7 @@ namespace {
 constexpr double kRangeSigma_m = 0.010;
 /// Neighbouring pixels of a dense map say the same twice.
 constexpr int kDepthStride_px = 2;
-/// From the middle of a door handle's region: beyond the edge of its door.
+/// From the middle of a region: beyond the edge of a handle's door, and of what a drill stands on.
 constexpr double kSurroundings_m = 0.5;
 
 RaySet WithOwnSigma(RaySet rays) {
@@ -27,14 +26,9 @@ RaySet WithOwnSigma(RaySet rays) {
   return rays;
 }
 
-/// With what lies round them; without it where that has no rays.
-RaySet WithSurroundings(RaySet rays, const RaysOfRegion& rays_of) {
-  std::array<std::vector<double>, 3> places;
-  for (const RangeRay& ray : rays.rays)
-    for (int axis = 0; axis < 3; ++axis) places[axis].push_back(ray.Point()[axis]);
-  Eigen::Vector3d middle;
-  for (int axis = 0; axis < 3; ++axis) middle[axis] = Quantile(std::move(places[axis]), 0.5);
-  const BoxRoi box{{Eigen::Quaterniond::Identity(), middle},
+/// With what lies round a place; without it where that has no rays.
+RaySet WithSurroundings(RaySet rays, const Eigen::Vector3d& place, const RaysOfRegion& rays_of) {
+  const BoxRoi box{{Eigen::Quaterniond::Identity(), place},
                    Eigen::Vector3d::Constant(2.0 * kSurroundings_m)};
   if (auto around = rays_of(box, BoxRays::kEndInside))
     rays.around = std::make_shared<const RaySet>(std::move(*around));
@@ -158,8 +152,10 @@ Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const ImageOfRays& im
   const auto rays_in_roi = [&](BoxRays box_rays) -> Result<RaySet> {
     FORESIGHT_TRY(RaySet rays, rays_of(roi, box_rays));
     if (image_of && UsesImage(ObjectKindOf(options))) rays.image = image_of(rays);
-    const bool on_door = std::holds_alternative<FitHandleOptions>(options);
-    return on_door ? WithSurroundings(std::move(rays), rays_of) : std::move(rays);
+    const bool is_handle = std::holds_alternative<FitHandleOptions>(options);
+    if (!is_handle && !std::holds_alternative<FitDrillOptions>(options)) return rays;
+    const Eigen::Vector3d place = is_handle ? MedianPlace(rays.rays) : PlaceInMiddle(rays);
+    return WithSurroundings(std::move(rays), place, rays_of);
   };
   if (std::holds_alternative<FitTerrainOptions>(options) || !is_box) {
     FORESIGHT_TRY(const RaySet rays, rays_in_roi(BoxRays::kEndInside));

@@ -102,8 +102,8 @@ using ImageOfRays = std::function<std::shared_ptr<const ImageEdges>(const RaySet
 /// front of the far wall itself and may hide the object: where that fit is UNSURE or finds nothing,
 /// the rays that end inside are tried alone, and the answer of the higher probability is given. A
 /// terrain's box holds its ground. Of a cylinder the beams that went past on both sides fix the
-/// radius: they always count. A door handle is told what lies within 0.5 m of its region, too
-/// (RaySet::around). Fails as the first of both fits, and as `rays_of`.
+/// radius: they always count. A door handle and a drill are told what lies within 0.5 m of the
+/// region's middle, too (RaySet::around). Fails as the first of both fits, and as `rays_of`.
 Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const ImageOfRays& image_of,
                               const Roi& roi, const FitOptions& options, const RunContext& context);
 

@@ -18,7 +18,7 @@ using Pose = Rigid<frame::Robot, frame::Object>;
 
 constexpr std::uint64_t kDrillStream = 4343;
 constexpr std::uint64_t kVariedStream = 4344;  // of what was added later: the rest stays as it was
-constexpr double kVaried = 0.35;               // of the drills
+constexpr double kVaried = 0.5;                // of the drills
 constexpr double kTools = 0.5;                 // of the negatives that are no half drills
 constexpr double kHeadHeight_m = 1.4;          // of DefaultSensorRig, and 0.1 m in front of robot
 constexpr double kHeadForward_m = 0.1;

@@ -1,5 +1,6 @@
 #include "core/evaluation/other_drill_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -39,8 +40,10 @@ void AddBench(const Eigen::Vector3d& foot, double azimuth_rad, Random& random, S
            UprightPose(foot + (0.5 * depth - front) * away - 0.5 * thick * Eigen::Vector3d::UnitZ(),
                        azimuth_rad + random.Uniform(-0.5, 0.5)),
            random, scene);
-  AddSolid("floor", BoxShape({14.0, 14.0, 0.1}), UprightPose({0.0, 0.0, -0.05}, 0.0), random,
-           scene);
+  // At z = 0, or under the bench where that is lower.
+  const double floor_m = std::min(0.0, foot.z() - thick);
+  AddSolid("floor", BoxShape({14.0, 14.0, 0.1}), UprightPose({0.0, 0.0, floor_m - 0.05}, 0.0),
+           random, scene);
   const int count = random.Index(5);
   for (int i = 0; i < count; ++i) {
     const double side = random.Chance(0.5) ? 1.0 : -1.0;

@@ -1,7 +1,8 @@
 #include "core/evaluation/varied_drill.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/evaluation/table_thing.h"
 #include "core/geometry/angles.h"
@@ -31,20 +32,34 @@ void DrawFoot(Random& random, VariedDrill& drill) {
   drill.foot_forward_m = random.Uniform(-0.012, 0.024);
 }
 
-/// The point of the grip's axis at a height.
+double GripLow(const VariedDrill& drill) {
+  return drill.foot_height_m + drill.neck_m;
+}
+
+/// The middle of the grip at a height: on its axis, which joins its ends, or bowed out of it.
 Eigen::Vector3d OnGrip(const VariedDrill& drill, double height_m) {
-  return {height_m * std::tan(drill.rake_rad), 0.0, height_m};
+  const double low_m = GripLow(drill);
+  const double t = std::clamp((height_m - low_m) / (drill.head_height_m - low_m), 0.0, 1.0);
+  return {height_m * std::tan(drill.rake_rad) + 4.0 * drill.bow_m * t * (1.0 - t), 0.0, height_m};
+}
+
+void AddGrip(const VariedDrill& drill, TableThing& thing) {
+  constexpr int kPieces = 8;
+  const double low_m = GripLow(drill);
+  std::vector<Eigen::Vector3d> path = {OnGrip(drill, low_m - 0.005)};
+  for (int i = 1; i <= kPieces; ++i)
+    path.push_back(OnGrip(drill, low_m + i * (drill.head_height_m - low_m) / kPieces));
+  thing.AddGrip(drill.grip_half_m, path);
 }
 
 void AddFootAndGrip(const VariedDrill& drill, TableThing& thing) {
-  const double foot_top_m = drill.foot_height_m + drill.neck_m;
+  const double foot_top_m = GripLow(drill);
   thing.AddBox({drill.foot_length_m, drill.foot_width_m, drill.foot_height_m},
                {drill.foot_forward_m, 0.0, 0.5 * drill.foot_height_m});
   if (drill.neck_m > 0.0)
     thing.AddBox({0.72 * drill.foot_length_m, 0.86 * drill.foot_width_m, drill.neck_m},
                  {0.5 * drill.foot_forward_m, 0.0, drill.foot_height_m + 0.5 * drill.neck_m});
-  const std::array path = {OnGrip(drill, foot_top_m - 0.005), OnGrip(drill, drill.head_height_m)};
-  thing.AddGrip(drill.grip_half_m, path);
+  AddGrip(drill, thing);
   const double trigger_m = drill.head_height_m - drill.head_radius_m - 0.018;
   if (drill.trigger)
     thing.AddBox(
@@ -95,7 +110,8 @@ VariedDrill RandomVariedDrill(Random& random) {
   VariedDrill drill;
   DrawFoot(random, drill);
   drill.grip_half_m = {random.Uniform(0.021, 0.031), random.Uniform(0.017, 0.024)};
-  drill.rake_rad = RadiansFromDegrees(random.Uniform(-12.0, 12.0));
+  drill.rake_rad = RadiansFromDegrees(random.Uniform(-5.0, 18.0));
+  drill.bow_m = random.Chance(0.6) ? random.Uniform(-0.008, 0.008) : 0.0;
   drill.head_radius_m = random.Uniform(0.027, 0.038);
   drill.head_height_m = random.Uniform(0.150, 0.235);
   drill.head_flattened = random.Uniform(0.8, 1.05);
@@ -129,9 +145,8 @@ void AddVariedDrill(const VariedDrill& drill, const DrillMaterials& materials,
   truth.name = "drill";
   truth.robot_from_object = robot_from_place;
   truth.body_tilt_rad = {0.0, drill.rake_rad};
-  const double grip_low_m = drill.foot_height_m + drill.neck_m;
   const double grip_high_m = drill.head_height_m - drill.head_radius_m;
-  truth.grip_height_m = 0.5 * (grip_low_m + grip_high_m) / std::cos(drill.rake_rad);
+  truth.grip_height_m = 0.5 * (GripLow(drill) + grip_high_m) / std::cos(drill.rake_rad);
   scene.drills.push_back(truth);
 }
 

@@ -7,9 +7,10 @@ namespace foresight {
 
 /// A drill of the proportions that cordless drills and drivers have, not those of a template with a
 /// tenth more or less: heads 120 to 230 mm long of revolved outlines, up to a fifth narrower than
-/// high, with flat or round backs and stepped or conical chucks; oval grips that lean up to 12 deg
-/// under a level head; slide packs, flat packs and the small feet of 12 V drivers; hooks, side
-/// handles, bits of 0 to 130 mm; 170 to 290 mm tall.
+/// high, with flat or round backs and stepped or conical chucks; oval grips that lean by
+/// -5 to 18 deg under a level head, as pistol grips do, and bow by up to 8 mm; slide packs, flat
+/// packs and the small feet of 12 V drivers; hooks, side handles, bits of 0 to 130 mm; 170 to 290
+/// mm tall.
 struct VariedDrill {
   double foot_length_m = 0.0;
   double foot_width_m = 0.0;
@@ -18,6 +19,7 @@ struct VariedDrill {
   double neck_m = 0.0;  ///< height of a narrower neck above the foot; 0 = none
   Eigen::Vector2d grip_half_m = Eigen::Vector2d::Zero();  ///< along x and across
   double rake_rad = 0.0;  ///< of the grip: positive = its upper end is further in front
+  double bow_m = 0.0;     ///< how far its middle is in front of the line between its ends
   double head_height_m = 0.0;
   double head_radius_m = 0.0;
   double head_flattened = 1.0;  ///< its width to its height

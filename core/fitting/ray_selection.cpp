@@ -1,6 +1,10 @@
 #include "core/fitting/ray_selection.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
+
+#include "core/base/quantile.h"
 
 namespace foresight {
 namespace {
@@ -24,6 +28,41 @@ RaySet Thinned(const RaySet& rays, int count, Random& random) {
 RaySet WithoutImage(RaySet rays) {
   rays.image = nullptr;
   return rays;
+}
+
+Eigen::Vector3d MedianPlace(std::span<const RangeRay> rays) {
+  std::array<std::vector<double>, 3> places;
+  for (const RangeRay& ray : rays) {
+    const Eigen::Vector3d at = ray.Point();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      places[axis].push_back(at[static_cast<Eigen::Index>(axis)]);
+  }
+  Eigen::Vector3d middle;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    middle[static_cast<Eigen::Index>(axis)] = Quantile(std::move(places[axis]), 0.5);
+  return middle;
+}
+
+Eigen::Vector3d PlaceInMiddle(const RaySet& rays) {
+  constexpr double kMiddle = 0.3, kNearest = 0.5;  // of the rays
+  Eigen::Vector3d sight = Eigen::Vector3d::Zero();
+  for (const RangeRay& ray : rays.rays) sight += ray.direction;
+  std::vector<RangeRay> middle = rays.rays;
+  const auto keep = [&](double fraction, const auto& before) {
+    const auto count =
+        static_cast<std::ptrdiff_t>(std::ceil(fraction * static_cast<double>(middle.size())));
+    std::nth_element(middle.begin(), middle.begin() + (count - 1), middle.end(), before);
+    middle.resize(static_cast<std::size_t>(count));
+  };
+  keep(kMiddle, [&](const RangeRay& a, const RangeRay& b) {
+    return sight.dot(a.direction) > sight.dot(b.direction);
+  });
+  keep(kNearest, [](const RangeRay& a, const RangeRay& b) { return a.range_m < b.range_m; });
+  return MedianPlace(middle);
+}
+
+const RaySet* SurroundingBeams(const RaySet& region) {
+  return region.around ? &region.around->Measured() : nullptr;
 }
 
 std::shared_ptr<const RaySet> ThinnedBeams(const RaySet& rays, int count, int least,

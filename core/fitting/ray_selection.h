@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "core/base/random.h"
@@ -25,6 +26,17 @@ RaySet Thinned(const RaySet& rays, int count, Random& random);
 
 /// What the beams alone say.
 RaySet WithoutImage(RaySet rays);
+
+/// The median of where rays end, in base, each coordinate by itself. @pre !rays.empty()
+Eigen::Vector3d MedianPlace(std::span<const RangeRay> rays);
+
+/// About where the thing is that a region was drawn round: the median place of the nearer half of
+/// the rays in its middle. What is before it and behind it is left out. @pre !rays.rays.empty()
+Eigen::Vector3d PlaceInMiddle(const RaySet& rays);
+
+/// What was measured round a region, the beams behind a map where they are known; null = it is not
+/// known.
+const RaySet* SurroundingBeams(const RaySet& region);
 
 /// Fails with kInvalidInput for a noise, footprint, weight or viewpoint that is no use.
 Status CheckRayNoise(const RaySet& rays);

@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "core/base/contract.h"
+#include "core/geometry/angles.h"
 #include "core/geometry/rotation_between.h"
 
 namespace foresight {
 namespace {
 
+constexpr double kMostRake_rad = 0.4;
 constexpr double kShortestBit_m = 0.002;
 constexpr double kLargest_m = 1.0;  // of what a hand holds
 constexpr std::ptrdiff_t kMostParts = 64;
@@ -82,6 +84,33 @@ void LengthenForward(SolidPart& part, double by_m) {
   Move(part, {0.5 * by, 0.0, 0.0});
 }
 
+/// Grows about the table.
+void Heighten(SolidPart& foot, double fraction) {
+  const Eigen::Vector3d middle = foot.object_from_part.translation();
+  foot.size_m.z() *= fraction;
+  Move(foot, {0.0, 0.0, (fraction - 1.0) * middle.z()});
+}
+
+/// The body reaches down to a lower foot.
+void ReachDown(SolidPart& body, double foot_height_fraction) {
+  const double low_m = body.object_from_part.translation().z() - 0.5 * body.size_m.z();
+  const double by_m = std::max(0.0, (1.0 - foot_height_fraction) * low_m);
+  body.size_m.z() += by_m;
+  Move(body, {0.0, 0.0, -0.5 * by_m});
+}
+
+/// Across its length: a round part, or a box that lies along x.
+void Thicken(SolidPart& part, double fraction) {
+  if (part.shape != SolidPart::Shape::kBox) {
+    part.size_m.head<2>() *= fraction;
+    return;
+  }
+  const int axis = AxisAlongX(part);
+  if (axis < 0) return;
+  for (int i = 0; i < 3; ++i)
+    if (i != axis) part.size_m[i] *= fraction;
+}
+
 /// Of round parts.
 void Widen(SolidPart& part, double fraction) {
   if (part.shape != SolidPart::Shape::kBox) part.size_m.head<2>() *= fraction;
@@ -91,10 +120,26 @@ void Widen(SolidPart& part, double fraction) {
 /// chuck.
 void ChangeHead(SolidPart& part, const DrillProportions& proportions) {
   Stretch(part, proportions.front_m, proportions.back_m);
+  if (part.name == DrillTemplate::kHead) Thicken(part, proportions.head_fraction);
   if (part.name == DrillTemplate::kGearCase) Widen(part, proportions.nose_fraction);
   if (part.name != DrillTemplate::kChuck) return;
   Widen(part, proportions.chuck_fraction);
   LengthenForward(part, proportions.chuck_longer_m);
+}
+
+/// What stands on the table as the drill has it.
+SolidPart OwnFoot(SolidPart part, const DrillProportions& proportions) {
+  part.size_m.head<2>() *= proportions.foot_fraction;
+  Heighten(part, proportions.foot_height_fraction);
+  Move(part, {proportions.foot_forward_m, 0.0, 0.0});
+  return part;
+}
+
+/// The body as the drill has it, before it leans.
+void ChangeBody(SolidPart& body, double up_m, const DrillProportions& proportions) {
+  Lengthen(body, up_m);
+  ReachDown(body, proportions.foot_height_fraction);
+  body.size_m.head<2>() *= proportions.grip_fraction;
 }
 
 }  // namespace
@@ -107,6 +152,11 @@ Status DrillTemplate::Check() const {
   if (!(log_prior <= 0.0 && log_prior >= -1000.0))
     return Fail(ErrorCode::kInvalidOptions,
                 "drill template '{}': log_prior {} is not within -1000 to 0", name, log_prior);
+  if (!(std::abs(usual_rake_rad) <= kMostRake_rad))
+    return Fail(ErrorCode::kInvalidOptions,
+                "drill template '{}': usual_rake_deg {:.1f} is not within -{:.1f} to {:.1f}", name,
+                DegreesFromRadians(usual_rake_rad), DegreesFromRadians(kMostRake_rad),
+                DegreesFromRadians(kMostRake_rad));
   if (!(bit_radius_m > 0.0 && bit_radius_m <= 0.5 && max_bit_length_m >= 0.0 &&
         max_bit_length_m <= 0.5))
     return Fail(ErrorCode::kInvalidOptions,
@@ -171,21 +221,17 @@ DrillModel DrillTemplate::Make(double scale, const Eigen::Vector2d& body_tilt_ra
   };
   for (const SolidPart& part : parts) {
     SolidPart made = Scaled(part, scale);
+    const bool above_grasp = part.object_from_part.translation().z() > grasp_height_m;
     if (part.name == kFoot) {
-      made.size_m.head<2>() *= proportions.foot_fraction;
-      Move(made, {proportions.foot_forward_m, 0.0, 0.0});
-      model.parts.push_back(std::move(made));
+      model.parts.push_back(OwnFoot(std::move(made), proportions));
       continue;
     }
-    const bool of_head = part.name != kBody && part.name != kTrigger &&
-                         part.object_from_part.translation().z() > grasp_height_m;
-    if (of_head) {
+    if (above_grasp && part.name != kBody && part.name != kTrigger) {
       ChangeHead(made, proportions);
       Move(made, to_head(made.object_from_part.translation()));
     } else {
-      if (part.name == kBody) Lengthen(made, up.z());
-      if (part.name == kTrigger && part.object_from_part.translation().z() > grasp_height_m)
-        Move(made, up);
+      if (part.name == kBody) ChangeBody(made, up.z(), proportions);
+      if (part.name == kTrigger && above_grasp) Move(made, up);
       made.object_from_part = rake * made.object_from_part;
     }
     made.object_from_part = lean * made.object_from_part;

@@ -17,9 +17,12 @@ struct DrillProportions {
   double nose_fraction = 1.0;   ///< of the radius of the gear case
   double chuck_fraction = 1.0;  ///< of the chuck's radius
   double chuck_longer_m = 0.0;
-  double foot_fraction = 1.0;   ///< of the foot's length and width
-  double foot_forward_m = 0.0;  ///< how much further the foot is in front of the body's axis
-  double rake_rad = 0.0;        ///< of the grip under a level head: positive = its top is in front
+  double foot_fraction = 1.0;         ///< of the foot's length and width
+  double foot_height_fraction = 1.0;  ///< of what stands on the table, from the table up
+  double grip_fraction = 1.0;         ///< of the body's width and depth
+  double head_fraction = 1.0;         ///< of the head's width and height
+  double foot_forward_m = 0.0;        ///< how much further the foot is in front of the body's axis
+  double rake_rad = 0.0;  ///< of the grip under a level head: positive = its top is in front
 };
 
 /// A kind of drill, read from a data file (resources/templates, docs/templates.md): the parts at
@@ -40,6 +43,9 @@ struct DrillTemplate {
   double min_scale = 0.8;
   double max_scale = 1.25;
   double log_prior = 0.0;  ///< in nats, 0 or less: how seldom this kind is met beside the others
+  /// How far a grip of this kind usually leans under its head beyond what its parts do, as
+  /// DrillProportions::rake_rad; within 0.4.
+  double usual_rake_rad = 0.0;
   double bit_radius_m = 0.004;
   double max_bit_length_m = 0.15;  ///< from the chuck's face
   /// Where a bit begins, and the way it points there: x, or z of a tool that works upwards.

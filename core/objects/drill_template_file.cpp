@@ -94,6 +94,7 @@ DrillTemplate TemplateFrom(YamlMap& map) {
   drill.min_scale = Positive(map, "min_scale", drill.min_scale);
   drill.max_scale = Positive(map, "max_scale", drill.max_scale);
   drill.log_prior = map.Number("log_prior", drill.log_prior);
+  drill.usual_rake_rad = RadiansFromDegrees(map.Number("usual_rake_deg", 0.0));
   for (YamlMap& entry : map.List("parts")) drill.parts.push_back(PartOf(entry));
   ReadBit(map.Map("bit"), drill);
   drill.object_from_grasp = {Eigen::Quaterniond::Identity(), map.Vector("grasp_m")};

@@ -99,6 +99,9 @@ PatternSearchOptions Steps(LocalSearchEffort effort) {
   add({{kDrillScale, 0.040}, {kDrillHeadUp, -0.040 * kHeadHeight_m}, {kDrillFoot, -0.040}});
   options.rounds = effort == LocalSearchEffort::kCoarse ? 3 : 5;
   if (effort == LocalSearchEffort::kCoarse) return options;
+  add({{kDrillFootHeight, 0.10}});
+  add({{kDrillGrip, 0.06}});
+  add({{kDrillHead, 0.06}});
   add({{kDrillZ, 0.004}});
   add({{kDrillBit, 0.010}});
   add({{kDrillNose, 0.08}});
@@ -110,6 +113,21 @@ PatternSearchOptions Steps(LocalSearchEffort effort) {
   // The grip leans under the head as it was.
   add({{kDrillRake, 0.050}, {kDrillTiltY, -0.050}});
   return options;
+}
+
+/// The grip leans about kTiltHeight_m while foot and head stay where they are.
+Eigen::VectorXd GripAlone(double yaw) {
+  constexpr double kLean_rad = 0.08;
+  const double below_m = kLean_rad * kTiltHeight_m;
+  const double above_m = kLean_rad * (kHeadHeight_m - kTiltHeight_m);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(kDrillParameters);
+  step[kDrillRake] = kLean_rad;
+  step[kDrillX] = -below_m * std::cos(yaw);
+  step[kDrillY] = -below_m * std::sin(yaw);
+  step[kDrillFootForward] = below_m;
+  step[kDrillFront] = -above_m;
+  step[kDrillBack] = above_m;
+  return step;
 }
 
 /// The bit's length by trying all: its few rays make many local maxima.
@@ -197,6 +215,10 @@ Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
 DrillState OfKind(const SolidLikelihood& likelihood, const DrillTemplate& kind,
                   const DrillState& state, const TableFrame& base_from_table,
                   const DrillPrior& prior) {
+  // The middle of the grip stays where it is.
+  const double forward_m =
+      kTiltHeight_m * (state.values[kDrillRake] + state.values[kDrillTiltY] - kind.usual_rake_rad);
+  const double right_m = kTiltHeight_m * state.values[kDrillTiltX];
   DrillState best;
   best.log_likelihood = -std::numeric_limits<double>::infinity();
   for (const double scale : kScales) {
@@ -204,6 +226,9 @@ DrillState OfKind(const SolidLikelihood& likelihood, const DrillTemplate& kind,
     tried.kind = &kind;
     for (const int p : {int{kDrillX}, int{kDrillY}, int{kDrillZ}, int{kDrillYaw}})
       tried.values[p] = state.values[p];
+    tried.values[kDrillX] += forward_m * std::cos(state.yaw()) + right_m * std::sin(state.yaw());
+    tried.values[kDrillY] += forward_m * std::sin(state.yaw()) - right_m * std::cos(state.yaw());
+    tried.values[kDrillRake] = kind.usual_rake_rad;
     tried.values[kDrillScale] = std::clamp(scale, kind.min_scale, kind.max_scale);
     tried.log_likelihood = Score(likelihood, tried, base_from_table, prior);
     if (best.kind == nullptr || tried.log_likelihood > best.log_likelihood) best = tried;
@@ -236,6 +261,7 @@ DrillState LocalSearch(const SolidLikelihood& likelihood, const DrillState& star
     step.head<2>() = -kTiltHeight_m * kLean_rad * along;
     options.steps.push_back(step);
   }
+  if (effort == LocalSearchEffort::kFine) options.steps.push_back(GripAlone(yaw));
   const PatternSearchResult found = ClimbByPatternSearch(best.values, score, options);
   best.values = found.values;
   best.log_likelihood = found.score;

@@ -1,5 +1,6 @@
 #include "core/fitting/drill/drill_state.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -25,7 +26,10 @@ constexpr std::array kProportions = {
     Proportion{kDrillChuckLonger, &DrillPrior::chuck_longer_sigma_m},
     Proportion{kDrillFoot, &DrillPrior::foot_sigma},
     Proportion{kDrillFootForward, &DrillPrior::foot_forward_sigma_m},
-    Proportion{kDrillRake, &DrillPrior::rake_sigma_rad}};
+    Proportion{kDrillRake, &DrillPrior::rake_sigma_rad},
+    Proportion{kDrillFootHeight, &DrillPrior::foot_height_sigma},
+    Proportion{kDrillGrip, &DrillPrior::grip_sigma},
+    Proportion{kDrillHead, &DrillPrior::head_sigma}};
 
 }  // namespace
 
@@ -47,6 +51,9 @@ DrillModel DrillState::Model() const {
                      .chuck_fraction = 1.0 + values[kDrillChuck],
                      .chuck_longer_m = values[kDrillChuckLonger],
                      .foot_fraction = 1.0 + values[kDrillFoot],
+                     .foot_height_fraction = 1.0 + values[kDrillFootHeight],
+                     .grip_fraction = 1.0 + values[kDrillGrip],
+                     .head_fraction = 1.0 + values[kDrillHead],
                      .foot_forward_m = values[kDrillFootForward],
                      .rake_rad = values[kDrillRake]});
 }
@@ -68,9 +75,9 @@ double DrillPrior::operator()(const DrillState& state) const {
                       Squared((v[kDrillScale] - 1.0) / scale_sigma) +
                       Squared(tilt / tilt_sigma_rad);
   for (const auto& [parameter, sigma] : kProportions) {
-    if (std::abs(v[parameter]) > kReach * this->*sigma)
-      return -std::numeric_limits<double>::infinity();
-    deviations += Squared(v[parameter] / this->*sigma);
+    const double off = v[parameter] - (parameter == kDrillRake ? state.kind->usual_rake_rad : 0.0);
+    if (std::abs(off) > kReach * this->*sigma) return -std::numeric_limits<double>::infinity();
+    deviations += Squared(off / this->*sigma);
   }
   return state.kind->log_prior - 0.5 * deviations;
 }
@@ -95,12 +102,20 @@ DrillPrior AnyProportions(DrillPrior prior) {
   return prior;
 }
 
-DrillState Flipped(const DrillState& state) {
+DrillState Flipped(const DrillState& state, const DrillPrior& prior) {
+  constexpr double kWithin = 0.99;  // of what the prior allows
   DrillState flipped = state;
   flipped.values[kDrillYaw] += std::numbers::pi;
   flipped.values[kDrillTiltX] *= -1.0;
-  flipped.values[kDrillTiltY] *= -1.0;
-  flipped.values[kDrillRake] *= -1.0;
+  const double usual = state.kind->usual_rake_rad;
+  const double reach = kWithin * kReach * prior.rake_sigma_rad;
+  const double rake = std::clamp(-state.values[kDrillRake], usual - reach, usual + reach);
+  flipped.values[kDrillRake] = rake;
+  flipped.values[kDrillTiltY] = -state.values[kDrillTiltY] - state.values[kDrillRake] - rake;
+  const double tilt = std::hypot(flipped.values[kDrillTiltX], flipped.values[kDrillTiltY]);
+  const double within = std::min(1.0, kWithin * prior.max_tilt_rad / std::max(1e-9, tilt));
+  flipped.values[kDrillTiltX] *= within;
+  flipped.values[kDrillTiltY] *= within;
   flipped.values[kDrillFootForward] *= -1.0;
   // How far the head reaches to its new front is not known from its new back.
   for (const int p : {int{kDrillFront}, int{kDrillBack}, int{kDrillNose}, int{kDrillChuck},

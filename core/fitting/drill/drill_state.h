@@ -28,6 +28,9 @@ enum DrillParameter {
   kDrillFoot,         ///< size of the foot to that of the template - 1
   kDrillFootForward,
   kDrillRake,
+  kDrillFootHeight,  ///< fraction - 1
+  kDrillGrip,        ///< fraction - 1
+  kDrillHead,        ///< fraction - 1
   kDrillParameters
 };
 /// How many come first: place, way, size, lean and bit, which no template knows. The others are
@@ -64,9 +67,12 @@ struct DrillPrior {
   double nose_sigma = 0.15;   ///< fraction of its radius
   double chuck_sigma = 0.15;  ///< fraction of its radius
   double chuck_longer_sigma_m = 0.010;
-  double foot_sigma = 0.12;  ///< fraction of its size
+  double foot_sigma = 0.12;         ///< fraction of its size
+  double foot_height_sigma = 0.20;  ///< fraction of its height
+  double grip_sigma = 0.10;         ///< fraction of its radius
+  double head_sigma = 0.10;         ///< fraction of its radius
   double foot_forward_sigma_m = 0.008;
-  double rake_sigma_rad = 0.045;
+  double rake_sigma_rad = 0.08;  ///< about the template's usual one
 
   /// Log of the density without its constant; minus infinity outside the template's ranges and
   /// beyond three sigmas of any proportion: that is another kind of drill.
@@ -78,8 +84,9 @@ struct DrillPrior {
 /// A prior that hardly knows how drills are built: head and foot may be what fits best.
 DrillPrior AnyProportions(DrillPrior prior);
 
-/// The same drill turned by 180 deg about its origin, leaning the same way in space.
-DrillState Flipped(const DrillState& state);
+/// The same drill turned by 180 deg about its origin, leaning the same way in space. What of the
+/// lean a grip turned round can hardly have, the whole drill takes over, as far as it may lean.
+DrillState Flipped(const DrillState& state, const DrillPrior& prior);
 
 /// Difference of two directions in [0, pi].
 double TurnBetween(double yaw_a, double yaw_b);

@@ -125,13 +125,13 @@ class DrillFit {
       std::vector<DrillState> rivals;
       for (const DrillTemplate& kind : options_.templates) {
         if (&kind == leader.kind) continue;
-        for (const DrillState& way : {leader, Flipped(leader)})
+        for (const DrillState& way : {leader, Flipped(leader, prior_)})
           rivals.push_back(OfKind(coarse_, kind, way, base_from_table_, prior_));
       }
       FORESIGHT_CHECK(
           LocalSearchOfAll(coarse_, rivals, rivals.size(), LocalSearchEffort::kCoarse, context));
       if (rivals.size() > kFineRivals) rivals.resize(kFineRivals);
-      rivals.push_back(Flipped(leader));
+      rivals.push_back(Flipped(leader, prior_));
       FORESIGHT_CHECK(
           LocalSearchOfAll(likelihood_, rivals, rivals.size(), LocalSearchEffort::kFine, context));
       modes.insert(modes.end(), rivals.begin(), rivals.end());
@@ -140,7 +140,7 @@ class DrillFit {
     }
     for (const DrillState& mode : modes)
       if (TurnBetween(mode.yaw(), modes.front().yaw()) > 0.5 * std::numbers::pi) return mode;
-    return Flipped(modes.front());
+    return Flipped(modes.front(), prior_);
   }
 
   Result<DrillDetection> Detection(std::vector<DrillState> modes, const RunContext& context) const {

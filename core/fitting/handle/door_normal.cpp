@@ -154,10 +154,6 @@ double LevelOf(const std::vector<double>& heights_m, double sigma_m) {
 
 }  // namespace
 
-const RaySet* SurroundingBeams(const RaySet& region) {
-  return region.around ? &region.around->Measured() : nullptr;
-}
-
 Plane DoorAmongLevels(const RaySet& around, const RaySet& region, const Plane& rough,
                       Random& random) {
   Eigen::Matrix3d axes;

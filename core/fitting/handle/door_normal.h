@@ -6,10 +6,6 @@
 
 namespace foresight {
 
-/// What was measured round a region, the beams behind a map where they are known; null = it is not
-/// known.
-const RaySet* SurroundingBeams(const RaySet& region);
-
 /// A door that is known roughly, with the normal of all that lies round its handle: a leaf, its
 /// frame and the wall are parallel and reach ten times as far as a lever, and most measurements
 /// that are 60 to 250 mm apart lie on one of them. The normal within 15 deg of the rough one that

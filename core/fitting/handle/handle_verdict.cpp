@@ -11,8 +11,8 @@
 #include "core/fitting/common_gates.h"
 #include "core/fitting/compressed_nats.h"
 #include "core/fitting/gate.h"
-#include "core/fitting/handle/door_normal.h"
 #include "core/fitting/line_covariance.h"
+#include "core/fitting/ray_selection.h"
 #include "core/fitting/verdict_model.h"
 
 namespace foresight {

@@ -71,6 +71,20 @@ TEST(DrillTemplate, AKindMayBeSeldomAndNotMoreThanUsual) {
         << wrong;
 }
 
+TEST(DrillTemplate, AGripMayUsuallyLean) {
+  EXPECT_EQ(Example().usual_rake_rad, 0.0);
+  const auto read = DrillTemplateFromYaml(
+      Replaced("object: drill", "object: drill\nusual_rake_deg: -4.5"), "my.yaml");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_NEAR(read->usual_rake_rad, -0.0785, 1e-4);
+  for (const char* wrong : {"40", "-1.0e9", ".nan", "much"})
+    EXPECT_NE(
+        FaultOf(Replaced("object: drill", std::string("object: drill\nusual_rake_deg: ") + wrong))
+            .find("usual_rake_deg"),
+        std::string::npos)
+        << wrong;
+}
+
 TEST(DrillTemplate, ShipsABarrelDrillACutOutToolAndAPlainOne) {
   std::vector<std::string> names;
   for (const DrillTemplate& drill : ShippedDrillTemplates()) {
@@ -160,6 +174,29 @@ TEST(DrillTemplate, AnotherFootKeepsItsMiddleAndHeight) {
   EXPECT_EQ(other.size_m.z(), usual.size_m.z());
 }
 
+TEST(DrillTemplate, AHigherFootStandsOnTheTable) {
+  const SolidPart usual = Example().Make(1.1, {0.0, 0.0}, 0.0).parts[0];
+  const SolidPart other =
+      Example().Make(1.1, {0.0, 0.0}, 0.0, {.foot_height_fraction = 1.4}).parts[0];
+  EXPECT_NEAR(other.size_m.z(), 1.4 * usual.size_m.z(), kExact);
+  EXPECT_NEAR(other.object_from_part.translation().z() - 0.5 * other.size_m.z(),
+              usual.object_from_part.translation().z() - 0.5 * usual.size_m.z(), kExact);
+  EXPECT_EQ(other.size_m.head<2>(), usual.size_m.head<2>());
+}
+
+TEST(DrillTemplate, TheBodyReachesDownToALowerFoot) {
+  const auto low = [](const SolidPart& part) {
+    return part.object_from_part.translation().z() - 0.5 * part.size_m.z();
+  };
+  for (const double fraction : {0.4, 0.7, 1.0, 1.5}) {
+    const DrillModel model =
+        Example().Make(1.2, {0.0, 0.0}, 0.0, {.foot_height_fraction = fraction});
+    const SolidPart &foot = model.parts[0], &body = model.parts[1];
+    EXPECT_LE(low(body), low(foot) + foot.size_m.z() + kExact) << fraction;
+    EXPECT_NEAR(low(body) + body.size_m.z(), 1.2 * 0.20, kExact) << "its upper end stays";
+  }
+}
+
 TEST(DrillTemplate, AHeadPulledDownLeavesHalfTheBody) {
   const DrillModel model = Example().Make(1.0, {0.0, 0.0}, 0.0, {.head_up_m = -1.0});
   EXPECT_NEAR(model.parts[1].size_m.z(), 0.08, kExact);
@@ -214,6 +251,19 @@ TEST(DrillTemplate, AChuckMayBeLongerAndANoseThinner) {
   // However short: something is left of it.
   EXPECT_TRUE(Barrel().Make(0.75, {0.0, 0.0}, 0.0, {.chuck_longer_m = -1.0}).Check());
   EXPECT_TRUE(Barrel().Make(0.75, {0.0, 0.0}, 0.0, {.front_m = -1.0, .back_m = -1.0}).Check());
+}
+
+TEST(DrillTemplate, GripAndHeadAreAsThickAsTheyAre) {
+  const DrillModel usual = Barrel().Make(1.0, {0.0, 0.0}, 0.0);
+  const DrillModel other =
+      Barrel().Make(1.0, {0.0, 0.0}, 0.0, {.grip_fraction = 0.8, .head_fraction = 1.2});
+  EXPECT_NEAR(Named(other, "body").size_m.x(), 0.8 * Named(usual, "body").size_m.x(), kExact);
+  EXPECT_NEAR(Named(other, "body").size_m.y(), 0.8 * Named(usual, "body").size_m.y(), kExact);
+  EXPECT_EQ(Named(other, "body").size_m.z(), Named(usual, "body").size_m.z());
+  EXPECT_NEAR(Named(other, "head").size_m.x(), 1.2 * Named(usual, "head").size_m.x(), kExact);
+  EXPECT_EQ(Named(other, "head").size_m.z(), Named(usual, "head").size_m.z()) << "its length";
+  EXPECT_EQ(Named(other, "chuck").size_m, Named(usual, "chuck").size_m);
+  EXPECT_TRUE(other.Check());
 }
 
 TEST(DrillTemplate, ARakedGripCarriesALevelHead) {

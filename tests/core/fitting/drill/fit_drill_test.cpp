@@ -141,12 +141,13 @@ TEST(FitDrill, PriorAllowsAnotherHeadAndFootWithinReasonOnly) {
   DrillState state;
   state.kind = &templates.front();
   state.values[kDrillScale] = 1.0;
+  state.values[kDrillRake] = state.kind->usual_rake_rad;
   for (int p = kDrillHeadUp; p < kDrillParameters; ++p) {
     DrillState other = state;
-    other.values[p] = 0.015;
+    other.values[p] += 0.015;
     EXPECT_LT(prior(other), prior(state));
     EXPECT_TRUE(std::isfinite(prior(other)));
-    other.values[p] = -0.5;
+    other.values[p] = -0.65;
     EXPECT_FALSE(std::isfinite(prior(other)));
   }
 }
@@ -186,8 +187,8 @@ TEST(FitDrill, TheFlippedDrillExplainsTheRaysWorse) {
   const auto searched = [&](const DrillState& state) {
     return LocalSearch(likelihood, state, bench.frame, bench.prior, LocalSearchEffort::kFine);
   };
-  const DrillState wrong = searched(Flipped(bench.truth));
-  const DrillState turned = searched(Flipped(wrong));
+  const DrillState wrong = searched(Flipped(bench.truth, bench.prior));
+  const DrillState turned = searched(Flipped(wrong, bench.prior));
   EXPECT_GT(turned.log_likelihood, wrong.log_likelihood + 10.0);
   EXPECT_LT(TurnBetween(turned.yaw(), bench.truth.yaw()), 0.2);
 }
@@ -196,11 +197,20 @@ TEST(FitDrill, AFlippedDrillLeansTheSameWayInSpace) {
   const std::vector<DrillTemplate> templates = ShippedDrillTemplates();
   DrillState state;
   state.kind = &templates.front();
-  state.values << 0.1, 0.2, 0.0, 0.7, 1.0, 0.05, -0.1, 0.0;
+  state.values.head<8>() << 0.1, 0.2, 0.0, 0.7, 1.0, 0.05, -0.1, 0.0;
   const auto axis = [](const DrillState& it) -> Eigen::Vector3d {
     return it.Pose({}).Rotate(BodyTurn(it.Model().body_tilt_rad) * Eigen::Vector3d::UnitZ());
   };
-  EXPECT_LT((axis(state) - axis(Flipped(state))).norm(), 1e-12);
+  EXPECT_LT((axis(state) - axis(Flipped(state, {}))).norm(), 1e-12);
+  // Also one that leans further forward than a grip may lean back.
+  for (const double rake : {0.10, 0.20, 0.30}) {
+    state.values[kDrillRake] = rake;
+    state.values[kDrillTiltX] = state.values[kDrillTiltY] = 0.0;
+    ASSERT_TRUE(std::isfinite(DrillPrior()(state)));
+    const DrillState flipped = Flipped(state, {});
+    EXPECT_LT((axis(state) - axis(flipped)).norm(), 1e-6) << rake;
+    EXPECT_TRUE(std::isfinite(DrillPrior()(flipped))) << rake;
+  }
 }
 
 TEST(FitDrill, DistractorsAreNotConfirmed) {
@@ -261,14 +271,26 @@ TEST(FitDrill, AWallPatchIsNotADrill) {
   }
 }
 
-TEST(FitDrill, WithoutATableNothingStandsOnOne) {
+TEST(FitDrill, WithoutATableItIsFoundAndNotConfirmed) {
   for (const double wall_m : {0.0, 0.2, 0.5}) {
     DrillView view;
     view.table = false;
     view.wall_m = wall_m;
-    const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
-    ASSERT_FALSE(found) << "wall " << wall_m;
-    EXPECT_EQ(found.error().code, ErrorCode::kNoConvergence) << found.error().message;
+    const DrillRays scene = MakeDrillRays(view);
+    const auto found = FitDrill(scene.rays, {}, {});
+    ASSERT_TRUE(found) << "wall " << wall_m << ": " << found.error().message;
+    EXPECT_FALSE(found->table) << "wall " << wall_m;
+    EXPECT_LT(PlaceError(found->best.base_from_object, scene.base_from_object), 0.020) << wall_m;
+    EXPECT_LT(YawError(found->best.base_from_object, scene.base_from_object), 10.0) << wall_m;
+    EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed) << "wall " << wall_m;
+    EXPECT_EQ(found->verdict.reason, "no table is seen under it: draw the region a little lower");
+    // Where the surroundings were looked at, too, another region does not help.
+    RaySet rays = scene.rays;
+    rays.around = std::make_shared<const RaySet>(scene.rays);
+    const auto surrounded = FitDrill(rays, {}, {});
+    ASSERT_TRUE(surrounded) << surrounded.error().message;
+    EXPECT_EQ(surrounded->verdict.reason,
+              "no table is seen under it or round it: scan further down");
   }
 }
 

@@ -84,16 +84,5 @@ TEST(DoorNormal, FewMeasurementsOrAFarOtherSurfaceLeaveTheRoughPlane) {
   EXPECT_EQ(DoorAmongLevels(around, around, rough, random).normal, rough.normal);
 }
 
-TEST(DoorNormal, OfAMapTheBeamsBehindItAreAsked) {
-  RaySet region;
-  EXPECT_EQ(SurroundingBeams(region), nullptr);
-  RaySet map;
-  region.around = std::make_shared<const RaySet>(map);
-  EXPECT_EQ(SurroundingBeams(region), region.around.get());
-  map.beams = std::make_shared<const RaySet>();
-  region.around = std::make_shared<const RaySet>(map);
-  EXPECT_EQ(SurroundingBeams(region), map.beams.get());
-}
-
 }  // namespace
 }  // namespace foresight

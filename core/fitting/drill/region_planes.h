@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/fitting/ray_set.h"
+#include "core/geometry/plane.h"
+
+namespace foresight {
+
+using Beams = std::vector<RangeRay>;
+
+constexpr double kUnevenSurface_m =
+    0.004;  ///< of a real surface from its plane, and a motor's error
+
+/// How far a beam that ends on the plane may end from it: ranges err along the beam, which hardly
+/// moves a point on a table that is seen at a grazing angle. `sigma_m` of a range.
+double OnPlaneTolerance(double sigma_m, const Plane& plane, const RangeRay& ray);
+bool EndsOn(const RangeRay& ray, const Plane& plane, double sigma_m);
+Beams EndingOn(const Beams& beams, const Plane& plane, double sigma_m);
+
+/// The plane through the ends of three beams that most of them end on, each counted as `weight` of
+/// the plane says; nullopt where all weights are 0.
+std::optional<Plane> BestPlane(const Beams& beams, double sigma_m,
+                               const std::function<double(const Plane&)>& weight, Random& random);
+
+}  // namespace foresight
