@@ -117,6 +117,8 @@ void AddJug(TableThing& thing, Random& random) {
                       lip + Eigen::Vector3d(random.Uniform(0.03, 0.06), 0.0, 0.03));
 }
 
+/// A hair dryer that stays wide to its mouth, or a heat gun with a tube. One whose tube is as
+/// narrow as a chuck has no foot: it is no drill.
 void AddHotAirTool(TableThing& thing, Random& random) {
   const bool dryer = random.Chance(0.5);
   const double height = random.Uniform(0.17, 0.23);
@@ -126,17 +128,21 @@ void AddHotAirTool(TableThing& thing, Random& random) {
     thing.AddBox({random.Uniform(0.08, 0.12), random.Uniform(0.05, 0.075), foot},
                  {0.0, 0.0, 0.5 * foot});
   AddUprightGrip(std::max(0.0, foot - 0.004), height,
-                 RadiansFromDegrees(random.Uniform(-12.0, 0.0)), random, thing);
-  // It stays wide to its mouth: no chuck.
-  const double back = random.Uniform(0.03, 0.045), front = random.Uniform(0.11, 0.15);
-  const double mouth = radius * random.Uniform(0.96, 1.1);
+                 RadiansFromDegrees(random.Uniform(-12.0, 15.0)), random, thing);
+  const double back = random.Uniform(0.03, 0.07), front = random.Uniform(0.11, 0.16);
+  const double length = back + front;
+  const double tube = dryer ? random.Uniform(0.35, 0.45) * length : random.Uniform(0.03, 0.07);
+  const double mouth =
+      radius * (dryer || foot > 0.0 ? random.Uniform(0.96, 1.1) : random.Uniform(0.45, 1.0));
+  constexpr double kNarrowing_m = 0.015;  // from the barrel to a heat gun's tube
   const Eigen::Vector3d from = height * kUp - back * kForward;
   thing.AddRevolved({{0.0, 0.0},
                      {0.7 * radius, 0.0},
                      {radius, 0.5 * back},
-                     {radius, 0.6 * (back + front)},
-                     {mouth, back + front},
-                     {0.0, back + front}},
+                     {radius, length - tube - (dryer ? 0.0 : kNarrowing_m)},
+                     {mouth, dryer ? length - 0.001 : length - tube},
+                     {mouth, length},
+                     {0.0, length}},
                     from, from + kForward);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct DrillSupport {
   /// kind without chuck.
   double blunt_margin_nats = 0.0;
   double chuck_nats = 0.0;
+  /// Ahead of the same drill whose feet are no larger than its grip is thick, and stand under it;
+  /// infinite for a kind without feet.
+  double foot_nats = std::numeric_limits<double>::infinity();
   /// Log of the prior's density: how usual a drill of this place, size and build is.
   double proportions_nats = 0.0;
   /// What the image says of its outline, and how far that is ahead of the drill turned by 180 deg;
@@ -42,7 +46,8 @@ struct DrillSupport {
 /// The probability is the shipped model's (resources/verdicts/drill_*), below LIKELY where
 /// a box or a cylinder is 150 : 1 likelier; hard gates
 /// keep what no probability should: a confirmed drill stands on a table near the region's centre,
-/// has enough measurements on it, is not seen through, shows its head and a chuck that is narrower,
+/// has enough measurements on it, is not seen through, shows its head, a chuck that is narrower and
+/// a foot that is wider than its grip,
 /// explains the rays better than a box and a cylinder, lies within the region, has no second
 /// direction close behind and no parameter at a bound. `rays` are those of the `region` that it was
 /// fitted to.

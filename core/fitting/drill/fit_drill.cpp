@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -164,6 +165,7 @@ class DrillFit {
           support.beam_sigma_yaw_rad =
               SetSigmas(likelihood_.rays(), best, base_from_table_, prior_, detection);
           SetChuckMargins(best, detection, support);
+          support.foot_nats = FootNats(best, detection);
         }};
     if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
       return Cancelled();
@@ -285,6 +287,24 @@ class DrillFit {
       std::erase_if(blunt, is_chuck);
       support.chuck_nats = own - likelihood_(blunt, pose);
     }
+  }
+
+  /// Whether it stands on a battery: hot air tools on a grip stand on the end of the grip.
+  double FootNats(const DrillState& best, const DrillDetection& detection) const {
+    std::vector<SolidPart> parts = detection.best.model.parts;
+    const auto body = std::find_if(parts.begin(), parts.end(), [](const SolidPart& part) {
+      return part.name == DrillTemplate::kBody;
+    });
+    bool has_feet = false;
+    for (SolidPart& part : parts) {
+      if (part.name != DrillTemplate::kFoot) continue;
+      has_feet = true;
+      part.size_m.head<2>() = part.size_m.head<2>().cwiseMin(body->size_m.head<2>());
+      part.object_from_part = {part.object_from_part.rotation(),
+                               {0.0, 0.0, part.object_from_part.translation().z()}};
+    }
+    if (!has_feet) return std::numeric_limits<double>::infinity();
+    return best.log_likelihood - prior_(best) - likelihood_(parts, detection.best.base_from_object);
   }
 
   /// The foreground that a drill may account for, without the clutter beside it.

@@ -75,7 +75,7 @@ TEST(DrillPopulation, ToolsThatCameNearestAreNotConfirmed) {
 // other was taken for one that points the other way.
 TEST(DrillPopulation, HalfADrillThatTellsTheWholeIsSomethingToFind) {
   const auto right = RunFitTrial(DrillPopulation(), 1517, {}, {});
-  const auto turned = RunFitTrial(DrillPopulation(), 612, {}, {});
+  const auto turned = RunFitTrial(DrillPopulation(), 578, {}, {});
   ASSERT_TRUE(right && turned);
   for (const auto* outcomes : {&right, &turned}) {
     EXPECT_EQ((*outcomes)->front().what, "a drill's end");
@@ -92,7 +92,7 @@ TEST(DrillPopulation, EveryTemplateIsTriedEitherWayRound) {
   FitTrialOptions options;
   options.sources = {*FitSourceFromName("foresight")};
   const auto population = MakeVaried(std::make_unique<DrillPopulation>());
-  const auto outcomes = RunFitTrial(*population, 5101, options, {});
+  const auto outcomes = RunFitTrial(*population, 5002, options, {});
   ASSERT_TRUE(outcomes) << outcomes.error().message;
   EXPECT_TRUE(outcomes->front().all_ok);
 }

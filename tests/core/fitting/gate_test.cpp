@@ -307,7 +307,8 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
                                   .any_flip_margin_nats = random.Uniform(-20.0, 100.0),
                                   .flip_line_sigmas = random.Uniform(-1.0, 4.0),
                                   .blunt_margin_nats = random.Uniform(-20.0, 100.0),
-                                  .chuck_nats = random.Uniform(-20.0, 100.0)};
+                                  .chuck_nats = random.Uniform(-20.0, 100.0),
+                                  .foot_nats = random.Uniform(-20.0, 100.0)};
     ExpectStatedGatesFail(AssessDrill(rays, rays, found, state, {}, support), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
@@ -337,6 +338,11 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
                           .proportions_nats = -1.0};
   const auto chuck = ::testing::Contains(HasSubstr("whether it has a chuck"));
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(chuck));
+  const auto foot = ::testing::Contains(HasSubstr("a foot wider than its grip"));
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(foot));
+  support.foot_nats = 9.0;  // a heat gun that stands on the end of its grip
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, foot);
+  support.foot_nats = 50.0;
   support.chuck_nats = 0.0;
   const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);
