@@ -24,8 +24,9 @@ constexpr double kLevelSigma_rad = 0.035;  // how level tables are: 2 deg
 constexpr double kCountedTilt_rad = 0.12;  // deviation of WeightOfTilt
 constexpr double kFloorBehind_m = 0.6;     // a level surface this much further is no table
 constexpr double kShelfBelow_m = 0.15;
-constexpr double kSurroundingsRadius_m =
-    0.4;  // of the region's middle: what a thing there may stand on
+// Round the region's middle, seen from above: what a thing there may stand on, and the thing with
+// what is under it.
+constexpr double kSurroundingsRadius_m = 0.4;
 constexpr double kUnderRadius_m = 0.25;
 constexpr std::size_t kMostNear = 1500;
 // A level slice through a standing thing has parts of that thing below half of its own points: at

@@ -9,14 +9,14 @@ namespace {
 
 constexpr int kPlaneTrials = 300;
 
+bool EndsOn(const RangeRay& ray, const Plane& plane, double sigma_m) {
+  return std::abs(plane.Distance(ray.Point())) < OnPlaneTolerance(sigma_m, plane, ray);
+}
+
 }  // namespace
 
 double OnPlaneTolerance(double sigma_m, const Plane& plane, const RangeRay& ray) {
   return 2.0 * sigma_m * std::abs(plane.normal.dot(ray.direction)) + kUnevenSurface_m;
-}
-
-bool EndsOn(const RangeRay& ray, const Plane& plane, double sigma_m) {
-  return std::abs(plane.Distance(ray.Point())) < OnPlaneTolerance(sigma_m, plane, ray);
 }
 
 std::optional<Plane> BestPlane(const Beams& beams, double sigma_m,
