@@ -99,7 +99,7 @@ TEST_F(DeviceLampsOnScreen, SayInWordsWhichDeviceIsMissing) {
 TEST_F(DeviceLampsOnScreen, NumbersThatChangeAllTheTimeDrawNothing) {
   HeadDeviceRows rows(&model);
   rows.show();
-  QCoreApplication::processEvents();
+  ASSERT_TRUE(WaitUntilDrawn(lamps) && WaitUntilDrawn(rows));
   const PaintCounter counter;
   for (int poll = 0; poll < 5; ++poll) {
     HeadHealth health = AllWell();

@@ -86,7 +86,7 @@ TEST_F(LinkPanelOnScreen, ControlCanBeTakenOnlyWhereSomebodyElseHasIt) {
 
 TEST_F(LinkPanelOnScreen, FiguresThatChangeDrawNothingElse) {
   model->Poll();
-  for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+  ASSERT_TRUE(WaitUntilDrawn(*panel));
   const PaintCounter counter;
   for (int poll = 1; poll <= 5; ++poll) {
     head->link.health.down_bytes_per_s = 1e5 * poll;

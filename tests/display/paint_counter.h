@@ -1,11 +1,15 @@
 #pragma once
 
 #include <QCoreApplication>
+#include <QElapsedTimer>
 #include <QEvent>
 #include <QMap>
 #include <QMetaObject>
+#include <QTest>
 #include <QWidget>
 #include <string>
+
+#include "tests/ui/wait_for.h"
 
 namespace foresight {
 
@@ -47,5 +51,21 @@ class PaintCounter : public QObject {
   int paints_ = 0;
   QMap<QString, int> counts_;
 };
+
+/// Waits until a window that was shown is drawn and nothing has been drawn for a while: a busy X
+/// server asks for the first drawing whenever it comes to it, and what counts drawings starts then.
+inline bool WaitUntilDrawn(QWidget& window) {
+  constexpr int kQuiet_ms = 250;
+  if (!QTest::qWaitForWindowExposed(&window)) return false;
+  const PaintCounter counter;
+  QElapsedTimer quiet;
+  quiet.start();
+  int seen = 0;
+  return WaitFor([&] {
+    if (counter.Paints() != seen) quiet.restart();
+    seen = counter.Paints();
+    return quiet.elapsed() > kQuiet_ms;
+  });
+}
 
 }  // namespace foresight
