@@ -81,6 +81,7 @@ Plane PlaneFrom(const Json& value) {
 
 Json ToJson(const HandleModel& model) {
   return {{"length_m", model.length_m}, {"behind_m", model.behind_m},
+          {"bow_m", model.bow_m},       {"lift_m", model.lift_m},
           {"radius_m", model.radius_m}, {"standoff_m", model.standoff_m},
           {"returned", model.returned}, {"plate", ToString(model.plate)}};
 }
@@ -88,8 +89,10 @@ Json ToJson(const HandleModel& model) {
 HandleModel HandleModelFrom(const Json& value) {
   HandleModel model;
   model.length_m = SizeIn(value, "length_m");
-  // Files of versions before 2026-11-28 know no piece behind the pivot.
+  // Files of versions before 2026-11-28 know no piece behind the pivot, and straight levers alone.
   if (value.contains("behind_m")) model.behind_m = NumberFrom(value.at("behind_m"));
+  if (value.contains("bow_m")) model.bow_m = NumberFrom(value.at("bow_m"));
+  if (value.contains("lift_m")) model.lift_m = NumberFrom(value.at("lift_m"));
   model.radius_m = SizeIn(value, "radius_m");
   model.standoff_m = SizeIn(value, "standoff_m");
   model.returned = value.at("returned").get<bool>();

@@ -75,14 +75,14 @@ std::vector<Eigen::Vector2d> FlatSection(double width_m, double depth_m) {
 
 /// The way that a lever's middle line takes in its own frame, from what lies behind the pivot to
 /// the end.
-std::vector<Eigen::Vector3d> LeverPath(const HandleModel& model, double bow_m, double lift_m) {
+std::vector<Eigen::Vector3d> DrawnPath(const HandleModel& model) {
   constexpr int kPieces = 10;
   std::vector<Eigen::Vector3d> path;
   if (model.behind_m > 0.0) path.emplace_back(-model.behind_m, 0.0, model.standoff_m);
   for (int i = 0; i <= kPieces; ++i) {
     const double s = static_cast<double>(i) / kPieces;
-    path.emplace_back(s * model.length_m, bow_m * 4.0 * s * (1.0 - s),
-                      model.standoff_m + lift_m * std::sin(kPi * s));
+    path.emplace_back(s * model.length_m, model.bow_m * 4.0 * s * (1.0 - s),
+                      model.standoff_m + model.lift_m * std::sin(kPi * s));
   }
   return path;
 }
@@ -119,7 +119,7 @@ double DrawBehind(double length_m, Random& random) {
 }
 
 void AddLeverBody(const HandleModel& model, const LeverDrawing& drawing, Builder& body) {
-  const auto path = LeverPath(model, drawing.bow_m, drawing.lift_m);
+  const auto path = DrawnPath(model);
   if (drawing.round && drawing.taper == 1.0) {
     for (std::size_t i = 1; i < path.size(); ++i) body.Bar(path[i - 1], path[i], model.radius_m);
   } else {
@@ -186,7 +186,7 @@ void AddKnob(Random& random, Builder& body) {
     body.Disc(radius_m, out_m - 0.5 * radius_m, out_m + 0.5 * radius_m);
 }
 
-/// Posts at both ends, round or flat.
+/// Posts at both ends or nearer to the middle, bare or on rosettes.
 void AddPullBar(Random& random, Builder& body) {
   const double length_m = random.Uniform(0.09, 0.45), out_m = random.Uniform(0.030, 0.075);
   const double radius_m = random.Uniform(0.005, 0.015);
@@ -196,6 +196,9 @@ void AddPullBar(Random& random, Builder& body) {
   body.Bar(-end.x() * Eigen::Vector3d::UnitX() + Eigen::Vector3d(0.0, 0.0, out_m), end, radius_m);
   body.Bar(post, post.cwiseProduct(foot), radius_m);
   body.Bar(post.cwiseProduct(mirror), post.cwiseProduct(mirror).cwiseProduct(foot), radius_m);
+  if (!random.Chance(0.35)) return;
+  const double rosette_m = random.Uniform(0.018, 0.029), thick_m = random.Uniform(0.004, 0.011);
+  for (const double side : {-1.0, 1.0}) body.Disc(rosette_m, 0.0, thick_m, side * post.x());
 }
 
 /// One post in the middle, as pulls of lockers have.
@@ -331,6 +334,8 @@ DoorHardware DrawLever(Random& random, const Material& material, const Material&
   model.length_m =
       random.Chance(0.85) ? random.Uniform(0.095, 0.145) : random.Uniform(0.085, 0.165);
   model.radius_m = 0.5 * std::sqrt(drawing.width_m * drawing.depth_m);
+  model.bow_m = drawing.bow_m;
+  model.lift_m = drawing.lift_m;
   model.standoff_m = random.Uniform(0.040, 0.068);
   model.returned = random.Chance(0.35);
   model.plate = random.Chance(0.35) ? HandleModel::Plate::kLong : HandleModel::Plate::kRosette;

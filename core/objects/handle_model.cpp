@@ -7,6 +7,8 @@
 namespace foresight {
 namespace {
 
+constexpr int kPieces = 4;             // of a bowed lever: a sixteenth of its bow off the parabola
+constexpr double kStraight_m = 2e-4;   // bows below that are none
 constexpr double kNeckPerLever = 0.9;  // radius of the neck, as a fraction of the lever's
 
 double BarDistance(const HandleBar& bar, const Eigen::Vector3d& point) {
@@ -29,14 +31,20 @@ double PlateDistance(const HandleModel& model, const Eigen::Vector3d& point) {
 /// Of a bar seen along z: two sides and round ends.
 std::vector<Eigen::Vector3d> OutlineOf(const HandleModel& model) {
   constexpr int kCorners = 12;
+  const std::vector<Eigen::Vector3d> path = LeverPathOf(model);
   std::vector<Eigen::Vector3d> outline;
-  for (int i = 0; i <= 2 * kCorners; ++i) {
-    const double angle = std::numbers::pi * (static_cast<double>(i) / kCorners - 0.5);
-    const double at = i <= kCorners ? model.length_m : -model.behind_m;
-    outline.emplace_back(at + model.radius_m * std::cos(angle), model.radius_m * std::sin(angle),
-                         0.0);
-    if (i == kCorners) outline.emplace_back(-model.behind_m, model.radius_m, 0.0);
-  }
+  const auto round_end = [&](const Eigen::Vector3d& middle, double from_rad) {
+    for (int i = 0; i <= kCorners; ++i) {
+      const double angle = from_rad + std::numbers::pi * i / kCorners;
+      outline.push_back(middle +
+                        model.radius_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
+    }
+  };
+  const Eigen::Vector3d aside(0.0, model.radius_m, 0.0);
+  round_end(path.back(), -0.5 * std::numbers::pi);
+  for (std::size_t i = path.size() - 2; i > 0; --i) outline.push_back(path[i] + aside);
+  round_end(path.front(), 0.5 * std::numbers::pi);
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) outline.push_back(path[i] - aside);
   outline.push_back(outline.front());
   return outline;
 }
@@ -72,6 +80,10 @@ Status HandleModel::Check() const {
   if (!(behind_m >= 0.0 && behind_m <= length_m))
     return Fail(ErrorCode::kInvalidOptions,
                 "door handle: behind_m {} is not within 0 and length_m {}", behind_m, length_m);
+  if (!(std::hypot(bow_m, lift_m) <= 0.5 * length_m))
+    return Fail(ErrorCode::kInvalidOptions,
+                "door handle: bow_m {} and lift_m {} are more than half of length_m {}", bow_m,
+                lift_m, length_m);
   return {};
 }
 
@@ -81,11 +93,27 @@ double HandleModel::Distance(const Eigen::Vector3d& point) const {
   return distance;
 }
 
+std::vector<Eigen::Vector3d> LeverPathOf(const HandleModel& model) {
+  const Eigen::Vector3d end(model.length_m, 0.0, 0.0);
+  if (std::hypot(model.bow_m, model.lift_m) < kStraight_m)
+    return {{-model.behind_m, 0.0, 0.0}, end};
+  std::vector<Eigen::Vector3d> path;
+  if (model.behind_m > 0.0) path.emplace_back(-model.behind_m, 0.0, 0.0);
+  for (int i = 0; i <= kPieces; ++i) {
+    const double s = static_cast<double>(i) / kPieces, off = 4.0 * s * (1.0 - s);
+    path.emplace_back(s * model.length_m, off * model.bow_m, off * model.lift_m);
+  }
+  return path;
+}
+
 std::vector<HandleBar> BarsOf(const HandleModel& model) {
   const Eigen::Vector3d end(model.length_m, 0.0, 0.0);
-  std::vector<HandleBar> bars = {
-      {{-model.behind_m, 0.0, 0.0}, end, model.radius_m},
-      {Eigen::Vector3d::Zero(), {0.0, 0.0, -model.standoff_m}, kNeckPerLever * model.radius_m}};
+  const std::vector<Eigen::Vector3d> path = LeverPathOf(model);
+  std::vector<HandleBar> bars;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    bars.push_back({path[i - 1], path[i], model.radius_m});
+  bars.push_back(
+      {Eigen::Vector3d::Zero(), {0.0, 0.0, -model.standoff_m}, kNeckPerLever * model.radius_m});
   const double back_m = model.standoff_m - model.radius_m - HandleModel::kReturnGap_m;
   if (model.returned && back_m > 0.0)
     bars.push_back({end, end - Eigen::Vector3d(0.0, 0.0, back_m), model.radius_m});
@@ -94,8 +122,9 @@ std::vector<HandleBar> BarsOf(const HandleModel& model) {
 
 Wireframe WireframeOf(const HandleModel& model) {
   Wireframe lines = {OutlineOf(model), PlateOutline(model)};
-  for (const HandleBar& bar : BarsOf(model))
-    if (bar.from.z() != bar.to.z()) lines.push_back({bar.from, bar.to});
+  const std::vector<HandleBar> bars = BarsOf(model);
+  for (std::size_t i = LeverPathOf(model).size() - 1; i < bars.size(); ++i)
+    lines.push_back({bars[i].from, bars[i].to});
   return lines;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/objects/solid_part.h"
@@ -9,14 +10,17 @@ namespace foresight {
 
 /// A door handle in the object's frame. The origin is where the pivot's axis crosses the middle of
 /// the lever; x runs along the lever to its longer free end, z is the door's normal, towards the
-/// viewer. The lever may go on behind its pivot for a shorter piece.
-/// The door is the plane z = -standoff_m. A neck leads back to it, through a round rosette or a
-/// long plate (along y) that lies on the door.
+/// viewer. The lever may go on behind its pivot for a shorter piece. From pivot to end it may be
+/// bowed as a parabola: beside the line between both, off it, or towards the door. The door is the
+/// plane z = -standoff_m. A neck leads back to it, through a round rosette or a long plate (along
+/// y) that lies on the door.
 struct HandleModel {
   enum class Plate { kRosette, kLong };
 
   double length_m = 0.12;    ///< from the pivot's axis to the middle of the lever's round end
   double behind_m = 0.0;     ///< how far it goes on behind the pivot's axis
+  double bow_m = 0.0;        ///< how far its middle lies towards y of the line from pivot to end
+  double lift_m = 0.0;       ///< how much further its middle is off the door than that line
   double radius_m = 0.010;   ///< half the lever's thickness
   double standoff_m = 0.05;  ///< of the lever's middle from the door
   bool returned = false;     ///< its end is bent back to the door
@@ -28,8 +32,9 @@ struct HandleModel {
   static constexpr double kPlateLength_m = 0.230;  ///< the pivot lies in its middle
   static constexpr double kReturnGap_m = 0.012;    ///< between a returned end and the door
 
-  /// Fails with kInvalidOptions: a size that is not above 0 or not below a metre, or a piece behind
-  /// the pivot that is longer than the lever.
+  /// Fails with kInvalidOptions: a size that is not above 0 or not below a metre, a piece behind
+  /// the pivot that is longer than the lever, or a middle further off the line than half its
+  /// length.
   Status Check() const;
   /// Signed distance of a point in the object's frame to the handle's surface, metres.
   double Distance(const Eigen::Vector3d& point) const;
@@ -37,6 +42,9 @@ struct HandleModel {
 
 /// "rosette", "long": the plate in files.
 const char* ToString(HandleModel::Plate plate);
+
+/// The lever's middle line, in straight pieces from what lies behind the pivot to the end.
+std::vector<Eigen::Vector3d> LeverPathOf(const HandleModel& model);
 
 /// Lever, neck, a returned end: round bars, from one end's middle to the other's.
 struct HandleBar {

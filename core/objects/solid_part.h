@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct SolidPart {
   Shape shape = Shape::kBox;
   Rigid<frame::Object, frame::Object> object_from_part;  ///< the part's middle
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  /// Of a capsule's ends, that at -z first: where another part goes on, which show no outline.
+  std::array<bool, 2> joined = {false, false};
 
   /// Fails with kInvalidOptions, naming the part: a size that is not above 0, a pose that is not
   /// finite, a cylinder or capsule that is not round.

@@ -383,6 +383,8 @@ void SceneReader::ReadHandle(YamlMap& map) {
   HandleModel& model = handle.model;
   model.length_m = map.Number("length_m", model.length_m);
   model.behind_m = map.Number("behind_m", model.behind_m);
+  model.bow_m = map.Number("bow_m", model.bow_m);
+  model.lift_m = map.Number("lift_m", model.lift_m);
   model.radius_m = map.Number("radius_m", model.radius_m);
   model.standoff_m = map.Number("standoff_m", model.standoff_m);
   model.returned = map.Flag("returned", model.returned);

@@ -2,41 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace foresight {
 namespace {
 
 constexpr double kLeastSine = 0.3;  // a ray along a bar enters it no earlier than this says
 constexpr double kLeastLength_m = 1e-9;
+constexpr double kGoesOnCosine = 0.7;  // a return or a neck does not
 
 double PlateReach(const DoorThing::Plate& plate) {
-  return std::hypot(plate.front_m, std::max(plate.radius_m, plate.half_m.norm()));
+  return std::hypot(plate.front_m, plate.at.norm() + std::max(plate.radius_m, plate.half_m.norm()));
 }
 
 }  // namespace
 
-DoorThing::DoorThing(const std::vector<HandleBar>& bars, const std::optional<Plate>& plate,
+DoorThing::DoorThing(const std::vector<HandleBar>& bars, const std::vector<Plate>& plates,
                      const Rigid<frame::Base, frame::Object>& base_from_object)
     : base_from_object_(base_from_object),
-      plate_(plate),
       object_from_base_(base_from_object.RotationMatrix().transpose()),
       position_(base_from_object.translation()) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const HandleBar& bar : bars) {
     const Eigen::Vector3d way = bar.to - bar.from;
     const double length_m = way.norm();
-    bars_.push_back({bar.from, way / std::max(length_m, kLeastLength_m), length_m, bar.radius_m});
+    bars_.push_back({bar.from, way / std::max(length_m, kLeastLength_m), length_m, bar.radius_m,
+                     0.5 * (bar.from + bar.to), 0.5 * length_m + bar.radius_m});
     middle += (bar.from + bar.to) / (2.0 * static_cast<double>(bars.size()));
   }
   for (const HandleBar& bar : bars)
     bound_m_ = std::max({bound_m_, (bar.from - middle).norm() + bar.radius_m,
                          (bar.to - middle).norm() + bar.radius_m});
-  if (plate_) bound_m_ = std::max(bound_m_, middle.norm() + PlateReach(*plate_));
+  for (const Plate& plate : plates) {
+    plates_.push_back({plate, {std::cos(plate.turn_rad), std::sin(plate.turn_rad)}});
+    bound_m_ = std::max(bound_m_, middle.norm() + PlateReach(plate));
+  }
   middle_ = base_from_object * middle;
 }
 
 std::optional<BeamIntersection> DoorThing::IntersectBar(const LocalRay& ray, const Bar& bar,
                                                         double reach_m) {
+  const Eigen::Vector3d to_middle = bar.middle - ray.origin;
+  const double nearest_m = to_middle.dot(ray.direction), bound_m = bar.bound_m + reach_m;
+  if (to_middle.squaredNorm() - nearest_m * nearest_m > bound_m * bound_m) return std::nullopt;
   const Eigen::Vector3d from = ray.origin - bar.from;
   const double cosine = ray.direction.dot(bar.along), closing = ray.direction.dot(from);
   const double sine2 = 1.0 - cosine * cosine;
@@ -55,12 +63,18 @@ std::optional<BeamIntersection> DoorThing::IntersectBar(const LocalRay& ray, con
   return intersection;
 }
 
-std::optional<BeamIntersection> DoorThing::IntersectPlate(const LocalRay& ray, const Plate& plate) {
+std::optional<BeamIntersection> DoorThing::IntersectPlate(const LocalRay& ray,
+                                                          const TurnedPlate& turned) {
+  const Plate& plate = turned.plate;
   if (ray.direction.z() > -1e-3) return std::nullopt;
   const double range_m = (plate.front_m - ray.origin.z()) / ray.direction.z();
-  const Eigen::Vector2d at = (ray.origin + range_m * ray.direction).head<2>();
-  const double beyond_m =
-      plate.radius_m > 0.0 ? at.norm() - plate.radius_m : (at.cwiseAbs() - plate.half_m).maxCoeff();
+  const Eigen::Vector2d at = (ray.origin + range_m * ray.direction).head<2>() - plate.at;
+  const auto beyond_rectangle = [&] {
+    const Eigen::Vector2d& x = turned.along;
+    const Eigen::Vector2d own(x.dot(at), x.x() * at.y() - x.y() * at.x());
+    return (own.cwiseAbs() - plate.half_m).maxCoeff();
+  };
+  const double beyond_m = plate.radius_m > 0.0 ? at.norm() - plate.radius_m : beyond_rectangle();
   // A plate that is seen from the side is narrower across the ray.
   return BeamIntersection{-ray.direction.z() * beyond_m, range_m};
 }
@@ -83,32 +97,46 @@ std::optional<BeamIntersection> DoorThing::Intersect(const RangeRay& ray, double
   };
   for (const Bar& bar : bars_)
     if (const auto passed = IntersectBar(local, bar, reach_m)) consider(*passed);
-  if (plate_)
-    if (const auto passed = IntersectPlate(local, *plate_)) consider(*passed);
+  for (const TurnedPlate& plate : plates_)
+    if (const auto passed = IntersectPlate(local, plate)) consider(*passed);
   return best;
 }
 
 std::vector<SolidPart> DoorThing::Parts() const {
   std::vector<SolidPart> parts;
-  for (const Bar& bar : bars_)
+  // A bar that goes on as the next one, bent a little, is outlined along its sides alone.
+  const auto goes_on = [&](std::size_t i, std::size_t next) {
+    if (next >= bars_.size()) return false;
+    const Bar &a = bars_[std::min(i, next)], &b = bars_[std::max(i, next)];
+    return (a.from + a.length_m * a.along - b.from).norm() < kLeastLength_m &&
+           a.radius_m == b.radius_m && a.along.dot(b.along) > kGoesOnCosine;
+  };
+  for (std::size_t i = 0; i < bars_.size(); ++i) {
+    const Bar& bar = bars_[i];
     parts.push_back({.name = "bar",
                      .shape = SolidPart::Shape::kCapsule,
                      .object_from_part = {Eigen::Quaterniond::FromTwoVectors(
                                               Eigen::Vector3d::UnitZ(), bar.along),
                                           bar.from + 0.5 * bar.length_m * bar.along},
-                     .size_m = {2.0 * bar.radius_m, 2.0 * bar.radius_m, bar.length_m}});
-  if (!plate_) return parts;
-  const double thickness_m = HandleModel::kPlateThickness_m;
-  SolidPart plate{.name = "plate",
-                  .shape = SolidPart::Shape::kBox,
-                  .object_from_part = {Eigen::Quaterniond::Identity(),
-                                       {0.0, 0.0, plate_->front_m - 0.5 * thickness_m}},
-                  .size_m = {2.0 * plate_->half_m.x(), 2.0 * plate_->half_m.y(), thickness_m}};
-  if (plate_->radius_m > 0.0) {
-    plate.shape = SolidPart::Shape::kCylinder;
-    plate.size_m.head<2>().setConstant(2.0 * plate_->radius_m);
+                     .size_m = {2.0 * bar.radius_m, 2.0 * bar.radius_m, bar.length_m},
+                     .joined = {i > 0 && goes_on(i, i - 1), goes_on(i, i + 1)}});
   }
-  parts.push_back(std::move(plate));
+  const double thickness_m = HandleModel::kPlateThickness_m;
+  for (const TurnedPlate& turned : plates_) {
+    const Plate& plate = turned.plate;
+    SolidPart part{
+        .name = "plate",
+        .shape = SolidPart::Shape::kBox,
+        .object_from_part = {Eigen::Quaterniond(
+                                 Eigen::AngleAxisd(plate.turn_rad, Eigen::Vector3d::UnitZ())),
+                             {plate.at.x(), plate.at.y(), plate.front_m - 0.5 * thickness_m}},
+        .size_m = {2.0 * plate.half_m.x(), 2.0 * plate.half_m.y(), thickness_m}};
+    if (plate.radius_m > 0.0) {
+      part.shape = SolidPart::Shape::kCylinder;
+      part.size_m.head<2>().setConstant(2.0 * plate.radius_m);
+    }
+    parts.push_back(std::move(part));
+  }
   return parts;
 }
 
@@ -120,7 +148,7 @@ DoorThing ThingOf(const HandleModel& model,
     plate.radius_m = HandleModel::kRosetteRadius_m;
   else
     plate.half_m = {0.5 * HandleModel::kPlateWidth_m, 0.5 * HandleModel::kPlateLength_m};
-  return DoorThing(BarsOf(model), plate, base_from_object);
+  return DoorThing(BarsOf(model), {plate}, base_from_object);
 }
 
 IntersectBeam IntersectionWith(const DoorThing& thing) {

@@ -9,7 +9,7 @@
 
 namespace foresight {
 
-/// What may sit on a door: round bars, balls (bars without a length) and a thin plate on the door,
+/// What may sit on a door: round bars, balls (bars without a length) and thin plates on the door,
 /// made ready for many rays by closed forms. All a beam's likelihood has to know of a door handle
 /// and of its alternatives.
 class DoorThing {
@@ -17,11 +17,13 @@ class DoorThing {
   /// A plate in the object's frame, facing z.
   struct Plate {
     double front_m = 0.0;                              ///< z of its front
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();      ///< its middle
+    double turn_rad = 0.0;                             ///< of a rectangle about z
     double radius_m = 0.0;                             ///< of a round one; 0 = a rectangle
     Eigen::Vector2d half_m = Eigen::Vector2d::Zero();  ///< of a rectangle
   };
 
-  DoorThing(const std::vector<HandleBar>& bars, const std::optional<Plate>& plate,
+  DoorThing(const std::vector<HandleBar>& bars, const std::vector<Plate>& plates,
             const Rigid<frame::Base, frame::Object>& base_from_object);
 
   /// What the ray enters first, else what it passes by least.
@@ -37,16 +39,24 @@ class DoorThing {
   struct Bar {
     Eigen::Vector3d from, along;  ///< along: length 1; 0 for a ball
     double length_m, radius_m;
+    Eigen::Vector3d middle;
+    double bound_m;  ///< of a sphere round it
+  };
+
+  struct TurnedPlate {
+    Plate plate;
+    Eigen::Vector2d along;  ///< of its own x, length 1
   };
 
   /// nullopt where the ray stays further than `reach_m` from it.
   static std::optional<BeamIntersection> IntersectBar(const LocalRay& ray, const Bar& bar,
                                                       double reach_m);
-  static std::optional<BeamIntersection> IntersectPlate(const LocalRay& ray, const Plate& plate);
+  static std::optional<BeamIntersection> IntersectPlate(const LocalRay& ray,
+                                                        const TurnedPlate& turned);
 
   Rigid<frame::Base, frame::Object> base_from_object_;
   std::vector<Bar> bars_;
-  std::optional<Plate> plate_;
+  std::vector<TurnedPlate> plates_;
   Eigen::Matrix3d object_from_base_;
   Eigen::Vector3d position_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< in base, of a sphere round all

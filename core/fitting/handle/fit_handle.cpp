@@ -12,6 +12,7 @@
 #include "core/fitting/gate.h"
 #include "core/fitting/handle/door_normal.h"
 #include "core/fitting/handle/door_surface.h"
+#include "core/fitting/handle/handle_alternatives.h"
 #include "core/fitting/handle/handle_search.h"
 #include "core/fitting/handle/handle_verdict.h"
 #include "core/fitting/handle/lever_way.h"
@@ -24,11 +25,13 @@ namespace {
 constexpr int kMinRays = 60;
 constexpr std::size_t kMinBefore = 6;
 constexpr int kCoarseRays = 350;
-// Of 180 training levers the beams were 0 to 1 deviations over lines ahead in 41, 14 of these the
-// wrong way round, and 9 of 51, 8 of 48, 3 of 20 and 0 of 15 from there to 2, 3, 4 and more
-// (docs/evaluation.md, "Which way a lever points").
-constexpr double kNatsPerDeviation = 0.75;
+// Which way a lever points, by logistic regression on training levers (docs/evaluation.md, "Levers
+// that bend"): what a deviation over lines of the beams is worth, and of the image's nats, which
+// are sure of the wrong way as often as they are high.
+constexpr double kNatsPerDeviation = 1.25;
+constexpr double kNatsOfImage = 0.3, kMostOfImage_nats = 4.5;
 constexpr std::size_t kFine = 3;
+constexpr double kSamePivot_m = 0.040;  // of two levers on one bar
 constexpr double kLeastBefore_m = 0.020, kMostBefore_m = 0.110;
 constexpr double kBeforeSigmas = 1.5;
 constexpr int kFootprintSamples = 3;
@@ -127,12 +130,19 @@ class HandleFit {
     context.Report(0.3, "improving the pose");
     FORESIGHT_CHECK(SearchAll(coarse, HandleEffort::kCoarse, levers, context));
     if (levers.size() > kFine) levers.resize(kFine);
+    // The dangerous error is a lever that points the other way on the same bar: that one is tried
+    // with equal care.
+    levers.push_back(Mirrored(levers.front()));
     FORESIGHT_CHECK(SearchAll(fine, HandleEffort::kFine, levers, context));
-    // The dangerous error is a lever that points the other way: that one is tried with equal care.
-    TwoWays found{levers.front(), LocalSearch(fine, Mirrored(levers.front()), HandleEffort::kFine)};
-    for (const HandleState& lever : levers)
-      if (PointsTheOtherWay(lever, levers.front()) && lever.score > found.mirrored.score)
-        found.mirrored = lever;
+    TwoWays found{levers.front(), {}};
+    const HandleState turned = Mirrored(found.best);
+    const auto is_turned = [&](const HandleState& lever) {
+      return PointsTheOtherWay(lever, found.best) &&
+             (lever.values - turned.values).head<2>().norm() < kSamePivot_m;
+    };
+    const auto same_bar = std::find_if(levers.begin(), levers.end(), is_turned);
+    found.mirrored =
+        same_bar != levers.end() ? *same_bar : LocalSearch(fine, turned, HandleEffort::kFine);
     if (found.mirrored.score > found.best.score) std::swap(found.best, found.mirrored);
     return found;
   }
@@ -143,7 +153,7 @@ class HandleFit {
     const HandleScorer fine{likelihood_, base_from_door_, options_};
     std::vector<HandleState> levers = {OnDoor(found.best, base_from_other, base_from_door_),
                                        OnDoor(found.mirrored, base_from_other, base_from_door_)};
-    FORESIGHT_CHECK(SearchAll(fine, HandleEffort::kFine, levers, context));
+    FORESIGHT_CHECK(SearchAll(fine, HandleEffort::kFinest, levers, context));
     return TwoWays{levers.front(), levers.back()};
   }
 
@@ -155,7 +165,9 @@ class HandleFit {
                                                      IntersectionWith(ThingOf(found.mirrored)));
     found.beams_nats =
         kNatsPerDeviation * (likelihood_.rays().image ? ahead : std::max(0.0, ahead));
-    found.image_nats = OutlineOf(found.best).nats - OutlineOf(found.mirrored).nats;
+    found.image_nats =
+        std::clamp(kNatsOfImage * (OutlineOf(found.best).nats - OutlineOf(found.mirrored).nats),
+                   -kMostOfImage_nats, kMostOfImage_nats);
     if (around != nullptr)
       found.edges_nats = EdgesForWay(*around, door_, CandidateOf(found.best, base_from_door_));
     return found.Ahead() < 0.0 ? found.Swapped() : found;
@@ -215,10 +227,17 @@ class HandleFit {
            range_m * (map_alone ? kMapLacks : kBeamsLack);
   }
 
+  /// The same lever, that much further off the door on the line on which it is seen.
+  HandleState Nearer(HandleState lever, double off_m) const {
+    const Eigen::Vector3d viewpoint = base_from_door_.Inverse() * likelihood_.rays().viewpoint;
+    lever.values.head<2>() += off_m * AlongSight(lever, viewpoint);
+    lever.values[kHandleStandoff] += off_m;
+    return lever;
+  }
+
   /// An answer, `by_m` further off the door than the rays had it.
-  HandleCandidate Placed(HandleState lever, double by_m) const {
-    lever.values[kHandleStandoff] += by_m;
-    return CandidateOf(lever, base_from_door_);
+  HandleCandidate Placed(const HandleState& lever, double by_m) const {
+    return CandidateOf(Nearer(lever, by_m), base_from_door_);
   }
 
   /// As far off the door as the beams behind the map say; the score stays the map's.
@@ -227,8 +246,7 @@ class HandleFit {
     const HandleScorer beams{*likelihood_.BehindMap(), base_from_door_, options_};
     double best_score = beams(best);
     for (double off_m = -kMostOff_m; off_m <= kMostOff_m; off_m += kOffStep_m) {
-      HandleState tried = lever;
-      tried.values[kHandleStandoff] += off_m;
+      const HandleState tried = Nearer(lever, off_m);
       const double score = beams(tried);
       if (!(score > best_score)) continue;
       best_score = score;
@@ -287,7 +305,7 @@ class HandleFit {
     for (const HandleAlternative& alternative : alternatives) {
       const double margin =
           own - alternative.log_likelihood +
-          0.5 * (alternative.parameters - kHandleParameters) * std::log(measurements);
+          0.5 * (alternative.parameters - kFreeHandleParameters) * std::log(measurements);
       if (!(margin < evidence.alternative_margin_nats)) continue;
       evidence.alternative_margin_nats = margin;
       evidence.best_alternative = alternative.name;

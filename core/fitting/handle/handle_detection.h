@@ -23,13 +23,13 @@ struct HandleEvidence {
   double rms_m = 0.0;         ///< of the agreeing ranges
   double covered = 0.0;       ///< of the lever's length, the fraction with agreeing hits
   double beside = 0.0;        ///< fraction of the rays round it that end before the door
-  /// Odds against the best lever that points the other way: 0.75 for each deviation over scan lines
+  /// Odds against the best lever that points the other way: 1.25 for each deviation over scan lines
   /// that it is behind, edges_nats and image_nats.
   double mirror_margin_nats = 0.0;
   double edges_nats = 0.0;           ///< what the door's edges say of the way (EdgesForWay)
-  double image_nats = 0.0;           ///< what the outline in the image says of the way
+  double image_nats = 0.0;           ///< what the outline in the image says of it, 4.5 at most
   double outline_nats_per_px = 0.0;  ///< how well its outline lies on edges; 0 = no image
-  double length_margin_nats = 0.0;   ///< ahead of the best one that is 20 mm shorter or longer
+  double length_margin_nats = 0.0;   ///< ahead of the best one that is 20 mm or more off
   double gain_nats = 0.0;            ///< ahead of the bare door
   /// Ahead of the best knob, pull bar, bow, bar on a post or box.
   double alternative_margin_nats = 0.0;
@@ -58,7 +58,8 @@ struct HandleDetection {
   Plane door;  ///< in base, its normal towards the viewer
   HandleEvidence evidence;
   Verdict verdict;
-  /// Best first: the lever that points the other way, and levers 20 mm shorter and longer.
+  /// Best first: the lever that points the other way, and levers 20 mm (on the
+  /// same bar up to 60 mm) shorter and longer.
   std::vector<HandleCandidate> alternatives;
   FitOrigin origin;
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/base/random.h"
@@ -15,28 +14,16 @@ std::vector<HandleState> FindLevers(const HandleScorer& scorer,
                                     const std::vector<Eigen::Vector3d>& before_door, Random& random,
                                     const RunContext& context);
 
-enum class HandleEffort { kCoarse, kFine };
+enum class HandleEffort { kCoarse, kFine, kFinest };
 
-/// Climbs the score over all parameters; with kFine also over straight and returned ends, both
-/// plates and pivots further along the lever. The result's score is never below the start's.
+/// Climbs the score over all parameters but how the lever is bowed; with kFine also over straight
+/// and returned ends, both plates and pivots further along the lever, with kFinest over bows, too.
+/// The result's score is never below the start's.
 HandleState LocalSearch(const HandleScorer& scorer, HandleState start, HandleEffort effort);
 
 /// The best lever that is `longer_m` longer (negative: shorter): its free end is where the lever's
-/// is, or its pivot is, or its pivot alone is elsewhere on the bar; minus infinity where none of
-/// that length is built.
+/// is, or its pivot is, or its pivot alone is elsewhere on the bar, by as much, twice or three
+/// times as much; minus infinity where none of these is built.
 HandleState OtherLength(const HandleScorer& scorer, const HandleState& lever, double longer_m);
-
-/// Something else that may sit there.
-struct HandleAlternative {
-  std::string name;  ///< "knob", "pull bar", "bow", "bar on a post", "box"
-  int parameters = 0;
-  double log_likelihood = 0.0;
-};
-
-/// The best of each kind in the handle's place, or where the points are. Those of a cancelled
-/// context mean nothing.
-std::vector<HandleAlternative> FitHandleAlternatives(
-    const BeamLikelihood& likelihood, const DoorFrame& base_from_door, const HandleState& handle,
-    const std::vector<Eigen::Vector3d>& before_door, const RunContext& context);
 
 }  // namespace foresight

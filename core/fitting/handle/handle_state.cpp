@@ -1,5 +1,6 @@
 #include "core/fitting/handle/handle_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -24,6 +25,8 @@ HandleModel HandleState::Model() const {
   HandleModel model;
   model.length_m = values[kHandleLength];
   model.behind_m = values[kHandleBehind];
+  model.bow_m = values[kHandleBow];
+  model.lift_m = values[kHandleLift];
   model.radius_m = values[kHandleRadius];
   model.standoff_m = values[kHandleStandoff];
   model.returned = returned;
@@ -43,6 +46,8 @@ double HandleScorer::operator()(const HandleState& state) const {
   const bool built =
       v[kHandleLength] >= options.min_length_m && v[kHandleLength] <= options.max_length_m &&
       v[kHandleBehind] >= 0.0 && v[kHandleBehind] <= HandlePrior::kMostBehind * v[kHandleLength] &&
+      std::abs(v[kHandleBow]) <= HandlePrior::kMostBow_m &&
+      std::abs(v[kHandleLift]) <= HandlePrior::kMostBow_m &&
       v[kHandleStandoff] >= kLeastStandoff_m && v[kHandleStandoff] <= kLargestStandoff_m &&
       v[kHandleRadius] >= kLeastRadius_m && v[kHandleRadius] <= kLargestRadius_m;
   if (!built) return -std::numeric_limits<double>::infinity();
@@ -50,7 +55,9 @@ double HandleScorer::operator()(const HandleState& state) const {
   const double prior =
       -0.5 * (Squared((v[kHandleStandoff] - Prior::kStandoff_m) / Prior::kStandoffSigma_m) +
               Squared((v[kHandleRadius] - Prior::kRadius_m) / Prior::kRadiusSigma_m) +
-              Squared((v[kHandleLength] - Prior::kLength_m) / Prior::kLengthSigma_m)) -
+              Squared((v[kHandleLength] - Prior::kLength_m) / Prior::kLengthSigma_m) +
+              Squared(v[kHandleBow] / Prior::kBowSigma_m) +
+              Squared(v[kHandleLift] / Prior::kLiftSigma_m)) -
       v[kHandleBehind] / Prior::kBehind_m;
   return prior + LogLikelihoodOf(ThingOf(state.Model(), state.Pose(base_from_door)), likelihood);
 }
@@ -73,18 +80,35 @@ HandleState Mirrored(const HandleState& state) {
   const double pivot_m = state.values[kHandleLength] - state.values[kHandleBehind];
   mirrored.values[kHandleX] += pivot_m * std::cos(turn);
   mirrored.values[kHandleY] += pivot_m * std::sin(turn);
+  mirrored.values[kHandleBow] = -state.values[kHandleBow];
   mirrored.values[kHandleTurn] = std::remainder(turn + std::numbers::pi, 2.0 * std::numbers::pi);
   return mirrored;
 }
 
 HandleState WithPivotAlong(const HandleState& state, double by_m) {
   HandleState moved = state;
-  const double turn = state.values[kHandleTurn];
-  moved.values[kHandleX] += by_m * std::cos(turn);
-  moved.values[kHandleY] += by_m * std::sin(turn);
-  moved.values[kHandleLength] -= by_m;
-  moved.values[kHandleBehind] += by_m;
+  HandleStep& v = moved.values;
+  const double turn = v[kHandleTurn];
+  // The parabola's place there, and what of it is left: its sagitta goes with the square of that.
+  const double s = std::clamp(by_m / v[kHandleLength], 0.0, 1.0), off = 4.0 * s * (1.0 - s);
+  const double beside_m = off * v[kHandleBow];
+  v[kHandleX] += by_m * std::cos(turn) - beside_m * std::sin(turn);
+  v[kHandleY] += by_m * std::sin(turn) + beside_m * std::cos(turn);
+  v[kHandleStandoff] += off * v[kHandleLift];
+  v[kHandleLength] -= by_m;
+  v[kHandleBehind] += by_m;
+  v[kHandleTurn] += std::atan2(-beside_m, v[kHandleLength]);
+  v[kHandleBow] *= Squared(1.0 - s);
+  v[kHandleLift] *= Squared(1.0 - s);
   return moved;
+}
+
+Eigen::Vector2d AlongSight(const HandleState& state, const Eigen::Vector3d& viewpoint) {
+  constexpr double kLeastOff = 0.3;
+  const HandleStep& v = state.values;
+  const Eigen::Vector3d sight =
+      viewpoint - Eigen::Vector3d(v[kHandleX], v[kHandleY], v[kHandleStandoff]);
+  return sight.head<2>() / std::max(sight.z(), kLeastOff * sight.norm());
 }
 
 std::array<HandleState, 4> VariantsOf(const HandleState& state) {

@@ -16,9 +16,13 @@ enum HandleParameter {
   kHandleStandoff,
   kHandleLength,
   kHandleBehind,
+  kHandleBow,
+  kHandleLift,
   kHandleRadius,
   kHandleParameters
 };
+/// Without the bow and the lift, which hardly leave what is built.
+constexpr int kFreeHandleParameters = kHandleParameters - 2;
 using HandleStep = Eigen::Matrix<double, kHandleParameters, 1>;
 using HandleInformation = Eigen::Matrix<double, kHandleParameters, kHandleParameters>;
 
@@ -47,7 +51,9 @@ struct HandlePrior {
   static constexpr double kLengthSigma_m = 0.025;
   static constexpr double kBehind_m = 0.012;       ///< mean of an exponential
   static constexpr double kBehindSigma_m = 0.006;  ///< most levers end at their pivot
-  static constexpr double kMostBehind = 0.8;       ///< of the length; beyond, it is a bar on a post
+  static constexpr double kBowSigma_m = 0.006, kLiftSigma_m = 0.005;
+  static constexpr double kMostBow_m = 0.025;
+  static constexpr double kMostBehind = 0.8;  ///< of the length; beyond, it is a bar on a post
 };
 
 /// What a handle is scored against.
@@ -68,6 +74,11 @@ HandleState OnDoor(const HandleState& state, const DoorFrame& base_from_door,
 HandleState Mirrored(const HandleState& state);
 /// The lever that covers the same place and has its pivot `by_m` further along.
 HandleState WithPivotAlong(const HandleState& state, double by_m);
+
+/// By how much a handle moves on its door while it comes off it by a metre, along the line on which
+/// it is seen: it looks the same from there. Bounded for a door that is seen from its side.
+/// @param viewpoint in the door's frame
+Eigen::Vector2d AlongSight(const HandleState& state, const Eigen::Vector3d& viewpoint);
 
 /// The same with either end and on either plate.
 std::array<HandleState, 4> VariantsOf(const HandleState& state);

@@ -36,7 +36,11 @@ constexpr double kMinHits = 12.0;  // independent measurements on the handle
 // Against a lever that points the other way: 100 : 1, and 2 : 1 of what is LIKELY.
 constexpr double kMinMirror_nats = 4.6;
 constexpr double kLeastMirror_nats = 0.7;
+constexpr double kLongestBar_m = 0.195;   // of what counts as a lever: 205 mm with both its ends
 constexpr double kLeastAhead_nats = 5.0;  // of another thing: 150 : 1, of what is LIKELY
+// Where the lever is on a long plate the other thing was given it: a strip lies across the end of a
+// bar by chance once in 22000.
+constexpr double kStripByChance_nats = 10.0;
 
 // CONFIRMED is wrong once in 70 answers at most. Of those from lidar returns that the probability
 // and the gates would have confirmed on training scenes, by weights that had not seen the scene, 7
@@ -49,6 +53,10 @@ constexpr const char* kNotYet =
 /// Of what was measured: the beams behind a map, or a map that comes alone.
 const BeamLikelihood& OfMeasured(const BeamLikelihood& likelihood) {
   return likelihood.BehindMap() != nullptr ? *likelihood.BehindMap() : likelihood;
+}
+
+double RangeOf(const RaySet& rays, const HandleDetection& detection) {
+  return (detection.best.base_from_object.translation() - rays.viewpoint).norm();
 }
 
 std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detection,
@@ -69,7 +77,8 @@ std::vector<double> FeaturesOf(const RaySet& rays, const HandleDetection& detect
           proportions_nats,
           std::log(std::max(1e-3, detection.sigma_normal_rad)),
           evidence.outline_nats_per_px,
-          std::log(std::max(1e-4, detection.line_sigma_pivot_m))};
+          std::log(std::max(1e-4, detection.line_sigma_pivot_m)),
+          RangeOf(rays, detection)};
 }
 
 Gate MirrorGate(const HandleEvidence& evidence, double limit_nats) {
@@ -84,10 +93,12 @@ Eigen::Vector3d MiddleOf(const HandleCandidate& handle) {
 }
 
 /// Why the handle is not even LIKELY.
-std::vector<std::string> FailedExistenceGates(const HandleEvidence& evidence) {
+std::vector<std::string> FailedExistenceGates(const HandleDetection& detection) {
+  const HandleEvidence& evidence = detection.evidence;
+  const bool on_strip = detection.best.model.plate == HandleModel::Plate::kLong;
   std::vector<std::string> failed;
   AddIfFailed(AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
-                              kLeastAhead_nats),
+                              kLeastAhead_nats - (on_strip ? kStripByChance_nats : 0.0)),
               failed);
   AddIfFailed(MirrorGate(evidence, kLeastMirror_nats), failed);
   return failed;
@@ -114,11 +125,20 @@ std::vector<std::string> FailedGates(const RaySet& region, const HandleDetection
                 .number = detection.best.model.length_m,
                 .advice = "at the end of the range of lengths nothing is confirmed"},
                options.min_length_m + kBound_m, options.max_length_m - kBound_m, failed);
+  AddIfFailed({.what = "its bar is {} long",
+               .unit = Gate::Unit::kLength,
+               .number = detection.best.model.length_m + detection.best.model.behind_m +
+                         detection.best.model.radius_m,
+               .side = Gate::Side::kAtMost,
+               .limit = kLongestBar_m,
+               .advice = "longer ones are pull bars more often than levers"},
+              failed);
   return failed;
 }
 
 /// What may be unusual about it.
-std::vector<FeatureGate> FeatureGates(const HandleDetection& detection, const VerdictModel& model) {
+std::vector<FeatureGate> FeatureGates(const RaySet& region, const HandleDetection& detection,
+                                      const VerdictModel& model) {
   const HandleEvidence& evidence = detection.evidence;
   const auto mean = [&](const char* feature) { return MeanOf(model, feature); };
   const auto usual_nats = [&](const char* feature) { return UsualNatsOf(model, feature); };
@@ -147,9 +167,15 @@ std::vector<FeatureGate> FeatureGates(const HandleDetection& detection, const Ve
             .number = detection.line_sigma_pivot_m,
             .side = Gate::Side::kAtMost,
             .limit = std::exp(mean("log_sigma_pivot"))}},
+          {"range",
+           {.what = "it is {} away",
+            .unit = Gate::Unit::kLength,
+            .number = RangeOf(region, detection),
+            .side = Gate::Side::kAtMost,
+            .limit = mean("range")}},
           {"mirror_margin", MirrorGate(evidence, mean("mirror_margin"))},
           {"log_length_margin",
-           {.what = "the odds against a lever that is 20 mm shorter or longer are {}",
+           {.what = "the odds against a lever that is 20 mm or more shorter or longer are {}",
             .unit = Gate::Unit::kOdds,
             .number = evidence.length_margin_nats,
             .limit = usual_nats("log_length_margin")}},
@@ -198,8 +224,8 @@ struct BeamSlopes {
 
 BeamSlopes SlopesOf(const BeamLikelihood& likelihood, const HandleScorer& scorer,
                     const HandleState& handle, const Plane& door) {
-  const std::array<double, kHandleParameters> steps = {0.002, 0.002, 0.02, 0.002,
-                                                       0.004, 0.004, 0.001};
+  const std::array<double, kHandleParameters> steps = {0.002, 0.002, 0.02,  0.002, 0.004,
+                                                       0.004, 0.004, 0.004, 0.001};
   std::vector<DoorThing> moved;
   for (int p = 0; p < kHandleParameters; ++p) {
     HandleState state = handle;
@@ -243,6 +269,8 @@ HandleInformation PriorInformation() {
   prior(kHandleStandoff, kHandleStandoff) += 1.0 / Squared(HandlePrior::kStandoffSigma_m);
   prior(kHandleRadius, kHandleRadius) += 1.0 / Squared(HandlePrior::kRadiusSigma_m);
   prior(kHandleLength, kHandleLength) += 1.0 / Squared(HandlePrior::kLengthSigma_m);
+  prior(kHandleBow, kHandleBow) += 1.0 / Squared(HandlePrior::kBowSigma_m);
+  prior(kHandleLift, kHandleLift) += 1.0 / Squared(HandlePrior::kLiftSigma_m);
   prior(kHandleBehind, kHandleBehind) += 1.0 / Squared(HandlePrior::kBehindSigma_m);
   return prior;
 }
@@ -300,7 +328,8 @@ HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door
     square_sum += error * error;
     const Eigen::Vector3d at = object_from_base * (ray.origin + expected->object_m * ray.direction);
     const double place = at.x() / handle.model.length_m;
-    if (std::abs(at.y()) < 2.0 * handle.model.radius_m && place >= 0.0 && place < 1.0)
+    const double beside_m = at.y() - 4.0 * place * (1.0 - place) * handle.model.bow_m;
+    if (std::abs(beside_m) < 2.0 * handle.model.radius_m && place >= 0.0 && place < 1.0)
       covered[static_cast<std::size_t>(place * kCoverBins)] = true;
   }
   const double hits = std::max(1, evidence.hits);
@@ -361,7 +390,8 @@ std::vector<std::string> HandleFeatureNames() {
           "proportions",
           "log_sigma_normal",
           "outline",
-          "log_sigma_pivot"};
+          "log_sigma_pivot",
+          "range"};
 }
 
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
@@ -373,7 +403,7 @@ Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
   };
   Verdict verdict;
   verdict.features = FeaturesOf(region, detection, proportions_nats);
-  const std::vector<std::string> none = FailedExistenceGates(evidence);
+  const std::vector<std::string> none = FailedExistenceGates(detection);
   verdict.failed_gates = none;
   for (std::string& gate : FailedGates(region, detection, options))
     verdict.failed_gates.push_back(std::move(gate));
@@ -392,7 +422,7 @@ Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,
   verdict.level = LevelFor(verdict.probability, !verdict.failed_gates.empty());
   verdict.reason =
       ReasonOf(verdict, Verdict::kLikely, in_words("the other way fits worse"),
-               WeightiestFirst(*model, verdict.features, FeatureGates(detection, *model)));
+               WeightiestFirst(*model, verdict.features, FeatureGates(region, detection, *model)));
   if (verdict.level == VerdictLevel::kConfirmed) {
     verdict.level = VerdictLevel::kLikely;
     verdict.reason = kNotYet;

@@ -27,8 +27,8 @@ std::vector<std::string> HandleFeatureNames();
 /// lever that points the other way is less than 2 : 1 or another thing less than 150 : 1 behind.
 /// Gates say what else speaks against it: few measurements on it, beams that went through it, a
 /// lever that points the other way or one of HandleAlternative that explains the rays as well, a
-/// place far from the region's centre, a length at a bound. Without a model, as before the first
-/// weights, the probability is NaN and what fails a gate UNSURE.
+/// place far from the region's centre, a length at a bound, a bar over 195 mm. Without a model, as
+/// before the first weights, the probability is NaN and what fails a gate UNSURE.
 /// @param region the rays that it was looked for in
 /// @param proportions_nats log of the prior's density: how usual a handle of this build is
 Verdict AssessHandle(const RaySet& region, const HandleDetection& detection,

@@ -79,12 +79,13 @@ void AddRims(const Eigen::Vector3d& half, const Eigen::Vector3d& eye,
   }
 }
 
-/// The outlines of both balls, where they are outside of the cylinder between them.
-void AddBalls(const Eigen::Vector3d& half, const Eigen::Vector3d& eye,
-              std::vector<PartEdge>& edges) {
+/// The outlines of the balls at ends where nothing goes on, outside of the cylinder between them.
+void AddBalls(const SolidPart& part, const Eigen::Vector3d& eye, std::vector<PartEdge>& edges) {
+  const Eigen::Vector3d half = 0.5 * part.size_m;
   const Circle& circle = UnitCircle();
   const double radius = half.x();
   for (const double end : {-1.0, 1.0}) {
+    if (part.joined[end > 0.0 ? 1 : 0]) continue;
     const Eigen::Vector3d middle(0.0, 0.0, end * half.z());
     const Eigen::Vector3d to_eye = (eye - middle).normalized();
     const Eigen::Vector3d x = to_eye.unitOrthogonal(), y = to_eye.cross(x);
@@ -114,7 +115,7 @@ std::vector<PartEdge> EdgesSeenFrom(const SolidPart& part, const Eigen::Vector3d
       break;
     case SolidPart::Shape::kCapsule:
       AddSides(half, eye, edges);
-      AddBalls(half, eye, edges);
+      AddBalls(part, eye, edges);
       break;
   }
   return edges;

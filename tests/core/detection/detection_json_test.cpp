@@ -142,7 +142,7 @@ TEST(DetectionJson, ADrillSaysWhereToGraspAndByHowMuchItBeatsItsAlternatives) {
 HandleDetection SampleHandle() {
   HandleDetection handle;
   handle.best.base_from_object = {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.1, 0.2, 1.0}};
-  handle.best.model = {0.131, 0.021, 0.0095, 0.052, true, HandleModel::Plate::kLong};
+  handle.best.model = {0.131, 0.021, -0.006, 0.004, 0.0095, 0.052, true, HandleModel::Plate::kLong};
   handle.best.log_likelihood = 90.0;
   handle.door = {-Eigen::Vector3d::UnitY(), 0.2};
   handle.sigma_length_m = 0.004;
@@ -167,6 +167,8 @@ TEST(DetectionJson, ADoorHandleSurvivesTheRoundTripAndSaysHowFarTheFlippedOneIsB
   EXPECT_EQ(read->door.offset, 0.2);
   EXPECT_EQ(read->alternatives[1].model.length_m, 0.111);
   EXPECT_EQ(read->best.model.behind_m, 0.021);
+  EXPECT_EQ(read->best.model.bow_m, -0.006);
+  EXPECT_EQ(read->best.model.lift_m, 0.004);
   EXPECT_EQ(DetectionToJson(*read, {}), text);
   EXPECT_EQ(nlohmann::json::parse(text)["alternatives"][0]["margin_nats"], 12.0);
 }
@@ -176,6 +178,8 @@ TEST(DetectionJson, ADoorHandleThatIsLongerThanAMetreOrOnAnUnknownPlateIsRefused
                                    {"length_m", -0.1},
                                    {"behind_m", -0.001},
                                    {"behind_m", 0.5},
+                                   {"bow_m", -0.3},
+                                   {"lift_m", "high"},
                                    {"plate", "round"}}) {
     nlohmann::json wrong = nlohmann::json::parse(DetectionToJson(SampleHandle(), {}));
     wrong["best"]["model"][key] = value;
@@ -183,12 +187,14 @@ TEST(DetectionJson, ADoorHandleThatIsLongerThanAMetreOrOnAnUnknownPlateIsRefused
   }
 }
 
-TEST(DetectionJson, ADoorHandleOfBeforeLeversWentOnBehindTheirPivotEndsThere) {
+TEST(DetectionJson, ADoorHandleOfBeforeLeversWentOnBehindTheirPivotAndWereBowedIsStraight) {
   nlohmann::json older = nlohmann::json::parse(DetectionToJson(SampleHandle(), {}));
-  older["best"]["model"].erase("behind_m");
+  for (const char* key : {"behind_m", "bow_m", "lift_m"}) older["best"]["model"].erase(key);
   const auto read = DetectionFromJson(older.dump());
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(std::get<HandleDetection>(*read).best.model.behind_m, 0.0);
+  EXPECT_EQ(std::get<HandleDetection>(*read).best.model.bow_m, 0.0);
+  EXPECT_EQ(std::get<HandleDetection>(*read).best.model.lift_m, 0.0);
 }
 
 TEST(DetectionJson, ACylinderSurvivesTheRoundTripWithoutAProbability) {

@@ -66,7 +66,7 @@ TEST(FitInScan, TheImageTellsWhichWayADrillPointsWhereBeamsDoNot) {
 }
 
 TEST(FitInScan, TheImageTellsWhichWayALeverPointsWhereBeamsDoNot) {
-  for (const std::uint64_t seed : {141, 261, 272}) {
+  for (const std::uint64_t seed : {116, 141}) {
     EXPECT_FALSE(OutcomeOf("handle", seed, false).pose_ok) << seed;
     EXPECT_TRUE(OutcomeOf("handle", seed, true).all_ok) << seed;
   }
