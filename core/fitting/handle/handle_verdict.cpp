@@ -42,10 +42,9 @@ constexpr double kLeastAhead_nats = 5.0;  // of another thing: 150 : 1, of what 
 // bar by chance once in 22000.
 constexpr double kStripByChance_nats = 10.0;
 
-// CONFIRMED is wrong once in 70 answers at most. Of those from lidar returns that the probability
-// and the gates would have confirmed on training scenes, by weights that had not seen the scene, 7
-// of 290 were, and of those of fresh scenes of the other world 7 of 45 (docs/evaluation.md,
-// "Standoffs by range").
+// CONFIRMED is wrong once in 70 answers at most. Of those that the probability and the gates would
+// have confirmed on training scenes, by weights that had not seen the scene, 7 of 562 were wrong,
+// but of those of fresh scenes of the other world 8 of 73 (docs/evaluation.md, "Levers that bend").
 constexpr const char* kNotYet =
     "a door handle is never confirmed yet: of answers as sure as that too many were wrong on "
     "scenes that were drawn to find out";
