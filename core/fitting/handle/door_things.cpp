@@ -140,15 +140,19 @@ std::vector<SolidPart> DoorThing::Parts() const {
   return parts;
 }
 
-DoorThing ThingOf(const HandleModel& model,
-                  const Rigid<frame::Base, frame::Object>& base_from_object) {
+DoorThing::Plate PlateOf(HandleModel::Plate kind, double standoff_m) {
   DoorThing::Plate plate;
-  plate.front_m = HandleModel::kPlateThickness_m - model.standoff_m;
-  if (model.plate == HandleModel::Plate::kRosette)
+  plate.front_m = HandleModel::kPlateThickness_m - standoff_m;
+  if (kind == HandleModel::Plate::kRosette)
     plate.radius_m = HandleModel::kRosetteRadius_m;
   else
     plate.half_m = {0.5 * HandleModel::kPlateWidth_m, 0.5 * HandleModel::kPlateLength_m};
-  return DoorThing(BarsOf(model), {plate}, base_from_object);
+  return plate;
+}
+
+DoorThing ThingOf(const HandleModel& model,
+                  const Rigid<frame::Base, frame::Object>& base_from_object) {
+  return DoorThing(BarsOf(model), {PlateOf(model.plate, model.standoff_m)}, base_from_object);
 }
 
 IntersectBeam IntersectionWith(const DoorThing& thing) {

@@ -63,6 +63,9 @@ class DoorThing {
   double bound_m_ = 0.0;                              ///< ... and its radius
 };
 
+/// What a handle stands on, in a frame whose origin is that far off the door.
+DoorThing::Plate PlateOf(HandleModel::Plate kind, double standoff_m);
+
 /// A handle at a place.
 DoorThing ThingOf(const HandleModel& model,
                   const Rigid<frame::Base, frame::Object>& base_from_object);

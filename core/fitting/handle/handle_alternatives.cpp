@@ -50,9 +50,9 @@ Eigen::VectorXd With(const Eigen::VectorXd& values, double last) {
 
 /// On the door, of what stands that far off it.
 DoorThing::Plate RosetteAt(double x_m, double standoff_m) {
-  return {.front_m = HandleModel::kPlateThickness_m - standoff_m,
-          .at = {x_m, 0.0},
-          .radius_m = HandleModel::kRosetteRadius_m};
+  DoorThing::Plate rosette = PlateOf(HandleModel::Plate::kRosette, standoff_m);
+  rosette.at.x() = x_m;
+  return rosette;
 }
 
 /// What the posts of a bar stand on.
@@ -185,10 +185,10 @@ class OtherThings {
   std::vector<DoorThing::Plate> StripFor(const OnTheDoor& place) const {
     if (handle_.plate != HandleModel::Plate::kLong) return {};
     const HandleStep& h = handle_.values;
-    return {{.front_m = HandleModel::kPlateThickness_m - place.off_m,
-             .at = Eigen::Rotation2Dd(-place.turn_rad) * (h.head<2>() - place.at),
-             .turn_rad = h[kHandleTurn] - place.turn_rad,
-             .half_m = {0.5 * HandleModel::kPlateWidth_m, 0.5 * HandleModel::kPlateLength_m}}};
+    DoorThing::Plate strip = PlateOf(HandleModel::Plate::kLong, place.off_m);
+    strip.at = Eigen::Rotation2Dd(-place.turn_rad) * (h.head<2>() - place.at);
+    strip.turn_rad = h[kHandleTurn] - place.turn_rad;
+    return {strip};
   }
 
   /// Log likelihood of bars and plates, and of the handle's long plate with them.

@@ -104,7 +104,7 @@ HandleState WithPivotAlong(const HandleState& state, double by_m) {
 }
 
 Eigen::Vector2d AlongSight(const HandleState& state, const Eigen::Vector3d& viewpoint) {
-  constexpr double kLeastOff = 0.3;
+  constexpr double kLeastOff = 0.3;  // of the line of sight, off the door: seen from its side
   const HandleStep& v = state.values;
   const Eigen::Vector3d sight =
       viewpoint - Eigen::Vector3d(v[kHandleX], v[kHandleY], v[kHandleStandoff]);
