@@ -100,7 +100,7 @@ FitSource UsualSourceFor(ObjectKind kind, bool has_depth) {
 }
 
 bool UsesImage(ObjectKind kind) {
-  return kind == ObjectKind::kValve || kind == ObjectKind::kDrill || kind == ObjectKind::kHandle;
+  return kind != ObjectKind::kCylinder;
 }
 
 Result<RaySet> RaysInScan(const ProcessedScan& scan, FitSource source, const Roi& roi,

@@ -18,6 +18,7 @@ Json EvidenceJson(const BlockEvidence& evidence) {
           {"outside", evidence.outside},
           {"confirmed_edges", evidence.confirmed_edges},
           {"rms_m", evidence.rms_m},
+          {"outline_nats", evidence.outline_nats},
           {"size_margin", evidence.size_margin},
           {"size_nats", evidence.size_nats}};
 }
@@ -31,7 +32,8 @@ BlockEvidence BlockEvidenceFrom(const Json& value) {
   evidence.confirmed_edges = IntegerIn(value, "confirmed_edges", 0, 4);
   evidence.rms_m = NumberFrom(value.at("rms_m"));
   // Earlier programs did not write these.
-  for (const auto& [name, member] : {std::pair("size_margin", &evidence.size_margin),
+  for (const auto& [name, member] : {std::pair("outline_nats", &evidence.outline_nats),
+                                     std::pair("size_margin", &evidence.size_margin),
                                      std::pair("size_nats", &evidence.size_nats)})
     if (value.contains(name)) *member = NumberFrom(value[name]);
   return evidence;

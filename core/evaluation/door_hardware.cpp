@@ -81,7 +81,7 @@ std::vector<Eigen::Vector3d> DrawnPath(const HandleModel& model) {
   if (model.behind_m > 0.0) path.emplace_back(-model.behind_m, 0.0, model.standoff_m);
   for (int i = 0; i <= kPieces; ++i) {
     const double s = static_cast<double>(i) / kPieces;
-    path.emplace_back(s * model.length_m, model.bow_m * 4.0 * s * (1.0 - s),
+    path.emplace_back(s * model.length_m, model.bow_m * HandleModel::BowAt(s),
                       model.standoff_m + model.lift_m * std::sin(kPi * s));
   }
   return path;

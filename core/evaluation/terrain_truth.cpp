@@ -145,6 +145,7 @@ FitOutcome JudgeOne(const TerrainSurface& found, std::span<const TrueBlock> bloc
   outcome.verdict = found.verdict;
   outcome.reason = found.verdict.reason;
   outcome.evidence = {{"confirmed_edges", static_cast<double>(found.evidence.confirmed_edges)},
+                      {"outline_nats", found.evidence.outline_nats},
                       {"size_margin", found.evidence.size_margin},
                       {"size_nats", found.evidence.size_nats}};
   outcome.errors = {{"false_area", FalseArea(found, blocks)}};

@@ -29,8 +29,7 @@ VerdictSource VerdictSourceOf(const RaySet& rays);
 /// they help, on its products in pairs,
 ///   log odds = bias + w z + sum over i >= j of q_ij z_i z_j,
 /// as what a number is worth depends on others: see-through says less where few beams hit (ADR
-/// 0029). Every object has one for each source (terrain, which looks at no beams behind a map, none
-/// for kAlone; what looks at no image, none for kCloud). The files are made by `foresightctl
+/// 0029). Every object has one for each source. The files are made by `foresightctl
 /// verdict fit`, docs/verdicts.md, and hold the population that they are true for.
 struct VerdictModel {
   struct Feature {

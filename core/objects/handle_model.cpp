@@ -100,7 +100,7 @@ std::vector<Eigen::Vector3d> LeverPathOf(const HandleModel& model) {
   std::vector<Eigen::Vector3d> path;
   if (model.behind_m > 0.0) path.emplace_back(-model.behind_m, 0.0, 0.0);
   for (int i = 0; i <= kPieces; ++i) {
-    const double s = static_cast<double>(i) / kPieces, off = 4.0 * s * (1.0 - s);
+    const double s = static_cast<double>(i) / kPieces, off = HandleModel::BowAt(s);
     path.emplace_back(s * model.length_m, off * model.bow_m, off * model.lift_m);
   }
   return path;

@@ -32,6 +32,9 @@ struct HandleModel {
   static constexpr double kPlateLength_m = 0.230;  ///< the pivot lies in its middle
   static constexpr double kReturnGap_m = 0.012;    ///< between a returned end and the door
 
+  /// How much of its bow and lift the lever has at a place along it, 0 at the pivot and 1 at the
+  /// end.
+  static constexpr double BowAt(double place) { return 4.0 * place * (1.0 - place); }
   /// Fails with kInvalidOptions: a size that is not above 0 or not below a metre, a piece behind
   /// the pivot that is longer than the lever, or a middle further off the line than half its
   /// length.

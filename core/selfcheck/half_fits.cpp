@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "core/detection/candidates.h"
 #include "core/geometry/angles.h"
@@ -35,27 +36,49 @@ std::vector<PlacedObject> PlacedIn(const Detection& detection, const SensorRig& 
   return placed;
 }
 
+/// An object as a half of the lines has it.
+struct InHalf {
+  PlacedObject object;
+  Eigen::Matrix<double, 6, 1> sigmas;
+};
+
 /// The object of a half that is the same thing; nullopt where there is none.
-std::optional<PlacedObject> SameIn(const std::vector<PlacedObject>& half,
-                                   const PlacedObject& object) {
-  for (const ObjectPair& pair : MatchObjects({object}, half))
-    if (pair.first && pair.second) return pair.second;
+std::optional<InHalf> SameIn(const Result<Detection>& half, const SensorRig& rig,
+                             const PlacedObject& object) {
+  if (!half) return std::nullopt;
+  std::vector<PlacedObject> placed = PlacedIn(*half, rig);
+  for (std::size_t part = 0; part < placed.size(); ++part) placed[part].uuid = std::to_string(part);
+  for (const ObjectPair& pair : MatchObjects({object}, placed))
+    if (pair.first && pair.second)
+      return InHalf{*pair.second, Sigmas(CovarianceOf(*half, std::stoul(pair.second->uuid)))};
   return std::nullopt;
 }
 
-std::vector<HalvesDifference> DifferencesOf(const PlacedObject& even, const PlacedObject& odd,
-                                            const PoseCovariance& covariance) {
-  const PoseDifference difference = DifferenceOf(even, odd);
-  const Eigen::Matrix<double, 6, 1> sigmas = Sigmas(covariance);
+/// Two independent halves differ by twice the deviation of the whole; by more where the whole knew
+/// more than both halves, as by an image that they do not look at.
+Eigen::Matrix<double, 6, 1> PredictedDifference(const InHalf& even, const InHalf& odd,
+                                                const PoseCovariance& whole) {
+  const Eigen::Matrix<double, 6, 1> of_halves =
+      (even.sigmas.cwiseAbs2() + odd.sigmas.cwiseAbs2()).cwiseSqrt();
+  Eigen::Matrix<double, 6, 1> predicted = 2.0 * Sigmas(whole);
+  for (int i = 0; i < 6; ++i)
+    if (of_halves[i] > predicted[i]) predicted[i] = of_halves[i];
+  return predicted;
+}
+
+std::vector<HalvesDifference> DifferencesOf(const InHalf& even, const InHalf& odd,
+                                            const PoseCovariance& whole) {
+  const PoseDifference difference = DifferenceOf(even.object, odd.object);
+  const Eigen::Matrix<double, 6, 1> predicted = PredictedDifference(even, odd, whole);
   std::vector<HalvesDifference> differences;
   for (int i = 0; i < 6; ++i) {
     // A disc's phase, and the extent of what was not seen to its ends.
-    if (!std::isfinite(sigmas[i])) continue;
+    if (!std::isfinite(predicted[i])) continue;
     const bool is_turn = i >= 3;
     const int axis = i % 3;
     differences.push_back({fmt::format("{} {}", is_turn ? "about" : "along", "xyz"[axis]),
                            is_turn ? difference.turn_rad[axis] : difference.shift_m[axis],
-                           2.0 * sigmas[i], is_turn});
+                           predicted[i], is_turn});
   }
   std::sort(
       differences.begin(), differences.end(),
@@ -150,8 +173,8 @@ Result<std::vector<HalfFits>> CheckHalves(const RegisteredScan& cloud, const Sen
     answer.what = object.name.empty() ? whole[part].text : object.name;
     if (whole.size() > 1)
       answer.what = fmt::format("{} ({} of {})", answer.what, part + 1, whole.size());
-    const auto in_even = even ? SameIn(PlacedIn(*even, rig), whole[part]) : std::nullopt;
-    const auto in_odd = odd ? SameIn(PlacedIn(*odd, rig), whole[part]) : std::nullopt;
+    const auto in_even = SameIn(even, rig, whole[part]);
+    const auto in_odd = SameIn(odd, rig, whole[part]);
     if (in_even && in_odd) {
       answer.differences = DifferencesOf(*in_even, *in_odd, CovarianceOf(object.detection, part));
       answer.state = StateOf(answer.differences, limits);

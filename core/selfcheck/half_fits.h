@@ -25,7 +25,7 @@ struct KeptObject {
 struct HalvesDifference {
   std::string axis;        ///< "along z", "about x"
   double value = 0.0;      ///< of odd against even lines, m or rad
-  double predicted = 0.0;  ///< its standard deviation, by the object's own: twice that of the whole
+  double predicted = 0.0;  ///< its standard deviation, by what the fits say of theirs
   bool is_turn = false;
   double Sigmas() const { return predicted > 0.0 ? std::abs(value) / predicted : 0.0; }
 };
@@ -58,7 +58,8 @@ std::string InWords(const HalvesDifference& difference);
 RegisteredScan HalfOf(const RegisteredScan& cloud, bool odd);
 
 /// Makes the fit again from even and from odd lines, with the same region, source and options. Two
-/// halves of independent measurements differ by twice the deviation of the whole. A terrain gives
+/// halves of independent measurements differ by twice the deviation of the whole, or by what their
+/// own deviations say where that is more: the whole may have looked at an image. A terrain gives
 /// one answer a surface. A half in which nothing is found is an answer, too. Fails with kCancelled.
 /// Costs two fits, and two depth maps where the source is one.
 Result<std::vector<HalfFits>> CheckHalves(const RegisteredScan& cloud, const SensorRig& rig,

@@ -39,6 +39,7 @@ constexpr double kMinChuck_nats = 10.0;
 // As sure as of its chuck. Of 242 right drills on training scenes the least has 14.9 nats for a
 // foot that is wider than its grip (docs/evaluation.md, "What a drill stands on").
 constexpr double kMinFoot_nats = 10.0;
+constexpr double kUsualFoot_nats = 50.0;  // of a kind without feet, whose feet say nothing
 // Chucks of cordless drills are 30 to 50 mm long; hot air tools and dryers end in nozzles.
 constexpr double kLongestChuck_m = 0.065;
 // Another shape that is so much likelier is not LIKELY a drill.
@@ -73,7 +74,8 @@ std::vector<double> FeaturesOf(const RaySet& rays, const DrillDetection& detecti
           support.proportions_nats,
           support.outline.NatsPerPixel(),
           Compressed(support.image_flip_nats),
-          std::log(std::max(1e-3, detection.sigma_axis_rad))};
+          std::log(std::max(1e-3, detection.sigma_axis_rad)),
+          Compressed(std::isinf(support.foot_nats) ? kUsualFoot_nats : support.foot_nats)};
 }
 
 Gate AnyFlipGate(const DrillSupport& support, double limit_nats) {
@@ -113,11 +115,11 @@ Gate BluntGate(const DrillSupport& support, double limit_nats) {
           .advice = "it may be another tool"};
 }
 
-Gate FootGate(const DrillSupport& support) {
+Gate FootGate(const DrillSupport& support, double limit_nats) {
   return {.what = "the odds that it stands on a foot wider than its grip are {}",
           .unit = Gate::Unit::kOdds,
           .number = support.foot_nats,
-          .limit = kMinFoot_nats,
+          .limit = limit_nats,
           .advice = "it may be another tool"};
 }
 
@@ -217,7 +219,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
     if (gate.Failed()) break;
   }
   AddLongChuck(model, failed);
-  AddIfFailed(FootGate(support), failed);
+  AddIfFailed(FootGate(support, kMinFoot_nats), failed);
   AddFailedBoundGates(model, drill, prior, failed);
   AddIfFailed(
       OffCenterGate(kObject, region,
@@ -253,6 +255,7 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
           {"log_any_flip", AnyFlipGate(support, usual_nats("log_any_flip"))},
           {"flip_line_sigmas", FlipLinesGate(support, mean("flip_line_sigmas"))},
           {"log_chuck", ChuckGate(support, usual_nats("log_chuck"))},
+          {"log_foot", FootGate(support, usual_nats("log_foot"))},
           {"log_blunt_margin", BluntGate(support, usual_nats("log_blunt_margin"))},
           {"log_alternative_margin",
            AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
@@ -307,7 +310,8 @@ std::vector<std::string> DrillFeatureNames() {
           "proportions",
           "outline",
           "log_image_flip",
-          "log_sigma_axis"};
+          "log_sigma_axis",
+          "log_foot"};
 }
 
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,

@@ -90,7 +90,7 @@ HandleState WithPivotAlong(const HandleState& state, double by_m) {
   HandleStep& v = moved.values;
   const double turn = v[kHandleTurn];
   // The parabola's place there, and what of it is left: its sagitta goes with the square of that.
-  const double s = std::clamp(by_m / v[kHandleLength], 0.0, 1.0), off = 4.0 * s * (1.0 - s);
+  const double s = std::clamp(by_m / v[kHandleLength], 0.0, 1.0), off = HandleModel::BowAt(s);
   const double beside_m = off * v[kHandleBow];
   v[kHandleX] += by_m * std::cos(turn) - beside_m * std::sin(turn);
   v[kHandleY] += by_m * std::sin(turn) + beside_m * std::cos(turn);

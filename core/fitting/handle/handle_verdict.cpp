@@ -327,7 +327,7 @@ HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door
     square_sum += error * error;
     const Eigen::Vector3d at = object_from_base * (ray.origin + expected->object_m * ray.direction);
     const double place = at.x() / handle.model.length_m;
-    const double beside_m = at.y() - 4.0 * place * (1.0 - place) * handle.model.bow_m;
+    const double beside_m = at.y() - HandleModel::BowAt(place) * handle.model.bow_m;
     if (std::abs(beside_m) < 2.0 * handle.model.radius_m && place >= 0.0 && place < 1.0)
       covered[static_cast<std::size_t>(place * kCoverBins)] = true;
   }

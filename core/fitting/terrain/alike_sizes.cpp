@@ -7,11 +7,20 @@
 namespace foresight {
 namespace {
 
-constexpr double kFirst = -0.19, kStep = 0.02;  // margins in the middle of the bins below
-using Nats = std::array<double, 13>;
-constexpr Nats kOfReturns = {-3.2, -1.9, -2.0, -1.8, -1.3, -1.1, -1.0,
-                             -0.2, 0.0,  0.6,  1.1,  3.0,  3.6};
-constexpr Nats kOfMap = {-6.4, -5.4, -5.3, -4.3, -4.6, -4.9, -3.3, -1.9, -0.9, 0.4, 1.7, 4.3, 5.0};
+/// Nats of margins, evenly apart.
+struct SizeOdds {
+  double first = 0.0;  ///< margin
+  double step = 0.0;
+  std::array<double, 14> nats = {};
+};
+constexpr SizeOdds kOfReturns = {
+    -0.19, 0.02, {-3.2, -1.9, -2.0, -1.8, -1.3, -1.1, -1.0, -0.2, 0.0, 0.6, 1.1, 3.0, 3.6, 3.6}};
+constexpr SizeOdds kOfMap = {
+    -0.19, 0.02, {-6.4, -5.4, -5.3, -4.3, -4.6, -4.9, -3.3, -1.9, -0.9, 0.4, 1.7, 4.3, 5.0, 5.0}};
+constexpr SizeOdds kOfReturnsAndImage = {
+    -0.285, 0.03, {-6.6, -5.4, -5.3, -4.8, -3.9, -2.3, -2.0, -1.0, -0.5, 0.7, 1.8, 3.8, 4.0, 4.4}};
+constexpr SizeOdds kOfMapAndImage = {
+    -0.285, 0.03, {-6.8, -5.7, -5.6, -5.3, -5.2, -4.6, -3.5, -2.6, -1.1, 0.3, 2.6, 3.5, 4.3, 5.0}};
 
 struct Fraction {
   double of_blocks;
@@ -21,15 +30,20 @@ constexpr std::array<Fraction, 7> kFractions = {
     {{0.02, 0.3}, {0.1, 0.08}, {0.3, 0.08}, {0.5, 0.08}, {0.7, 0.08}, {0.9, 0.08}, {0.98, 0.3}}};
 constexpr double kWorth = 0.5;
 
+const SizeOdds& OddsOf(bool of_map, bool in_image) {
+  if (of_map) return in_image ? kOfMapAndImage : kOfMap;
+  return in_image ? kOfReturnsAndImage : kOfReturns;
+}
+
 }  // namespace
 
-double NatsOfSize(double size_margin, bool of_map) {
-  const Nats& nats = of_map ? kOfMap : kOfReturns;
-  const double at =
-      std::clamp((size_margin - kFirst) / kStep, 0.0, static_cast<double>(nats.size() - 1));
-  const auto low = std::min(static_cast<std::size_t>(at), nats.size() - 2);
+double NatsOfSize(double size_margin, bool of_map, bool in_image) {
+  const SizeOdds& odds = OddsOf(of_map, in_image);
+  const double at = std::clamp((size_margin - odds.first) / odds.step, 0.0,
+                               static_cast<double>(odds.nats.size() - 1));
+  const auto low = std::min(static_cast<std::size_t>(at), odds.nats.size() - 2);
   const double beyond = at - static_cast<double>(low);
-  return (1.0 - beyond) * nats[low] + beyond * nats[low + 1];
+  return (1.0 - beyond) * odds.nats[low] + beyond * odds.nats[low + 1];
 }
 
 std::vector<double> NatsAmongOthers(std::span<const double> own_nats) {

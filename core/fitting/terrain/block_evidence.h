@@ -32,6 +32,7 @@ struct RectangleEvidence {
   enum class Row { kNone, kIn, kOut };
   Row row = Row::kNone;
   double row_gap_sigmas = 0.0;
+  bool in_image = false;  ///< an image shows at least half of its sides
 };
 
 RectangleEvidence GatherEvidence(const SurfaceGrid& grid, const PlaneView& view,

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <vector>
+
+#include "core/fitting/terrain/block_outline.h"
 
 namespace foresight {
 namespace {
@@ -16,6 +19,9 @@ constexpr double kSameSize = 0.04;     // of a side: what edges and blocks are o
 constexpr double kAnotherSize = 0.10;  // of a side: what counts as another size
 constexpr double kSizeCorner_m = 0.020;
 constexpr double kOfAnother_m = 0.015;  // support this near to another block is that one's
+// What a line's nat is worth, of a block's area: 0.036, 0.07 and 0.14 were tried
+// (docs/evaluation.md, "Blocks in the image").
+constexpr double kLineNat = 0.07;
 
 /// Gains along one side of a rectangle, in bins from its lower end less the reach and the band.
 class SideProfile {
@@ -26,13 +32,31 @@ class SideProfile {
         band_(Bins(kRectangleBand_m)),
         first_m_(-0.5 * side_m - (reach_ + band_) * kSizeBin_m),
         inside_(static_cast<std::size_t>(side_ + 2 * (reach_ + band_)) + 1, 0.0),
-        around_(inside_) {}
+        around_(inside_),
+        ends_(inside_) {}
 
   void Add(double at_m, double inside, double around) {
     const double bin = std::floor((at_m - first_m_) / kSizeBin_m);
     if (bin < 0.0 || bin >= static_cast<double>(inside_.size() - 1)) return;
     inside_[static_cast<std::size_t>(bin) + 1] += inside;
     around_[static_cast<std::size_t>(bin) + 1] += around;
+  }
+
+  /// What an image says of either end at each place, `line` its nats there. What it does not show
+  /// of a line is taken for as likely an end as what it shows elsewhere.
+  void AddLines(const std::function<LineInImage(double at_m)>& line, double area_of_a_nat_m2) {
+    std::vector<LineInImage> lines(ends_.size());
+    double nats = 0.0, shown = 0.0;
+    for (int low = band_; low <= band_ + 2 * reach_; ++low)
+      for (const int end : {low, low + side_}) {
+        LineInImage& at = lines[static_cast<std::size_t>(end)];
+        at = line(first_m_ + end * kSizeBin_m);
+        nats += at.shown * at.nats;
+        shown += at.shown;
+      }
+    if (!(shown > 0.0)) return;
+    for (std::size_t end = 0; end < ends_.size(); ++end)
+      ends_[end] = area_of_a_nat_m2 * lines[end].NatsOr(nats / shown);
   }
 
   /// The best score of a length that is nearly the side's, less the best of any other.
@@ -61,7 +85,9 @@ class SideProfile {
         const int longer = high - low - side_;
         if (std::abs(longer) > reach_) continue;
         const double score = Sum(inside, low, high) + Sum(around, low - band_, low) +
-                             Sum(around, high, high + band_);
+                             Sum(around, high, high + band_) +
+                             ends_[static_cast<std::size_t>(low)] +
+                             ends_[static_cast<std::size_t>(high)];
         double& kept = best[static_cast<std::size_t>(longer + reach_)];
         kept = std::max(kept, score);
       }
@@ -80,13 +106,14 @@ class SideProfile {
 
   int side_, reach_, band_;
   double first_m_;
-  std::vector<double> inside_, around_;  ///< the first is empty
+  std::vector<double> inside_, around_;  ///< of the bin before each place; the first is empty
+  std::vector<double> ends_;             ///< at each place
 };
 
 }  // namespace
 
 double SizeMargin(const PlaneView& view, const BlockRectangle& rectangle,
-                  std::span<const BlockRectangle> others) {
+                  std::span<const BlockRectangle> others, const BlockOutline* outline) {
   const Eigen::Vector2d half = 0.5 * rectangle.size_m;
   const auto of_another = [&](const Eigen::Vector2d& at) {
     return rectangle.Inside(at) < 0.0 &&
@@ -107,6 +134,10 @@ double SizeMargin(const PlaneView& view, const BlockRectangle& rectangle,
   for (const PlaneView::Sample& sample : view.support) add(sample, !of_another(sample.at));
   for (const auto* closed : {&view.through, &view.occupied})
     for (const PlaneView::Sample& sample : *closed) add(sample, false);
+  for (int axis = 0; outline != nullptr && axis < 2; ++axis)
+    profiles[static_cast<std::size_t>(axis)].AddLines(
+        [&](double at_m) { return outline->Line(rectangle, axis, at_m); },
+        kLineNat * rectangle.size_m.prod());
   return std::min(profiles[0].MarginOfItsLength(), profiles[1].MarginOfItsLength()) /
          rectangle.size_m.prod();
 }

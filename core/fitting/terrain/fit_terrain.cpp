@@ -127,6 +127,7 @@ Result<TerrainDetection> FitTerrain(const RaySet& rays, const FitTerrainOptions&
     collector.Add(planes, plane);
   }
   if (options.place_together) collector.PlaceTogether();
+  collector.PlaceByImage();
   collector.MeasureSizes();
   TerrainDetection detection = Detect(rays, grid, options, collector.found);
   if (options.last) MarkShifts(*options.last, detection.surfaces);

@@ -15,9 +15,10 @@ struct FitTerrainOptions {
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
   double max_tilt_rad = 0.7853981633974483;        ///< of a surface, 45 deg
   double toehold_margin_m = 0.020;                 ///< kept from each side of a block
-  bool graph_cut = true;       ///< false: planes stay as they grew (for comparison)
-  bool place_together = true;  ///< false: each block by its own edges alone (for comparison)
-  int max_rays = 120000;       ///< a denser region is thinned to this many
+  bool graph_cut = true;  ///< false: planes stay as they grew (for comparison)
+  bool place_together =
+      true;               ///< false: each block by itself, without its neighbours (for comparison)
+  int max_rays = 120000;  ///< a denser region is thinned to this many
   /// The last accepted answer; blocks that moved since are marked (both in base, the robot
   /// unmoved).
   std::shared_ptr<const TerrainDetection> last;
@@ -27,7 +28,8 @@ struct FitTerrainOptions {
 };
 
 /// Finds the blocks that can be stood on, Section V-B: normals on a metric window, progressive
-/// grouping, alpha-expansion graph cut, refits, rectangles of the known size, edges. The same rays,
+/// grouping, alpha-expansion graph cut, refits, rectangles of the known size, edges. Blocks that
+/// `rays.image` shows are placed on its edges and measured with them. The same rays,
 /// options and seed give the same answer on any number of threads. A region without a block is no
 /// error: it has ground and unknown surfaces only. Fails with kTooFewPoints, kNoConvergence (no
 /// plane at all), kInvalidInput, kInvalidOptions and kCancelled. Below a second of CPU for

@@ -3,9 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/fitting/terrain/alike_sizes.h"
 #include "core/fitting/terrain/block_lattice.h"
+#include "core/fitting/terrain/block_outline.h"
 #include "core/fitting/terrain/block_size.h"
 
 namespace foresight {
@@ -16,7 +19,25 @@ constexpr double kMaxSeeThrough = 0.30;
 constexpr double kLargestPatch = 5.0;   // blocks; more is ground or a floor
 constexpr double kMinLeftover = 0.15;   // of a block's area: a surface of its own
 constexpr double kOwnMargin_m = 0.015;  // support this near to a block is its own
+constexpr double kShown = 0.5;          // of a block's sides, of one that an image shows
 constexpr int kMeasuredEdges = 2;       // of a block whose size was measured
+
+bool Offered(const BlockEvidence& seen) {
+  return seen.cover >= kLeastOffered && seen.see_through <= kMaxSeeThrough;
+}
+
+/// One holds a point of the other's sides, by more than blocks that touch do.
+bool Overlap(const BlockRectangle& first, const BlockRectangle& second) {
+  constexpr double kTouching_m = 0.015;
+  const auto holds_side_of = [](const BlockRectangle& one, const BlockRectangle& other) {
+    for (const double x : {-0.5, 0.0, 0.5})
+      for (const double y : {-0.5, 0.0, 0.5})
+        if (one.Inside(other.Flat(other.size_m.cwiseProduct(Eigen::Vector2d(x, y)))) > kTouching_m)
+          return true;
+    return false;
+  };
+  return holds_side_of(first, second) || holds_side_of(second, first);
+}
 
 /// How far a return near an edge may lie from where the edge is.
 double EdgeBlur(const RaySet& rays, const SurfaceGrid& grid, const Eigen::Vector3d& at) {
@@ -135,8 +156,7 @@ void SurfaceCollector::AddBlocks(const PlaneView& view, std::vector<PlaneView::S
   const double blur_m = EdgeBlur(rays_, grid_, view.surface.center);
   for (const BlockRectangle& rectangle : FitRectangles(view, size_m_, kLeastOffered, blur_m)) {
     FoundSurface block = BlockAt(static_cast<int>(views_.size()) - 1, rectangle);
-    const BlockEvidence& seen = block.surface.evidence;
-    if (seen.cover < kLeastOffered || seen.see_through > kMaxSeeThrough) continue;
+    if (!Offered(block.surface.evidence)) continue;
     std::erase_if(left, [&](const auto& sample) {
       if (rectangle.Inside(sample.at) < -kOwnMargin_m) return false;
       block.points.push_back(sample.point);
@@ -181,16 +201,48 @@ void SurfaceCollector::PlaceTogether() {
     const LatticePlace& settled = lattice->places[k];
     if (settled.in_rows) {
       const PlaneView& view = views_[static_cast<std::size_t>(block.view)];
-      FoundSurface moved =
-          BlockAt(block.view, MovedTo(settled.place, places[k], view, level, block.rectangle));
-      moved.points = std::move(block.points);
-      TakeCovariance(settled.place, level, moved.surface);
-      block = std::move(moved);
+      MoveTo(MovedTo(settled.place, places[k], view, level, block.rectangle), block);
+      TakeCovariance(settled.place, level, block.surface);
     }
     block.evidence.row =
         settled.in_rows ? RectangleEvidence::Row::kIn : RectangleEvidence::Row::kOut;
     block.evidence.row_gap_sigmas = settled.gap_sigmas;
   }
+}
+
+void SurfaceCollector::MoveTo(const BlockRectangle& rectangle, FoundSurface& block) const {
+  FoundSurface moved = BlockAt(block.view, rectangle);
+  moved.points = std::move(block.points);
+  moved.evidence.row = block.evidence.row;
+  moved.evidence.row_gap_sigmas = block.evidence.row_gap_sigmas;
+  block = std::move(moved);
+}
+
+void SurfaceCollector::PlaceByImage() {
+  if (rays_.image == nullptr) return;
+  for (FoundSurface& block : found) {
+    if (block.surface.kind != TerrainSurface::Kind::kBlock) continue;
+    const PoseCovariance& covariance = block.surface.covariance;
+    const PlacedRectangle placed =
+        BlockOutline(*rays_.image, views_[static_cast<std::size_t>(block.view)])
+            .Place(
+                {block.rectangle, covariance.topLeftCorner<2, 2>(), std::sqrt(covariance(5, 5))});
+    FoundSurface moved = block;
+    MoveTo(placed.rectangle, moved);
+    if (!Offered(moved.surface.evidence) || MovedIntoAnother(block, moved)) continue;
+    block = std::move(moved);
+    block.surface.covariance.topLeftCorner<2, 2>() = placed.covariance;
+    block.surface.covariance(5, 5) = placed.yaw_sigma_rad * placed.yaw_sigma_rad;
+  }
+}
+
+bool SurfaceCollector::MovedIntoAnother(const FoundSurface& block,
+                                        const FoundSurface& moved) const {
+  return std::any_of(found.begin(), found.end(), [&](const FoundSurface& other) {
+    return &other != &block && other.view == block.view &&
+           other.surface.kind == TerrainSurface::Kind::kBlock &&
+           Overlap(moved.rectangle, other.rectangle) && !Overlap(block.rectangle, other.rectangle);
+  });
 }
 
 void SurfaceCollector::MeasureSizes() {
@@ -203,11 +255,18 @@ void SurfaceCollector::MeasureSizes() {
     for (const FoundSurface* other : blocks)
       if (other != block && other->view == block->view) others.push_back(other->rectangle);
     BlockEvidence& evidence = block->surface.evidence;
+    const PlaneView& view = views_[static_cast<std::size_t>(block->view)];
+    std::optional<BlockOutline> outline;
+    if (rays_.image != nullptr) outline.emplace(*rays_.image, view);
+    const RectangleInImage seen = outline ? outline->Outline(block->rectangle) : RectangleInImage();
+    block->evidence.in_image = seen.shown >= kShown;
+    evidence.outline_nats = block->evidence.in_image ? seen.nats : 0.0;
     evidence.size_margin =
-        SizeMargin(views_[static_cast<std::size_t>(block->view)], block->rectangle, others);
-    own_nats.push_back(evidence.confirmed_edges < kMeasuredEdges
-                           ? std::nan("")
-                           : NatsOfSize(evidence.size_margin, rays_.dense));
+        SizeMargin(view, block->rectangle, others, block->evidence.in_image ? &*outline : nullptr);
+    own_nats.push_back(
+        evidence.confirmed_edges < kMeasuredEdges
+            ? std::nan("")
+            : NatsOfSize(evidence.size_margin, rays_.dense, block->evidence.in_image));
   }
   const std::vector<double> nats = NatsAmongOthers(own_nats);
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i]->surface.evidence.size_nats = nats[i];

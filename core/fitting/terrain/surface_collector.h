@@ -34,6 +34,11 @@ class SurfaceCollector {
   /// gathers their evidence again there. Without rows, nothing changes.
   void PlaceTogether();
 
+  /// Moves blocks to where an image has their edges, and gathers their evidence again there; not
+  /// into another block, and not to where beams do not have them. What is known of their rows, and
+  /// the points that are theirs, stay.
+  void PlaceByImage();
+
   /// What speaks for the size of each block, beside the others on its plane, and for that of all.
   void MeasureSizes();
 
@@ -41,6 +46,9 @@ class SurfaceCollector {
 
  private:
   void AddBlocks(const PlaneView& view, std::vector<PlaneView::Sample>& left);
+  /// Moves a found block. What is known of its rows stays.
+  void MoveTo(const BlockRectangle& rectangle, FoundSurface& block) const;
+  bool MovedIntoAnother(const FoundSurface& block, const FoundSurface& moved) const;
   FoundSurface BlockAt(int view, const BlockRectangle& rectangle) const;
 
   const RaySet& rays_;

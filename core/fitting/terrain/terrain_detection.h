@@ -20,8 +20,12 @@ struct BlockEvidence {
   double outside = 0.0;      ///< support beyond the rectangle, as a fraction of its area
   int confirmed_edges = 0;   ///< 0 to 4: support inside, none outside
   double rms_m = 0.0;        ///< of the points from the plane
+  /// How much more its sides look like edges in the image than lines across it do
+  /// (BlockOutline::Outline); 0 where no image shows half of them.
+  double outline_nats = 0.0;
   /// How much better a block's size explains it than any that is a tenth and more longer or
-  /// shorter, as a fraction of its area; negative where another explains it better.
+  /// shorter, as a fraction of its area; negative where another explains it better. An image that
+  /// shows it has its say.
   double size_margin = 0.0;
   /// The odds, in nats, that it has a block's size, by its own margin and those of the other tops
   /// of the region (NatsAmongOthers).

@@ -45,12 +45,12 @@ Gate EdgesGate(const BlockEvidence& evidence, int limit) {
           .limit = static_cast<double>(limit)};
 }
 
-Gate SizeGate(const BlockEvidence& evidence, double limit_nats, bool of_map) {
+Gate SizeGate(const BlockEvidence& evidence, double limit_nats, bool edges_show) {
   return {.what = "the odds that it has a block's size are {}",
           .unit = Gate::Unit::kOdds,
           .number = evidence.size_nats,
           .limit = limit_nats,
-          .advice = of_map
+          .advice = edges_show
                         ? "measure it, or look at it from another side"
                         : "lidar returns hardly show edges, fit to the dense map if there is one"};
 }
@@ -68,19 +68,26 @@ Gate PlaceGate(const TerrainSurface& block, double limit_m) {
           .advice = "scan slower or move closer"};
 }
 
+/// A map counts as one alone where no image shows the block: terrain looks at no beams behind it.
+VerdictSource SourceOf(const RaySet& rays, const RectangleEvidence& evidence) {
+  if (rays.dense) return evidence.in_image ? VerdictSource::kDense : VerdictSource::kAlone;
+  return evidence.in_image ? VerdictSource::kRaw : VerdictSource::kCloud;
+}
+
 /// Why a block must not be confirmed.
-std::vector<std::string> FailedGates(const TerrainSurface& block, bool of_map) {
+std::vector<std::string> FailedGates(const RaySet& rays, const TerrainSurface& block,
+                                     bool in_image) {
   const BlockEvidence& evidence = block.evidence;
   std::vector<std::string> failed;
   AddIfFailed({.what = "part of a larger patch: {} of a block's area lies beyond it",
                .unit = Gate::Unit::kFraction,
                .number = evidence.outside,
                .side = Gate::Side::kAtMost,
-               .limit = of_map ? kMaxOutside : kMaxOutsideOfReturns},
+               .limit = rays.dense ? kMaxOutside : kMaxOutsideOfReturns},
               failed);
   AddIfFailed(CoverGate(evidence, kMinCover), failed);
   AddIfFailed(EdgesGate(evidence, kMinEdges), failed);
-  AddIfFailed(SizeGate(evidence, kMinSize_nats, of_map), failed);
+  AddIfFailed(SizeGate(evidence, kMinSize_nats, rays.dense || in_image), failed);
   AddIfFailed(PlaceGate(block, kMaxPlaceSigma_m), failed);
   return failed;
 }
@@ -111,7 +118,7 @@ std::vector<FeatureGate> FeatureGates(const TerrainSurface& block,
             .number = seen.rms_m,
             .side = Gate::Side::kAtMost,
             .limit = mean("rms")}},
-          {"size_nats", SizeGate(seen, mean("size_nats"), model.source == VerdictSource::kDense)},
+          {"size_nats", SizeGate(seen, mean("size_nats"), model.source != VerdictSource::kCloud)},
           {"log_sigma_place", PlaceGate(block, std::exp(mean("log_sigma_place")))}};
 }
 
@@ -144,27 +151,27 @@ std::vector<double> FeaturesOf(const RaySet& rays, const TerrainSurface& block,
           evidence.row_gap_sigmas,
           std::log(PlaceSigma(block)),
           std::clamp(seen.size_margin, -kFarOff, kFarOff),
-          seen.size_nats};
+          seen.size_nats,
+          seen.outline_nats};
 }
 
 }  // namespace
 
 std::vector<std::string> TerrainFeatureNames() {
-  return {"cover",    "see_through", "outside",    "three_edges",     "four_edges",
-          "drops",    "least_inner", "most_outer", "size_error",      "log_points",
-          "rms",      "tilt",        "range",      "sigma",           "log_sigma_tilt",
-          "in_rows",  "out_of_rows", "row_gap",    "log_sigma_place", "size_margin",
-          "size_nats"};
+  return {"cover",     "see_through", "outside",    "three_edges",     "four_edges",
+          "drops",     "least_inner", "most_outer", "size_error",      "log_points",
+          "rms",       "tilt",        "range",      "sigma",           "log_sigma_tilt",
+          "in_rows",   "out_of_rows", "row_gap",    "log_sigma_place", "size_margin",
+          "size_nats", "outline"};
 }
 
 Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
                     const RectangleEvidence& evidence) {
-  const VerdictModel& model =
-      ShippedVerdictModel("terrain", rays.dense ? VerdictSource::kDense : VerdictSource::kRaw);
+  const VerdictModel& model = ShippedVerdictModel("terrain", SourceOf(rays, evidence));
   Verdict verdict;
   verdict.features = FeaturesOf(rays, block, evidence);
   verdict.probability = model.Probability(verdict.features);
-  verdict.failed_gates = FailedGates(block, rays.dense);
+  verdict.failed_gates = FailedGates(rays, block, evidence.in_image);
   model.AddReservation(verdict.failed_gates);
   const bool unsure = verdict.probability < kWorthOffering ||
                       block.evidence.confirmed_edges <= kUnsureEdges ||

@@ -263,7 +263,15 @@ TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
   block.kind = TerrainSurface::Kind::kBlock;
   block.base_from_object = {Eigen::Quaterniond::Identity(), {0.5, 0.6, 2.0}};
   block.size_m = {0.397, 0.390};
-  block.evidence = {400, 0.9, 0.01, 0.02, 4, 0.004, -0.07, 0.02};
+  block.evidence = {.points = 400,
+                    .cover = 0.9,
+                    .see_through = 0.01,
+                    .outside = 0.02,
+                    .confirmed_edges = 4,
+                    .rms_m = 0.004,
+                    .outline_nats = 1.5,
+                    .size_margin = -0.07,
+                    .size_nats = 0.02};
   block.toehold = {{0.357, 0.350}, 0.26, 0.19, 0.002, 0.004};
   block.verdict = {VerdictLevel::kConfirmed, 0.98, "four edges", {}};
   block.shift_m = 0.031;
@@ -277,6 +285,7 @@ TEST(DetectionJson, TerrainSurvivesTheRoundTripWithEverySurface) {
   ASSERT_NE(read, nullptr);
   ASSERT_EQ(read->surfaces.size(), 2U);
   EXPECT_EQ(read->surfaces[0].evidence.confirmed_edges, 4);
+  EXPECT_EQ(read->surfaces[0].evidence.outline_nats, 1.5);
   EXPECT_EQ(read->surfaces[0].evidence.size_margin, -0.07);
   EXPECT_EQ(read->surfaces[0].evidence.size_nats, 0.02);
   EXPECT_EQ(read->surfaces[0].toehold.step_m, 0.19);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/quantile.h"
 #include "core/depth/depth_method.h"
 #include "core/evaluation/fit_populations.h"
 #include "core/evaluation/fit_trial.h"
@@ -106,6 +107,27 @@ TEST(FitInScan, TheImageTellsOfAValveWhetherItsPartsAreThereAndNotWhereItIs) {
   EXPECT_GT(with.evidence.outline_nats_per_px, 0.0);
   EXPECT_EQ(without.evidence.outline_nats_per_px, 0.0);
   EXPECT_EQ(with.best.base_from_object.Matrix(), without.best.base_from_object.Matrix());
+}
+
+TEST(FitInScan, TheImagePlacesBlocksThatLidarLinesHardlyShow) {
+  const auto population = MakeFitPopulation("terrain").value();
+  double with_mm = 0.0, without_mm = 0.0;
+  for (const std::uint64_t seed : {20001, 20002, 20004}) {
+    const auto centers_mm = [&](double outline_weight) {
+      FitTrialOptions options;
+      options.outline_weight = outline_weight;
+      std::vector<double> errors;
+      const std::vector<FitOutcome> outcomes = RunFitTrial(*population, seed, options, {}).value();
+      for (const FitOutcome& outcome : outcomes)
+        for (const auto& [name, error] : outcome.errors)
+          if (outcome.pose_ok && name == "center_mm") errors.push_back(error);
+      EXPECT_FALSE(errors.empty()) << seed;
+      return Quantile(std::move(errors), 0.5);
+    };
+    with_mm += centers_mm(ImageEdges::kIndependentPerPixel);
+    without_mm += centers_mm(0.0);
+  }
+  EXPECT_LT(with_mm, 0.6 * without_mm);
 }
 
 TEST(FitInRegion, WhatStandsOnMoreThanItsRegionShowsIsToldWhatLiesRoundIt) {

@@ -9,11 +9,15 @@ namespace foresight {
 namespace {
 
 TEST(AlikeSizes, AMapsMarginSaysMoreThanLidarReturns) {
-  EXPECT_GT(NatsOfSize(0.05, true), NatsOfSize(0.05, false));
-  EXPECT_LT(NatsOfSize(-0.15, true), NatsOfSize(-0.15, false));
-  EXPECT_LT(NatsOfSize(-0.15, false), 0.0);
-  EXPECT_EQ(NatsOfSize(0.5, true), NatsOfSize(0.05, true)) << "there is no larger margin";
-  EXPECT_EQ(NatsOfSize(-0.5, true), NatsOfSize(-0.19, true));
+  EXPECT_GT(NatsOfSize(0.05, true, false), NatsOfSize(0.05, false, false));
+  EXPECT_LT(NatsOfSize(-0.15, true, false), NatsOfSize(-0.15, false, false));
+  EXPECT_LT(NatsOfSize(-0.15, false, false), 0.0);
+  EXPECT_GT(NatsOfSize(0.05, false, true), NatsOfSize(-0.04, false, true) + 3.0)
+      << "with an image returns tell, too";
+  EXPECT_GT(NatsOfSize(0.05, true, true), NatsOfSize(-0.04, true, true) + 3.0);
+  EXPECT_EQ(NatsOfSize(0.5, true, false), NatsOfSize(0.05, true, false))
+      << "there is no larger margin";
+  EXPECT_EQ(NatsOfSize(-0.5, true, false), NatsOfSize(-0.19, true, false));
 }
 
 TEST(AlikeSizes, TheOthersTellOfATopThatIsNotMeasured) {

@@ -27,23 +27,23 @@ BlockRectangle BlockAt(double x, double y) {
 }
 
 TEST(BlockSize, OfABlockIsItsOwn) {
-  EXPECT_GT(SizeMargin(TopOf({0.39, 0.39}), BlockAt(0.0, 0.0), {}), 0.06);
+  EXPECT_GT(SizeMargin(TopOf({0.39, 0.39}), BlockAt(0.0, 0.0), {}, nullptr), 0.06);
   // A block that is not quite in its place, or not quite of its size, is one.
-  EXPECT_GT(SizeMargin(TopOf({0.39, 0.39}), BlockAt(0.015, -0.01), {}), 0.06);
-  EXPECT_GT(SizeMargin(TopOf({0.40, 0.39}), BlockAt(0.0, 0.0), {}), 0.03);
+  EXPECT_GT(SizeMargin(TopOf({0.39, 0.39}), BlockAt(0.015, -0.01), {}, nullptr), 0.06);
+  EXPECT_GT(SizeMargin(TopOf({0.40, 0.39}), BlockAt(0.0, 0.0), {}, nullptr), 0.03);
 }
 
 TEST(BlockSize, OfALongerOrAShorterThingIsAnother) {
   for (const double side_m : {0.30, 0.45, 0.50}) {
-    EXPECT_LT(SizeMargin(TopOf({0.39, side_m}), BlockAt(0.0, 0.02), {}), -0.05) << side_m;
-    EXPECT_LT(SizeMargin(TopOf({side_m, 0.39}), BlockAt(0.02, 0.0), {}), -0.05) << side_m;
+    EXPECT_LT(SizeMargin(TopOf({0.39, side_m}), BlockAt(0.0, 0.02), {}, nullptr), -0.05) << side_m;
+    EXPECT_LT(SizeMargin(TopOf({side_m, 0.39}), BlockAt(0.02, 0.0), {}, nullptr), -0.05) << side_m;
   }
 }
 
 TEST(BlockSize, IsNotKnownWhereAnEdgeIsNotSeen) {
   PlaneView view = TopOf({0.39, 0.39});
   std::erase_if(view.through, [](const auto& sample) { return sample.at.x() > 0.0; });
-  EXPECT_NEAR(SizeMargin(view, BlockAt(0.0, 0.0), {}), 0.0, 0.01);
+  EXPECT_NEAR(SizeMargin(view, BlockAt(0.0, 0.0), {}, nullptr), 0.0, 0.01);
 }
 
 TEST(BlockSize, DoesNotCountTheNextBlock) {
@@ -54,8 +54,8 @@ TEST(BlockSize, DoesNotCountTheNextBlock) {
     it = next ? view.through.erase(it) : it + 1;
   }
   const std::vector<BlockRectangle> others = {BlockAt(0.40, 0.0)};
-  EXPECT_GT(SizeMargin(view, BlockAt(0.0, 0.0), others), 0.02);
-  EXPECT_LT(SizeMargin(view, BlockAt(0.0, 0.0), {}), 0.0);
+  EXPECT_GT(SizeMargin(view, BlockAt(0.0, 0.0), others, nullptr), 0.02);
+  EXPECT_LT(SizeMargin(view, BlockAt(0.0, 0.0), {}, nullptr), 0.0);
 }
 
 }  // namespace
