@@ -45,6 +45,9 @@ constexpr std::size_t kLocallySearchedLevers = 3;
 constexpr double kBeamsLack_m = 0.0013, kMapsLack_m = 0.0035;
 constexpr double kHopeless_nats = 200.0;  // more than local search brings
 constexpr double kTubeRadius_m = 0.012;   // where the search starts
+// What an image's nat counts beside a ray's, as of levers' ways (docs/evaluation.md, "Spokes in the
+// image").
+constexpr double kImageNat = 0.3;
 
 /// Streams of the seed: each stage draws its own numbers.
 enum Stream : std::uint64_t { kThinning, kWall, kRims, kLevers };
@@ -198,6 +201,30 @@ Status LocalSearchOfLeaders(const RaySet& region, const RayLikelihood& likelihoo
   return {};
 }
 
+/// Asks an image which of the candidates that rays do not leave far behind has its parts: rays have
+/// each in its place to a pixel or two, and the sides of a spoke lie further apart.
+void RankByImage(const RaySet& region, const RayLikelihood& likelihood,
+                 std::vector<ValveCandidate>& valves) {
+  if (region.image == nullptr) return;
+  const double least = valves.front().log_likelihood - kHopeless_nats;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    ValveCandidate& valve = valves[i];
+    if (valve.log_likelihood < least) continue;
+    valve.image_nats = kImageNat * NatsOfOutline(*region.image, valve);
+    valve.log_likelihood += valve.image_nats;
+    if (valve.log_likelihood > valves[first].log_likelihood) first = i;
+  }
+  // It was placed roughly only.
+  if (first >= kLocallySearched) {
+    const double image_nats = valves[first].image_nats;
+    valves[first] = LocalSearch(likelihood, valves[first]);
+    valves[first].image_nats = image_nats;
+    valves[first].log_likelihood += image_nats;
+  }
+  SortByPlaceAndLikelihood(region, valves);
+}
+
 /// From rays of the region to the best valve among them; places are judged against the region.
 Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
                               const FitValveOptions& options, const RunContext& context) {
@@ -234,11 +261,13 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   SortByPlaceAndLikelihood(region, valves);
   context.Report(0.7, "improving the pose");
   FORESIGHT_CHECK(LocalSearchOfLeaders(region, likelihood, valves, context));
+  RankByImage(region, likelihood, valves);
 
   ValveDetection detection;
   detection.best = WithUpwardSpoke(valves.front());
-  const double nothing = likelihood.Nothing();
-  if (!(detection.best.log_likelihood > nothing))
+  const double gain_nats =
+      detection.best.log_likelihood - detection.best.image_nats - likelihood.Nothing();
+  if (!(gain_nats > 0.0))
     return Fail(ErrorCode::kNoConvergence,
                 "nothing in the region looks like a wheel: draw it around one, or scan slower");
   for (std::size_t i = 1; i < valves.size() && i <= kAlternatives; ++i)
@@ -247,7 +276,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   detection.evidence = GatherEvidence(likelihood.MeasuredFootprints(), detection.best);
   detection.evidence.margin_nats =
       valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
-  detection.evidence.gain_nats = detection.best.log_likelihood - nothing;
+  detection.evidence.gain_nats = gain_nats;
   if (valves.size() > 1)
     detection.evidence.margin_line_sigmas = likelihood.DeviationsAhead(valves[0], valves[1]);
   AddEvidenceOfParts(likelihood, detection.best, detection.evidence);

@@ -157,6 +157,16 @@ double FurtherOutline(const ImageEdges& image, const SeenValve& seen, const Valv
 
 }  // namespace
 
+double NatsOfOutline(const ImageEdges& image, const ValveCandidate& valve) {
+  const SeenValve seen(image, valve);
+  Pieces outline;
+  for (const MiddleLine& part : PartsOf(valve.model)) {
+    const Pieces pieces = seen.PiecesOf(part);
+    outline.insert(outline.end(), pieces.begin(), pieces.end());
+  }
+  return image.SupportOf(image.Moved(outline, BestMove(image, outline))).nats;
+}
+
 void AddEvidenceOfOutline(const ImageEdges& image, const ValveCandidate& valve,
                           ValveEvidence& evidence) {
   const SeenValve seen(image, valve);

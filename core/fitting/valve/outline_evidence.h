@@ -14,4 +14,8 @@ inline constexpr double kLeastOutline_px = 8.0;
 void AddEvidenceOfOutline(const ImageEdges& image, const ValveCandidate& valve,
                           ValveEvidence& evidence);
 
+/// How much an image's edges speak for a valve with these parts against none, moved together by
+/// what rig and fit may be off: nats, as ImageEdges counts them.
+double NatsOfOutline(const ImageEdges& image, const ValveCandidate& valve);
+
 }  // namespace foresight

@@ -51,10 +51,11 @@ struct ValveEvidence {
 struct ValveCandidate {
   Rigid<frame::Base, frame::Object> base_from_object;
   ValveModel model;
-  double log_likelihood = 0.0;
+  double log_likelihood = 0.0;  ///< of the rays, and of the image where it was asked (image_nats)
   /// How strongly the valve returns light compared with the wall: a beam on both reads a range
   /// nearer to the brighter one.
   double brightness = 1.0;
+  double image_nats = 0.0;  ///< of log_likelihood, what an image says of its outline
 };
 
 /// A fitted valve.

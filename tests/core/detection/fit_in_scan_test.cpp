@@ -109,6 +109,13 @@ TEST(FitInScan, TheImageTellsOfAValveWhetherItsPartsAreThereAndNotWhereItIs) {
   EXPECT_EQ(with.best.base_from_object.Matrix(), without.best.base_from_object.Matrix());
 }
 
+TEST(FitInScan, TheImageTellsHowManySpokesAWheelHasWhereBeamsDoNot) {
+  for (const std::uint64_t seed : {34, 72}) {
+    EXPECT_FALSE(OutcomeOf("valve", seed, false).all_ok) << seed;
+    EXPECT_TRUE(OutcomeOf("valve", seed, true).all_ok) << seed;
+  }
+}
+
 TEST(FitInScan, TheImagePlacesBlocksThatLidarLinesHardlyShow) {
   const auto population = MakeFitPopulation("terrain").value();
   double with_mm = 0.0, without_mm = 0.0;
