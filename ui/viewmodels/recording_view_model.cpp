@@ -38,6 +38,11 @@ bool WasLeftBehind(const QString& path) {
 }
 
 /// Whether the file holds nothing that anybody would miss.
+int ScansIn(const MissionFile& file) {
+  const auto scans = file.ListScans();
+  return scans ? static_cast<int>(scans->size()) : 0;
+}
+
 bool IsEmpty(const MissionFile& file) {
   const auto scans = file.ListScans();
   const auto objects = file.ListDetections();
@@ -147,7 +152,8 @@ bool RecordingViewModel::Begin(const QString& path) {
     return false;
   }
   path_ = path;
-  Use(std::move(file));
+  const int earlier_scans = ScansIn(*file);
+  Use(std::move(file), earlier_scans);
   return true;
 }
 
@@ -164,27 +170,31 @@ void RecordingViewModel::SwitchTo(const QString& path) {
   const auto open_already = file_ && IsSameFile(path_, path)  ? file_
                             : earlier != earlier_files_.end() ? *earlier
                                                               : nullptr;
-  writer_.Run<std::shared_ptr<MissionFile>>(
+  struct Opened {
+    std::shared_ptr<MissionFile> file;
+    int scans = 0;
+  };
+  writer_.Run<Opened>(
       tr("Opening the mission file"),
-      [this, path, open_already](const RunContext&) -> Result<std::shared_ptr<MissionFile>> {
+      [this, path, open_already](const RunContext&) -> Result<Opened> {
         std::shared_ptr<MissionFile> file = open_already;
         if (!file) FORESIGHT_CHECK(Open(path, &file));
-        return file;
+        return Opened{file, ScansIn(*file)};
       },
-      [this, path](Result<std::shared_ptr<MissionFile>> file) {
-        if (!file) {
-          Notice notice = NoticeOf(tr("Opening the mission file"), file.error());
+      [this, path](Result<Opened> opened) {
+        if (!opened) {
+          Notice notice = NoticeOf(tr("Opening the mission file"), opened.error());
           notice.topic = kRecordingTopic;
           session_->Report(notice);
           return;
         }
-        std::erase(earlier_files_, *file);
-        const auto old = file_ == *file ? nullptr : file_;
+        std::erase(earlier_files_, opened->file);
+        const auto old = file_ == opened->file ? nullptr : file_;
         const QString old_path = path_;
         recorder_.reset();
         list_file_.reset();
         path_ = path;
-        Use(std::move(*file));
+        Use(std::move(opened->file), opened->scans);
         session_->Report({Notice::Level::kInfo, tr("Recording goes on in %1.").arg(path), {}});
         if (!old) return;
         if (IsEmpty(*old) && old->Close())
@@ -194,8 +204,9 @@ void RecordingViewModel::SwitchTo(const QString& path) {
       });
 }
 
-void RecordingViewModel::Use(std::shared_ptr<MissionFile> file) {
+void RecordingViewModel::Use(std::shared_ptr<MissionFile> file, int earlier_scans) {
   file_ = std::move(file);
+  session_->SetEarlierScans(earlier_scans);
   recorder_ = std::make_shared<ScanRecorder>(file_);
   failed_ = false;
   if (path_ == interrupted_) {
@@ -226,10 +237,8 @@ void RecordingViewModel::refreshList() {
       },
       [this](Result<Listed> listed) {
         if (!listed) return;  // the file itself is not in danger; the next change lists again
-        const bool first = listed->file != list_file_;
         list_file_ = listed->file;
         scans_ = std::move(listed->scans);
-        if (first) session_->SetEarlierScans(static_cast<int>(scans_.size()));
         Q_EMIT changed();
       });
 }
