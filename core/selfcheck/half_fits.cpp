@@ -47,6 +47,7 @@ std::optional<InHalf> SameIn(const Result<Detection>& half, const SensorRig& rig
                              const PlacedObject& object) {
   if (!half) return std::nullopt;
   std::vector<PlacedObject> placed = PlacedIn(*half, rig);
+  // Pairs hold copies: which part one was is told by its uuid.
   for (std::size_t part = 0; part < placed.size(); ++part) placed[part].uuid = std::to_string(part);
   for (const ObjectPair& pair : MatchObjects({object}, placed))
     if (pair.first && pair.second)
@@ -55,7 +56,7 @@ std::optional<InHalf> SameIn(const Result<Detection>& half, const SensorRig& rig
 }
 
 /// Two independent halves differ by twice the deviation of the whole; by more where the whole knew
-/// more than both halves, as by an image that they do not look at.
+/// more than both halves, as by an image that they do not look at. NaN where the whole's is.
 Eigen::Matrix<double, 6, 1> PredictedDifference(const InHalf& even, const InHalf& odd,
                                                 const PoseCovariance& whole) {
   const Eigen::Matrix<double, 6, 1> of_halves =

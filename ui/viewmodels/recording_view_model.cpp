@@ -37,12 +37,12 @@ bool WasLeftBehind(const QString& path) {
   return mission && !(*mission)->IsBeingRecorded();
 }
 
-/// Whether the file holds nothing that anybody would miss.
 int ScansIn(const MissionFile& file) {
   const auto scans = file.ListScans();
   return scans ? static_cast<int>(scans->size()) : 0;
 }
 
+/// Whether the file holds nothing that anybody would miss.
 bool IsEmpty(const MissionFile& file) {
   const auto scans = file.ListScans();
   const auto objects = file.ListDetections();

@@ -45,14 +45,14 @@ Gate EdgesGate(const BlockEvidence& evidence, int limit) {
           .limit = static_cast<double>(limit)};
 }
 
-Gate SizeGate(const BlockEvidence& evidence, double limit_nats, bool edges_show) {
+Gate SizeGate(const BlockEvidence& evidence, double limit_nats, VerdictSource source) {
   return {.what = "the odds that it has a block's size are {}",
           .unit = Gate::Unit::kOdds,
           .number = evidence.size_nats,
           .limit = limit_nats,
-          .advice = edges_show
-                        ? "measure it, or look at it from another side"
-                        : "lidar returns hardly show edges, fit to the dense map if there is one"};
+          .advice = source == VerdictSource::kCloud
+                        ? "lidar returns hardly show edges, fit to the dense map if there is one"
+                        : "measure it, or look at it from another side"};
 }
 
 double PlaceSigma(const TerrainSurface& block) {
@@ -75,19 +75,19 @@ VerdictSource SourceOf(const RaySet& rays, const RectangleEvidence& evidence) {
 }
 
 /// Why a block must not be confirmed.
-std::vector<std::string> FailedGates(const RaySet& rays, const TerrainSurface& block,
-                                     bool in_image) {
+std::vector<std::string> FailedGates(const TerrainSurface& block, VerdictSource source) {
+  const bool of_map = source == VerdictSource::kDense || source == VerdictSource::kAlone;
   const BlockEvidence& evidence = block.evidence;
   std::vector<std::string> failed;
   AddIfFailed({.what = "part of a larger patch: {} of a block's area lies beyond it",
                .unit = Gate::Unit::kFraction,
                .number = evidence.outside,
                .side = Gate::Side::kAtMost,
-               .limit = rays.dense ? kMaxOutside : kMaxOutsideOfReturns},
+               .limit = of_map ? kMaxOutside : kMaxOutsideOfReturns},
               failed);
   AddIfFailed(CoverGate(evidence, kMinCover), failed);
   AddIfFailed(EdgesGate(evidence, kMinEdges), failed);
-  AddIfFailed(SizeGate(evidence, kMinSize_nats, rays.dense || in_image), failed);
+  AddIfFailed(SizeGate(evidence, kMinSize_nats, source), failed);
   AddIfFailed(PlaceGate(block, kMaxPlaceSigma_m), failed);
   return failed;
 }
@@ -118,7 +118,7 @@ std::vector<FeatureGate> FeatureGates(const TerrainSurface& block,
             .number = seen.rms_m,
             .side = Gate::Side::kAtMost,
             .limit = mean("rms")}},
-          {"size_nats", SizeGate(seen, mean("size_nats"), model.source != VerdictSource::kCloud)},
+          {"size_nats", SizeGate(seen, mean("size_nats"), model.source)},
           {"log_sigma_place", PlaceGate(block, std::exp(mean("log_sigma_place")))}};
 }
 
@@ -171,7 +171,7 @@ Verdict AssessBlock(const RaySet& rays, const TerrainSurface& block,
   Verdict verdict;
   verdict.features = FeaturesOf(rays, block, evidence);
   verdict.probability = model.Probability(verdict.features);
-  verdict.failed_gates = FailedGates(rays, block, evidence.in_image);
+  verdict.failed_gates = FailedGates(block, model.source);
   model.AddReservation(verdict.failed_gates);
   const bool unsure = verdict.probability < kWorthOffering ||
                       block.evidence.confirmed_edges <= kUnsureEdges ||

@@ -128,6 +128,19 @@ std::vector<MiddleLine> PartsOf(const ValveModel& model) {
 
 using Pieces = std::vector<ImageEdges::Piece>;
 
+std::vector<Pieces> PiecesOfParts(const SeenValve& seen, const ValveModel& model) {
+  std::vector<Pieces> parts;
+  for (const MiddleLine& part : PartsOf(model)) parts.push_back(seen.PiecesOf(part));
+  return parts;
+}
+
+/// Of all parts together.
+Pieces Joined(const std::vector<Pieces>& parts) {
+  Pieces outline;
+  for (const Pieces& part : parts) outline.insert(outline.end(), part.begin(), part.end());
+  return outline;
+}
+
 /// By how much the outline must move for the image's edges to lie on it: rig and fit are off.
 Eigen::Vector2d BestMove(const ImageEdges& image, const Pieces& outline) {
   Eigen::Vector2d best = Eigen::Vector2d::Zero();
@@ -158,24 +171,15 @@ double FurtherOutline(const ImageEdges& image, const SeenValve& seen, const Valv
 }  // namespace
 
 double NatsOfOutline(const ImageEdges& image, const ValveCandidate& valve) {
-  const SeenValve seen(image, valve);
-  Pieces outline;
-  for (const MiddleLine& part : PartsOf(valve.model)) {
-    const Pieces pieces = seen.PiecesOf(part);
-    outline.insert(outline.end(), pieces.begin(), pieces.end());
-  }
+  const Pieces outline = Joined(PiecesOfParts(SeenValve(image, valve), valve.model));
   return image.SupportOf(image.Moved(outline, BestMove(image, outline))).nats;
 }
 
 void AddEvidenceOfOutline(const ImageEdges& image, const ValveCandidate& valve,
                           ValveEvidence& evidence) {
   const SeenValve seen(image, valve);
-  std::vector<Pieces> parts;
-  Pieces outline;
-  for (const MiddleLine& part : PartsOf(valve.model)) {
-    parts.push_back(seen.PiecesOf(part));
-    outline.insert(outline.end(), parts.back().begin(), parts.back().end());
-  }
+  const std::vector<Pieces> parts = PiecesOfParts(seen, valve.model);
+  const Pieces outline = Joined(parts);
   const Eigen::Vector2d move = BestMove(image, outline);
   double weakest = std::numeric_limits<double>::infinity();
   for (const Pieces& part : parts) {
