@@ -62,6 +62,11 @@ Result<ExitCode> CheckOnScan(const CheckArguments& arguments, const RunContext& 
                         {"score_before", check->camera->score_before},
                         {"score_aside", check->camera->score_aside},
                         {"gain_sigmas", check->camera->gain_sigmas}};
+    if (check->turns)
+      json["turns"] = {{"images", check->turns->images},
+                       {"points", check->turns->points},
+                       {"explained", check->turns->explained},
+                       {"spread_rad", check->turns->spread_rad}};
     if (check->plate)
       json["plate"] = {{"planes", check->plate->planes},
                        {"cells", check->plate->cells},

@@ -22,6 +22,7 @@ struct EvaluateCheckArguments {
   int count = 30;
   double turn_deg = 0.3;
   double stamp_ms = 10.0;
+  double scale_percent = 1.0;
   double calibration_deg = DegreesFromRadians(CheckTrialOptions().calibration_error.rotation_rad);
   double calibration_mm = 1000.0 * CheckTrialOptions().calibration_error.translation_m;
   int gather = 1;      ///< so many scans share a rig
@@ -49,6 +50,10 @@ nlohmann::ordered_json ToJson(const CheckOutcome& outcome) {
                       {"aside", c.score_aside},
                       {"gain", c.gain_sigmas}};
   }
+  if (outcome.check.turns)
+    json["turns"] = {{"images", outcome.check.turns->images},
+                     {"points", outcome.check.turns->points},
+                     {"explained", outcome.check.turns->explained}};
   if (outcome.check.plate)
     json["plate"] = {{"planes", outcome.check.plate->planes},
                      {"cells", outcome.check.plate->cells},
@@ -59,13 +64,17 @@ nlohmann::ordered_json ToJson(const CheckOutcome& outcome) {
   return json;
 }
 
-/// The finding that shows a damage best; empty for none. The lidar's x looks ahead as the head's z
-/// does, its z is the head's -y, and its y lies along the motor's axis.
-std::string BestFinding(const std::string& damage) {
-  if (damage == "lidar turn x") return "lidar turn z";
-  if (damage == "lidar turn y") return "camera turn x";
-  if (damage == "lidar turn z") return "lidar turn y";
-  return damage == "none" ? "" : damage;
+/// The findings that show a damage; none for none. The lidar's x looks ahead as the head's z does,
+/// its z is the head's -y, and its y lies along the motor's axis.
+std::vector<std::string> FindingsOf(const std::string& damage) {
+  if (damage == "none") return {};
+  if (damage == "lidar turn x") return {"lidar turn z"};
+  if (damage == "lidar turn y") return {"camera turn x"};
+  if (damage == "lidar turn z") return {"lidar turn y"};
+  if (damage == "camera turn y") return {damage, "camera on plate y"};
+  if (damage == "camera turn z") return {damage, "camera on plate z"};
+  if (damage == "motor harmonic") return {"motor scale", "motor bend"};
+  return {damage};
 }
 
 /// What became of all checks of one damage.
@@ -84,21 +93,27 @@ CheckTally TallyOf(const std::vector<CheckOutcome>& outcomes, const std::string&
     ++tally.scans;
     tally.alarms += outcome.check.Drifted() ? 1 : 0;
     tally.seconds += outcome.seconds;
-    for (const RigFinding& finding : outcome.check.findings) {
-      if (finding.name != BestFinding(damage)) continue;
-      tally.named += finding.state == RigFinding::State::kDrifted ? 1 : 0;
-      tally.not_seen += finding.state == RigFinding::State::kNotSeen ? 1 : 0;
-    }
+    const std::vector<std::string> names = FindingsOf(damage);
+    const auto any = [&](RigFinding::State state) {
+      return std::any_of(outcome.check.findings.begin(), outcome.check.findings.end(),
+                         [&](const RigFinding& finding) {
+                           return finding.state == state && std::find(names.begin(), names.end(),
+                                                                      finding.name) != names.end();
+                         });
+    };
+    const bool named = any(RigFinding::State::kDrifted);
+    tally.named += named ? 1 : 0;
+    tally.not_seen += !names.empty() && !named && !any(RigFinding::State::kFine) ? 1 : 0;
   }
   return tally;
 }
 
 void Print(const std::vector<CheckOutcome>& outcomes, const std::vector<RigDamage>& damages) {
-  PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>8}{:>10}{:>8}", "damage", "scans", "alarms", "named",
+  PrintLine(fmt::format("{:<18}{:>8}{:>8}{:>8}{:>10}{:>8}", "damage", "scans", "alarms", "named",
                         "not seen", "s each"));
   for (const RigDamage& damage : damages) {
     const CheckTally t = TallyOf(outcomes, damage.name);
-    PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>8}{:>10}{:>8.1f}", damage.name, t.scans, t.alarms,
+    PrintLine(fmt::format("{:<18}{:>8}{:>8}{:>8}{:>10}{:>8.1f}", damage.name, t.scans, t.alarms,
                           t.named, t.not_seen, t.seconds / std::max(1, t.scans)));
   }
 }
@@ -113,17 +128,19 @@ void PrintSmallest(const std::vector<CheckOutcome>& outcomes) {
     if (outcome.damage != "none") continue;
     ++scans;
     for (const RigFinding& finding : outcome.check.findings) {
-      const double in_unit = finding.unit == "rad" ? DegreesFromRadians(1.0) : 1e3;
+      const double in_unit = finding.unit == "rad" ? DegreesFromRadians(1.0)
+                             : finding.unit == "1" ? 100.0
+                                                   : 1e3;
       const double least = std::max(finding.limit, RigCheckLimits().sigmas * finding.sigma);
       if (std::isfinite(finding.sigma) && std::isfinite(least))
         smallest[finding.name].push_back(in_unit * least);
       seen[finding.name] += finding.state != RigFinding::State::kNotSeen ? 1 : 0;
     }
   }
-  PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>24}{:>12}", "smallest drift", "scans", "seen",
-                        "amber from, deg or ms", "90 % below"));
+  PrintLine(fmt::format("{:<18}{:>8}{:>8}{:>24}{:>12}", "smallest drift", "scans", "seen",
+                        "amber from, deg, ms, %", "90 % below"));
   for (const auto& [name, values] : smallest)
-    PrintLine(fmt::format("{:<16}{:>8}{:>8}{:>24.2f}{:>12.2f}", name, scans, seen[name],
+    PrintLine(fmt::format("{:<18}{:>8}{:>8}{:>24.2f}{:>12.2f}", name, scans, seen[name],
                           Quantile(values, 0.5), Quantile(values, 0.9)));
 }
 
@@ -277,8 +294,8 @@ Result<ExitCode> EvaluateCheck(const EvaluateCheckArguments& arguments, const Ru
     scenes.push_back(std::make_shared<const Scene>(std::move(scene)));
   }
   FORESIGHT_TRY(const FitWorld world, FitWorldFromString(arguments.world));
-  const auto damages =
-      UsualDamages(RadiansFromDegrees(arguments.turn_deg), 1e-3 * arguments.stamp_ms);
+  const auto damages = UsualDamages(RadiansFromDegrees(arguments.turn_deg),
+                                    1e-3 * arguments.stamp_ms, 1e-2 * arguments.scale_percent);
   std::vector<CheckOutcome> all;
   std::vector<DepthCheckOutcome> depths;
   for (int first = 0; first < arguments.count; first += arguments.gather) {
@@ -358,6 +375,11 @@ void AddEvaluateCheckCommand(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command->add_option("--stamps", arguments->stamp_ms, "Offset of the stamps, ms")
       ->check(CLI::Range(-100.0, 100.0))
+      ->capture_default_str();
+  command
+      ->add_option("--scale", arguments->scale_percent,
+                   "How much too far the plate turns, % of its turn")
+      ->check(CLI::Range(-10.0, 10.0))
       ->capture_default_str();
   command
       ->add_option("--calibration-deg", arguments->calibration_deg,

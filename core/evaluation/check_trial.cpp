@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "core/base/quantile.h"
 #include "core/geometry/angles.h"
@@ -40,7 +41,7 @@ ScanPlan CheckTrialOptions::CheckPlan() {
   return plan;
 }
 
-std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s) {
+std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s, double scale) {
   std::vector<RigDamage> damages = {{.name = "none"}};
   for (const bool camera : {true, false})
     for (int axis = 0; axis < 3; ++axis) {
@@ -49,6 +50,8 @@ std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s) {
       damages.push_back(damage);
     }
   damages.push_back({.name = "stamps", .stamp_s = stamp_s});
+  damages.push_back({.name = "motor scale", .motor_scale = scale});
+  damages.push_back({.name = "motor harmonic", .motor_harmonic_rad = turn_rad});
   return damages;
 }
 
@@ -84,6 +87,9 @@ Result<std::vector<CheckOutcome>> CheckDamages(const CheckTrial& trial,
     damage.camera_turn_rad *= outcome.sign;
     damage.lidar_turn_rad *= outcome.sign;
     damage.stamp_s *= outcome.sign;
+    damage.motor_scale *= outcome.sign;
+    if (damage.motor_harmonic_rad != 0.0)
+      damage.motor_phase_rad = random.Uniform(-std::numbers::pi, std::numbers::pi);
     scan.rig = RigBefore(damage, trial.scan.rig);
     const auto start = std::chrono::steady_clock::now();
     FORESIGHT_TRY(outcome.check, CheckRig(scan, options.check, context));

@@ -14,8 +14,9 @@
 namespace foresight {
 
 /// None; the camera and the lidar turned by `turn_rad` about each axis; the stamps late by
-/// `stamp_s`.
-std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s);
+/// `stamp_s`; a plate that turns by `scale` of its turn too far, and one that is off by `turn_rad`
+/// six times a turn.
+std::vector<RigDamage> UsualDamages(double turn_rad, double stamp_s, double scale = 0.01);
 
 struct CheckTrialOptions {
   /// Where random scenes come from, with their noise; rigs are off as this says, whatever a world

@@ -100,6 +100,28 @@ PlateCheck PlateFrom(const nlohmann::json& json) {
   return plate;
 }
 
+OrderedJson TurnsJson(const TurnCheck& turns) {
+  return {{"images", turns.images},
+          {"points", turns.points},
+          {"explained", turns.explained},
+          {"spread_rad", turns.spread_rad},
+          {"bend_seen", turns.bend_seen},
+          {"drift", NumbersJson(turns.drift)},
+          {"covariance", NumbersJson(turns.covariance)}};
+}
+
+TurnCheck TurnsFrom(const nlohmann::json& json) {
+  TurnCheck turns;
+  turns.images = IntegerIn(json, "images", 2, 1'000'000);
+  turns.points = IntegerIn(json, "points", 1, 1'000'000'000);
+  turns.explained = NumberIn(json, "explained", 0.0, 1.0);
+  turns.spread_rad = NumberIn(json, "spread_rad", 0.0, kMost);
+  json.at("bend_seen").get_to(turns.bend_seen);
+  ReadNumbers(json, "drift", turns.drift);
+  ReadNumbers(json, "covariance", turns.covariance);
+  return turns;
+}
+
 /// Of an earlier program, or of one with other unknowns, they are not there.
 bool HasMeasurements(const nlohmann::json& json, const char* key, const char* value,
                      std::size_t unknowns) {
@@ -113,6 +135,13 @@ bool CanBeAveraged(const PlateCheck& plate) {
   return plate.up_and_down
              ? CanBeInverted(plate.covariance)
              : CanBeInverted(plate.covariance.topLeftCorner<kOthers, kOthers>().eval());
+}
+
+bool CanBeAveraged(const TurnCheck& turns) {
+  Eigen::Matrix<double, TurnCheck::kUnknowns, TurnCheck::kUnknowns> covariance = turns.covariance;
+  // Two images say nothing of the bend.
+  if (!turns.bend_seen) covariance(TurnCheck::kBend, TurnCheck::kBend) = 1.0;
+  return CanBeInverted(covariance);
 }
 
 }  // namespace
@@ -135,6 +164,10 @@ std::string RigCheckToJson(const RigCheck& check) {
     json["plate"] = PlateJson(*check.plate);
   else
     json["no_plate"] = check.no_plate;
+  if (check.turns)
+    json["turns"] = TurnsJson(*check.turns);
+  else
+    json["no_turns"] = check.no_turns;
   return json.dump();
 }
 
@@ -143,6 +176,7 @@ RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
   const std::string nothing = "the check that was kept holds no measurements";
   check.no_camera = json.value("no_camera", nothing);
   check.no_plate = json.value("no_plate", nothing);
+  check.no_turns = json.value("no_turns", nothing);
   if (HasMeasurements(json, "camera", "turn_rad", 3)) {
     const CameraCheck camera = CameraFrom(json["camera"]);
     if (CanBeInverted(camera.covariance)) check.camera = camera;
@@ -151,6 +185,11 @@ RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
     const PlateCheck plate = PlateFrom(json["plate"]);
     if (CanBeAveraged(plate)) check.plate = plate;
   }
+  if (HasMeasurements(json, "turns", "drift", TurnCheck::kUnknowns)) {
+    const TurnCheck turns = TurnsFrom(json["turns"]);
+    if (CanBeAveraged(turns)) check.turns = turns;
+  }
+  if (check.turns) check.no_turns.clear();
   if (check.camera) check.no_camera.clear();
   if (check.plate) check.no_plate.clear();
   return check;

@@ -11,6 +11,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/tangent.h"
+#include "core/selfcheck/log_gray.h"
 
 namespace foresight {
 namespace {
@@ -24,11 +25,11 @@ struct Gradient {
 Gradient GradientOf(const FloatImage& log_gray, double blur_px) {
   Gradient gradient{FloatImage(log_gray.width(), log_gray.height()),
                     FloatImage(log_gray.width(), log_gray.height()), 0.0f};
-  const auto mat = [](const FloatImage& image) {
-    return cv::Mat(image.height(), image.width(), CV_32F, const_cast<float*>(image.data()));
+  const auto mat = [](FloatImage& image) {
+    return cv::Mat(image.height(), image.width(), CV_32F, image.data());
   };
-  cv::Mat smooth;
-  cv::GaussianBlur(mat(log_gray), smooth, cv::Size(), blur_px);
+  FloatImage blurred = Blurred(log_gray, blur_px);
+  const cv::Mat smooth = mat(blurred);
   cv::Mat x = mat(gradient.x), y = mat(gradient.y);
   cv::Sobel(smooth, x, CV_32F, 1, 0);
   cv::Sobel(smooth, y, CV_32F, 0, 1);
@@ -39,15 +40,6 @@ Gradient GradientOf(const FloatImage& log_gray, double blur_px) {
   std::nth_element(lengths.begin(), most, lengths.end());
   gradient.usual = std::max(*most, 1e-6f);
   return gradient;
-}
-
-FloatImage LogGray(const ColorImage& image) {
-  FloatImage gray(image.width(), image.height());
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    const Rgb8& c = image.values()[i];
-    gray.values()[i] = std::log1p(0.30f * c.r + 0.59f * c.g + 0.11f * c.b);
-  }
-  return gray;
 }
 
 /// What the search turns: the camera's three turns, and how far the edges of each class lie

@@ -20,11 +20,13 @@ State StateOf(const RigFinding& finding, double sigmas, double seen_sigmas) {
 std::string Amount(const RigFinding& finding, double value) {
   if (finding.unit == "rad") return fmt::format("{:.2f} deg", DegreesFromRadians(value));
   if (finding.unit == "m") return fmt::format("{:.1f} mm", 1000.0 * value);
+  if (finding.unit == "1") return fmt::format("{:.2f} %", 100.0 * value);
   if (finding.unit == "s") return fmt::format("{:.1f} ms", 1000.0 * value);
   return fmt::format("{:.2f} {}", value, finding.unit);
 }
 
 std::string AmountInWords(const RigFinding& finding) {
+  if (!std::isfinite(finding.value)) return "not measured";
   return fmt::format("{} +- {}, the limit is {}", Amount(finding, finding.value),
                      Amount(finding, finding.sigma), Amount(finding, finding.limit));
 }
@@ -32,7 +34,7 @@ std::string AmountInWords(const RigFinding& finding) {
 class Judge {
  public:
   Judge(const SensorRig& rig, const Result<PlateCheck>& plate, const Result<CameraCheck>& camera,
-        const RigCheckLimits& limits)
+        const Result<TurnCheck>& turns, const RigCheckLimits& limits)
       : rig_(rig), limits_(limits) {
     if (plate)
       check_.plate = *plate;
@@ -42,12 +44,17 @@ class Judge {
       check_.camera = *camera;
     else
       check_.no_camera = camera.error().message;
+    if (turns)
+      check_.turns = *turns;
+    else
+      check_.no_turns = turns.error().message;
   }
 
   RigCheck Run() {
     JudgeCamera();
     JudgeLidar();
     JudgeStamps();
+    JudgeTurns();
     SayWhatMoved();
     SayWhatIsNotSeen();
     return std::move(check_);
@@ -121,6 +128,34 @@ class Judge {
     Add(finding);
   }
 
+  void JudgeTurns() {
+    AddTurn(TurnCheck::kCameraY, "camera on plate y",
+            "camera against the motor, about the head's y axis", "rad",
+            limits_.camera_on_plate_rad);
+    AddTurn(TurnCheck::kCameraZ, "camera on plate z",
+            "camera against the motor, about the head's z axis", "rad",
+            limits_.camera_on_plate_rad);
+    AddTurn(TurnCheck::kScale, "motor scale",
+            "how far the plate turns, against what the motor says", "1", limits_.motor_scale);
+    AddTurn(TurnCheck::kBend, "motor bend", "the plate halfway between the outermost images", "rad",
+            limits_.motor_bend_rad);
+  }
+
+  void AddTurn(TurnCheck::Unknown unknown, const char* name, const char* in_words, const char* unit,
+               double limit) {
+    RigFinding finding;
+    finding.name = name;
+    finding.in_words = in_words;
+    finding.unit = unit;
+    finding.limit = limit;
+    finding.value = finding.sigma = std::nan("");
+    if (check_.turns && (unknown != TurnCheck::kBend || check_.turns->bend_seen)) {
+      finding.value = check_.turns->drift[unknown];
+      finding.sigma = check_.turns->Sigma(unknown);
+    }
+    Add(finding);
+  }
+
   const RigFinding& Finding(const std::string& name) const {
     return *std::find_if(check_.findings.begin(), check_.findings.end(),
                          [&](const RigFinding& f) { return f.name == name; });
@@ -137,6 +172,10 @@ class Judge {
 
   /// Edges say how camera and lidar stand to each other, planes how the lidar stands to the motor.
   std::string WhichOfBoth() const {
+    const State on_plate_y = Finding("camera on plate y").state,
+                on_plate_z = Finding("camera on plate z").state;
+    if (on_plate_y == State::kDrifted || on_plate_z == State::kDrifted)
+      return "the camera moved against the motor: it is the camera that turned";
     const State about_y = Finding("lidar turn y").state, about_z = Finding("lidar turn z").state;
     if (about_y == State::kDrifted || about_z == State::kDrifted)
       return "the lidar moved against the motor: it is the lidar that turned";
@@ -145,6 +184,8 @@ class Judge {
       return "which of both turned does not show: planes do not tell a turn about the motor's axis";
     if (about_y == State::kFine && about_z == State::kFine)
       return "the lidar still fits the motor: it is the camera that turned";
+    if (on_plate_y == State::kFine && on_plate_z == State::kFine)
+      return "the camera still fits the motor: it is the lidar that turned";
     return "which of both turned does not show in this scan";
   }
 
@@ -165,6 +206,11 @@ class Judge {
           "it");
     else if (check_.plate)
       SayNotSeen("stamps", "a faster sweep before floor, ceiling or sloping surfaces shows it");
+    if (!check_.no_turns.empty())
+      list.push_back("camera against the motor, and how far the plate turns: " + check_.no_turns);
+    else
+      for (const char* start : {"camera on plate", "motor"})
+        SayNotSeen(start, "three images, farther apart, where surfaces have a pattern, show it");
     list.emplace_back(
         "the motor's zero and the robot's frame: camera and lidar turn together with the plate; "
         "compare with something whose place the robot knows");
@@ -223,8 +269,9 @@ bool RigCheck::SawAnything() const {
 }
 
 RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
-                  const Result<CameraCheck>& camera, const RigCheckLimits& limits) {
-  return Judge(rig, plate, camera, limits).Run();
+                  const Result<CameraCheck>& camera, const Result<TurnCheck>& turns,
+                  const RigCheckLimits& limits) {
+  return Judge(rig, plate, camera, turns, limits).Run();
 }
 
 Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
@@ -240,15 +287,17 @@ Result<RigCheck> CheckRig(const Scan& scan, const RegisteredScan& cloud,
                                   "motor's angle is known of them");
   CameraCheckOptions camera_options = options.camera;
   RigCheckLimits limits = options.limits;
+  Result<TurnCheck> turns = tl::unexpected(plate.error());
   if (scan.given.empty()) {
     plate = CheckPlate(scan, cloud, options.plate);
+    turns = CheckTurns(scan, cloud, options.turns, context.Part(0.1, 0.2));
   } else {
     camera_options.edges = DepthEdgeOptions::OfImported();
     limits.camera_turn_along_motor_rad = limits.camera_turn_rad;  // no motor of ours turned it
   }
   const auto camera = CheckCamera(scan, cloud, camera_options, context.Part(0.2, 1.0));
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the check was cancelled");
-  return JudgeRig(scan.rig, plate, camera, limits);
+  return JudgeRig(scan.rig, plate, camera, turns, limits);
 }
 
 }  // namespace foresight

@@ -6,6 +6,7 @@
 
 #include "core/selfcheck/camera_check.h"
 #include "core/selfcheck/plate_check.h"
+#include "core/selfcheck/turn_check.h"
 
 namespace foresight {
 
@@ -15,10 +16,13 @@ struct RigCheckLimits {
   /// About the motor's axis, 0.3 deg: edges between beams run along the motor's way, so the image
   /// says less there.
   double camera_turn_along_motor_rad = 0.0052;
-  double lidar_turn_rad = 0.0035;  ///< 0.2 deg, 10 mm at 3 m
-  double stamp_turn_rad = 0.0021;  ///< 0.12 deg between the ways up and down
-  double sigmas = 3.0;             ///< a drift is at least so many deviations
-  double least_gain_sigmas = 2.0;  ///< and fits the images better by so many
+  double lidar_turn_rad = 0.0035;       ///< 0.2 deg, 10 mm at 3 m
+  double stamp_turn_rad = 0.0021;       ///< 0.12 deg between the ways up and down
+  double camera_on_plate_rad = 0.0035;  ///< 0.2 deg
+  double motor_scale = 0.005;           ///< 0.15 deg in a scope of 30 deg
+  double motor_bend_rad = 0.0026;       ///< 0.15 deg
+  double sigmas = 3.0;                  ///< a drift is at least so many deviations
+  double least_gain_sigmas = 2.0;       ///< and fits the images better by so many
   /// And by this part of what edges stand out, over the root of the scans gathered: beside an
   /// outline there often is another edge, a shade or the thing's other side, that fits a little
   /// better, but not the same way in each scan.
@@ -29,6 +33,7 @@ struct RigCheckLimits {
 struct RigCheckOptions {
   PlateCheckOptions plate;
   CameraCheckOptions camera;
+  TurnCheckOptions turns;
   RigCheckLimits limits;
 };
 
@@ -38,7 +43,7 @@ struct RigFinding {
 
   std::string name;      ///< "camera turn x", as JSON has it
   std::string in_words;  ///< "the camera against the lidar, about the camera's x axis"
-  std::string unit;      ///< "rad" or "s"
+  std::string unit;      ///< "rad", "m", "s", "px", or "1" of a ratio
   double value = 0.0;    ///< in the unit; NaN where nothing was measured
   double sigma = 0.0;
   double limit = 0.0;
@@ -55,6 +60,8 @@ struct RigCheck {
   std::string no_plate;  ///< why there is none
   std::optional<CameraCheck> camera;
   std::string no_camera;
+  std::optional<TurnCheck> turns;
+  std::string no_turns;
   std::vector<RigFinding> findings;
   std::vector<std::string> drifted;     ///< what and by how much, a sentence each; empty = fine
   std::vector<std::string> cannot_see;  ///< what this scan says nothing of, a sentence each
@@ -63,13 +70,15 @@ struct RigCheck {
   bool SawAnything() const;
 };
 
-/// What the measurements mean. Either may be missing, with the reason.
+/// What the measurements mean. Each may be missing, with the reason.
 RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
-                  const Result<CameraCheck>& camera, const RigCheckLimits& limits);
+                  const Result<CameraCheck>& camera, const Result<TurnCheck>& turns,
+                  const RigCheckLimits& limits);
 
 /// Rates `scan.rig` on the scan itself: camera against lidar by image and depth edges, lidar
 /// against the motor by planes, the lidar's stamps against the encoder's by planes seen on the way
-/// up and down. Needs no board and no truth. Of an imported scan only the edges are looked at.
+/// up and down, camera against the motor and the motor's way by images at several angles. Needs no
+/// board and no truth. Of an imported scan only the edges are looked at.
 /// Fails as RegisterScan does, and with kCancelled; a scan that says nothing is no failure.
 Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
                           const RunContext& context);

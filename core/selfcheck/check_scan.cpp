@@ -92,6 +92,7 @@ class ScanJudge {
     JudgeCamera();
     JudgeLidar();
     JudgeStamps();
+    JudgeTurns();
     JudgeDepth();
     for (const HalfFits& object : check_.objects) JudgeObject(object);
     check_.cannot_see.insert(check_.cannot_see.end(), check_.rig.cannot_see.begin(),
@@ -176,6 +177,20 @@ class ScanJudge {
             : OperatorText("planes differ on the way up and down: {}: check the clocks and the "
                            "motor's backlash, and calibrate again",
                            JoinedSentence(findings)));
+  }
+
+  void JudgeTurns() {
+    auto findings = Findings(check_.rig, "camera on plate");
+    for (const RigFinding* finding : Findings(check_.rig, "motor")) findings.push_back(finding);
+    const CheckLight light = Gravest(findings);
+    Add("camera and motor", light,
+        light == CheckLight::kNotSeen ? OperatorText("camera and motor: not seen")
+        : light == CheckLight::kGood
+            ? OperatorText("images turn into each other as the motor says")
+            : OperatorText(
+                  "images turn otherwise than the motor says: {}: look whether the camera is "
+                  "loose or the plate slips, and calibrate again",
+                  JoinedSentence(findings)));
   }
 
   void JudgeDepth() {

@@ -25,7 +25,8 @@ const char* ToString(CheckLight light);
 
 /// One thing that a scan says about itself.
 struct CheckPoint {
-  std::string name;  ///< "depth", "camera against lidar", "lidar against motor", "stamps", "object"
+  std::string name;  ///< "depth", "camera against lidar", "lidar against motor", "stamps", "camera
+                     ///< and motor", "object"
   CheckLight light = CheckLight::kNotSeen;
   std::string sentence;  ///< what was measured and, unless good, what to do
 };

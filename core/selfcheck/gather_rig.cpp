@@ -113,11 +113,36 @@ Result<PlateCheck> GatherPlate(std::span<const RigCheck> checks) {
   return gathered;
 }
 
+Result<TurnCheck> GatherTurns(std::span<const RigCheck> checks) {
+  WeightedMean drifts(TurnCheck::kUnknowns);
+  TurnCheck gathered;
+  for (const RigCheck& check : checks) {
+    if (!check.turns) continue;
+    TurnCheck known = *check.turns;
+    constexpr double kUnknownBend_rad = 10.0;
+    if (!known.bend_seen)
+      known.covariance(TurnCheck::kBend, TurnCheck::kBend) = kUnknownBend_rad * kUnknownBend_rad;
+    drifts.Add(known.drift, known.covariance);
+    gathered.bend_seen |= known.bend_seen;
+    gathered.spread_rad = std::max(gathered.spread_rad, known.spread_rad);
+    gathered.images += known.images;
+    gathered.points += known.points;
+    gathered.explained += known.points * known.explained;
+  }
+  if (drifts.count() == 0)
+    return Fail(ErrorCode::kTooFewPoints, "{}",
+                checks.empty() ? "there is no scan" : checks.front().no_turns);
+  gathered.drift = drifts.Mean();
+  gathered.covariance = drifts.Covariance();
+  gathered.explained /= gathered.points;
+  return gathered;
+}
+
 }  // namespace
 
 RigCheck GatherRig(std::span<const RigCheck> checks, const SensorRig& rig,
                    const RigCheckLimits& limits) {
-  return JudgeRig(rig, GatherPlate(checks), GatherCamera(checks), limits);
+  return JudgeRig(rig, GatherPlate(checks), GatherCamera(checks), GatherTurns(checks), limits);
 }
 
 }  // namespace foresight

@@ -39,6 +39,14 @@ KeptCheck CheckOf(const std::string& uuid, double turn_deg, std::int64_t utc_ns 
       1e-6 * Eigen::Matrix<double, PlateCheck::kUnknowns, PlateCheck::kUnknowns>::Identity();
   plate.covariance(PlateCheck::kStamp, PlateCheck::kStamp) =
       std::numeric_limits<double>::infinity();
+  TurnCheck& turns = check.rig.turns.emplace();
+  turns.drift.setConstant(2e-4);
+  turns.covariance =
+      1e-6 * Eigen::Matrix<double, TurnCheck::kUnknowns, TurnCheck::kUnknowns>::Identity();
+  turns.covariance(TurnCheck::kBend, TurnCheck::kBend) = std::numeric_limits<double>::infinity();
+  turns.images = 2;
+  turns.points = 1000;
+  turns.explained = 0.9;
   plate.planes = 5;
   plate.cells = 300;
   KeptCheck kept = NewKeptCheck(scan, check, {});
@@ -53,7 +61,12 @@ const SensorRig& Rig() {
 
 TEST(GatherChecks, WhatIsMeasuredComesBackBitForBit) {
   const RigCheck& rig = CheckOf("a", 0.123).rig;
-  ASSERT_TRUE(rig.camera && rig.plate);
+  ASSERT_TRUE(rig.camera && rig.plate && rig.turns);
+  EXPECT_EQ(rig.turns->drift[TurnCheck::kCameraY], 2e-4);
+  EXPECT_EQ(rig.turns->Sigma(TurnCheck::kBend), std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(rig.turns->bend_seen);
+  EXPECT_EQ(rig.turns->images, 2);
+  EXPECT_EQ(rig.turns->points, 1000);
   EXPECT_EQ(rig.camera->turn_rad.y(), RadiansFromDegrees(0.123));
   EXPECT_EQ(rig.camera->covariance(0, 1), 0.1 * std::pow(RadiansFromDegrees(0.1), 2));
   EXPECT_EQ(rig.camera->edges, 400);

@@ -66,6 +66,32 @@ TEST(CheckRig, FindsATurnOfTheLidarAboutEachAxisButTheMotors) {
   EXPECT_EQ(Finding(about_motor, "camera turn x").state, RigFinding::State::kNotSeen);
 }
 
+TEST(CheckRig, SeesInItsImagesThatTheCameraTurnedOnThePlate) {
+  for (const char axis : {'y', 'z'}) {
+    const CheckOutcome& outcome = Outcome(fmt::format("camera turn {}", axis));
+    const RigFinding& finding = Finding(outcome, fmt::format("camera on plate {}", axis));
+    EXPECT_EQ(finding.state, RigFinding::State::kDrifted) << axis;
+    // A camera that turns one way takes what it sees the other way.
+    EXPECT_NEAR(outcome.sign * finding.value, RadiansFromDegrees(-0.3), RadiansFromDegrees(0.06));
+  }
+  for (const char axis : {'x', 'y', 'z'}) {
+    const CheckOutcome& lidar = Outcome(fmt::format("lidar turn {}", axis));
+    for (const char* name : {"camera on plate y", "camera on plate z", "motor scale", "motor bend"})
+      EXPECT_EQ(Finding(lidar, name).state, RigFinding::State::kFine) << axis << ", " << name;
+  }
+}
+
+TEST(CheckRig, SeesInItsImagesThatThePlateTurnsOtherwiseThanTheMotorSays) {
+  const CheckOutcome& scaled = Outcome("motor scale");
+  EXPECT_EQ(Finding(scaled, "motor scale").state, RigFinding::State::kDrifted);
+  EXPECT_NEAR(scaled.sign * Finding(scaled, "motor scale").value, 0.01, 0.0035);
+  EXPECT_EQ(Finding(scaled, "camera on plate y").state, RigFinding::State::kFine);
+  // Six times a turn is once between the images' outermost angles and twice that way on.
+  const CheckOutcome& wavy = Outcome("motor harmonic");
+  EXPECT_TRUE(Finding(wavy, "motor scale").state == RigFinding::State::kDrifted ||
+              Finding(wavy, "motor bend").state == RigFinding::State::kDrifted);
+}
+
 TEST(CheckRig, FindsATurnAboutTheMotorsAxisInSeveralScans) {
   const RigDamage turned = {.name = "camera turn x",
                             .camera_turn_rad = {RadiansFromDegrees(0.35), 0.0, 0.0}};

@@ -37,8 +37,29 @@ PlateCheck GoodPlate() {
   return plate;
 }
 
-RigCheck Judged(const Result<PlateCheck>& plate, const Result<CameraCheck>& camera) {
-  return JudgeRig(DefaultSensorRig(), plate, camera, RigCheckLimits());
+TurnCheck GoodTurns() {
+  TurnCheck turns;
+  turns.drift.setZero();
+  turns.covariance.setZero();
+  turns.covariance.diagonal().setConstant(std::pow(RadiansFromDegrees(0.02), 2));
+  turns.covariance(TurnCheck::kScale, TurnCheck::kScale) = std::pow(0.001, 2);
+  turns.bend_seen = true;
+  turns.spread_rad = RadiansFromDegrees(30.0);
+  turns.images = 3;
+  turns.points = 3000;
+  turns.explained = 0.98;
+  return turns;
+}
+
+RigCheck Judged(const Result<PlateCheck>& plate, const Result<CameraCheck>& camera,
+                const Result<TurnCheck>& turns = GoodTurns()) {
+  return JudgeRig(DefaultSensorRig(), plate, camera, turns, RigCheckLimits());
+}
+
+const RigFinding& FindingOf(const RigCheck& check, const std::string& name) {
+  for (const RigFinding& finding : check.findings)
+    if (finding.name == name) return finding;
+  throw std::logic_error("no such finding");
 }
 
 TEST(JudgeRig, IsQuietWhereNothingDrifted) {
@@ -88,6 +109,41 @@ TEST(JudgeRig, BlamesTheLidarWherePlanesBendToo) {
   EXPECT_THAT(check.drifted, Not(Contains(HasSubstr("it is the camera"))));
 }
 
+TEST(JudgeRig, ImagesThatTurnAsTheMotorSaysClearTheCamera) {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.y() = RadiansFromDegrees(0.31);
+  camera.gain_sigmas = 8.0;
+  camera.score_before = 0.8;
+  const RigCheck check = Judged(Fail(ErrorCode::kTooFewPoints, "no planes"), camera);
+  EXPECT_THAT(check.drifted, Contains(HasSubstr("it is the lidar that turned")));
+}
+
+TEST(JudgeRig, SaysByHowMuchTheCameraTurnedOnThePlate) {
+  TurnCheck turns = GoodTurns();
+  turns.drift[TurnCheck::kCameraZ] = RadiansFromDegrees(-0.3);
+  const RigCheck check = Judged(GoodPlate(), GoodCamera(), turns);
+  EXPECT_THAT(check.drifted, testing::ElementsAre(
+                                 "camera against the motor, about the head's z axis: off by -0.30 "
+                                 "deg +- 0.02 deg, the limit is 0.20 deg"));
+}
+
+TEST(JudgeRig, SaysAScaleOfTheMotorInPercent) {
+  TurnCheck turns = GoodTurns();
+  turns.drift[TurnCheck::kScale] = 0.012;
+  EXPECT_THAT(Judged(GoodPlate(), GoodCamera(), turns).drifted,
+              testing::ElementsAre(HasSubstr("off by 1.20 % +- 0.10 %, the limit is 0.50 %")));
+}
+
+TEST(JudgeRig, TwoImagesSayNothingOfThePlateBetweenThem) {
+  TurnCheck turns = GoodTurns();
+  turns.bend_seen = false;
+  const RigCheck check = Judged(GoodPlate(), GoodCamera(), turns);
+  EXPECT_EQ(FindingOf(check, "motor bend").state, RigFinding::State::kNotSeen);
+  EXPECT_THAT(check.cannot_see, Contains("the plate halfway between the outermost images: not "
+                                         "measured; three images, farther apart, where surfaces "
+                                         "have a pattern, show it"));
+}
+
 TEST(JudgeRig, AboutTheMotorsAxisNobodyCanTellWhichOfThemTurned) {
   CameraCheck camera = GoodCamera();
   camera.turn_rad.x() = RadiansFromDegrees(0.31);
@@ -111,7 +167,7 @@ TEST(JudgeRig, ASweepOneWaySaysNothingOfTheStampsAndTellsWhatToDo) {
   PlateCheck plate = GoodPlate();
   plate.up_and_down = false;
   const RigCheck check = Judged(plate, GoodCamera());
-  EXPECT_EQ(check.findings.back().state, RigFinding::State::kNotSeen);
+  EXPECT_EQ(FindingOf(check, "stamps").state, RigFinding::State::kNotSeen);
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("a scan there and back shows it")));
 }
 
@@ -123,11 +179,13 @@ TEST(JudgeRig, SaysAnOffsetOfTheStampsInMilliseconds) {
 
 TEST(JudgeRig, WhatWasNotMeasuredIsGivenWithItsReason) {
   const RigCheck check = Judged(tl::unexpected<Error>(Error{ErrorCode::kTooFewPoints, "no planes"}),
-                                tl::unexpected<Error>(Error{ErrorCode::kTooFewPoints, "no image"}));
+                                tl::unexpected<Error>(Error{ErrorCode::kTooFewPoints, "no image"}),
+                                Fail(ErrorCode::kTooFewPoints, "one image"));
   EXPECT_FALSE(check.SawAnything());
   EXPECT_THAT(check.drifted, IsEmpty());
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("no planes")));
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("no image")));
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("one image")));
 }
 
 }  // namespace

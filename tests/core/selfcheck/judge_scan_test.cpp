@@ -30,7 +30,8 @@ CameraCheck Camera(double turn_y_deg, double sigma_deg) {
 }
 
 RigCheck Rig(const Result<CameraCheck>& camera) {
-  return JudgeRig(DefaultSensorRig(), Fail(ErrorCode::kTooFewPoints, "no planes"), camera, {});
+  return JudgeRig(DefaultSensorRig(), Fail(ErrorCode::kTooFewPoints, "no planes"), camera,
+                  Fail(ErrorCode::kTooFewPoints, "one image"), {});
 }
 
 std::vector<HeldOutBeam> Beams(double confidence, double right) {
@@ -159,7 +160,7 @@ TEST(JudgeScan, AFewBeamsSayNothingOfTheDepth) {
   const DepthCheck depth = SummariseHeldOut(beams, beams, {}, DepthMethod::kForesight, {});
   EXPECT_EQ(depth.state, DepthCheck::State::kNotSeen);
   EXPECT_THAT(
-      Judged(depth, Rig(Camera(0.03, 0.02))).points.at(3).sentence,
+      Judged(depth, Rig(Camera(0.03, 0.02))).points.at(4).sentence,
       StartsWith("depth: of 180 beams held out 180 lie where the mask keeps the map, too few"));
 }
 
