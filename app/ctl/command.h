@@ -24,6 +24,7 @@ void AddFitCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateFitsCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateBoardsCommand(CLI::App& app, Invocation& invocation);
+void AddEvaluateConfidenceCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateOutlinesCommand(CLI::App& app, Invocation& invocation);
 void AddEvaluateCheckCommand(CLI::App& app, Invocation& invocation);
 void AddVerdictCommand(CLI::App& app, Invocation& invocation);

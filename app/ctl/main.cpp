@@ -23,6 +23,7 @@ int Main(int argc, char** argv) {
   AddEvaluateCommand(app, invocation);
   AddEvaluateFitsCommand(app, invocation);
   AddEvaluateBoardsCommand(app, invocation);
+  AddEvaluateConfidenceCommand(app, invocation);
   AddEvaluateOutlinesCommand(app, invocation);
   AddEvaluateCheckCommand(app, invocation);
   AddVerdictCommand(app, invocation);

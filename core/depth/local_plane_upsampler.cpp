@@ -94,7 +94,7 @@ RowSet RowsThatDiffer(const MaskImage& before, const MaskImage& now) {
 
 /// The rows of one block: depth, then confidence.
 void FilterBlock(const PlaneFilter& filter, const SupportModel& support, const MaskImage& inside,
-                 int top, DenseDepth& dense) {
+                 int top, DenseDepth& dense, SupportTermImages* terms) {
   const int width = filter.samples.width();
   const int bottom = std::min(top + kBlockRows, filter.samples.height());
   BlockImages images(width, dense.iterations.size());
@@ -112,7 +112,7 @@ void FilterBlock(const PlaneFilter& filter, const SupportModel& support, const M
                     images.sum_gkh.row(row), images.sum_gk.row(row), images.sum_gh.row(row),
                     rays ? filter.ray[0]->row(y) : nullptr, rays ? filter.ray[1]->row(y) : nullptr,
                     inside.row(y)},
-                   dense.confidence.row(y));
+                   dense.confidence.row(y), terms);
   }
 }
 
@@ -222,6 +222,7 @@ void LocalPlaneUpsampler::Reset(double sigma_px) {
   dense_.max_confidence = 1.0f;
   if (options_.keep_iterations)
     dense_.iterations.assign(static_cast<std::size_t>(options_.iterations) + 1, dense_.depth_m);
+  if (terms_ != nullptr) terms_->fill(dense_.depth_m);
 }
 
 Status LocalPlaneUpsampler::FilterPixels(const Cached* before, const SampleChange& change,
@@ -244,7 +245,7 @@ Status LocalPlaneUpsampler::FilterPixels(const Cached* before, const SampleChang
   std::atomic<int> blocks_done{0};
   const bool finished = ParallelFor(count, context, [&](int i) {
     FilterBlock(filter, support, now.inside, blocks[static_cast<std::size_t>(i)] * kBlockRows,
-                dense_);
+                dense_, terms_);
     context.Report(static_cast<double>(++blocks_done) / count, "upsampling");
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "upsampling was cancelled");

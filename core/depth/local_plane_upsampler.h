@@ -8,6 +8,7 @@
 #include "core/depth/changed_samples.h"
 #include "core/depth/lab_image.h"
 #include "core/depth/local_plane.h"
+#include "core/depth/measured_support.h"
 #include "core/depth/plane_filter.h"
 
 namespace foresight {
@@ -31,6 +32,10 @@ class LocalPlaneUpsampler {
   /// The guide must outlive this. Options that Check() refuses make each Update fail.
   LocalPlaneUpsampler(const ColorImage& guide, const LocalPlaneOptions& options)
       : guide_(guide), options_(options) {}
+
+  /// Keeps what each confidence is computed from, too: of pixels with a depth. From the first
+  /// Update on; `terms` must outlive this.
+  void KeepTerms(SupportTermImages& terms) { terms_ = &terms; }
 
   /// Fails as UpsampleDepth does; all is done again after a failure. O(samples in all), and
   /// O(pixels
@@ -77,6 +82,7 @@ class LocalPlaneUpsampler {
   LabImage lab_;                  ///< of the guide, from the first Update on
   std::optional<Cached> cached_;  ///< none = nothing can be kept
   DenseDepth dense_;
+  SupportTermImages* terms_ = nullptr;
   int filtered_rows_ = 0;
 };
 

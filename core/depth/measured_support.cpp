@@ -9,15 +9,6 @@
 namespace foresight {
 namespace {
 
-/// Logistic regression over seven Middlebury scenes at quarter and full size, see
-/// docs/evaluation.md.
-constexpr float kBias = 0.81f;
-constexpr float kPerCell = -3.22f;      ///< distance of the nearest supporter, in cells
-constexpr float kPerWeight2 = 4.89f;    ///< squared fraction of the nominal weight
-constexpr float kOneSidedRow = -0.87f;  ///< no supporter within reach to the left or to the right
-constexpr float kOneSidedColumn = -0.09f;
-constexpr float kPerAgreement = 0.90f;  ///< fraction of the weight of the pixel's colour
-constexpr float kInsideCell = 1.17f;
 constexpr float kReachCells = 1.25f;
 constexpr float kFarthestCells = 1.5f;
 constexpr float kFullestWeight = 1.2f;
@@ -43,13 +34,17 @@ void Begin(const SupportModel& model, int y, const PlaneRow& planes, RowSupport&
   }
 }
 
-float Confidence(float nearest, std::int32_t sides, float weight, float agreement, bool inside) {
-  const float one_sided = ((sides & kLeft) != 0 && (sides & kRight) != 0 ? 0.0f : kOneSidedRow) +
-                          ((sides & kAbove) != 0 && (sides & kBelow) != 0 ? 0.0f : kOneSidedColumn);
+SupportTerms TermsOf(float nearest, std::int32_t sides, float weight, float agreement,
+                        bool inside) {
   const float full = std::min(kFullestWeight, weight);
-  const float score = kBias + kPerCell * nearest + kPerWeight2 * full * full + one_sided +
-                      kPerAgreement * agreement + (inside ? kInsideCell : 0.0f);
-  return 1.0f / (1.0f + std::exp(-score));
+  SupportTerms terms;
+  terms[kNearestCells] = nearest;
+  terms[kSquaredWeight] = full * full;
+  terms[kOneSidedRow] = (sides & kLeft) != 0 && (sides & kRight) != 0 ? 0.0f : 1.0f;
+  terms[kOneSidedColumn] = (sides & kAbove) != 0 && (sides & kBelow) != 0 ? 0.0f : 1.0f;
+  terms[kAgreement] = agreement;
+  terms[kInsideCell] = inside ? 1.0f : 0.0f;
+  return terms;
 }
 
 }  // namespace
@@ -75,18 +70,36 @@ SupporterTables::SupporterTables(double along_line_px, double between_lines_px)
     }
 }
 
-void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence) {
+float ConfidenceWeights::Confidence(const SupportTerms& terms) const {
+  float score = bias;
+  for (std::size_t i = 0; i < kSupportTerms; ++i) score += of[i] * terms[i];
+  return 1.0f / (1.0f + std::exp(-score));
+}
+
+const ConfidenceWeights& ShippedConfidenceWeights() {
+  static constexpr ConfidenceWeights kWeights = {
+      .bias = 0.81f, .of = {-3.22f, 4.89f, -0.87f, -0.09f, 0.90f, 1.17f}};
+  return kWeights;
+}
+
+void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence,
+                    SupportTermImages* terms) {
   thread_local RowSupport row;
   Begin(model, y, planes, row);
   FindSupporters(model, y, row);
   const float* nearest = row.Nearest();
   const std::int32_t* sides = row.Sides();
-  for (int x = 0; x < model.samples.width(); ++x)
-    confidence[x] = std::isnan(planes.depth_m[x])
-                        ? 0.0f
-                        : Confidence(nearest[x], sides[x],
-                                     planes.sum_gh[x] / static_cast<float>(model.nominal_weight),
-                                     planes.sum_gkh[x] / planes.sum_gk[x], planes.inside[x] != 0);
+  const ConfidenceWeights& weights = ShippedConfidenceWeights();
+  for (int x = 0; x < model.samples.width(); ++x) {
+    confidence[x] = 0.0f;
+    if (std::isnan(planes.depth_m[x])) continue;
+    const SupportTerms of_pixel =
+        TermsOf(nearest[x], sides[x], planes.sum_gh[x] / static_cast<float>(model.nominal_weight),
+                planes.sum_gkh[x] / planes.sum_gk[x], planes.inside[x] != 0);
+    confidence[x] = weights.Confidence(of_pixel);
+    if (terms == nullptr) continue;
+    for (std::size_t i = 0; i < kSupportTerms; ++i) (*terms)[i](x, y) = of_pixel[i];
+  }
 }
 
 }  // namespace foresight

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -52,12 +53,39 @@ struct PlaneRow {
   const std::uint8_t* inside;  ///< not 0 = in a connected cell
 };
 
+/// What the log odds of a confidence are linear in: numbers of a pixel.
+enum SupportTerm : std::size_t {
+  kNearestCells,    ///< distance of the nearest supporter, in cells
+  kSquaredWeight,   ///< squared fraction of the nominal weight
+  kOneSidedRow,     ///< 1: no supporter within reach to the left or to the right
+  kOneSidedColumn,  ///< the same above or below
+  kAgreement,       ///< fraction of the weight of the pixel's colour
+  kInsideCell,      ///< 1: in a connected cell
+  kSupportTerms,
+};
+using SupportTerms = std::array<float, kSupportTerms>;
+/// An image of each.
+using SupportTermImages = std::array<FloatImage, kSupportTerms>;
+
+struct ConfidenceWeights {
+  float bias = 0.0f;
+  SupportTerms of = {};
+
+  /// In [0, 1].
+  float Confidence(const SupportTerms& terms) const;
+};
+
+/// Those of the program. `packaging/refit-confidence` fits them again and prints both.
+const ConfidenceWeights& ShippedConfidenceWeights();
+
 /// For each pixel of row `y` the probability that its depth is right, within 50 mm or 1 %; 0 where
 /// there is none. It knows how many samples agree with the pixel's plane against what their spacing
 /// promises, what fraction of those of its colour do, how near the nearest one is in cells of the
 /// lidar's grid, whether there are some on each side, and whether the pixel lies inside a cell on
 /// one surface. O(samples around the row * samples' spacing).
-void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence);
+/// @param terms what it was computed from; null = not wanted
+void MeasureSupport(const SupportModel& model, int y, const PlaneRow& planes, float* confidence,
+                    SupportTermImages* terms = nullptr);
 
 /// How many rows away MeasureSupport still looks at samples.
 inline int SupportReach(const SupportModel& model) {

@@ -6,12 +6,12 @@
 #include <set>
 
 #include "core/evaluation/fit_statistics.h"
+#include "core/evaluation/logistic_regression.h"
 
 namespace foresight {
 namespace {
 
 constexpr int kMinOfEach = 10;
-constexpr int kNewtonSteps = 30;
 constexpr double kLeastDeviation = 1e-9;
 
 struct Example {
@@ -102,7 +102,6 @@ Design DesignOf(const std::vector<Example>& examples, const VerdictModel& model,
   return design;
 }
 
-/// Newton's method on the penalised log likelihood.
 Eigen::VectorXd SolveWeights(const std::vector<Example>& examples, const Eigen::MatrixXd& x,
                              const Eigen::VectorXd& penalty) {
   Eigen::VectorXd y(x.rows()), counts(x.rows());
@@ -110,20 +109,7 @@ Eigen::VectorXd SolveWeights(const std::vector<Example>& examples, const Eigen::
     y(i) = examples[static_cast<std::size_t>(i)].right ? 1.0 : 0.0;
     counts(i) = examples[static_cast<std::size_t>(i)].weight;
   }
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.cols());
-  for (int step = 0; step < kNewtonSteps; ++step) {
-    const Eigen::VectorXd p = (1.0 / (1.0 + (-(x * weights)).array().exp())).matrix();
-    const Eigen::VectorXd curvature =
-        (counts.array() * p.array() * (1.0 - p.array())).max(1e-9).matrix();
-    const Eigen::VectorXd gradient =
-        x.transpose() * counts.cwiseProduct(y - p) - penalty.cwiseProduct(weights);
-    Eigen::MatrixXd hessian = x.transpose() * curvature.asDiagonal() * x;
-    hessian.diagonal() += penalty;
-    const Eigen::VectorXd change = hessian.ldlt().solve(gradient);
-    weights += change;
-    if (change.norm() < 1e-9) break;
-  }
-  return weights;
+  return LogisticWeights(x, y, counts, penalty);
 }
 
 /// The bias is not penalised.

@@ -4,6 +4,7 @@
 
 #include "core/base/random.h"
 #include "core/depth/depth_method.h"
+#include "core/depth/local_plane_upsampler.h"
 #include "tests/support/sample_grids.h"
 
 namespace foresight {
@@ -129,6 +130,32 @@ TEST(DepthMethods, AreFoundByTheirNames) {
     EXPECT_EQ(DefaultsOf(info.method).method, info.method);
   }
   EXPECT_EQ(DepthMethodFromName("magic").error().code, ErrorCode::kInvalidOptions);
+}
+
+TEST(LocalPlanes, HandOutWhatAConfidenceIsComputedFrom) {
+  const auto hole = [](int u, int v) { return u > 60 && u < 110 && v > 30 && v < 90 ? NAN : 1.5; };
+  const AlignedSamples samples = SamplesOnLattice(160, 120, 4, 12, hole);
+  const ColorImage guide = Grey(160, 120);
+  SupportTermImages terms;
+  LocalPlaneUpsampler upsampler(guide, Window());
+  upsampler.KeepTerms(terms);
+  ASSERT_TRUE(upsampler.Update(samples, {}));
+  const auto without = UpsampleLocalPlanes(samples, guide, Window(), {});
+  int pixels = 0;
+  for (int v = 0; v < 120; ++v)
+    for (int u = 0; u < 160; ++u) {
+      ASSERT_EQ(upsampler.dense().confidence(u, v), without->confidence(u, v));
+      if (std::isnan(upsampler.dense().depth_m(u, v))) continue;
+      SupportTerms of_pixel;
+      for (std::size_t i = 0; i < kSupportTerms; ++i) of_pixel[i] = terms[i](u, v);
+      ASSERT_EQ(ShippedConfidenceWeights().Confidence(of_pixel), without->confidence(u, v));
+      ++pixels;
+    }
+  EXPECT_GT(pixels, 10000);
+  // Amid the samples, and in the hole.
+  EXPECT_LT(terms[kNearestCells](30, 60), 1.0f);
+  EXPECT_EQ(terms[kOneSidedRow](30, 60), 0.0f);
+  EXPECT_EQ(terms[kOneSidedRow](75, 60), 1.0f);
 }
 
 }  // namespace
