@@ -140,6 +140,11 @@ Result<ExitCode> Evaluate(const EvaluateArguments& arguments, const RunContext& 
   std::vector<EvaluationRow> rows;
   for (const std::string& scene : arguments.scenes) {
     const bool simulated = std::filesystem::path(scene).extension() == ".yaml";
+    if (!simulated && std::filesystem::is_regular_file(scene))
+      return Fail(ErrorCode::kInvalidInput,
+                  "{}: is neither a scene file (.yaml) nor the folder of a stereo scene; a mission "
+                  "is evaluated on its own beams, with --hold-out",
+                  scene);
     FORESIGHT_CHECK(
         simulated ? EvaluateSimulated(scene, methods, arguments, pictures_or_none, rows, context)
                   : EvaluateStereo(scene, methods, arguments, pictures_or_none, rows, context));

@@ -185,7 +185,7 @@ void PrintTable(const FitStatistics& s) {
         "  right where only one of the two is: the first source {}, this {}; the first is "
         "ahead by {:.2f} a scene (95 %: {:.2f} to {:.2f}; {} scenes)",
         ahead.only_first, ahead.only_second, ahead.lead, ahead.low, ahead.high, ahead.scenes));
-  PrintLine(fmt::format("  AUC {:.3f}, ECE {:.3f}", s.auc, s.ece));
+  if (std::isfinite(s.auc)) PrintLine(fmt::format("  AUC {:.3f}, ECE {:.3f}", s.auc, s.ece));
   for (const ErrorSpread& error : s.errors)
     PrintLine(
         fmt::format("  {:<16}  median {:.3f}, 95 % {:.3f}", error.name, error.median, error.p95));

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kDepthAlias = "depth";
 
 void AddRegionArguments(CLI::App& command, RegionArguments& region) {
-  constexpr const char* kGroup = "Region, one of";
+  constexpr const char* kGroup = "Region, one of; with --cloud: none is the whole cloud";
   command.add_option("--roi", region.rectangle, "Rectangle: left,top,right,bottom in pixels")
       ->expected(4)
       ->delimiter(',')
@@ -27,7 +27,8 @@ void AddRegionArguments(CLI::App& command, RegionArguments& region) {
       ->group(kGroup);
   command
       .add_option("--box", region.box,
-                  "Box in the robot's frame: middle x,y,z and size x,y,z in metres")
+                  "Box in the robot's frame, or with --cloud in the cloud's: middle x,y,z and "
+                  "size x,y,z in metres")
       ->expected(6)
       ->delimiter(',')
       ->group(kGroup);
@@ -229,6 +230,13 @@ Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,
 Eigen::Vector3d UpOf(const FitArguments& arguments) {
   if (arguments.cloud_file.empty() || !arguments.rig.empty()) return Eigen::Vector3d::UnitZ();
   return Eigen::Vector3d(arguments.up.data()).normalized();
+}
+
+std::optional<Eigen::Vector3d> UpOfCloud(const FitArguments& arguments) {
+  const Eigen::Vector3d up = UpOf(arguments);
+  constexpr double kSame = 1e-6;
+  if ((up - Eigen::Vector3d::UnitZ()).norm() < kSame) return std::nullopt;
+  return up;
 }
 
 Result<FitOptions> FitOptionsFrom(const FitArguments& arguments,

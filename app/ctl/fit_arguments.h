@@ -59,6 +59,8 @@ Status CheckFitArguments(const FitArguments& arguments);
 /// Against gravity in the frame that regions and answers are in, length 1: z, or what --up says of
 /// a cloud's frame.
 Eigen::Vector3d UpOf(const FitArguments& arguments);
+/// That, where a cloud has another way up than z: FactsOf's.
+std::optional<Eigen::Vector3d> UpOfCloud(const FitArguments& arguments);
 
 /// The region on the picture at `motor_rad`. Fails with kInvalidOptions: none, or no region.
 Result<Roi> RegionFrom(const RegionArguments& arguments, double motor_rad,

@@ -56,7 +56,7 @@ Result<ExitCode> Fit(const FitArguments& arguments, const RunContext& context) {
   if (arguments.json)
     PrintLine(WithScanState(DetectionToJson(detection, subject.rig.robot_from_base), subject));
   else
-    PrintSummary(detection, subject.rig);
+    PrintSummary(detection, subject.rig, UpOfCloud(arguments));
   return VerdictOf(detection).level == VerdictLevel::kUnsure ? ExitCode::kNegative
                                                              : ExitCode::kDone;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "app/common/exit_code.h"
 #include "core/detection/detection.h"
 #include "core/sensor/sensor_rig.h"
@@ -7,7 +9,9 @@
 namespace foresight {
 
 /// A verdict with its reason, and what was measured.
-void PrintSummary(const Detection& detection, const SensorRig& rig);
+/// @param up_of_cloud as FactsOf has it
+void PrintSummary(const Detection& detection, const SensorRig& rig,
+                  const std::optional<Eigen::Vector3d>& up_of_cloud = std::nullopt);
 
 /// A fit that found nothing, as JSON, with the reason on standard error.
 ExitCode PrintNothingFound(ObjectKind kind, const Error& error);

@@ -35,7 +35,7 @@ void Begin(const SupportModel& model, int y, const PlaneRow& planes, RowSupport&
 }
 
 SupportTerms TermsOf(float nearest, std::int32_t sides, float weight, float agreement,
-                        bool inside) {
+                     bool inside) {
   const float full = std::min(kFullestWeight, weight);
   SupportTerms terms;
   terms[kNearestCells] = nearest;

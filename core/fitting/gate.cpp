@@ -174,7 +174,8 @@ std::string ReasonOf(const Verdict& verdict, double least_likely, const std::str
   const bool likely = verdict.level == VerdictLevel::kLikely;
   const Gate probability{.what = "its probability is {}",
                          .unit = Gate::Unit::kFraction,
-                         .number = verdict.probability,
+                         // As ProbabilityText has it beside the reason: rounded down.
+                         .number = std::floor(100.0 * verdict.probability + 1e-9) / 100.0,
                          .side = Gate::Side::kAtLeast,
                          .limit = likely ? Verdict::kConfirmed : least_likely,
                          .advice = FirstFailed(usual),

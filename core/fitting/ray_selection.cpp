@@ -88,10 +88,11 @@ Result<RaySet> UsableRays(const RaySet& rays, int least, const char* object) {
   RaySet usable = rays;
   std::erase_if(usable.rays, [](const RangeRay& ray) { return !Usable(ray); });
   if (std::ssize(usable.rays) < least)
-    return Fail(ErrorCode::kTooFewPoints,
-                "the region holds {} measurements, {} needs {}: draw it larger, scan slower or "
-                "move closer",
-                usable.rays.size(), object, least);
+    return Fail(
+        ErrorCode::kTooFewPoints,
+        "the region holds too few measurements: {}, {} needs {}: draw it larger, scan slower or "
+        "move closer",
+        usable.rays.size(), object, least);
   return usable;
 }
 

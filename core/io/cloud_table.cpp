@@ -252,6 +252,7 @@ Result<CloudTable> ReadCloudTable(const std::filesystem::path& path) {
   FORESIGHT_TRY(const std::string bytes, ReadFile(path));
   const std::string source = path.string();
   CloudTable table;
+  if (bytes.empty()) return Fail(ErrorCode::kBadData, "{}: is empty", source);
   if (path.extension() == ".bin") {
     FORESIGHT_TRY(table, DecodeFloatRecordTable(bytes, source));
   } else if (bytes.starts_with("ply")) {

@@ -50,7 +50,9 @@ Result<DatabaseHeader> ReadHeader(const MissionFileHandle& handle, const std::st
   constexpr std::size_t kReadVersion = 19;  // 2 = write-ahead log
   FORESIGHT_TRY(const std::string bytes, handle.FirstBytes(kReadVersion + 1));
   if (bytes.size() <= kReadVersion || !bytes.starts_with(kMagic))
-    return Fail(ErrorCode::kBadData, "{}: is not a mission file", file);
+    return Fail(
+        ErrorCode::kBadData,
+        "{}: is not a mission file (foresightctl mission import makes one of a point cloud)", file);
   return DatabaseHeader{bytes[kReadVersion] == 2};
 }
 

@@ -129,6 +129,36 @@ TEST_F(FitOfACloud, ABoxDrawnTightlyRoundAWheelSeesTheWallBehindIt) {
   }
 }
 
+TEST_F(FitOfACloud, OfPointsOnALineIsNothingToRelyOn) {
+  std::string text;
+  for (int i = 0; i < 400; ++i) text += fmt::format("2.0 {:.4f} 1.0\n", -0.5 + 0.0025 * i);
+  const std::string line = folder_ / "line.xyz";
+  ASSERT_TRUE(WriteFileAtomically(line, text));
+  for (const char* kind : {"valve", "drill", "terrain", "handle", "cylinder"})
+    for (const std::vector<std::string>& box :
+         {std::vector<std::string>{"--box=2,0,1,1,1.2,1"}, std::vector<std::string>{}}) {
+      std::vector<std::string> arguments = {"fit",         kind,      "--cloud", line,
+                                            "--viewpoint", "0,0,1.2", "--json"};
+      arguments.insert(arguments.end(), box.begin(), box.end());
+      const ProgramResult result = Ctl(arguments);
+      EXPECT_EQ(result.exit_code, 1) << kind << result.output << result.errors;
+      const auto answer = nlohmann::json::parse(result.output);
+      EXPECT_EQ(answer["verdict"], "UNSURE") << kind;
+      EXPECT_FALSE(answer["reason"].get<std::string>().empty()) << kind;
+    }
+}
+
+TEST_F(FitOfACloud, OfAnEmptyFileSaysThatItIsEmpty) {
+  for (const char* name : {"empty.ply", "empty.pcd", "empty.xyz", "empty.bin"}) {
+    const std::string file = folder_ / name;
+    ASSERT_TRUE(WriteFileAtomically(file, ""));
+    const ProgramResult result =
+        Ctl({"fit", "valve", "--cloud", file, "--viewpoint", "0,0,1", "--box=2,0,1,1,1,1"});
+    EXPECT_EQ(result.exit_code, 3) << name;
+    EXPECT_EQ(result.errors, fmt::format("foresightctl: {}: is empty\n", file)) << name;
+  }
+}
+
 TEST_F(FitOfACloud, IsTrustedAboutAsMuchAsItsMission) {
   // At the default speed, six times as dense, they differ by 0.21: docs/evaluation.md, "The valve
   // again".

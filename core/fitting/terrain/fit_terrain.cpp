@@ -28,10 +28,11 @@ Status Cancelled() {
 Status CheckRays(const RaySet& rays, const SurfaceGrid& grid) {
   FORESIGHT_CHECK(CheckRayNoise(rays));
   if (grid.size() < kMinRays)
-    return Fail(ErrorCode::kTooFewPoints,
-                "the region holds {} measurements, terrain needs {}: draw it larger, or scan "
-                "slower",
-                grid.size(), kMinRays);
+    return Fail(
+        ErrorCode::kTooFewPoints,
+        "the region holds too few measurements: {}, terrain needs {}: draw it larger, or scan "
+        "slower",
+        grid.size(), kMinRays);
   return {};
 }
 
