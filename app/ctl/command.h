@@ -43,6 +43,7 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation);
 /// `mission` is the command of that name.
 void AddMissionDigestCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionPoseCommand(CLI::App& mission, Invocation& invocation);
+void AddMissionDecideCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionNoteCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionShowCommand(CLI::App& mission, Invocation& invocation);
 void AddMissionRecoverCommand(CLI::App& mission, Invocation& invocation);

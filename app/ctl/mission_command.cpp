@@ -230,6 +230,7 @@ void AddMissionCommand(CLI::App& app, Invocation& invocation) {
     invocation = [arguments](const RunContext& context) { return Check(*arguments, context); };
   });
   AddMissionShowCommand(*mission, invocation);
+  AddMissionDecideCommand(*mission, invocation);
   AddMissionNoteCommand(*mission, invocation);
   AddMissionSearchCommand(*mission, invocation);
   AddMissionRecoverCommand(*mission, invocation);

@@ -109,6 +109,50 @@ TEST(FitHandleInAScan, APullBarIsNotEvenLikelyToBeOne) {
   EXPECT_THAT(kept.Answer()["reason"].get<std::string>(), HasSubstr("pull bar"));
 }
 
+TEST(MissionDecide, TakesBackNamesAndDeletesWhatTheShellDecided) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "pole.yaml";
+  ASSERT_TRUE(WriteFileAtomically(scene, kPole));
+  const KeptObject kept(scene, "cylinder", "1.6,0.1,1.2,0.4,0.5,0.5");
+  const auto decide = [&](std::vector<std::string> what) {
+    what.insert(what.begin(), {"mission", "decide", kept.Mission(), "1"});
+    return Ctl(what);
+  };
+  const ProgramResult accepted = decide({"--accept", "--json", "--remark", "seen in the image"});
+  ASSERT_EQ(accepted.exit_code, 0) << accepted.errors;
+  EXPECT_EQ(nlohmann::json::parse(accepted.output)["decision"], "accepted");
+  EXPECT_EQ(kept.Record().decision, Decision::kAccepted);
+  // What is accepted is fitted again by the check of the scan.
+  const ProgramResult check = Ctl({"check", kept.Mission()});
+  EXPECT_THAT(check.output, HasSubstr("even and odd lines agree")) << check.errors;
+  EXPECT_EQ(decide({"--name", "riser"}).exit_code, 0);
+  EXPECT_EQ(decide({"--reject"}).exit_code, 0);
+  EXPECT_EQ(kept.Record().decision, Decision::kRejected);
+  EXPECT_EQ(decide({"--delete"}).exit_code, 0);
+  EXPECT_TRUE(kept.Record().deleted);
+  EXPECT_EQ(decide({"--restore"}).exit_code, 0);
+  EXPECT_EQ(decide({"--reopen"}).exit_code, 0);
+  EXPECT_EQ(kept.Record().decision, Decision::kOpen);
+  EXPECT_EQ(kept.Record().name, "riser");
+  EXPECT_FALSE(kept.Record().deleted);
+}
+
+TEST(MissionDecide, SaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "pole.yaml";
+  ASSERT_TRUE(WriteFileAtomically(scene, kPole));
+  const KeptObject kept(scene, "cylinder", "1.6,0.1,1.2,0.4,0.5,0.5");
+  const ProgramResult nothing = Ctl({"mission", "decide", kept.Mission(), "1"});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.errors, HasSubstr("give one of --accept, --reject"));
+  const ProgramResult other = Ctl({"mission", "decide", kept.Mission(), "7", "--accept"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_THAT(other.errors, HasSubstr("there is no object 7; foresightctl mission show"));
+  const ProgramResult both =
+      Ctl({"mission", "decide", kept.Mission(), "1", "--accept", "--reject"});
+  EXPECT_EQ(both.exit_code, 2);
+}
+
 TEST(FitCylinderInAScan, IsKeptMadeAgainAndToldToARobotWithoutAProbability) {
   const TemporaryFolder folder;
   const std::string scene = folder / "pole.yaml";

@@ -1,0 +1,93 @@
+#include <memory>
+
+#include "app/ctl/command.h"
+#include "core/detection/detection_json.h"
+#include "core/mission/mission_file.h"
+#include "core/mission/new_records.h"
+
+namespace foresight {
+namespace {
+
+using Action = DetectionEvent::Action;
+
+struct DecideArguments {
+  std::string file;
+  std::string object;
+  bool accept = false, reject = false, reopen = false, remove = false, restore = false;
+  std::string name;
+  std::string remark;
+  bool json = false;
+};
+
+std::optional<Action> ActionOf(const DecideArguments& arguments) {
+  if (arguments.accept) return Action::kAccepted;
+  if (arguments.reject) return Action::kRejected;
+  if (arguments.reopen) return Action::kReopened;
+  if (arguments.remove) return Action::kDeleted;
+  if (arguments.restore) return Action::kRestored;
+  return arguments.name.empty() ? std::nullopt : std::optional(Action::kRenamed);
+}
+
+Result<DetectionRecord> ObjectNamed(const MissionFile& file, const std::string& object) {
+  FORESIGHT_TRY(const std::vector<DetectionRecord> objects, file.ListDetections());
+  for (const DetectionRecord& record : objects)
+    if (record.uuid == object || fmt::format("{}", record.id) == object) return record;
+  return Fail(ErrorCode::kInvalidInput,
+              "{}: there is no object {}; foresightctl mission show lists them",
+              file.path().string(), object);
+}
+
+Result<ExitCode> Decide(const DecideArguments& arguments) {
+  const std::optional<Action> action = ActionOf(arguments);
+  if (!action)
+    return Fail(ErrorCode::kInvalidOptions,
+                "give one of --accept, --reject, --reopen, --name, --delete and --restore");
+  FORESIGHT_TRY(const auto file, MissionFile::Open(arguments.file));
+  FORESIGHT_TRY(const DetectionRecord before, ObjectNamed(*file, arguments.object));
+  FORESIGHT_TRY(const Detection detection, DetectionFromJson(before.json));
+  FORESIGHT_CHECK(file->AddDetectionEvent(
+      before.id, {NowUtc_ns(), OperatorName(), *action,
+                  *action == Action::kRenamed ? arguments.name : arguments.remark}));
+  FORESIGHT_TRY(const DetectionRecord after, ObjectNamed(*file, before.uuid));
+  FORESIGHT_CHECK(file->Close());
+  const Verdict& verdict = VerdictOf(detection);
+  if (*action == Action::kAccepted && verdict.level == VerdictLevel::kUnsure)
+    PrintNote("object {} is accepted although it is UNSURE: {}", after.id, verdict.reason);
+  if (arguments.json)
+    PrintJson({{"mission", arguments.file},
+               {"object", after.id},
+               {"uuid", after.uuid},
+               {"kind", after.kind},
+               {"verdict", ToString(verdict.level)},
+               {"name", after.name},
+               {"decision", ToString(after.decision)},
+               {"deleted", after.deleted}});
+  else
+    PrintLine(fmt::format("{} {} is {}: {}", after.kind, after.id, ToString(*action), after.uuid));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddMissionDecideCommand(CLI::App& mission, Invocation& invocation) {
+  const auto arguments = std::make_shared<DecideArguments>();
+  CLI::App* command = mission.add_subcommand(
+      "decide", "Accept or reject an object that was found, name it, delete it");
+  command->add_option("file", arguments->file, "Mission file, or its review")->required();
+  command->add_option("object", arguments->object, "The object, by its number or uuid")->required();
+  CLI::Option_group* what = command->add_option_group("What is done, one of");
+  what->add_flag("--accept", arguments->accept, "It may be acted on");
+  what->add_flag("--reject", arguments->reject, "It is wrong, or not wanted");
+  what->add_flag("--reopen", arguments->reopen, "Nothing is decided any more");
+  what->add_option("--name", arguments->name, "What it is called from now on");
+  what->add_flag("--delete", arguments->remove, "It is no longer shown; its row stays");
+  what->add_flag("--restore", arguments->restore, "It is shown again");
+  what->require_option(0, 1);
+  command->add_option("--remark", arguments->remark, "Why, for the mission's log");
+  command->add_flag("--json", arguments->json, "Print the result as JSON");
+  command->callback([&invocation, arguments] {
+    invocation = [arguments](const RunContext&) { return Decide(*arguments); };
+  });
+}
+
+}  // namespace foresight
