@@ -4,7 +4,7 @@
 
 namespace foresight {
 
-/// Fields of cinder blocks and what resembles them, docs/evaluation.md "Terrain fit".
+/// Fields of cinder blocks and what resembles them, docs/evaluation/terrain.md "Terrain fit".
 ///
 /// Positives: 3 x (3 to 5) blocks, tilted by 15 deg in four directions, 15 % flat, on layers of 0,
 /// 0.19 and 0.38 m, each up to 8 mm and 1.5 deg off its place, or, one in six, 2 to 6 blocks that

@@ -17,7 +17,8 @@ std::optional<GatheredCheck> GatherChecks(std::span<const KeptCheck> checks, con
   }
   std::vector<RigCheck> rigs;
   for (const auto& [uuid, check] : newest)
-    if (check->rig.camera || check->rig.plate || check->rig.turns) rigs.push_back(check->rig);
+    if (check->rig.camera || check->rig.plate || check->rig.turns || check->rig.passes)
+      rigs.push_back(check->rig);
   if (rigs.size() < 2) return std::nullopt;
   GatheredCheck gathered;
   gathered.scans = static_cast<int>(rigs.size());

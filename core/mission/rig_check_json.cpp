@@ -122,6 +122,23 @@ TurnCheck TurnsFrom(const nlohmann::json& json) {
   return turns;
 }
 
+OrderedJson PassesJson(const PassCheck& passes) {
+  return {{"patches", passes.patches},
+          {"speed_rad_s", passes.speed_rad_s},
+          {"stamp_s", passes.stamp_s},
+          {"sigma_s", passes.sigma_s}};
+}
+
+PassCheck PassesFrom(const nlohmann::json& json) {
+  PassCheck passes;
+  constexpr double kLeast = 1e-9;  // what is averaged is weighed by the inverse
+  passes.patches = IntegerIn(json, "patches", 1, 1'000'000'000);
+  passes.speed_rad_s = NumberIn(json, "speed_rad_s", kLeast, kMost);
+  passes.stamp_s = NumberIn(json, "stamp_s", -kMost, kMost);
+  passes.sigma_s = NumberIn(json, "sigma_s", kLeast, kMost);
+  return passes;
+}
+
 /// Of an earlier program, or of one with other unknowns, they are not there.
 bool HasMeasurements(const nlohmann::json& json, const char* key, const char* value,
                      std::size_t unknowns) {
@@ -168,6 +185,10 @@ std::string RigCheckToJson(const RigCheck& check) {
     json["turns"] = TurnsJson(*check.turns);
   else
     json["no_turns"] = check.no_turns;
+  if (check.passes)
+    json["passes"] = PassesJson(*check.passes);
+  else
+    json["no_passes"] = check.no_passes;
   return json.dump();
 }
 
@@ -177,6 +198,7 @@ RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
   check.no_camera = json.value("no_camera", nothing);
   check.no_plate = json.value("no_plate", nothing);
   check.no_turns = json.value("no_turns", nothing);
+  check.no_passes = json.value("no_passes", nothing);
   if (HasMeasurements(json, "camera", "turn_rad", 3)) {
     const CameraCheck camera = CameraFrom(json["camera"]);
     if (CanBeInverted(camera.covariance)) check.camera = camera;
@@ -188,6 +210,10 @@ RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
   if (HasMeasurements(json, "turns", "drift", TurnCheck::kUnknowns)) {
     const TurnCheck turns = TurnsFrom(json["turns"]);
     if (CanBeAveraged(turns)) check.turns = turns;
+  }
+  if (json.contains("passes")) {
+    check.passes = PassesFrom(json["passes"]);
+    check.no_passes.clear();
   }
   if (check.turns) check.no_turns.clear();
   if (check.camera) check.no_camera.clear();

@@ -34,7 +34,8 @@ std::string AmountInWords(const RigFinding& finding) {
 class Judge {
  public:
   Judge(const SensorRig& rig, const Result<PlateCheck>& plate, const Result<CameraCheck>& camera,
-        const Result<TurnCheck>& turns, const RigCheckLimits& limits)
+        const Result<TurnCheck>& turns, const Result<PassCheck>& passes,
+        const RigCheckLimits& limits)
       : rig_(rig), limits_(limits) {
     if (plate)
       check_.plate = *plate;
@@ -48,6 +49,10 @@ class Judge {
       check_.turns = *turns;
     else
       check_.no_turns = turns.error().message;
+    if (passes)
+      check_.passes = *passes;
+    else
+      check_.no_passes = passes.error().message;
   }
 
   RigCheck Run() {
@@ -120,10 +125,10 @@ class Judge {
     finding.in_words = "the lidar's stamps against the encoder's";
     finding.unit = "s";
     finding.value = finding.sigma = finding.limit = std::nan("");
-    if (check_.plate && check_.plate->up_and_down) {
-      finding.limit = 0.5 * limits_.stamp_turn_rad / check_.plate->speed_rad_s;
-      finding.value = check_.plate->drift[PlateCheck::kStamp];
-      finding.sigma = check_.plate->Sigma(PlateCheck::kStamp);
+    if (check_.passes) {
+      finding.limit = 0.5 * limits_.stamp_turn_rad / check_.passes->speed_rad_s;
+      finding.value = check_.passes->stamp_s;
+      finding.sigma = check_.passes->sigma_s;
     }
     Add(finding);
   }
@@ -196,15 +201,12 @@ class Judge {
     else
       SayNotSeen("camera turn", "more depth edges at other places of the image show it");
     if (!check_.no_plate.empty())
-      list.push_back("lidar against the motor, and the stamps: " + check_.no_plate);
+      list.push_back("lidar against the motor: " + check_.no_plate);
     else
       SayNotSeen("lidar turn", "walls at several angles, floor and ceiling show it");
-    if (check_.plate && !check_.plate->up_and_down)
-      list.emplace_back(
-          "the lidar's stamps against the encoder's: the scan sweeps one way; a scan there and "
-          "back shows "
-          "it");
-    else if (check_.plate)
+    if (!check_.no_passes.empty())
+      list.push_back("the lidar's stamps against the encoder's: " + check_.no_passes);
+    else
       SayNotSeen("stamps", "a faster sweep before floor, ceiling or sloping surfaces shows it");
     if (!check_.no_turns.empty())
       list.push_back("camera against the motor, and how far the plate turns: " + check_.no_turns);
@@ -270,8 +272,8 @@ bool RigCheck::SawAnything() const {
 
 RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
                   const Result<CameraCheck>& camera, const Result<TurnCheck>& turns,
-                  const RigCheckLimits& limits) {
-  return Judge(rig, plate, camera, turns, limits).Run();
+                  const Result<PassCheck>& passes, const RigCheckLimits& limits) {
+  return Judge(rig, plate, camera, turns, passes, limits).Run();
 }
 
 Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
@@ -288,8 +290,10 @@ Result<RigCheck> CheckRig(const Scan& scan, const RegisteredScan& cloud,
   CameraCheckOptions camera_options = options.camera;
   RigCheckLimits limits = options.limits;
   Result<TurnCheck> turns = tl::unexpected(plate.error());
+  Result<PassCheck> passes = tl::unexpected(plate.error());
   if (scan.given.empty()) {
     plate = CheckPlate(scan, cloud, options.plate);
+    passes = CheckPasses(scan, cloud, options.passes);
     turns = CheckTurns(scan, cloud, options.turns, context.Part(0.1, 0.2));
   } else {
     camera_options.edges = DepthEdgeOptions::OfImported();
@@ -297,7 +301,7 @@ Result<RigCheck> CheckRig(const Scan& scan, const RegisteredScan& cloud,
   }
   const auto camera = CheckCamera(scan, cloud, camera_options, context.Part(0.2, 1.0));
   if (context.Cancelled()) return Fail(ErrorCode::kCancelled, "the check was cancelled");
-  return JudgeRig(scan.rig, plate, camera, turns, limits);
+  return JudgeRig(scan.rig, plate, camera, turns, passes, limits);
 }
 
 }  // namespace foresight

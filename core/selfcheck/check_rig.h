@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/selfcheck/camera_check.h"
+#include "core/selfcheck/pass_check.h"
 #include "core/selfcheck/plate_check.h"
 #include "core/selfcheck/turn_check.h"
 
@@ -34,6 +35,7 @@ struct RigCheckOptions {
   PlateCheckOptions plate;
   CameraCheckOptions camera;
   TurnCheckOptions turns;
+  PassCheckOptions passes;
   RigCheckLimits limits;
 };
 
@@ -62,6 +64,8 @@ struct RigCheck {
   std::string no_camera;
   std::optional<TurnCheck> turns;
   std::string no_turns;
+  std::optional<PassCheck> passes;
+  std::string no_passes;
   std::vector<RigFinding> findings;
   std::vector<std::string> drifted;     ///< what and by how much, a sentence each; empty = fine
   std::vector<std::string> cannot_see;  ///< what this scan says nothing of, a sentence each
@@ -73,13 +77,13 @@ struct RigCheck {
 /// What the measurements mean. Each may be missing, with the reason.
 RigCheck JudgeRig(const SensorRig& rig, const Result<PlateCheck>& plate,
                   const Result<CameraCheck>& camera, const Result<TurnCheck>& turns,
-                  const RigCheckLimits& limits);
+                  const Result<PassCheck>& passes, const RigCheckLimits& limits);
 
 /// Rates `scan.rig` on the scan itself: camera against lidar by image and depth edges, lidar
-/// against the motor by planes, the lidar's stamps against the encoder's by planes seen on the way
-/// up and down, camera against the motor and the motor's way by images at several angles. Needs no
-/// board and no truth. Of an imported scan only the edges are looked at.
-/// Fails as RegisterScan does, and with kCancelled; a scan that says nothing is no failure.
+/// against the motor by planes, the lidar's stamps against the encoder's by surfaces seen on the
+/// way up and down, camera against the motor and the motor's way by images at several angles. Needs
+/// no board and no truth. Of an imported scan only the edges are looked at. Fails as RegisterScan
+/// does, and with kCancelled; a scan that says nothing is no failure.
 Result<RigCheck> CheckRig(const Scan& scan, const RigCheckOptions& options,
                           const RunContext& context);
 /// The same of a scan that was registered with its rig.

@@ -138,11 +138,33 @@ Result<TurnCheck> GatherTurns(std::span<const RigCheck> checks) {
   return gathered;
 }
 
+Result<PassCheck> GatherPasses(std::span<const RigCheck> checks) {
+  WeightedMean stamps(1);
+  PassCheck gathered;
+  double speeds = 0.0;
+  for (const RigCheck& check : checks) {
+    if (!check.passes) continue;
+    const PassCheck& passes = *check.passes;
+    stamps.Add(Eigen::VectorXd::Constant(1, passes.stamp_s),
+               Eigen::MatrixXd::Constant(1, 1, passes.sigma_s * passes.sigma_s));
+    gathered.patches += passes.patches;
+    speeds += passes.speed_rad_s;
+  }
+  if (stamps.count() == 0)
+    return Fail(ErrorCode::kTooFewPoints, "{}",
+                checks.empty() ? "there is no scan" : checks.front().no_passes);
+  gathered.stamp_s = stamps.Mean()[0];
+  gathered.sigma_s = std::sqrt(stamps.Covariance()(0, 0));
+  gathered.speed_rad_s = speeds / stamps.count();
+  return gathered;
+}
+
 }  // namespace
 
 RigCheck GatherRig(std::span<const RigCheck> checks, const SensorRig& rig,
                    const RigCheckLimits& limits) {
-  return JudgeRig(rig, GatherPlate(checks), GatherCamera(checks), GatherTurns(checks), limits);
+  return JudgeRig(rig, GatherPlate(checks), GatherCamera(checks), GatherTurns(checks),
+                  GatherPasses(checks), limits);
 }
 
 }  // namespace foresight

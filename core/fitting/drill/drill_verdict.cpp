@@ -24,20 +24,20 @@ constexpr double kMinHits = 40.0;  // independent measurements on the drill
 constexpr double kMinHead_nats = 10.0;
 // The probability weighs how far behind a turned drill and another tool are. These limits keep what
 // is hardly behind; chosen by hand on the training scenes of home and of varied conditions, with
-// what they cost in docs/evaluation.md, "The drill a third time"; scan lines need not speak for the
+// what they cost in docs/evaluation/drill.md, "The drill a third time"; scan lines need not speak for the
 // way since "What a drill stands on", but not against it either.
 constexpr double kMinYawMargin_nats = 3.0;
 constexpr double kMinAnyFlipMargin_nats = 5.0;
 constexpr double kMinFlipLines_sigmas = 0.0;
 // Where the image says so much of the way, scan lines need not tell it: of 31 right and 2 wrong
 // answers at 90 % and more that failed the limit for lines it lets 23 right ones pass (the training
-// scenes of docs/evaluation.md, "The image beside the beams").
+// scenes of docs/evaluation/kinds.md, "The image beside the beams").
 constexpr double kImageTellsWay_nats = 15.0;
 // As sure as of its head. Lamps on a grip have up to 9.6 nats for a chuck; of 377 right drills at
-// home that are sure 338 have 10 and more (docs/evaluation.md, "The image beside the beams").
+// home that are sure 338 have 10 and more (docs/evaluation/kinds.md, "The image beside the beams").
 constexpr double kMinChuck_nats = 10.0;
 // As sure as of its chuck. Of 242 right drills on training scenes the least has 14.9 nats for a
-// foot that is wider than its grip (docs/evaluation.md, "What a drill stands on").
+// foot that is wider than its grip (docs/evaluation/drill.md, "What a drill stands on").
 constexpr double kMinFoot_nats = 10.0;
 constexpr double kUsualFoot_nats = 50.0;  // of a kind without feet, whose feet say nothing
 // Chucks of cordless drills are 30 to 50 mm long; hot air tools and dryers end in nozzles.

@@ -15,7 +15,7 @@ HandleEvidence GatherEvidence(const BeamLikelihood& likelihood, const Plane& doo
 /// Standard deviations and covariance of the detection: from how what the beams should read changes
 /// with the handle, the beams of a scan line erring together (CovarianceClusteredByLine), the
 /// door's normal from the rays that end on it, and what no beam tells, chosen on training scenes
-/// (docs/evaluation.md, "Door handle fit").
+/// (docs/evaluation/handle.md, "Door handle fit").
 void SetSigmas(const HandleScorer& scorer, const HandleState& handle, HandleDetection& detection);
 
 /// What Verdict::features holds, in its order.

@@ -40,7 +40,7 @@ struct OutlineSupport {
 class ImageEdges {
  public:
   /// Neighbouring pixels of an outline are not independent: what one of them counts
-  /// (docs/evaluation.md, "The image beside the beams").
+  /// (docs/evaluation/kinds.md, "The image beside the beams").
   static constexpr double kIndependentPerPixel = 0.25;
 
   /// Keeps what the image shows round the points of base that were `seen`: empty where that is

@@ -19,7 +19,7 @@ constexpr std::array<double, 4> kAcross = {-0.28, -0.12, 0.12, 0.28};  // of a s
 constexpr std::array<double, 2> kSides = {-0.5, 0.5};
 
 // What the nats of a rectangle's sides, each its mean, count beside what is known of its place, and
-// how well a side that is seen tells it (docs/evaluation.md, "Blocks in the image").
+// how well a side that is seen tells it (docs/evaluation/terrain.md, "Blocks in the image").
 constexpr double kSideNats = 12.0;
 constexpr double kImageSigma_px = 0.9;
 constexpr double kSeen_nats = 0.0;  // of a side: as much for an edge as against one

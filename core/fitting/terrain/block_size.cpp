@@ -20,7 +20,7 @@ constexpr double kAnotherSize = 0.10;  // of a side: what counts as another size
 constexpr double kSizeCorner_m = 0.020;
 constexpr double kOfAnother_m = 0.015;  // support this near to another block is that one's
 // What a line's nat is worth, of a block's area: 0.036, 0.07 and 0.14 were tried
-// (docs/evaluation.md, "Blocks in the image").
+// (docs/evaluation/terrain.md, "Blocks in the image").
 constexpr double kLineNat = 0.07;
 
 /// Gains along one side of a rectangle, in bins from its lower end less the reach and the band.

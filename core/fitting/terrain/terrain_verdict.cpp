@@ -9,13 +9,13 @@
 namespace foresight {
 namespace {
 
-// What a confirmed block needs (`packaging/evaluate mixed-choice`; docs/evaluation.md, "A carton
+// What a confirmed block needs (`packaging/evaluate mixed-choice`; docs/evaluation/terrain.md, "A carton
 // is no block"). Edges do not tell a block from a carton of nearly its size: the margins of sizes
 // do. Lidar returns, which lie far apart, say too much of what lies beyond an edge.
 constexpr int kMinEdges = 2;
 constexpr double kMinCover = 0.6;
 constexpr double kMaxOutside = 0.1, kMaxOutsideOfReturns = 0.2;
-// The odds that a top has a block's size, 4.5 : 1 (docs/evaluation.md, "Blocks among other
+// The odds that a top has a block's size, 4.5 : 1 (docs/evaluation/terrain.md, "Blocks among other
 // things"): less is no block to stand on.
 constexpr double kMinSize_nats = 1.5;
 constexpr double kMaxPlaceSigma_m = 0.010;

@@ -41,11 +41,11 @@ constexpr double kWorthwhile = 0.9, kWorthwhileInMap = 0.5;
 constexpr std::size_t kLocallySearchedLevers = 3;
 // Fits to wheels lie behind them, in the median of training scenes at home and under varied
 // conditions: by 0.2 and 2.5 mm from lidar returns and clouds, by 2.2 to 3.6 and 4.7 mm from maps
-// (docs/evaluation.md, "Fits lie behind their wheels").
+// (docs/evaluation/valve.md, "Fits lie behind their wheels").
 constexpr double kBeamsLack_m = 0.0013, kMapsLack_m = 0.0035;
 constexpr double kHopeless_nats = 200.0;  // more than local search brings
 constexpr double kTubeRadius_m = 0.012;   // where the search starts
-// What an image's nat counts beside a ray's, as of levers' ways (docs/evaluation.md, "Spokes in the
+// What an image's nat counts beside a ray's, as of levers' ways (docs/evaluation/valve.md, "Spokes in the
 // image").
 constexpr double kImageNat = 0.3;
 

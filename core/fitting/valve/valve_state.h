@@ -42,7 +42,7 @@ struct ValvePrior {
   /// lie flat or stand upright: depths do not go with widths. Real rims' depths scatter more, but
   /// beams see no depth: a footprint that is not ours looks like a deep rim by tens of nats, and
   /// the wheel moves back along its axis to keep its front. Hence a prior that holds against that,
-  /// chosen on training scenes (docs/evaluation.md, "A rim's depth is not seen").
+  /// chosen on training scenes (docs/evaluation/valve.md, "A rim's depth is not seen").
   static constexpr double kRimDepth_m = 0.008;
   static constexpr double kRimDepthSigma = 0.1;
   static constexpr double kSpokeRadius_m = 0.008;

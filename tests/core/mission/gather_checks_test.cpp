@@ -39,6 +39,8 @@ KeptCheck CheckOf(const std::string& uuid, double turn_deg, std::int64_t utc_ns 
       1e-6 * Eigen::Matrix<double, PlateCheck::kUnknowns, PlateCheck::kUnknowns>::Identity();
   plate.covariance(PlateCheck::kStamp, PlateCheck::kStamp) =
       std::numeric_limits<double>::infinity();
+  check.rig.passes =
+      PassCheck{.stamp_s = 0.0005, .sigma_s = 0.0001, .speed_rad_s = 0.35, .patches = 900};
   TurnCheck& turns = check.rig.turns.emplace();
   turns.drift.setConstant(2e-4);
   turns.covariance =
@@ -65,6 +67,11 @@ TEST(GatherChecks, WhatIsMeasuredComesBackBitForBit) {
   EXPECT_EQ(rig.turns->drift[TurnCheck::kCameraY], 2e-4);
   EXPECT_EQ(rig.turns->Sigma(TurnCheck::kBend), std::numeric_limits<double>::infinity());
   EXPECT_FALSE(rig.turns->bend_seen);
+  ASSERT_TRUE(rig.passes);
+  EXPECT_EQ(rig.passes->stamp_s, 0.0005);
+  EXPECT_EQ(rig.passes->sigma_s, 0.0001);
+  EXPECT_EQ(rig.passes->speed_rad_s, 0.35);
+  EXPECT_EQ(rig.passes->patches, 900);
   EXPECT_EQ(rig.turns->images, 2);
   EXPECT_EQ(rig.turns->points, 1000);
   EXPECT_EQ(rig.camera->turn_rad.y(), RadiansFromDegrees(0.123));

@@ -51,9 +51,17 @@ TurnCheck GoodTurns() {
   return turns;
 }
 
+PassCheck GoodPasses() {
+  return {.stamp_s = -0.0008,
+          .sigma_s = 0.0001,
+          .speed_rad_s = RadiansFromDegrees(20.0),
+          .patches = 4000};
+}
+
 RigCheck Judged(const Result<PlateCheck>& plate, const Result<CameraCheck>& camera,
-                const Result<TurnCheck>& turns = GoodTurns()) {
-  return JudgeRig(DefaultSensorRig(), plate, camera, turns, RigCheckLimits());
+                const Result<TurnCheck>& turns = GoodTurns(),
+                const Result<PassCheck>& passes = GoodPasses()) {
+  return JudgeRig(DefaultSensorRig(), plate, camera, turns, passes, RigCheckLimits());
 }
 
 const RigFinding& FindingOf(const RigCheck& check, const std::string& name) {
@@ -164,28 +172,31 @@ TEST(JudgeRig, AUncertainDriftIsNotSeenRatherThanFoundOrFine) {
 }
 
 TEST(JudgeRig, ASweepOneWaySaysNothingOfTheStampsAndTellsWhatToDo) {
-  PlateCheck plate = GoodPlate();
-  plate.up_and_down = false;
-  const RigCheck check = Judged(plate, GoodCamera());
+  const RigCheck check = Judged(
+      GoodPlate(), GoodCamera(), GoodTurns(),
+      Fail(ErrorCode::kTooFewPoints, "the scan sweeps one way; a scan there and back shows it"));
   EXPECT_EQ(FindingOf(check, "stamps").state, RigFinding::State::kNotSeen);
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("a scan there and back shows it")));
 }
 
 TEST(JudgeRig, SaysAnOffsetOfTheStampsInMilliseconds) {
-  PlateCheck plate = GoodPlate();
-  plate.drift[PlateCheck::kStamp] = 0.0101;
-  EXPECT_THAT(Judged(plate, GoodCamera()).drifted, Contains(HasSubstr("off by 10.1 ms")));
+  PassCheck passes = GoodPasses();
+  passes.stamp_s = 0.0101;
+  EXPECT_THAT(Judged(GoodPlate(), GoodCamera(), GoodTurns(), passes).drifted,
+              Contains(HasSubstr("off by 10.1 ms +- 0.1 ms, the limit is 3.0 ms")));
 }
 
 TEST(JudgeRig, WhatWasNotMeasuredIsGivenWithItsReason) {
   const RigCheck check = Judged(tl::unexpected<Error>(Error{ErrorCode::kTooFewPoints, "no planes"}),
                                 tl::unexpected<Error>(Error{ErrorCode::kTooFewPoints, "no image"}),
-                                Fail(ErrorCode::kTooFewPoints, "one image"));
+                                Fail(ErrorCode::kTooFewPoints, "one image"),
+                                Fail(ErrorCode::kTooFewPoints, "one way"));
   EXPECT_FALSE(check.SawAnything());
   EXPECT_THAT(check.drifted, IsEmpty());
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("no planes")));
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("no image")));
   EXPECT_THAT(check.cannot_see, Contains(HasSubstr("one image")));
+  EXPECT_THAT(check.cannot_see, Contains(HasSubstr("one way")));
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ CameraCheck Camera(double turn_y_deg, double sigma_deg) {
 
 RigCheck Rig(const Result<CameraCheck>& camera) {
   return JudgeRig(DefaultSensorRig(), Fail(ErrorCode::kTooFewPoints, "no planes"), camera,
-                  Fail(ErrorCode::kTooFewPoints, "one image"), {});
+                  Fail(ErrorCode::kTooFewPoints, "one image"),
+                  Fail(ErrorCode::kTooFewPoints, "one way"), {});
 }
 
 std::vector<HeldOutBeam> Beams(double confidence, double right) {
