@@ -60,8 +60,8 @@ FitOptions FitOptionsFor(ObjectKind kind, const Rigid<frame::Robot, frame::Base>
                          const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
 /// What a fit is given where nobody says otherwise: a map shows a block's edges finer than lidar
-/// returns do (docs/evaluation/terrain.md, "Blocks among other things"); of other objects both are as good,
-/// and returns need no map.
+/// returns do (docs/evaluation/terrain.md, "Blocks among other things"); of other objects both are
+/// as good, and returns need no map.
 FitSource UsualSourceFor(ObjectKind kind, bool has_depth);
 
 /// The rays of a region with the noise and the thinning that belong to the source. Fails as

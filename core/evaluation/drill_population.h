@@ -4,7 +4,8 @@
 
 namespace foresight {
 
-/// Cordless drills as they stand on tables and what resembles them, docs/evaluation/drill.md "Drill fit".
+/// Cordless drills as they stand on tables and what resembles them, docs/evaluation/drill.md "Drill
+/// fit".
 ///
 /// Positives: drills with every size about a tenth off the templates', a quarter with a boxy head,
 /// a quarter leaning 4 to 12 deg on a smaller foot, with thick grips, side handles, bits of 0 to

@@ -4,7 +4,8 @@
 
 namespace foresight {
 
-/// Doors with lever handles, and with what resembles them, docs/evaluation/handle.md "Door handle fit".
+/// Doors with lever handles, and with what resembles them, docs/evaluation/handle.md "Door handle
+/// fit".
 ///
 /// Positives: levers of 85 to 165 mm (mostly 95 to 145), of round, flat and oval section, straight,
 /// bowed or lifted, some tapered, a third with an end that is bent back, on rosettes and long

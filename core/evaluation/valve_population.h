@@ -4,7 +4,8 @@
 
 namespace foresight {
 
-/// Valves as they are built and the things that resemble them, docs/evaluation/valve.md "Valve fit".
+/// Valves as they are built and the things that resemble them, docs/evaluation/valve.md "Valve
+/// fit".
 ///
 /// Positives: wheels of 2 to 6 spokes or a disc, rims of 95 to 240 mm radius and some down to 45
 /// mm, seen up to 40 deg off their axis, and levers; on a stem with a flange before a wall, often

@@ -2,8 +2,8 @@
 //   fit_peers KIND FIRST_SEED COUNT [--points FOLDER] [--poses FILE]
 // draws COUNT scenes that have the object in them, runs ours and PCL's, and prints a table: how
 // many are right, and by how much ours is ahead. With --points it writes what other programs need,
-// fit_peers.py among them; with --poses it judges their answers beside ours. docs/evaluation/peers.md,
-// "Fits beside others".
+// fit_peers.py among them; with --poses it judges their answers beside ours.
+// docs/evaluation/peers.md, "Fits beside others".
 #include <fmt/core.h>
 #include <time.h>
 

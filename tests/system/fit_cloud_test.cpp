@@ -160,8 +160,8 @@ TEST_F(FitOfACloud, OfAnEmptyFileSaysThatItIsEmpty) {
 }
 
 TEST_F(FitOfACloud, IsTrustedAboutAsMuchAsItsMission) {
-  // At the default speed, six times as dense, they differ by 0.21: docs/evaluation/valve.md, "The valve
-  // again".
+  // At the default speed, six times as dense, they differ by 0.21: docs/evaluation/valve.md, "The
+  // valve again".
   ASSERT_EQ(Ctl({"scan", "--scene", kScenes + "valve.yaml", "--rig", HalfCameraFile(folder_),
                  "--from", "-15", "--to", "15", "--speed", "60", "--out", mission_})
                 .exit_code,

@@ -18,8 +18,8 @@ namespace {
 // What no ray tells, that drills are no templates and tables no planes, along and about x, y and z:
 // the deviations of the rays are multiplied, and what every drill is off by is added in squares.
 // Chosen so that the spreads over predicted that packaging/refit-verdicts prints of its training
-// scenes are near 1 (docs/evaluation/drill.md, "What a drill stands on"); with factors of 1 and nothing
-// added they were 1.4 to 3.2 before a drill had proportions of its own.
+// scenes are near 1 (docs/evaluation/drill.md, "What a drill stands on"); with factors of 1 and
+// nothing added they were 1.4 to 3.2 before a drill had proportions of its own.
 constexpr std::array<double, 6> kFactors = {1.15, 1.3, 1.0, 1.0, 1.0, 1.4};
 constexpr std::array<double, 6> kAdded = {0.0045, 0.0022, 0.0015, 0.0, 0.0, 0.010};
 

@@ -24,8 +24,8 @@ constexpr double kMinHits = 40.0;  // independent measurements on the drill
 constexpr double kMinHead_nats = 10.0;
 // The probability weighs how far behind a turned drill and another tool are. These limits keep what
 // is hardly behind; chosen by hand on the training scenes of home and of varied conditions, with
-// what they cost in docs/evaluation/drill.md, "The drill a third time"; scan lines need not speak for the
-// way since "What a drill stands on", but not against it either.
+// what they cost in docs/evaluation/drill.md, "The drill a third time"; scan lines need not speak
+// for the way since "What a drill stands on", but not against it either.
 constexpr double kMinYawMargin_nats = 3.0;
 constexpr double kMinAnyFlipMargin_nats = 5.0;
 constexpr double kMinFlipLines_sigmas = 0.0;

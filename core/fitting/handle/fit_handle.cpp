@@ -25,9 +25,9 @@ namespace {
 constexpr int kMinRays = 60;
 constexpr std::size_t kMinBefore = 6;
 constexpr int kCoarseRays = 350;
-// Which way a lever points, by logistic regression on training levers (docs/evaluation/handle.md, "Levers
-// that bend"): what a deviation over lines of the beams is worth, and a nat of the image, whose
-// nats may be many for the wrong way, too.
+// Which way a lever points, by logistic regression on training levers (docs/evaluation/handle.md,
+// "Levers that bend"): what a deviation over lines of the beams is worth, and a nat of the image,
+// whose nats may be many for the wrong way, too.
 constexpr double kNatsPerDeviation = 1.25;
 constexpr double kNatsOfImage = 0.3, kMostOfImage_nats = 4.5;
 constexpr std::size_t kFine = 3;

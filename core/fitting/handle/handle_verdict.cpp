@@ -25,8 +25,8 @@ constexpr double kRound_m = 0.03;  // beside the handle
 // What no beam tells, that handles are no template and a door no plane, along and about x, y and z,
 // and of the length: a factor on what the beams say, and what is added to it, as errors hardly grow
 // with what the beams say but for the door's normal. Chosen so that the spreads over predicted that
-// packaging/refit-verdicts prints of its training scenes are near 1 (docs/evaluation/handle.md, "The door
-// again" and "A lever that goes on").
+// packaging/refit-verdicts prints of its training scenes are near 1 (docs/evaluation/handle.md,
+// "The door again" and "A lever that goes on").
 constexpr std::array<double, 6> kSigmaFactors = {1.0, 5.2, 1.0, 2.0, 2.8, 1.0};
 constexpr std::array<double, 6> kSigmaAdded = {0.0035, 0.0018, 0.0060, 0.0, 0.0, 0.019};  // m, rad
 constexpr double kLengthAdded_m = 0.0075;
@@ -44,7 +44,8 @@ constexpr double kStripByChance_nats = 10.0;
 
 // CONFIRMED is wrong once in 70 answers at most. Of those that the probability and the gates would
 // have confirmed on training scenes, by weights that had not seen the scene, 7 of 562 were wrong,
-// but of those of fresh scenes of the other world 8 of 73 (docs/evaluation/handle.md, "Levers that bend").
+// but of those of fresh scenes of the other world 8 of 73 (docs/evaluation/handle.md, "Levers that
+// bend").
 constexpr const char* kNotYet =
     "a door handle is never confirmed yet: of answers as sure as that too many were wrong on "
     "scenes that were drawn to find out";

@@ -7,8 +7,8 @@ namespace foresight {
 
 /// The odds, in nats, that a top is a block's and not another thing's, by its own margin of sizes
 /// (SizeMargin) alone: right answers against answers that took another thing for a block, at home
-/// (`foresightctl verdict odds terrain --of size_margin`; docs/evaluation/terrain.md, "Blocks among other
-/// things" and, of a top that an image shows, "Blocks in the image").
+/// (`foresightctl verdict odds terrain --of size_margin`; docs/evaluation/terrain.md, "Blocks among
+/// other things" and, of a top that an image shows, "Blocks in the image").
 double NatsOfSize(double size_margin, bool of_map, bool in_image);
 
 /// The same for each top of a region, by its own nats and by those of the others: blocks that stand

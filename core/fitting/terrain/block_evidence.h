@@ -40,8 +40,9 @@ RectangleEvidence GatherEvidence(const SurfaceGrid& grid, const PlaneView& view,
 
 /// What the plane's points say of tilts, times what they do not know, that a top is no plane and
 /// its points err together. Chosen on training scenes of home and of varied conditions, so that the
-/// spreads over predicted that `evaluate-fits terrain` prints are near 1 (docs/evaluation/terrain.md,
-/// "Sigmas of terrain"). The verdict's weights know the tilt without this factor.
+/// spreads over predicted that `evaluate-fits terrain` prints are near 1
+/// (docs/evaluation/terrain.md, "Sigmas of terrain"). The verdict's weights know the tilt without
+/// this factor.
 inline constexpr double kTiltSigmaFactor = 1.35;
 
 /// Of a small move and turn about the block's own axes: height and tilts from the plane's points,

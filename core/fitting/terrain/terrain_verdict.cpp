@@ -9,9 +9,9 @@
 namespace foresight {
 namespace {
 
-// What a confirmed block needs (`packaging/evaluate mixed-choice`; docs/evaluation/terrain.md, "A carton
-// is no block"). Edges do not tell a block from a carton of nearly its size: the margins of sizes
-// do. Lidar returns, which lie far apart, say too much of what lies beyond an edge.
+// What a confirmed block needs (`packaging/evaluate mixed-choice`; docs/evaluation/terrain.md, "A
+// carton is no block"). Edges do not tell a block from a carton of nearly its size: the margins of
+// sizes do. Lidar returns, which lie far apart, say too much of what lies beyond an edge.
 constexpr int kMinEdges = 2;
 constexpr double kMinCover = 0.6;
 constexpr double kMaxOutside = 0.1, kMaxOutsideOfReturns = 0.2;

@@ -45,8 +45,8 @@ constexpr std::size_t kLocallySearchedLevers = 3;
 constexpr double kBeamsLack_m = 0.0013, kMapsLack_m = 0.0035;
 constexpr double kHopeless_nats = 200.0;  // more than local search brings
 constexpr double kTubeRadius_m = 0.012;   // where the search starts
-// What an image's nat counts beside a ray's, as of levers' ways (docs/evaluation/valve.md, "Spokes in the
-// image").
+// What an image's nat counts beside a ray's, as of levers' ways (docs/evaluation/valve.md, "Spokes
+// in the image").
 constexpr double kImageNat = 0.3;
 
 /// Streams of the seed: each stage draws its own numbers.

@@ -23,7 +23,8 @@ constexpr double kHalfWay = 0.55;  // of the rim's radius
 constexpr double kMaxFilled = 0.5;
 constexpr double kMinMargin_nats = 10.0;
 // Of 247 wheels that are right and CONFIRMED on the seeds of `evaluate-fits valve --world varied`
-// in docs/evaluation/valve.md the least seen is 42 % of its rim; of a cross, which has none, 0 to 75 %.
+// in docs/evaluation/valve.md the least seen is 42 % of its rim; of a cross, which has none, 0 to
+// 75 %.
 constexpr double kMinRimSeen = 0.4;
 // Where something hides a part of a rim no beam speaks for that part or against it. Of 94 wheels
 // that are right and CONFIRMED at home and under varied conditions the least is 0.4
@@ -34,8 +35,8 @@ constexpr double kMinArc_nats = -5.0;
 // choice-valve` it loses one.
 constexpr double kMaxFurtherSpoke_nats = 20.0;
 // By its own deviations. Of 297 answers that the probability would confirm it leaves 256 right ones
-// and 3 of 9 wrong ones (`packaging/evaluate choice-valve`; docs/evaluation/valve.md, "The valve a third
-// time").
+// and 3 of 9 wrong ones (`packaging/evaluate choice-valve`; docs/evaluation/valve.md, "The valve a
+// third time").
 constexpr double kMaxChanceOfBeingOff = 0.05;
 
 /// "3 spokes", "a disc", "a lever".
