@@ -30,6 +30,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
   head.SetRecorderSource([this] { return recording.Recorder(); });
   connect(&head, &HeadViewModel::scanStarted, this, [this] { log.close(kScanTopic); });
   connect(&head, &HeadViewModel::stopReleased, this, [this] { log.close(kStopTopic); });
+  connect(&head, &HeadViewModel::settled, &log, &LogModel::close);
   connect(&head, &HeadViewModel::scanStarted, &recording, &RecordingViewModel::refreshList);
   connect(&head, &HeadViewModel::scanEnded, &recording, &RecordingViewModel::keepScan);
   connect(&live.depth, &DepthViewModel::computed, &recording, &RecordingViewModel::keepDepth);
