@@ -19,6 +19,7 @@
 
 #include "app/workstation/actions.h"
 #include "app/workstation/document_stack.h"
+#include "app/workstation/focus_keys.h"
 #include "app/workstation/import_files.h"
 #include "app/workstation/keys_everywhere.h"
 #include "app/workstation/measure_commands.h"
@@ -94,6 +95,7 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
   AddCommandsOfResults();
   actions_ = new Actions(&bench_->commands, this);
   new KeysEverywhere(&bench_->commands, this);
+  new FocusKeys(this);
   new WheelGuard(this);
   BuildMenus();
   BuildCentre();
@@ -119,6 +121,8 @@ void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   // Not before: only now the docks have the sizes that they are to come back to.
   if (first_layout_.isEmpty()) first_layout_ = docks_->saveState(kLayoutVersion);
+  // Else Qt gives the focus to the first control that it finds, and Space acts on that.
+  if (focusWidget() == nullptr) image_->Canvas()->setFocus();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
