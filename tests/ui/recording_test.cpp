@@ -9,6 +9,7 @@
 #include "tests/support/file_size_limit.h"
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
+#include "ui/viewmodels/mission_objects.h"
 #include "ui/viewmodels/no_scan_hint.h"
 
 namespace foresight {
@@ -23,6 +24,8 @@ std::shared_ptr<const Scan> SmallScan() {
 FoundObject ValveIn(const Scan& scan) {
   ValveDetection detection;
   detection.best.model.rim_radius_m = 0.123;
+  detection.verdict = {VerdictLevel::kLikely, 0.8, "", {}};
+  detection.alternatives.resize(1);
   detection.origin.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
   FoundObject valve;
   valve.detection = detection;
@@ -187,6 +190,22 @@ TEST_F(RecordingTest, TheSessionKnowsHowManyScansTheMissionHeldBefore) {
   EXPECT_EQ(later.EarlierScans(), 1);
   EXPECT_FALSE(later.CurrentScan()) << "what was seen before is not shown as what is seen now";
   EXPECT_TRUE(NoScanHint(later).contains("in the list of scans"));
+}
+
+TEST_F(RecordingTest, WhichAnswerWasAcceptedIsReadBackFromTheMission) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  session.SetScan(SmallScan());
+  session.AddObject(ValveIn(*SmallScan()));
+  session.nextCandidate();
+  session.Decide(Decision::kAccepted);
+  EXPECT_TRUE(recording->WriteAll());
+  const auto objects = (*MissionFile::OpenReadOnly(path.toStdString()))->ListDetections();
+  ASSERT_TRUE(objects && objects->size() == 1u);
+  const auto object = ObjectOf((*objects)[0], SmallScan()->rig, 0);
+  ASSERT_TRUE(object);
+  EXPECT_EQ(object->decision, Decision::kAccepted);
+  EXPECT_EQ(object->decided_candidate, 1);
 }
 
 TEST_F(RecordingTest, WhatIsDecidedJustBeforeTheEndIsWrittenToo) {

@@ -14,6 +14,7 @@
 #include "ui/panels/command_button.h"
 #include "ui/panels/detection_card.h"
 #include "ui/panels/theme.h"
+#include "ui/viewmodels/advice.h"
 #include "ui/widgets/dock_parts.h"
 
 namespace foresight {
@@ -40,18 +41,6 @@ QString TitleOf(ObjectKind kind) {
 QString NameOf(const FoundObject& object, std::size_t index) {
   if (!object.name.isEmpty()) return object.name;
   return ObjectsPanel::tr("%1 %2").arg(TitleOf(ObjectKindOf(object.detection))).arg(index + 1);
-}
-
-QString DecisionText(Decision decision) {
-  switch (decision) {
-    case Decision::kAccepted:
-      return ObjectsPanel::tr("accepted");
-    case Decision::kRejected:
-      return ObjectsPanel::tr("rejected");
-    case Decision::kOpen:
-      break;
-  }
-  return {};
 }
 
 }  // namespace
@@ -183,13 +172,9 @@ void ObjectsPanel::ShowObjects() {
   list_->clear();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Detection& found = objects[i].detection;
-    QStringList state = {QString::fromUtf8(ToString(VerdictOf(found).level))};
-    const QString decision = DecisionText(objects[i].decision);
-    if (!decision.isEmpty()) state.prepend(decision);
-    if (!session_->IsCurrent(objects[i])) state << tr("earlier scan");
-    auto* item = new QListWidgetItem(
-        Icon(KindOf(found)),
-        tr("%1: %2").arg(NameOf(objects[i], i), state.join(QStringLiteral(", "))));
+    const QString state = StateText(objects[i], session_->IsCurrent(objects[i]));
+    auto* item =
+        new QListWidgetItem(Icon(KindOf(found)), tr("%1: %2").arg(NameOf(objects[i], i), state));
     item->setFlags(item->flags() | Qt::ItemIsEditable);
     list_->addItem(item);
   }

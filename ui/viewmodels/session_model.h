@@ -45,6 +45,11 @@ struct FoundObject {
   bool by_robot = false;         ///< the head fitted it
 };
 
+/// The answer that stands for the object: the one that was accepted, else the best.
+inline int AcceptedCandidate(const FoundObject& object) {
+  return object.decision == Decision::kAccepted ? object.decided_candidate : 0;
+}
+
 /// Of what lines the cloud is while its scan is not whole.
 struct CloudPart {
   std::shared_ptr<const Scan>
@@ -143,7 +148,8 @@ class SessionModel : public QObject {
   int Candidate() const { return candidate_; }
   /// The candidate that is drawn of an object.
   int CandidateOf(std::size_t index) const {
-    return static_cast<int>(index) == selected_object_ ? candidate_ : 0;
+    return static_cast<int>(index) == selected_object_ ? candidate_
+                                                       : AcceptedCandidate(objects_[index]);
   }
   /// Whether a found object belongs to the scan on the screen.
   bool IsCurrent(const FoundObject& object) const;
@@ -180,12 +186,15 @@ class SessionModel : public QObject {
   void objectAdded(const foresight::FoundObject& object);
   void objectTouched(const foresight::ObjectEvent& event);
   void noticed(const foresight::Notice& notice);
+  /// What earlier notices of this topic said no longer holds.
+  void settled(const QString& topic);
 
  private:
   void StepCandidate(int by);
   void ShowRoi(std::optional<Roi> roi);
   FoundObject* Find(const std::string& uuid);
   void Touch(const ObjectEvent& event);
+  void WarnOfUnsure(const FoundObject& accepted);
   void Insert(const FoundObject& object, std::size_t at);
   void Remove(const std::string& uuid);
 
