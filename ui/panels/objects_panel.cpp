@@ -20,6 +20,9 @@
 namespace foresight {
 namespace {
 
+constexpr int kFewestRows = 3;
+constexpr int kMostRows = 6;
+
 /// "Valve", "Drill", "Terrain", "Door handle", "Cylinder".
 QString TitleOf(ObjectKind kind) {
   switch (kind) {
@@ -60,7 +63,9 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
   empty_->setObjectName(QStringLiteral("faint"));
   list_->setAccessibleName(tr("Found objects"));
   list_->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
-  list_->setToolTip(tr("Double-click or press F2 to rename"));
+  // An entry that is too long is cut off: a bar below the list would cover a row.
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list_->setTextElideMode(Qt::ElideRight);
   decisions_ = BuildDecisions(commands);
   auto* inner = new QWidget;
   auto* layout = new QVBoxLayout(inner);
@@ -175,11 +180,12 @@ void ObjectsPanel::ShowObjects() {
     const QString state = StateText(objects[i], session_->IsCurrent(objects[i]));
     auto* item =
         new QListWidgetItem(Icon(KindOf(found)), tr("%1: %2").arg(NameOf(objects[i], i), state));
+    item->setToolTip(tr("%1\nDouble-click or press F2 to rename").arg(item->text()));
     item->setFlags(item->flags() | Qt::ItemIsEditable);
     list_->addItem(item);
   }
   list_->setCurrentRow(session_->SelectedObject());
-  const int rows = std::min(6, list_->count());
+  const int rows = std::clamp(list_->count(), kFewestRows, kMostRows);
   list_->setFixedHeight(rows * std::max(24, list_->sizeHintForRow(0)) + 2 * list_->frameWidth());
   const FoundObject* chosen = session_->Selected();
   empty_->setVisible(objects.empty());
