@@ -180,16 +180,50 @@ TEST_F(RecordingTest, TheSessionKnowsHowManyScansTheMissionHeldBefore) {
   ASSERT_TRUE(recording->Begin(path));
   Record(*SmallScan());
   ASSERT_TRUE(AllWritten());
-  EXPECT_EQ(session.EarlierScans(), 0) << "a scan of this sitting is none from before";
+  EXPECT_EQ(session.Earlier().scans, 0) << "a scan of this sitting is none from before";
   EXPECT_EQ(NoScanHint(session), "No scan yet: press Scan (Space)");
   recording.reset();
   SessionModel later(SessionMode::kSimulation, &tasks);
   RecordingViewModel again(&later);
   ASSERT_TRUE(again.Begin(path));
-  ASSERT_TRUE(WaitFor([&] { return later.EarlierScans() > 0; }));
-  EXPECT_EQ(later.EarlierScans(), 1);
+  ASSERT_TRUE(WaitFor([&] { return later.Earlier().scans > 0; }));
+  EXPECT_EQ(later.Earlier().scans, 1);
   EXPECT_FALSE(later.CurrentScan()) << "what was seen before is not shown as what is seen now";
   EXPECT_TRUE(NoScanHint(later).contains("in the list of scans"));
+}
+
+TEST_F(RecordingTest, AnInterruptedMissionThatIsGoneOnWithSaysWhatItHolds) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  session.SetScan(SmallScan());
+  session.AddObject(ValveIn(*SmallScan()));
+  ASSERT_TRUE(AllWritten());
+  recording->Recorder()->OnScanStarted([] {  // and the program is killed in mid sweep
+    Scan header = *SmallScan();
+    header.uuid = NewUuid();
+    header.lines = {};
+    header.frames = {};
+    header.state = ScanState::kRunning;
+    return header;
+  }());
+  ASSERT_TRUE(recording->Recorder()->WaitUntilKept());
+  const QString left = folder.filePath("left.foresight");
+  ASSERT_TRUE(QFile::copy(path, left) && QFile::copy(path + "-wal", left + "-wal"));
+  SessionModel later(SessionMode::kSimulation, &tasks);
+  std::vector<Notice> told;
+  QObject::connect(&later, &SessionModel::noticed,
+                   [&](const Notice& notice) { told.push_back(notice); });
+  RecordingViewModel again(&later);
+  ASSERT_TRUE(again.Begin(left));
+  EXPECT_EQ(later.Earlier().scans, 2);
+  EXPECT_EQ(later.Earlier().objects, 1);
+  EXPECT_TRUE(later.Earlier().interrupted.isValid());
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(told[0].what.startsWith("The program ended unexpectedly the last time."));
+  EXPECT_TRUE(told[0].next.startsWith("It holds 2 scans and 1 object of before. The scan of "))
+      << told[0].next.toStdString();
+  EXPECT_TRUE(NoScanHint(later).endsWith("was interrupted."));
+  EXPECT_TRUE(EarlierObjectsHint(later).contains("1 object"));
 }
 
 TEST_F(RecordingTest, WhichAnswerWasAcceptedIsReadBackFromTheMission) {

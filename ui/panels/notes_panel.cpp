@@ -11,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include "ui/panels/command_button.h"
+#include "ui/viewmodels/no_scan_hint.h"
 #include "ui/widgets/dock_parts.h"
 
 namespace foresight {
@@ -50,9 +51,6 @@ NotesPanel::NotesPanel(SessionModel* session, MeasureViewModel* measure, Command
       about_(new QComboBox),
       add_(NarrowButton("addNote", tr("Add note"))),
       problem_(Words("faint")) {
-  empty_->setText(
-      tr("Nothing was measured or written down yet. Press Measure (L) and click points, or write a "
-         "note below."));
   empty_->setAlignment(Qt::AlignCenter);
   list_->setAccessibleName(tr("Measurements and notes"));
   list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -93,8 +91,18 @@ NotesPanel::NotesPanel(SessionModel* session, MeasureViewModel* measure, Command
   });
   for (QLineEdit* field : {selected_text_, selected_tags_})
     connect(field, &QLineEdit::editingFinished, this, &NotesPanel::TakeChange);
+  connect(session_, &SessionModel::earlierChanged, this, &NotesPanel::ShowEmpty);
+  ShowEmpty();
   ShowList();
   ShowHint();
+}
+
+void NotesPanel::ShowEmpty() {
+  const QString hint =
+      tr("Nothing was measured or written down yet. Press Measure (L) and click points, or write a "
+         "note below.");
+  const QString earlier = EarlierNotesHint(*session_);
+  empty_->setText(earlier.isEmpty() ? hint : hint + QStringLiteral("\n\n") + earlier);
 }
 
 QWidget* NotesPanel::BuildMeasureRow(CommandTable* commands) {

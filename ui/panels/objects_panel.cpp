@@ -15,6 +15,7 @@
 #include "ui/panels/detection_card.h"
 #include "ui/panels/theme.h"
 #include "ui/viewmodels/advice.h"
+#include "ui/viewmodels/no_scan_hint.h"
 #include "ui/widgets/dock_parts.h"
 
 namespace foresight {
@@ -54,9 +55,7 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
       session_(session),
       fit_(fit),
       list_(new QListWidget),
-      empty_(new QLabel(
-          tr("No objects yet. Choose what it is, as Valve (V), and draw a region over it "
-             "in the image, the depth map or the cloud."))),
+      empty_(new QLabel),
       card_(new DetectionCard) {
   empty_->setWordWrap(true);
   empty_->setAlignment(Qt::AlignCenter);
@@ -81,6 +80,7 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
   setMinimumWidth(200);
 
   connect(session_, &SessionModel::objectsChanged, this, &ObjectsPanel::ShowObjects);
+  connect(session_, &SessionModel::earlierChanged, this, &ObjectsPanel::ShowEmpty);
   connect(list_, &QListWidget::currentRowChanged, session_, &SessionModel::SelectObject);
   connect(list_, &QListWidget::itemChanged, this, &ObjectsPanel::TakeName);
   connect(card_, &DetectionCard::nextAsked, session_, &SessionModel::nextCandidate);
@@ -88,8 +88,17 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
   connect(fit_, &FitViewModel::changed, this, &ObjectsPanel::ShowFit);
   connect(&age_timer_, &QTimer::timeout, this, &ObjectsPanel::ShowAge);
   age_timer_.start(1000);
+  ShowEmpty();
   ShowObjects();
   ShowFit();
+}
+
+void ObjectsPanel::ShowEmpty() {
+  const QString hint =
+      tr("No objects yet. Choose what it is, as Valve (V), and draw a region over it "
+         "in the image, the depth map or the cloud.");
+  const QString earlier = EarlierObjectsHint(*session_);
+  empty_->setText(earlier.isEmpty() ? hint : hint + QStringLiteral("\n\n") + earlier);
 }
 
 QWidget* ObjectsPanel::BuildDecisions(CommandTable* commands) {

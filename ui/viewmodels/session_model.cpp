@@ -64,10 +64,10 @@ void SessionModel::GiveUpScan() {
   Q_EMIT scanChanged();
 }
 
-void SessionModel::SetEarlierScans(int count) {
-  if (count == earlier_scans_) return;
-  earlier_scans_ = count;
-  Q_EMIT earlierScansChanged();
+void SessionModel::SetEarlier(const EarlierContents& earlier) {
+  if (earlier == earlier_) return;
+  earlier_ = earlier;
+  Q_EMIT earlierChanged();
 }
 
 QDateTime SessionModel::ScanTime() const {

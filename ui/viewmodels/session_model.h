@@ -58,6 +58,16 @@ struct CloudPart {
   int of_lines = 0;  ///< expected; 0 = not known
 };
 
+/// What a mission held before this sitting.
+struct EarlierContents {
+  int scans = 0;
+  int objects = 0;        ///< without those that were deleted
+  int notes = 0;          ///< with measurements
+  QDateTime interrupted;  ///< when its last scan began, if that was interrupted; else invalid
+
+  bool operator==(const EarlierContents&) const = default;
+};
+
 /// What the operator does to an object that is there.
 struct ObjectEvent {
   std::string uuid;
@@ -99,9 +109,9 @@ class SessionModel : public QObject {
   /// The scan that was expected will not come.
   void GiveUpScan();
   QDateTime ScanTime() const;
-  /// How many scans the mission file held when the session went on in it.
-  int EarlierScans() const { return earlier_scans_; }
-  void SetEarlierScans(int count);
+  /// What the mission file held when the session went on in it.
+  const EarlierContents& Earlier() const { return earlier_; }
+  void SetEarlier(const EarlierContents& earlier);
 
   void SelectImage(int index);
   int ImageIndex() const { return image_index_; }
@@ -175,7 +185,7 @@ class SessionModel : public QObject {
 
  Q_SIGNALS:
   void scanChanged();
-  void earlierScansChanged();
+  void earlierChanged();
   void imageChanged();
   void cloudChanged();
   void depthChanged();
@@ -204,7 +214,7 @@ class SessionModel : public QObject {
   NotesModel notes_{&undo_};
   std::shared_ptr<const Scan> scan_;
   bool expects_scan_ = false;
-  int earlier_scans_ = 0;
+  EarlierContents earlier_;
   std::shared_ptr<const Scan> arriving_;
   int image_index_ = -1;
   std::shared_ptr<const RegisteredScan> cloud_;
