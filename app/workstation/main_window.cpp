@@ -23,6 +23,7 @@
 #include "app/workstation/import_files.h"
 #include "app/workstation/keys_everywhere.h"
 #include "app/workstation/measure_commands.h"
+#include "app/workstation/quit_question.h"
 #include "app/workstation/result_commands.h"
 #include "app/workstation/shortcut_sheet.h"
 #include "core/base/log_file.h"
@@ -90,7 +91,8 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
       bench_(bench),
       image_(MakeImagePane(&bench->live)),
       depth_(MakeDepthPane(&bench->live, &bench->live_depth)),
-      cloud_(MakeCloudPane(&bench->live)) {
+      cloud_(MakeCloudPane(&bench->live)),
+      quit_question_(new QuitQuestion(&bench->head, this)) {
   AddWindowCommands();
   AddCommandsOfResults();
   actions_ = new Actions(&bench_->commands, this);
@@ -125,7 +127,16 @@ void MainWindow::showEvent(QShowEvent* event) {
   if (focusWidget() == nullptr) image_->Canvas()->setFocus();
 }
 
+void MainWindow::CloseUnasked() {
+  quit_question_->Allow();
+  close();
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!quit_question_->MayClose()) {
+    event->ignore();
+    return;
+  }
   layout_at_close_ = docks_->saveState(kLayoutVersion);
   // A dock left floating would keep the program alone, without the button that stops the head.
   for (ads::CFloatingDockContainer* floating : docks_->floatingWidgets()) floating->hide();
