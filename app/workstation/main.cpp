@@ -103,7 +103,7 @@ int Sit(OpenedHead head, const Options& options, std::optional<OpenedHead>* next
   head_switch.Use(&window);
   QObject::connect(&head_switch, &HeadSwitch::opened, &window, [&] {
     *next = head_switch.TakeHead();
-    window.close();
+    window.CloseUnasked();
   });
   const bool attended = options.unattended.screenshot.empty();
   window.show();

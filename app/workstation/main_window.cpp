@@ -19,9 +19,11 @@
 
 #include "app/workstation/actions.h"
 #include "app/workstation/document_stack.h"
+#include "app/workstation/focus_keys.h"
 #include "app/workstation/import_files.h"
 #include "app/workstation/keys_everywhere.h"
 #include "app/workstation/measure_commands.h"
+#include "app/workstation/quit_question.h"
 #include "app/workstation/result_commands.h"
 #include "app/workstation/shortcut_sheet.h"
 #include "core/base/log_file.h"
@@ -89,11 +91,13 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
       bench_(bench),
       image_(MakeImagePane(&bench->live)),
       depth_(MakeDepthPane(&bench->live, &bench->live_depth)),
-      cloud_(MakeCloudPane(&bench->live)) {
+      cloud_(MakeCloudPane(&bench->live)),
+      quit_question_(new QuitQuestion(&bench->head, this)) {
   AddWindowCommands();
   AddCommandsOfResults();
   actions_ = new Actions(&bench_->commands, this);
   new KeysEverywhere(&bench_->commands, this);
+  new FocusKeys(this);
   new WheelGuard(this);
   BuildMenus();
   BuildCentre();
@@ -119,9 +123,20 @@ void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   // Not before: only now the docks have the sizes that they are to come back to.
   if (first_layout_.isEmpty()) first_layout_ = docks_->saveState(kLayoutVersion);
+  // Else Qt gives the focus to the first control that it finds, and Space acts on that.
+  if (focusWidget() == nullptr) image_->Canvas()->setFocus();
+}
+
+void MainWindow::CloseUnasked() {
+  quit_question_->Allow();
+  close();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!quit_question_->MayClose()) {
+    event->ignore();
+    return;
+  }
   layout_at_close_ = docks_->saveState(kLayoutVersion);
   // A dock left floating would keep the program alone, without the button that stops the head.
   for (ads::CFloatingDockContainer* floating : docks_->floatingWidgets()) floating->hide();

@@ -28,6 +28,7 @@ class ImagePane;
 class LogStrip;
 class MissionPanel;
 class MissionSearchPanel;
+class QuitQuestion;
 class SideResultsPanel;
 class SourceGallery;
 
@@ -59,6 +60,8 @@ class MainWindow : public QMainWindow {
   /// Call it when the window is shown. A layout of another version of the program is left alone.
   void RestoreLayout(const QSettings& settings);
   void ResetLayout();
+  /// Also in the middle of a sweep, where the operator would be asked first.
+  void CloseUnasked();
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -94,6 +97,7 @@ class MainWindow : public QMainWindow {
   ImagePane* image_;
   DepthPane* depth_;
   CloudPane* cloud_;
+  QuitQuestion* quit_question_;
   HeadStrip* strip_ = nullptr;
   LogStrip* log_ = nullptr;
   MissionPanel* mission_ = nullptr;

@@ -30,6 +30,7 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
   head.SetRecorderSource([this] { return recording.Recorder(); });
   connect(&head, &HeadViewModel::scanStarted, this, [this] { log.close(kScanTopic); });
   connect(&head, &HeadViewModel::stopReleased, this, [this] { log.close(kStopTopic); });
+  connect(&head, &HeadViewModel::settled, &log, &LogModel::close);
   connect(&head, &HeadViewModel::scanStarted, &recording, &RecordingViewModel::refreshList);
   connect(&head, &HeadViewModel::scanEnded, &recording, &RecordingViewModel::keepScan);
   connect(&live.depth, &DepthViewModel::computed, &recording, &RecordingViewModel::keepDepth);
@@ -39,8 +40,10 @@ Workbench::Workbench(std::shared_ptr<SensorHead> sensor_head, SessionMode mode,
           [this] { log.close(kRecordingTopic); });
   connect(&recording, &RecordingViewModel::interruptedTaken, this,
           [this] { log.close(kInterruptedTopic); });
-  for (SessionModel* session : {&live.session, &review.session})
+  for (SessionModel* session : {&live.session, &review.session}) {
     connect(session, &SessionModel::noticed, &log, &LogModel::add);
+    connect(session, &SessionModel::settled, &log, &LogModel::close);
+  }
   connect(&log, &LogModel::added, &recording, &RecordingViewModel::keepNotice);
   connect(&reviewer, &ReviewViewModel::opened, this, &Workbench::ShowOpened);
   connect(&reviewer, &ReviewViewModel::notOpened, this, [this] { opened_beside_.clear(); });

@@ -54,8 +54,9 @@ struct DetectionEvent {
   std::int64_t utc_ns = 0;
   std::string author;
   Action action = Action::kAccepted;
-  std::string
-      text;  ///< the new name for kRenamed, the answer for kSent, else a remark; may be empty
+  /// The new name for kRenamed, the answer for kSent; for a decision "answer 2", counted from 1,
+  /// where it is not about the best one; else a remark; may be empty.
+  std::string text;
 
   bool operator==(const DetectionEvent&) const = default;
 };
@@ -81,6 +82,7 @@ struct DetectionRecord {
   // The present state, from the detection's events. Not written by AddDetection.
   std::string name;  ///< empty until it is renamed
   Decision decision = Decision::kOpen;
+  int decided_candidate = 0;  ///< which answer the decision is about; 0 = the best
   std::int64_t decided_utc_ns = 0;
   std::string decided_by;
   bool deleted = false;

@@ -146,8 +146,11 @@ Result<PoseMessage> PoseMessageOf(const DetectionRecord& record, int candidate,
   FORESIGHT_TRY(const Detection detection, DetectionFromJson(record.json));
   PoseContext context;
   context.detection_uuid = record.uuid;
-  context.decision = record.decision;
-  context.decided_by = record.decided_by;
+  // A decision is about one answer: the others are open.
+  if (candidate == record.decided_candidate) {
+    context.decision = record.decision;
+    context.decided_by = record.decided_by;
+  }
   context.simulated = scan.simulated;
   context.scan_uuid = scan.uuid;
   context.scan_begin_utc_ns = scan.begin_utc_ns;

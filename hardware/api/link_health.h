@@ -13,6 +13,15 @@ struct BurstHealth {
   std::string trouble;       ///< why the head sends none; empty when it does
 };
 
+/// What this computer knows of the operator's last stop.
+enum class StopAnswer {
+  kNone,     ///< there was no stop
+  kWaiting,  ///< it is sent again and again, and the head has not answered
+  kObeyed,   ///< the head answered that it told its motor to stop
+  kRefused,  ///< the head answered that it does not obey
+  kUnknown,  ///< the head did not answer in time; it is sent no longer
+};
+
 /// How the connection to a head at the far end of a link does. Times are of this computer's own
 /// clock, so an age grows when everything else is dead.
 struct LinkHealth {
@@ -23,6 +32,7 @@ struct LinkHealth {
   std::int64_t left_bytes = 0;    ///< of scans that are on their way
   double left_s = 0.0;            ///< at that rate; infinite where nothing comes
   BurstHealth burst;
+  StopAnswer stop = StopAnswer::kNone;
   bool has_control = false;
   std::string holder;   ///< who has control; empty = nobody
   std::string address;  ///< of the head

@@ -83,6 +83,7 @@ TEST(DeviceLampsOverALink, HaveALampForTheLinkThatSaysWhenItIsLost) {
   head->link.health.age_s = 12.3;
   model.Poll();
   EXPECT_NE(texts(lamps).find("Link: lost"), std::string::npos) << texts(lamps);
+  EXPECT_NE(texts(rows).find("Motor: not known"), std::string::npos) << texts(rows);
 }
 
 TEST_F(DeviceLampsOnScreen, SayInWordsWhichDeviceIsMissing) {

@@ -36,6 +36,21 @@ TEST(Advice, AnAlternativeDoesNotBorrowTheTrustOfTheBestAnswer) {
   EXPECT_TRUE(ReasonFor(valve.detection, 1).isEmpty());
 }
 
+TEST(StateText, AnAcceptedAlternativeDoesNotBorrowTheVerdictOfTheBestAnswer) {
+  FoundObject valve = ConfirmedValve();
+  EXPECT_EQ(StateText(valve, true).toStdString(), "CONFIRMED");
+  valve.decision = Decision::kAccepted;
+  EXPECT_EQ(StateText(valve, false).toStdString(), "accepted, CONFIRMED, earlier scan");
+  valve.decided_candidate = 1;
+  EXPECT_EQ(StateText(valve, true).toStdString(), "accepted: alternative 1, although UNSURE");
+  auto& found = std::get<ValveDetection>(valve.detection);
+  found.alternatives[0].log_likelihood = found.best.log_likelihood;  // about as likely
+  EXPECT_EQ(StateText(valve, true).toStdString(), "accepted: alternative 1");
+  found.verdict.level = VerdictLevel::kUnsure;
+  valve.decided_candidate = 0;
+  EXPECT_EQ(StateText(valve, true).toStdString(), "accepted, although UNSURE");
+}
+
 TEST(Advice, WhatWasRejectedIsNotAdvised) {
   FoundObject valve = ConfirmedValve();
   valve.decision = Decision::kRejected;

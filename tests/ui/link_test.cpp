@@ -7,6 +7,7 @@
 #include "tests/ui/wait_for.h"
 #include "ui/viewmodels/bytes_text.h"
 #include "ui/viewmodels/link_view_model.h"
+#include "ui/viewmodels/log_model.h"
 #include "ui/viewmodels/scan_flow.h"
 #include "ui/viewmodels/send_pose_model.h"
 
@@ -80,6 +81,84 @@ TEST_F(LinkTest, ALostLinkSaysForHowLongAndWhatToDo) {
   EXPECT_EQ(link.Text().last_word.toStdString(), "1 min ago");
   EXPECT_EQ(link.Text().trouble.toStdString(), "is foresight-head running there?");
   EXPECT_FALSE(link.WhyNotGive().isEmpty());
+}
+
+/// What the operator sees of a head at the far end of a link.
+struct HeadOverALink : LinkTest {
+  HeadOverALink() {
+    head->SetState(HeadState::kSweeping);
+    model.Poll();
+    QObject::connect(&model, &HeadViewModel::noticed, &log, &LogModel::add);
+    QObject::connect(&model, &HeadViewModel::settled, &log, &LogModel::close);
+  }
+  void FallSilent(double age_s) {
+    head->link.health.connected = false;
+    head->link.health.age_s = age_s;
+    model.Poll();
+  }
+  std::string Text() const { return model.Answers().Text().toStdString(); }
+  std::string Top() const { return log.Top() ? log.Top()->notice.what.toStdString() : ""; }
+
+  HeadViewModel model{head};
+  LogModel log;
+};
+
+TEST_F(HeadOverALink, OnlyTheHeadSaysThatItStopped) {
+  head->link.health.stop = StopAnswer::kWaiting;
+  model.stop();
+  EXPECT_TRUE(model.StopLatched());
+  EXPECT_EQ(Text(), "STOP sent, not confirmed");
+  EXPECT_EQ(Top(), "STOP was sent and is not confirmed.");
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  EXPECT_EQ(Text(), "STOP sent, not confirmed") << "that may be from before";
+  head->SetState(HeadState::kSweeping);
+  head->link.health.stop = StopAnswer::kObeyed;
+  model.Poll();
+  EXPECT_EQ(Text(), "STOP answered, head still sweeping");
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  EXPECT_EQ(Text(), "Head: STOPPED");
+  EXPECT_EQ(Top(), "The head's motor was told to stop.");
+  EXPECT_EQ(log.Open(), 1) << "that it was not confirmed no longer holds";
+}
+
+TEST_F(HeadOverALink, AStopWithoutAnAnswerOrWithARefusalIsNeverCalledDone) {
+  for (const StopAnswer answer : {StopAnswer::kUnknown, StopAnswer::kRefused}) {
+    head->link.health.stop = answer;
+    head->SetState(HeadState::kReady);
+    model.stop();
+    EXPECT_EQ(Text().find("STOPPED"), std::string::npos) << Text();
+    EXPECT_EQ(log.Top()->notice.level, Notice::Level::kError);
+    EXPECT_TRUE(log.Top()->notice.next.startsWith("Take the head as moving."));
+  }
+}
+
+TEST_F(HeadOverALink, ASilentHeadIsNotShownAsIfItsLastWordWereCurrent) {
+  FallSilent(12.3);
+  EXPECT_EQ(Text(), "Head: no word for 12 s (was sweeping)");
+  for (int device = 0; device < 3; ++device)
+    EXPECT_EQ(model.Devices()[device].lamp, DeviceRow::Lamp::kIdle) << device;
+  EXPECT_EQ(Top(), "The link is lost: no word from the head.");
+  EXPECT_TRUE(log.Top()->notice.next.contains("foresight-head runs at robot:47130"));
+  EXPECT_EQ(model.WhyNoHome().toStdString(),
+            "The link is lost. Wait until the head is heard again.");
+  head->link.health.connected = true;
+  model.Poll();
+  EXPECT_EQ(Text(), "Head: sweeping");
+  EXPECT_EQ(Top(), "") << "it is over";
+}
+
+TEST_F(HeadOverALink, AnAbortThatTheHeadDoesNotAnswerIsSaidToBeOpen) {
+  FallSilent(5.0);
+  EXPECT_TRUE(model.CanAbort());
+  model.abort();
+  head->SetState(HeadState::kSweeping);  // for all that is known here
+  EXPECT_EQ(Top(), "Abort was sent and is not confirmed.");
+  head->link.health.connected = true;
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  EXPECT_EQ(Top(), "");
 }
 
 TEST_F(LinkTest, TheOrderOfScansIsTheOperators) {

@@ -9,6 +9,7 @@
 #include "tests/support/file_size_limit.h"
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
+#include "ui/viewmodels/mission_objects.h"
 #include "ui/viewmodels/no_scan_hint.h"
 
 namespace foresight {
@@ -23,6 +24,8 @@ std::shared_ptr<const Scan> SmallScan() {
 FoundObject ValveIn(const Scan& scan) {
   ValveDetection detection;
   detection.best.model.rim_radius_m = 0.123;
+  detection.verdict = {VerdictLevel::kLikely, 0.8, "", {}};
+  detection.alternatives.resize(1);
   detection.origin.roi = ImageRoi::Rectangle(0.0, {10, 10}, {50, 50});
   FoundObject valve;
   valve.detection = detection;
@@ -177,16 +180,66 @@ TEST_F(RecordingTest, TheSessionKnowsHowManyScansTheMissionHeldBefore) {
   ASSERT_TRUE(recording->Begin(path));
   Record(*SmallScan());
   ASSERT_TRUE(AllWritten());
-  EXPECT_EQ(session.EarlierScans(), 0) << "a scan of this sitting is none from before";
+  EXPECT_EQ(session.Earlier().scans, 0) << "a scan of this sitting is none from before";
   EXPECT_EQ(NoScanHint(session), "No scan yet: press Scan (Space)");
   recording.reset();
   SessionModel later(SessionMode::kSimulation, &tasks);
   RecordingViewModel again(&later);
   ASSERT_TRUE(again.Begin(path));
-  ASSERT_TRUE(WaitFor([&] { return later.EarlierScans() > 0; }));
-  EXPECT_EQ(later.EarlierScans(), 1);
+  ASSERT_TRUE(WaitFor([&] { return later.Earlier().scans > 0; }));
+  EXPECT_EQ(later.Earlier().scans, 1);
   EXPECT_FALSE(later.CurrentScan()) << "what was seen before is not shown as what is seen now";
   EXPECT_TRUE(NoScanHint(later).contains("in the list of scans"));
+}
+
+TEST_F(RecordingTest, AnInterruptedMissionThatIsGoneOnWithSaysWhatItHolds) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  session.SetScan(SmallScan());
+  session.AddObject(ValveIn(*SmallScan()));
+  ASSERT_TRUE(AllWritten());
+  recording->Recorder()->OnScanStarted([] {  // and the program is killed in mid sweep
+    Scan header = *SmallScan();
+    header.uuid = NewUuid();
+    header.lines = {};
+    header.frames = {};
+    header.state = ScanState::kRunning;
+    return header;
+  }());
+  ASSERT_TRUE(recording->Recorder()->WaitUntilKept());
+  const QString left = folder.filePath("left.foresight");
+  ASSERT_TRUE(QFile::copy(path, left) && QFile::copy(path + "-wal", left + "-wal"));
+  SessionModel later(SessionMode::kSimulation, &tasks);
+  std::vector<Notice> told;
+  QObject::connect(&later, &SessionModel::noticed,
+                   [&](const Notice& notice) { told.push_back(notice); });
+  RecordingViewModel again(&later);
+  ASSERT_TRUE(again.Begin(left));
+  EXPECT_EQ(later.Earlier().scans, 2);
+  EXPECT_EQ(later.Earlier().objects, 1);
+  EXPECT_TRUE(later.Earlier().interrupted.isValid());
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(told[0].what.startsWith("The program ended unexpectedly the last time."));
+  EXPECT_TRUE(told[0].next.startsWith("It holds 2 scans and 1 object of before. The scan of "))
+      << told[0].next.toStdString();
+  EXPECT_TRUE(NoScanHint(later).endsWith("was interrupted."));
+  EXPECT_TRUE(EarlierObjectsHint(later).contains("1 object"));
+}
+
+TEST_F(RecordingTest, WhichAnswerWasAcceptedIsReadBackFromTheMission) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  session.SetScan(SmallScan());
+  session.AddObject(ValveIn(*SmallScan()));
+  session.nextCandidate();
+  session.Decide(Decision::kAccepted);
+  EXPECT_TRUE(recording->WriteAll());
+  const auto objects = (*MissionFile::OpenReadOnly(path.toStdString()))->ListDetections();
+  ASSERT_TRUE(objects && objects->size() == 1u);
+  const auto object = ObjectOf((*objects)[0], SmallScan()->rig, 0);
+  ASSERT_TRUE(object);
+  EXPECT_EQ(object->decision, Decision::kAccepted);
+  EXPECT_EQ(object->decided_candidate, 1);
 }
 
 TEST_F(RecordingTest, WhatIsDecidedJustBeforeTheEndIsWrittenToo) {

@@ -372,6 +372,39 @@ TEST_F(SessionTest, ADecisionSaysWhichAnswerItIsAboutWhereItIsNotTheBestOne) {
   EXPECT_EQ(text.toStdString(), "answer 2");
 }
 
+TEST_F(SessionTest, AnAcceptedAlternativeStaysTheAnswerThatStandsForTheObject) {
+  session.AddObject(ValveWithTwoAlternatives());
+  session.nextCandidate();
+  session.Decide(Decision::kAccepted);
+  session.RemoveSelected();
+  session.Undo()->undo();
+  EXPECT_EQ(session.Candidate(), 1) << "what was accepted is shown, and not the best answer";
+  EXPECT_EQ(session.Objects()[0].decided_candidate, 1);
+  session.AddObject(ValveWithTwoAlternatives());
+  EXPECT_EQ(session.CandidateOf(0), 1) << "it is drawn, too";
+  session.Undo()->undo();
+  EXPECT_EQ(session.Objects()[0].decision, Decision::kOpen);
+  session.Undo()->redo();
+  session.SelectObject(0);
+  EXPECT_EQ(session.Candidate(), 1);
+}
+
+TEST_F(SessionTest, AcceptingWhatIsUnsureIsPossibleAndSaidOnce) {
+  FoundObject valve = ValveWithTwoAlternatives();
+  std::get<ValveDetection>(valve.detection).verdict = {
+      VerdictLevel::kUnsure, 0.3, "Little of the rim is seen.", {}};
+  session.AddObject(valve);
+  QStringList over;
+  QObject::connect(&session, &SessionModel::settled, [&](const QString& topic) { over << topic; });
+  session.Decide(Decision::kAccepted);
+  EXPECT_EQ(session.Objects()[0].decision, Decision::kAccepted);
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(notices[0].what.toStdString(), "Accepted although UNSURE: Little of the rim is seen.");
+  over.clear();
+  session.Undo()->undo();
+  EXPECT_TRUE(over.contains(notices[0].topic)) << "it was taken back";
+}
+
 TEST_F(SessionTest, ADeletedObjectComesBackWhereItWas) {
   session.AddObject(ValveWithTwoAlternatives());
   session.AddObject(ValveWithTwoAlternatives());

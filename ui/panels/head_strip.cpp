@@ -38,6 +38,11 @@ QColor ColorOf(HeadState state) {
   return state_color::kNeutral;
 }
 
+QColor ColorOf(const HeadAnswers& answers, HeadState state) {
+  if (answers.StopLatched()) return state_color::kBad;
+  return answers.Current() ? ColorOf(state) : state_color::kCaution;
+}
+
 }  // namespace
 
 HeadStrip::HeadStrip(HeadViewModel* head, CommandTable* commands, QWidget* parent)
@@ -104,24 +109,32 @@ void HeadStrip::ShowDocument(SessionMode mode, const QString& details, bool repl
 
 void HeadStrip::ShowStatus() {
   const HeadStatus& status = head_->LastStatus();
-  if (head_->StopLatched())
-    SetBadge(state_, tr("Head: STOPPED"), state_color::kBad);
-  else
-    SetBadge(state_, tr("Head: %1").arg(QString::fromUtf8(ToString(status.state))),
-             ColorOf(status.state));
+  const HeadAnswers& answers = head_->Answers();
+  SetBadge(state_, answers.Text(), ColorOf(answers, status.state));
   release_->setVisible(head_->StopLatched());
-  angle_->setText(tr("Angle %1°").arg(DegreesFromRadians(status.angle_rad), 0, 'f', 2));
-  speed_->setText(tr("Speed %1 °/s, asked %2 °/s")
-                      .arg(DegreesFromRadians(status.speed_rad_s), 0, 'f', 1)
-                      .arg(DegreesFromRadians(status.commanded_speed_rad_s), 0, 'f', 1));
+  ShowMotion(status, answers);
+  message_->SetText(QString::fromStdString(status.message));
+  row_->SetWanted(message_, answers.Current() && !status.message.empty());
+  row_->Arrange();
+}
+
+void HeadStrip::ShowMotion(const HeadStatus& status, const HeadAnswers& answers) {
+  const bool current = answers.Current();
+  const QString angle = tr("Angle %1°").arg(DegreesFromRadians(status.angle_rad), 0, 'f', 2);
+  const QString lines = tr("Line %1 of %2").arg(status.lines).arg(status.expected_lines);
+  const QString old = tr("%1, %2 ago");
+  angle_->setText(current ? angle : old.arg(angle, answers.Silence()));
+  lines_->setText(current ? lines : old.arg(lines, answers.Silence()));
+  speed_->setText(current ? tr("Speed %1 °/s, asked %2 °/s")
+                                .arg(DegreesFromRadians(status.speed_rad_s), 0, 'f', 1)
+                                .arg(DegreesFromRadians(status.commanded_speed_rad_s), 0, 'f', 1)
+                          : tr("Speed –"));
+  for (QWidget* value : QVector<QWidget*>{angle_, lines_, speed_, sweep_})
+    value->setEnabled(current);
   const bool sweeping = status.state == HeadState::kSweeping;
   row_->SetWanted(lines_, sweeping);
   row_->SetWanted(sweep_, sweeping);
-  lines_->setText(tr("Line %1 of %2").arg(status.lines).arg(status.expected_lines));
   sweep_->setValue(static_cast<int>(1000.0 * head_->ScanProgress()));
-  message_->SetText(QString::fromStdString(status.message));
-  row_->SetWanted(message_, !status.message.empty());
-  row_->Arrange();
 }
 
 }  // namespace foresight

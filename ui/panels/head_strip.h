@@ -30,6 +30,7 @@ class HeadStrip : public QFrame {
 
  private:
   void ShowStatus();
+  void ShowMotion(const HeadStatus& status, const HeadAnswers& answers);
 
   HeadViewModel* head_;
   PriorityRow* row_;

@@ -1,6 +1,7 @@
 #include "ui/panels/notes_panel.h"
 
 #include <QComboBox>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -10,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include "ui/panels/command_button.h"
+#include "ui/viewmodels/no_scan_hint.h"
 #include "ui/widgets/dock_parts.h"
 
 namespace foresight {
@@ -47,11 +49,8 @@ NotesPanel::NotesPanel(SessionModel* session, MeasureViewModel* measure, Command
       text_(new QLineEdit),
       tags_(new QLineEdit),
       about_(new QComboBox),
-      add_(new QPushButton(tr("Add note"))),
+      add_(NarrowButton("addNote", tr("Add note"))),
       problem_(Words("faint")) {
-  empty_->setText(
-      tr("Nothing was measured or written down yet. Press Measure (L) and click points, or write a "
-         "note below."));
   empty_->setAlignment(Qt::AlignCenter);
   list_->setAccessibleName(tr("Measurements and notes"));
   list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -61,13 +60,17 @@ NotesPanel::NotesPanel(SessionModel* session, MeasureViewModel* measure, Command
   selected_tags_->setPlaceholderText(tr("Tags of the selected one"));
   selected_text_->setAccessibleName(tr("Name or text of the selected note"));
   selected_text_->setPlaceholderText(tr("Name of the selected one"));
+  for (QComboBox* box : {kind_, about_}) {  // what is written in it must not widen the dock
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(4);
+  }
   auto* inner = new QWidget;
   auto* layout = new QVBoxLayout(inner);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->setSpacing(8);
   layout->addWidget(BuildMeasureRow(commands));
   layout->addWidget(hint_);
-  layout->addWidget(empty_);
+  layout->addWidget(empty_, 1);
   layout->addWidget(list_, 1);
   layout->addWidget(details_);
   layout->addWidget(selected_text_);
@@ -88,29 +91,39 @@ NotesPanel::NotesPanel(SessionModel* session, MeasureViewModel* measure, Command
   });
   for (QLineEdit* field : {selected_text_, selected_tags_})
     connect(field, &QLineEdit::editingFinished, this, &NotesPanel::TakeChange);
+  connect(session_, &SessionModel::earlierChanged, this, &NotesPanel::ShowEmpty);
+  ShowEmpty();
   ShowList();
   ShowHint();
 }
 
+void NotesPanel::ShowEmpty() {
+  const QString hint =
+      tr("Nothing was measured or written down yet. Press Measure (L) and click points, or write a "
+         "note below.");
+  const QString earlier = EarlierNotesHint(*session_);
+  empty_->setText(earlier.isEmpty() ? hint : hint + QStringLiteral("\n\n") + earlier);
+}
+
 QWidget* NotesPanel::BuildMeasureRow(CommandTable* commands) {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
+  auto* rows = new QWidget;
+  auto* layout = new QGridLayout(rows);
   layout->setContentsMargins(0, 0, 0, 0);
   kind_->setAccessibleName(tr("What is measured"));
   for (const MeasureKind kind : kMeasureKinds) kind_->addItem(NameOf(kind), static_cast<int>(kind));
   connect(kind_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { measure_->SetKind(static_cast<MeasureKind>(kind_->currentData().toInt())); });
-  auto* tool = new QPushButton(tr("Measure"));
+  auto* tool = NarrowButton("measureButton", tr("Measure"));
   tool->setCheckable(true);
   BindButton(tool, commands, "measure.tool");
   connect(measure_, &MeasureViewModel::changed, tool,
           [tool, this] { tool->setChecked(measure_->On()); });
-  auto* remove = new QPushButton(tr("Delete"));
+  auto* remove = NarrowButton("deleteNote", tr("Delete"));
   BindButton(remove, commands, "notes.delete");
-  layout->addWidget(kind_, 1);
-  layout->addWidget(tool);
-  layout->addWidget(remove);
-  return row;
+  layout->addWidget(kind_, 0, 0, 1, 2);
+  layout->addWidget(tool, 1, 0);
+  layout->addWidget(remove, 1, 1);
+  return rows;
 }
 
 QWidget* NotesPanel::BuildNewNote() {
@@ -128,7 +141,7 @@ QWidget* NotesPanel::BuildNewNote() {
   about_->addItem(tr("Mission"), static_cast<int>(Subject::kMission));
   auto* row = new QHBoxLayout;
   row->addWidget(about_, 1);
-  row->addWidget(add_);
+  row->addWidget(add_, 1);
   layout->addWidget(text_);
   layout->addWidget(tags_);
   layout->addLayout(row);

@@ -38,6 +38,7 @@ class NotesPanel : public QWidget {
   QWidget* BuildMeasureRow(CommandTable* commands);
   QWidget* BuildNewNote();
   void ShowList();
+  void ShowEmpty();
   void ShowHint();
   void ShowSelected();
   void TakeNote();

@@ -14,10 +14,15 @@
 #include "ui/panels/command_button.h"
 #include "ui/panels/detection_card.h"
 #include "ui/panels/theme.h"
+#include "ui/viewmodels/advice.h"
+#include "ui/viewmodels/no_scan_hint.h"
 #include "ui/widgets/dock_parts.h"
 
 namespace foresight {
 namespace {
+
+constexpr int kFewestRows = 3;
+constexpr int kMostRows = 6;
 
 /// "Valve", "Drill", "Terrain", "Door handle", "Cylinder".
 QString TitleOf(ObjectKind kind) {
@@ -42,18 +47,6 @@ QString NameOf(const FoundObject& object, std::size_t index) {
   return ObjectsPanel::tr("%1 %2").arg(TitleOf(ObjectKindOf(object.detection))).arg(index + 1);
 }
 
-QString DecisionText(Decision decision) {
-  switch (decision) {
-    case Decision::kAccepted:
-      return ObjectsPanel::tr("accepted");
-    case Decision::kRejected:
-      return ObjectsPanel::tr("rejected");
-    case Decision::kOpen:
-      break;
-  }
-  return {};
-}
-
 }  // namespace
 
 ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTable* commands,
@@ -62,16 +55,16 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
       session_(session),
       fit_(fit),
       list_(new QListWidget),
-      empty_(new QLabel(
-          tr("No objects yet. Choose what it is, as Valve (V), and draw a region over it "
-             "in the image, the depth map or the cloud."))),
+      empty_(new QLabel),
       card_(new DetectionCard) {
   empty_->setWordWrap(true);
   empty_->setAlignment(Qt::AlignCenter);
   empty_->setObjectName(QStringLiteral("faint"));
   list_->setAccessibleName(tr("Found objects"));
   list_->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
-  list_->setToolTip(tr("Double-click or press F2 to rename"));
+  // An entry that is too long is cut off: a bar below the list would cover a row.
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list_->setTextElideMode(Qt::ElideRight);
   decisions_ = BuildDecisions(commands);
   auto* inner = new QWidget;
   auto* layout = new QVBoxLayout(inner);
@@ -87,6 +80,7 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
   setMinimumWidth(200);
 
   connect(session_, &SessionModel::objectsChanged, this, &ObjectsPanel::ShowObjects);
+  connect(session_, &SessionModel::earlierChanged, this, &ObjectsPanel::ShowEmpty);
   connect(list_, &QListWidget::currentRowChanged, session_, &SessionModel::SelectObject);
   connect(list_, &QListWidget::itemChanged, this, &ObjectsPanel::TakeName);
   connect(card_, &DetectionCard::nextAsked, session_, &SessionModel::nextCandidate);
@@ -94,8 +88,17 @@ ObjectsPanel::ObjectsPanel(SessionModel* session, FitViewModel* fit, CommandTabl
   connect(fit_, &FitViewModel::changed, this, &ObjectsPanel::ShowFit);
   connect(&age_timer_, &QTimer::timeout, this, &ObjectsPanel::ShowAge);
   age_timer_.start(1000);
+  ShowEmpty();
   ShowObjects();
   ShowFit();
+}
+
+void ObjectsPanel::ShowEmpty() {
+  const QString hint =
+      tr("No objects yet. Choose what it is, as Valve (V), and draw a region over it "
+         "in the image, the depth map or the cloud.");
+  const QString earlier = EarlierObjectsHint(*session_);
+  empty_->setText(earlier.isEmpty() ? hint : hint + QStringLiteral("\n\n") + earlier);
 }
 
 QWidget* ObjectsPanel::BuildDecisions(CommandTable* commands) {
@@ -183,18 +186,15 @@ void ObjectsPanel::ShowObjects() {
   list_->clear();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Detection& found = objects[i].detection;
-    QStringList state = {QString::fromUtf8(ToString(VerdictOf(found).level))};
-    const QString decision = DecisionText(objects[i].decision);
-    if (!decision.isEmpty()) state.prepend(decision);
-    if (!session_->IsCurrent(objects[i])) state << tr("earlier scan");
-    auto* item = new QListWidgetItem(
-        Icon(KindOf(found)),
-        tr("%1: %2").arg(NameOf(objects[i], i), state.join(QStringLiteral(", "))));
+    const QString state = StateText(objects[i], session_->IsCurrent(objects[i]));
+    auto* item =
+        new QListWidgetItem(Icon(KindOf(found)), tr("%1: %2").arg(NameOf(objects[i], i), state));
+    item->setToolTip(tr("%1\nDouble-click or press F2 to rename").arg(item->text()));
     item->setFlags(item->flags() | Qt::ItemIsEditable);
     list_->addItem(item);
   }
   list_->setCurrentRow(session_->SelectedObject());
-  const int rows = std::min(6, list_->count());
+  const int rows = std::clamp(list_->count(), kFewestRows, kMostRows);
   list_->setFixedHeight(rows * std::max(24, list_->sizeHintForRow(0)) + 2 * list_->frameWidth());
   const FoundObject* chosen = session_->Selected();
   empty_->setVisible(objects.empty());

@@ -29,6 +29,7 @@ class ObjectsPanel : public QWidget {
   QWidget* BuildFitRow(CommandTable* commands);
   QWidget* BuildDecisions(CommandTable* commands);
   void ShowObjects();
+  void ShowEmpty();
   void ShowFit();
   void ShowAge();
   void TakeName(const QListWidgetItem* item);

@@ -34,6 +34,17 @@ QString WhyNotToActOn(bool is_current, SessionMode mode, Decision decision) {
   return {};
 }
 
+/// "accepted", "accepted: alternative 1", "rejected: surface 2".
+QString DecisionText(const FoundObject& object) {
+  const QString word = object.decision == Decision::kAccepted ? AdviceTexts::tr("accepted")
+                                                              : AdviceTexts::tr("rejected");
+  const int candidate = object.decided_candidate;
+  if (candidate == 0) return word;
+  return std::holds_alternative<TerrainDetection>(object.detection)
+             ? AdviceTexts::tr("%1: surface %2").arg(word).arg(candidate + 1)
+             : AdviceTexts::tr("%1: alternative %2").arg(word).arg(candidate);
+}
+
 QString ByLevel(VerdictLevel level, SessionMode mode) {
   switch (level) {
     case VerdictLevel::kConfirmed:
@@ -57,6 +68,21 @@ QString ByLevel(VerdictLevel level, SessionMode mode) {
 QString ReasonFor(const Detection& detection, int candidate) {
   const Verdict* own = OwnVerdict(detection, candidate);
   return own != nullptr ? QString::fromStdString(own->reason) : QString();
+}
+
+QString StateText(const FoundObject& object, bool is_current) {
+  const int candidate = object.decision == Decision::kOpen ? 0 : object.decided_candidate;
+  const Verdict* own = OwnVerdict(object.detection, candidate);
+  const bool doubtful = object.decision == Decision::kAccepted &&
+                        CandidateLevel(object.detection, candidate) == VerdictLevel::kUnsure;
+  QStringList parts;
+  if (object.decision != Decision::kOpen) parts << DecisionText(object);
+  if (doubtful)
+    parts << AdviceTexts::tr("although UNSURE");
+  else if (own != nullptr)
+    parts << LevelName(own->level);
+  if (!is_current) parts << AdviceTexts::tr("earlier scan");
+  return parts.join(QStringLiteral(", "));
 }
 
 Advice AdviceFor(const FoundObject& object, int candidate, bool is_current, SessionMode mode) {

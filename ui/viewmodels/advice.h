@@ -19,6 +19,10 @@ struct Advice {
 /// Why the verdict on the answer that is drawn is what it is; empty for an alternative.
 QString ReasonFor(const Detection& detection, int candidate);
 
+/// What the list says of it: "accepted, CONFIRMED", "accepted: alternative 1", "accepted, although
+/// UNSURE", "LIKELY, earlier scan". A verdict is about the best answer alone.
+QString StateText(const FoundObject& object, bool is_current);
+
 Advice AdviceFor(const FoundObject& object, int candidate, bool is_current, SessionMode mode);
 
 }  // namespace foresight

@@ -126,6 +126,7 @@ HeadViewModel::HeadViewModel(std::shared_ptr<SensorHead> head, QObject* parent)
     : QObject(parent), head_(std::move(head)), status_(head_->Status()) {
   since_start_.start();
   PollHealth();
+  PollAnswers();
   ShowDevices();
   connect(&timer_, &QTimer::timeout, this, &HeadViewModel::Poll);
   timer_.start(kHeadPollInterval_ms);
@@ -193,16 +194,23 @@ void HeadViewModel::ShowDevices() {
 QVector<DeviceRow> HeadViewModel::DescribeDevices() const {
   const QStringList names = {tr("Lidar"), tr("Camera"), tr("Motor")};
   QVector<DeviceRow> rows;
+  if (!answers_.Current()) {
+    const QString detail = tr("no word of it for %1").arg(answers_.Silence());
+    for (const QString& name : names)
+      rows << DeviceRow{name, DeviceRow::Lamp::kIdle, tr("not known"), detail};
+    rows << LinkRow(*link_health_);
+    return rows;
+  }
   if (status_.state == HeadState::kDisconnected) {
     for (const QString& name : names)
       rows << DeviceRow{name, DeviceRow::Lamp::kIdle, tr("not connected yet"), {}};
-    if (const HeadLink* link = head_->Link()) rows << LinkRow(link->Health());
+    if (link_health_) rows << LinkRow(*link_health_);
     return rows;
   }
   rows << RowOf(names[0], diagnosis_.lidar, Describe(status_.health.lidar))
        << RowOf(names[1], diagnosis_.camera, Describe(status_.health.camera))
        << RowOf(names[2], diagnosis_.motor, Describe(status_.health.motor));
-  if (const HeadLink* link = head_->Link()) rows << LinkRow(link->Health());
+  if (link_health_) rows << LinkRow(*link_health_);
   return rows;
 }
 
@@ -246,8 +254,14 @@ QString HeadViewModel::WhyNoScan() const {
   return prediction.usable ? QString() : prediction.warning;
 }
 
+/// Without the seconds: a reason that changes would draw every button that shows it.
+QString HeadViewModel::WhyNoWord() const {
+  return tr("The link is lost. Wait until the head is heard again.");
+}
+
 QString HeadViewModel::WhyNoCapture() const {
-  if (stop_latched_) return tr("The head was stopped. Release the stop first.");
+  if (StopLatched()) return tr("The head was stopped. Release the stop first.");
+  if (!answers_.Current()) return WhyNoWord();
   if (live_ && !Receiving()) return tr("A scan is running.");
   if (status_.state != HeadState::kReady)
     return tr("The head is %1. Press Home and wait until it is ready.")
@@ -269,7 +283,8 @@ bool HeadViewModel::CanHome() const {
 }
 
 QString HeadViewModel::WhyNoHome() const {
-  if (stop_latched_) return tr("The head was stopped. Release the stop first.");
+  if (StopLatched()) return tr("The head was stopped. Release the stop first.");
+  if (!answers_.Current()) return WhyNoWord();
   switch (status_.state) {
     case HeadState::kDisconnected:
     case HeadState::kReady:
@@ -292,19 +307,31 @@ void HeadViewModel::Poll() {
   const HeadStatus before = status_;
   const QVector<DeviceRow> devices_before = devices_;
   const bool scanned = Scanning();
+  const QString text_before = answers_.Text();
   status_ = head_->Status();
   PollHealth();
+  PollAnswers();
   ShowDevices();
   if (live_) PollScan();
   if (ended_) PollLateLines();
   // A signal for nothing would draw the window again, ten times a second.
-  if (!LooksSame(before, status_) || scanned != Scanning() || devices_before != devices_)
+  if (!LooksSame(before, status_) || scanned != Scanning() || devices_before != devices_ ||
+      text_before != answers_.Text())
     Q_EMIT statusChanged();
 }
 
 void HeadViewModel::PollHealth() {
   const double now_s = 1e-3 * static_cast<double>(since_start_.elapsed());
   diagnosis_ = health_watch_.Update(now_s, status_.health);
+}
+
+void HeadViewModel::PollAnswers() {
+  const HeadLink* link = head_->Link();
+  link_health_ = link == nullptr ? std::nullopt : std::optional(link->Health());
+  const double now_s = 1e-3 * static_cast<double>(since_start_.elapsed());
+  const HeadAnswers::News news = answers_.Update(now_s, link_health_, status_.state);
+  for (const QString& topic : news.over) Q_EMIT settled(topic);
+  for (const Notice& notice : news.notices) Q_EMIT noticed(notice);
 }
 
 void HeadViewModel::PollScan() {
@@ -354,7 +381,7 @@ void HeadViewModel::PollLateLines() {
 }
 
 void HeadViewModel::scan() {
-  if ((live_ && !Receiving()) || stop_latched_) return;
+  if ((live_ && !Receiving()) || StopLatched()) return;
   auto live = std::make_shared<ScanAssembler>();
   std::vector<std::shared_ptr<ScanSink>> sinks = {live};
   if (auto recorder = recorder_source_ ? recorder_source_() : nullptr) sinks.push_back(recorder);
@@ -373,14 +400,14 @@ void HeadViewModel::scan() {
 }
 
 Status HeadViewModel::StartStops(const StopPlan& plan, std::shared_ptr<StopSink> sink) {
-  if (stop_latched_) return Fail(ErrorCode::kState, "the head was stopped; release the stop first");
+  if (StopLatched()) return Fail(ErrorCode::kState, "the head was stopped; release the stop first");
   FORESIGHT_CHECK(head_->StartStops(plan, std::move(sink)));
   Poll();
   return {};
 }
 
 Status HeadViewModel::StartUnrecordedScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sink) {
-  if (stop_latched_) return Fail(ErrorCode::kState, "the head was stopped; release the stop first");
+  if (StopLatched()) return Fail(ErrorCode::kState, "the head was stopped; release the stop first");
   FORESIGHT_CHECK(head_->StartScan(plan, std::move(sink)));
   Poll();
   return {};
@@ -405,10 +432,12 @@ void HeadViewModel::StopForGood() {
 
 void HeadViewModel::abort() {
   head_->AbortScan();
+  answers_.AbortPressed();
+  Poll();
 }
 
 void HeadViewModel::home() {
-  if (stop_latched_) return;
+  if (StopLatched()) return;
   if (const auto homing = head_->Home(); !homing)
     Q_EMIT noticed(NoticeOf(tr("Homing the head"), homing.error()));
   Poll();
@@ -416,19 +445,14 @@ void HeadViewModel::home() {
 
 void HeadViewModel::stop() {
   head_->StopMotor();
-  stop_latched_ = true;
-  Q_EMIT noticed(
-      {Notice::Level::kWarning, tr("The head's motor was told to stop."),
-       tr("This stops the scanner only, not the robot. Release the stop, then press Home "
-          "to go on."),
-       kStopTopic});
+  answers_.StopPressed();
   Poll();
   Q_EMIT statusChanged();
 }
 
 void HeadViewModel::releaseStop() {
-  if (!stop_latched_) return;
-  stop_latched_ = false;
+  if (!StopLatched()) return;
+  answers_.StopReleased();
   Q_EMIT stopReleased();
   Q_EMIT statusChanged();
 }

@@ -7,12 +7,14 @@
 #include <QVector>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/sensor/scan_plan.h"
 #include "hardware/api/head_link.h"
 #include "hardware/api/health_watch.h"
 #include "hardware/api/sensor_head.h"
 #include "hardware/head/scan_assembler.h"
+#include "ui/viewmodels/head_answers.h"
 #include "ui/viewmodels/notice.h"
 
 namespace foresight {
@@ -92,8 +94,10 @@ class HeadViewModel : public QObject {
   bool CanScan() const;
   bool CanAbort() const;
   bool CanHome() const;
-  /// Whether the motor was stopped by the operator and that has not been released.
-  bool StopLatched() const { return stop_latched_; }
+  /// Whether the operator pressed STOP and has not released that.
+  bool StopLatched() const { return answers_.StopLatched(); }
+  /// Whether LastStatus() is current, whether the head confirmed STOP, its state in words.
+  const HeadAnswers& Answers() const { return answers_; }
   /// Why Scan cannot be pressed now, as a sentence; empty when it can.
   QString WhyNoScan() const;
   QString WhyNoHome() const;
@@ -149,17 +153,23 @@ class HeadViewModel : public QObject {
   void stopReleased();
   void liveViewTaken();
   void noticed(const foresight::Notice& notice);
+  /// What earlier notices of this topic said no longer holds.
+  void settled(const QString& topic);
 
  private:
   void PollScan();
   void PollLateLines();
   void PollHealth();
+  void PollAnswers();
   void ShowDevices();
   QVector<DeviceRow> DescribeDevices() const;
   bool Sweeps() const;
+  QString WhyNoWord() const;
 
   std::shared_ptr<SensorHead> head_;
   HeadStatus status_;
+  std::optional<LinkHealth> link_health_;  ///< empty where the head is in this process
+  HeadAnswers answers_;
   HealthWatch health_watch_;
   HeadDiagnosis diagnosis_;
   QVector<DeviceRow> devices_;
@@ -173,7 +183,6 @@ class HeadViewModel : public QObject {
   int polls_without_scan_ = 0;
   int lines_shown_ = 0;
   int frames_shown_ = 0;
-  bool stop_latched_ = false;
   /// The scan that ended last: a line that was still on its way is shown too.
   std::shared_ptr<ScanAssembler> ended_;
   std::size_t lines_of_ended_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/detection/candidates.h"
 #include "core/detection/detection_json.h"
 #include "core/mission/provenance.h"
 
@@ -41,6 +42,8 @@ Result<FoundObject> ObjectOf(const DetectionRecord& record, const SensorRig& rig
                  std::chrono::nanoseconds(std::max<std::int64_t>(0, NowUtc_ns() - record.utc_ns));
   object.name = QString::fromStdString(record.name);
   object.decision = record.decision;
+  object.decided_candidate =
+      std::clamp(record.decided_candidate, 0, std::max(0, CandidateCount(object.detection) - 1));
   object.provenance_json = record.provenance_json;
   if (const auto made = ProvenanceFromJson(record.provenance_json, record.uuid))
     object.part = made->part;

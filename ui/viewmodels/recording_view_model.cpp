@@ -10,6 +10,7 @@
 
 #include "core/mission/mission_timeline.h"
 #include "ui/viewmodels/mission_objects.h"
+#include "ui/viewmodels/no_scan_hint.h"
 
 namespace foresight {
 namespace {
@@ -37,9 +38,20 @@ bool WasLeftBehind(const QString& path) {
   return mission && !(*mission)->IsBeingRecorded();
 }
 
-int ScansIn(const MissionFile& file) {
-  const auto scans = file.ListScans();
-  return scans ? static_cast<int>(scans->size()) : 0;
+EarlierContents ContentsOf(const MissionFile& file) {
+  EarlierContents contents;
+  if (const auto scans = file.ListScans(); scans && !scans->empty()) {
+    contents.scans = static_cast<int>(scans->size());
+    if (scans->back().state == ScanState::kInterrupted)
+      contents.interrupted = QDateTime::fromMSecsSinceEpoch(scans->back().begin_utc_ns / 1'000'000);
+  }
+  const auto are_there = [](const auto& records) {
+    return static_cast<int>(std::count_if(records.begin(), records.end(),
+                                          [](const auto& record) { return !record.deleted; }));
+  };
+  if (const auto objects = file.ListDetections()) contents.objects = are_there(*objects);
+  if (const auto notes = file.ListNotes()) contents.notes = are_there(*notes);
+  return contents;
 }
 
 /// Whether the file holds nothing that anybody would miss.
@@ -143,6 +155,7 @@ int RecordingViewModel::Waiting() const {
 }
 
 bool RecordingViewModel::Begin(const QString& path) {
+  const bool left_behind = WasLeftBehind(path);
   std::shared_ptr<MissionFile> file;
   if (const Status opened = Open(path, &file); !opened) {
     Notice notice = NoticeOf(tr("Recording into %1").arg(path), opened.error());
@@ -152,8 +165,18 @@ bool RecordingViewModel::Begin(const QString& path) {
     return false;
   }
   path_ = path;
-  const int earlier_scans = ScansIn(*file);
-  Use(std::move(file), earlier_scans);
+  const EarlierContents earlier = ContentsOf(*file);
+  Use(std::move(file), earlier);
+  if (left_behind) {
+    const QString held = EarlierText(earlier);
+    session_->Report(
+        {Notice::Level::kWarning,
+         tr("The program ended unexpectedly the last time. Recording goes on in the "
+            "same mission."),
+         held.isEmpty()
+             ? tr("It was empty.")
+             : (tr("It holds %1 of before. ").arg(held) + InterruptedText(earlier)).trimmed()});
+  }
   return true;
 }
 
@@ -172,14 +195,14 @@ void RecordingViewModel::SwitchTo(const QString& path) {
                                                               : nullptr;
   struct Opened {
     std::shared_ptr<MissionFile> file;
-    int scans = 0;
+    EarlierContents earlier;
   };
   writer_.Run<Opened>(
       tr("Opening the mission file"),
       [this, path, open_already](const RunContext&) -> Result<Opened> {
         std::shared_ptr<MissionFile> file = open_already;
         if (!file) FORESIGHT_CHECK(Open(path, &file));
-        return Opened{file, ScansIn(*file)};
+        return Opened{file, ContentsOf(*file)};
       },
       [this, path](Result<Opened> opened) {
         if (!opened) {
@@ -194,7 +217,7 @@ void RecordingViewModel::SwitchTo(const QString& path) {
         recorder_.reset();
         list_file_.reset();
         path_ = path;
-        Use(std::move(opened->file), opened->scans);
+        Use(std::move(opened->file), opened->earlier);
         session_->Report({Notice::Level::kInfo, tr("Recording goes on in %1.").arg(path), {}});
         if (!old) return;
         if (IsEmpty(*old) && old->Close())
@@ -204,12 +227,12 @@ void RecordingViewModel::SwitchTo(const QString& path) {
       });
 }
 
-void RecordingViewModel::Use(std::shared_ptr<MissionFile> file, int earlier_scans) {
+void RecordingViewModel::Use(std::shared_ptr<MissionFile> file, const EarlierContents& earlier) {
   file_ = std::move(file);
-  session_->SetEarlierScans(earlier_scans);
+  session_->SetEarlier(earlier);
   recorder_ = std::make_shared<ScanRecorder>(file_);
   failed_ = false;
-  if (path_ == interrupted_) {
+  if (!interrupted_.isEmpty() && IsSameFile(path_, interrupted_)) {
     interrupted_.clear();
     Q_EMIT interruptedTaken();
   }

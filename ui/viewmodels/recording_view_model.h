@@ -102,8 +102,8 @@ class RecordingViewModel : public QObject {
 
   void Keep(Change change);
   void WriteNext();
-  /// `earlier_scans` it held before this sitting writes into it.
-  void Use(std::shared_ptr<MissionFile> file, int earlier_scans);
+  /// `earlier`: what it held before this sitting writes into it.
+  void Use(std::shared_ptr<MissionFile> file, const EarlierContents& earlier);
   Status Open(const QString& path, std::shared_ptr<MissionFile>* file) const;
 
   SessionModel* session_;

@@ -70,7 +70,7 @@ Result<PoseMessage> SendPoseModel::Message(const FoundObject& object) const {
   context.age_s =
       std::max(0.0, 1e-9 * static_cast<double>(NowUtc_ns() - context.scan_begin_utc_ns));
   FORESIGHT_TRY(PoseMessage message,
-                PoseMessageOf(object.detection, session_->Candidate(), object.rig, context));
+                PoseMessageOf(object.detection, object.decided_candidate, object.rig, context));
   FORESIGHT_CHECK(CheckPoseMessage(message));
   return message;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/detection/candidates.h"
+#include "ui/viewmodels/advice.h"
 
 namespace foresight {
 namespace {
@@ -63,10 +64,10 @@ void SessionModel::GiveUpScan() {
   Q_EMIT scanChanged();
 }
 
-void SessionModel::SetEarlierScans(int count) {
-  if (count == earlier_scans_) return;
-  earlier_scans_ = count;
-  Q_EMIT earlierScansChanged();
+void SessionModel::SetEarlier(const EarlierContents& earlier) {
+  if (earlier == earlier_) return;
+  earlier_ = earlier;
+  Q_EMIT earlierChanged();
 }
 
 QDateTime SessionModel::ScanTime() const {
@@ -160,6 +161,7 @@ void SessionModel::Touch(const ObjectEvent& event) {
         break;
       case DetectionEvent::Action::kRejected:
         object->decision = Decision::kRejected;
+        object->decided_candidate = event.candidate;
         break;
       case DetectionEvent::Action::kReopened:
         object->decision = Decision::kOpen;
@@ -176,6 +178,9 @@ void SessionModel::Touch(const ObjectEvent& event) {
         break;
     }
   }
+  if (event.action != DetectionEvent::Action::kSent &&
+      event.action != DetectionEvent::Action::kRenamed)
+    Q_EMIT settled(kDecisionTopic);
   Q_EMIT objectTouched(event);
   Q_EMIT objectsChanged();
 }
@@ -186,7 +191,9 @@ void SessionModel::Decide(Decision decision) {
   if (object->decision == decision && object->decided_candidate == candidate_) return;
   // What was on the screen is what was decided on: a surface of a terrain, or an alternative.
   const auto event = [uuid = object->uuid](Decision value, int candidate) {
-    const QString which = candidate > 0 ? tr("answer %1").arg(candidate + 1) : QString();
+    // Not translated: it is read back from the mission.
+    const QString which =
+        candidate > 0 ? QStringLiteral("answer %1").arg(candidate + 1) : QString();
     const DetectionEvent::Action action =
         value == Decision::kAccepted   ? DetectionEvent::Action::kAccepted
         : value == Decision::kRejected ? DetectionEvent::Action::kRejected
@@ -203,6 +210,17 @@ void SessionModel::Decide(Decision decision) {
       },
       [this, event, decision, candidate = candidate_] { Touch(event(decision, candidate)); });
   Touch(event(decision, candidate_));
+  if (decision == Decision::kAccepted) WarnOfUnsure(*Selected());
+}
+
+/// The operator may know better; nobody is to overlook it.
+void SessionModel::WarnOfUnsure(const FoundObject& accepted) {
+  const int candidate = accepted.decided_candidate;
+  if (CandidateLevel(accepted.detection, candidate) != VerdictLevel::kUnsure) return;
+  QString why = ReasonFor(accepted.detection, candidate);
+  if (why.isEmpty()) why = tr("the best answer explains the measurements better.");
+  Report({Notice::Level::kWarning, tr("Accepted although UNSURE: %1").arg(why),
+          tr("Do not act on it without another look. Ctrl+Z takes it back."), kDecisionTopic});
 }
 
 void SessionModel::KeepSending(const std::string& uuid, const QString& answer) {
@@ -265,6 +283,7 @@ void SessionModel::CopySelected() {
   FoundObject copy = *Selected();
   copy.uuid = NewUuid();
   copy.decision = Decision::kOpen;
+  copy.decided_candidate = 0;
   copy.kept = false;
   if (!copy.name.isEmpty()) copy.name = tr("Copy of %1").arg(copy.name);
   AddObject(std::move(copy));
@@ -272,7 +291,7 @@ void SessionModel::CopySelected() {
 
 void SessionModel::SelectObject(int index) {
   selected_object_ = index >= 0 && index < static_cast<int>(objects_.size()) ? index : -1;
-  candidate_ = 0;
+  candidate_ = selected_object_ < 0 ? 0 : AcceptedCandidate(*Selected());
   Q_EMIT objectsChanged();
 }
 

@@ -45,12 +45,27 @@ struct FoundObject {
   bool by_robot = false;         ///< the head fitted it
 };
 
+/// The answer that stands for the object: the one that was accepted, else the best.
+inline int AcceptedCandidate(const FoundObject& object) {
+  return object.decision == Decision::kAccepted ? object.decided_candidate : 0;
+}
+
 /// Of what lines the cloud is while its scan is not whole.
 struct CloudPart {
   std::shared_ptr<const Scan>
       scan;       ///< with the lines of the cloud; nullptr = thinned ones: nothing is fitted to it
   int lines = 0;  ///< 0 = the cloud is of a whole scan
   int of_lines = 0;  ///< expected; 0 = not known
+};
+
+/// What a mission held before this sitting.
+struct EarlierContents {
+  int scans = 0;
+  int objects = 0;        ///< without those that were deleted
+  int notes = 0;          ///< with measurements
+  QDateTime interrupted;  ///< when its last scan began, if that was interrupted; else invalid
+
+  bool operator==(const EarlierContents&) const = default;
 };
 
 /// What the operator does to an object that is there.
@@ -94,9 +109,9 @@ class SessionModel : public QObject {
   /// The scan that was expected will not come.
   void GiveUpScan();
   QDateTime ScanTime() const;
-  /// How many scans the mission file held when the session went on in it.
-  int EarlierScans() const { return earlier_scans_; }
-  void SetEarlierScans(int count);
+  /// What the mission file held when the session went on in it.
+  const EarlierContents& Earlier() const { return earlier_; }
+  void SetEarlier(const EarlierContents& earlier);
 
   void SelectImage(int index);
   int ImageIndex() const { return image_index_; }
@@ -143,7 +158,8 @@ class SessionModel : public QObject {
   int Candidate() const { return candidate_; }
   /// The candidate that is drawn of an object.
   int CandidateOf(std::size_t index) const {
-    return static_cast<int>(index) == selected_object_ ? candidate_ : 0;
+    return static_cast<int>(index) == selected_object_ ? candidate_
+                                                       : AcceptedCandidate(objects_[index]);
   }
   /// Whether a found object belongs to the scan on the screen.
   bool IsCurrent(const FoundObject& object) const;
@@ -169,7 +185,7 @@ class SessionModel : public QObject {
 
  Q_SIGNALS:
   void scanChanged();
-  void earlierScansChanged();
+  void earlierChanged();
   void imageChanged();
   void cloudChanged();
   void depthChanged();
@@ -180,12 +196,15 @@ class SessionModel : public QObject {
   void objectAdded(const foresight::FoundObject& object);
   void objectTouched(const foresight::ObjectEvent& event);
   void noticed(const foresight::Notice& notice);
+  /// What earlier notices of this topic said no longer holds.
+  void settled(const QString& topic);
 
  private:
   void StepCandidate(int by);
   void ShowRoi(std::optional<Roi> roi);
   FoundObject* Find(const std::string& uuid);
   void Touch(const ObjectEvent& event);
+  void WarnOfUnsure(const FoundObject& accepted);
   void Insert(const FoundObject& object, std::size_t at);
   void Remove(const std::string& uuid);
 
@@ -195,7 +214,7 @@ class SessionModel : public QObject {
   NotesModel notes_{&undo_};
   std::shared_ptr<const Scan> scan_;
   bool expects_scan_ = false;
-  int earlier_scans_ = 0;
+  EarlierContents earlier_;
   std::shared_ptr<const Scan> arriving_;
   int image_index_ = -1;
   std::shared_ptr<const RegisteredScan> cloud_;

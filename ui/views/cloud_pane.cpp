@@ -33,14 +33,16 @@ CloudPane::CloudPane(const CloudModels& models, QWidget* parent)
   FitViewModel* fit = models.fit;
   BuildControls();
   BindMap();
-  for (auto signal : {&SessionModel::scanChanged, &SessionModel::earlierScansChanged})
-    connect(session_, signal, this, [this] {
-      const bool replay = session_->Mode() == SessionMode::kReplay;
-      SetHint(session_->ExpectsScan() && replay ? tr("No line had come at this moment")
-              : session_->ExpectsScan()         ? tr("Scanning …")
-              : session_->CurrentScan()         ? tr("Preparing the cloud …")
-                                                : NoScanHint(*session_));
-    });
+  const auto show_hint = [this] {
+    const bool replay = session_->Mode() == SessionMode::kReplay;
+    SetHint(session_->ExpectsScan() && replay ? tr("No line had come at this moment")
+            : session_->ExpectsScan()         ? tr("Scanning …")
+            : session_->CurrentScan()         ? tr("Preparing the cloud …")
+                                              : NoScanHint(*session_));
+  };
+  show_hint();  // a pane that is made late has a scan already
+  for (auto signal : {&SessionModel::scanChanged, &SessionModel::earlierChanged})
+    connect(session_, signal, this, show_hint);
   connect(session_, &SessionModel::cloudChanged, this, [this] {
     if (Shown() != Source::kMap) Prepare();
   });

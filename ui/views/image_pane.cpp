@@ -31,16 +31,15 @@ ImagePane::ImagePane(SessionModel* session, FitViewModel* fit, LayersViewModel* 
   choice_->setAccessibleName(tr("Image"));
   Controls()->addWidget(choice_);
   const auto show_hint = [this] {
-    const bool review = session_->Mode() == SessionMode::kReplay;
-    SetHint(review && session_->ExpectsScan()
+    const bool replay = session_->Mode() == SessionMode::kReplay;
+    SetHint(replay && session_->ExpectsScan()
                 ? tr("The image appears at the moment at which it was taken")
-            : review ? tr("Open a mission for review (Ctrl+O), or choose one of its scans")
             : session_->ExpectsScan() ? tr("Scanning: the image appears when it is taken")
             : session_->CurrentScan() ? tr("This scan holds no image")
                                       : NoScanHint(*session_));
   };
   show_hint();
-  for (auto signal : {&SessionModel::scanChanged, &SessionModel::earlierScansChanged})
+  for (auto signal : {&SessionModel::scanChanged, &SessionModel::earlierChanged})
     connect(session_, signal, this, show_hint);
   connect(session_, &SessionModel::scanChanged, this, &ImagePane::FillChoice);
   connect(session_, &SessionModel::imageChanged, this, &ImagePane::ShowImage);

@@ -53,7 +53,9 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::vector<ChannelMaker
   fetching.burst = head->burst_.get();
   fetching.thin = options.thin;
   fetching.round_trip = [raw] { return raw->watch_ ? raw->watch_->RoundTrip() : 0.0; };
-  head->stopper_ = std::make_unique<StopSender>(head->session_);
+  head->stopper_ = std::make_unique<StopSender>(head->session_, [raw](const link::Outcome& o) {
+    static_cast<void>(raw->mirror_.Take(o.status(), o.desk_time_s()));
+  });
   head->commands_ = std::make_unique<CommandSender>(head->session_, options.command_good_s);
   FORESIGHT_CHECK(head->FetchStand());
   WatchClient::Hooks hooks;
@@ -182,6 +184,7 @@ LinkHealth RemoteHead::Health() const {
     const BurstCounts counts = burst_->Counts();
     health.burst = {true, counts.bytes, counts.Refused(), burst_->Trouble()};
   }
+  health.stop = stopper_->Answer();
   health.has_control = !session_.Token().empty();
   health.holder = session_.Holder();
   health.address = options_.address;

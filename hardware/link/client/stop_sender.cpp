@@ -37,19 +37,35 @@ Result<HeadStatus> StopHead(LinkSession& session, std::chrono::milliseconds pati
   }
 }
 
-StopSender::StopSender(LinkSession& session) : session_(session) {
+StopSender::StopSender(LinkSession& session, std::function<void(const link::Outcome&)> on_answer)
+    : session_(session), on_answer_(std::move(on_answer)) {
   thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
 }
 
 void StopSender::Stop() {
   const std::lock_guard lock(mutex_);
   ++asked_;
+  answer_ = StopAnswer::kWaiting;
   wake_.notify_all();
 }
 
-bool StopSender::Answered() const {
+StopAnswer StopSender::Answer() const {
   const std::lock_guard lock(mutex_);
-  return asked_ == answered_;
+  return answer_;
+}
+
+StopAnswer StopSender::AnswerTo(const grpc::Status& called, const link::Outcome& outcome,
+                                double end_s) {
+  if (called.ok()) {
+    const Status obeyed = FromMessage(outcome);
+    if (!obeyed) LogError("{}: {}", session_.address(), obeyed.error().message);
+    if (on_answer_) on_answer_(outcome);
+    return obeyed ? StopAnswer::kObeyed : StopAnswer::kRefused;
+  }
+  session_.Doubt();  // it may hang in a blackout that is over
+  if (LinkSession::Now() <= end_s) return StopAnswer::kWaiting;
+  LogError("{}", session_.ToError(called, "stopping the head").message);
+  return StopAnswer::kUnknown;
 }
 
 void StopSender::Work(const std::stop_token& stop) {
@@ -61,21 +77,19 @@ void StopSender::Work(const std::stop_token& stop) {
       asked = asked_;
     }
     const double end_s = LinkSession::Now() + kGiveUp_s;
-    for (bool answered = false; !answered;) {
+    StopAnswer answer = StopAnswer::kWaiting;
+    do {  // a stop that was pressed when the program ends is sent once
       link::Outcome outcome;
       const grpc::Status called = SendOnce(session_, outcome);
-      answered = called.ok() || stop.stop_requested();
-      if (!called.ok() && LinkSession::Now() > end_s) {
-        LogError("{}", session_.ToError(called, "stopping the head").message);
-        answered = true;
-      }
-      if (!called.ok()) session_.Doubt();  // it may hang in a blackout that is over
+      answer = AnswerTo(called, outcome, end_s);
       std::unique_lock lock(mutex_);
-      if (answered)
-        answered_ = asked;
-      else
+      if (answer == StopAnswer::kWaiting)
         wake_.wait_for(lock, stop, kStopPause, [&] { return asked_ != asked; });
-    }
+    } while (answer == StopAnswer::kWaiting && !stop.stop_requested());
+    const std::lock_guard lock(mutex_);
+    answered_ = asked;
+    // A stop that was pressed meanwhile waits for its own answer.
+    if (asked_ == asked) answer_ = answer;
   }
 }
 

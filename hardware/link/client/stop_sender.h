@@ -1,10 +1,12 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <thread>
 
 #include "core/base/run_context.h"
+#include "hardware/api/link_health.h"
 #include "hardware/link/client/link_session.h"
 
 namespace foresight {
@@ -20,21 +22,25 @@ Result<HeadStatus> StopHead(LinkSession& session, std::chrono::milliseconds pati
 /// nobody is there). A stop that comes late stops; it starts nothing.
 class StopSender {
  public:
-  /// `session` outlives it.
-  explicit StopSender(LinkSession& session);
+  /// `session` outlives it. `on_answer` hears the head's answers, from the sender's thread.
+  explicit StopSender(LinkSession& session,
+                      std::function<void(const link::Outcome&)> on_answer = {});
 
   void Stop();
-  /// Whether the last stop was answered.
-  bool Answered() const;
+  /// To the last stop.
+  StopAnswer Answer() const;
 
  private:
   void Work(const std::stop_token& stop);
+  StopAnswer AnswerTo(const grpc::Status& called, const link::Outcome& outcome, double end_s);
 
   LinkSession& session_;
+  const std::function<void(const link::Outcome&)> on_answer_;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   int asked_ = 0;
   int answered_ = 0;
+  StopAnswer answer_ = StopAnswer::kNone;
   std::jthread thread_;  ///< last: starts when everything else is there
 };
 

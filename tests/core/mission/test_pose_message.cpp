@@ -151,6 +151,9 @@ TEST(PoseMessage, OfARecordIsAReviewAndAsOldAsItsScan) {
   EXPECT_TRUE(message.simulated);
   EXPECT_EQ(message.decided_by, "ann");
   EXPECT_EQ(message.age_s, 2.5);
+  EXPECT_EQ(message.decision, Decision::kAccepted);
+  EXPECT_EQ(PoseMessageOf(record, 1, MountedRig(), scan, 0)->decision, Decision::kOpen)
+      << "the decision is about the best answer";
   EXPECT_EQ(PoseMessageOf(record, 0, MountedRig(), scan, 0)->age_s, 0.0) << "a clock that was set";
 }
 

@@ -362,10 +362,13 @@ TEST_F(RemoteHeadTest, StopReachesTheHeadAlsoAfterABlackout) {
   const auto remote = Ready();
   remote->StopMotor();
   EXPECT_TRUE(Eventually([&] { return head->stops == 1; }));
+  EXPECT_TRUE(Eventually([&] { return remote->Health().stop == StopAnswer::kObeyed; }));
   bench.StopHead();
   remote->StopMotor();
+  EXPECT_EQ(remote->Health().stop, StopAnswer::kWaiting) << "the head is not there";
   bench.StartHead();
   EXPECT_TRUE(Eventually([&] { return head->stops == 2; }));
+  EXPECT_TRUE(Eventually([&] { return remote->Health().stop == StopAnswer::kObeyed; }));
 }
 
 TEST_F(RemoteHeadTest, AnotherRigIsReadBack) {

@@ -1,0 +1,61 @@
+#include "app/workstation/quit_question.h"
+
+#include <QPushButton>
+#include <QTimer>
+
+namespace foresight {
+namespace {
+
+constexpr int kScanEnds_ms = 3000;  ///< a head that stops ends its scan within a line
+
+}  // namespace
+
+QuitQuestion::QuitQuestion(HeadViewModel* head, QWidget* window)
+    : QObject(window), head_(head), window_(window) {
+  connect(head_, &HeadViewModel::statusChanged, this, [this] {
+    if (Sweeps()) return;
+    if (question_) question_->close();
+    if (quitting_) window_->close();
+  });
+}
+
+bool QuitQuestion::Sweeps() const {
+  return head_->CanAbort() || (head_->Scanning() && !head_->Receiving());
+}
+
+bool QuitQuestion::MayClose() {
+  if (allowed_ || !Sweeps()) return true;
+  Ask();
+  return false;
+}
+
+void QuitQuestion::Ask() {
+  if (question_) {
+    question_->raise();
+    question_->activateWindow();
+    return;
+  }
+  question_ = new QMessageBox(QMessageBox::Warning, tr("Quit"), tr("A scan is running."),
+                              QMessageBox::NoButton, window_);
+  question_->setObjectName(QStringLiteral("quitQuestion"));
+  question_->setAttribute(Qt::WA_DeleteOnClose);
+  question_->setInformativeText(
+      tr("To quit now stops the head and ends the scan. What has come of it is kept."));
+  QPushButton* stay = question_->addButton(tr("Stay"), QMessageBox::RejectRole);
+  QPushButton* quit =
+      question_->addButton(tr("End the scan and quit"), QMessageBox::DestructiveRole);
+  question_->setDefaultButton(stay);
+  question_->setEscapeButton(stay);
+  connect(quit, &QPushButton::clicked, this, [this] {
+    Allow();
+    quitting_ = true;
+    question_->hide();
+    // The scan's end belongs into the mission; a head that does not answer holds nothing up.
+    QTimer::singleShot(kScanEnds_ms, window_, &QWidget::close);
+    head_->StopForGood();
+  });
+  question_->setModal(false);
+  question_->show();
+}
+
+}  // namespace foresight
