@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "app/ctl/command.h"
+#include "core/detection/candidates.h"
 #include "core/detection/detection_json.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/new_records.h"
@@ -15,6 +16,7 @@ struct DecideArguments {
   std::string object;
   bool accept = false, reject = false, reopen = false, remove = false, restore = false;
   std::string name;
+  int answer = 1;  ///< counted from 1
   std::string remark;
   bool json = false;
 };
@@ -45,20 +47,34 @@ Result<ExitCode> Decide(const DecideArguments& arguments) {
   FORESIGHT_TRY(const auto file, MissionFile::Open(arguments.file));
   FORESIGHT_TRY(const DetectionRecord before, ObjectNamed(*file, arguments.object));
   FORESIGHT_TRY(const Detection detection, DetectionFromJson(before.json));
+  const bool of_answer = *action == Action::kAccepted || *action == Action::kRejected;
+  if (arguments.answer > 1 && !of_answer)
+    return Fail(ErrorCode::kInvalidOptions, "--answer goes with --accept and --reject");
+  if (arguments.answer > CandidateCount(detection))
+    return Fail(ErrorCode::kInvalidInput, "object {} has no answer {}; it has 1 to {}", before.id,
+                arguments.answer, CandidateCount(detection));
   FORESIGHT_CHECK(file->AddDetectionEvent(
       before.id, {NowUtc_ns(), OperatorName(), *action,
-                  *action == Action::kRenamed ? arguments.name : arguments.remark}));
+                  *action == Action::kRenamed ? arguments.name
+                  : arguments.answer > 1      ? fmt::format("answer {}", arguments.answer)
+                                              : arguments.remark}));
   FORESIGHT_TRY(const DetectionRecord after, ObjectNamed(*file, before.uuid));
   FORESIGHT_CHECK(file->Close());
-  const Verdict& verdict = VerdictOf(detection);
-  if (*action == Action::kAccepted && verdict.level == VerdictLevel::kUnsure)
-    PrintNote("object {} is accepted although it is UNSURE: {}", after.id, verdict.reason);
+  // A terrain's surfaces are no alternatives: its verdict is of all of them.
+  const int candidate = after.decided_candidate;
+  const bool best = candidate == 0 || std::holds_alternative<TerrainDetection>(detection);
+  const VerdictLevel level =
+      best ? VerdictOf(detection).level : CandidateLevel(detection, candidate);
+  if (*action == Action::kAccepted && level == VerdictLevel::kUnsure)
+    PrintNote("object {} is accepted although it is UNSURE: {}", after.id,
+              best ? VerdictOf(detection).reason : CandidateText(detection, candidate));
   if (arguments.json)
     PrintJson({{"mission", arguments.file},
                {"object", after.id},
                {"uuid", after.uuid},
                {"kind", after.kind},
-               {"verdict", ToString(verdict.level)},
+               {"answer", candidate + 1},
+               {"verdict", ToString(level)},
                {"name", after.name},
                {"decision", ToString(after.decision)},
                {"deleted", after.deleted}});
@@ -83,7 +99,15 @@ void AddMissionDecideCommand(CLI::App& mission, Invocation& invocation) {
   what->add_flag("--delete", arguments->remove, "It is no longer shown; its row stays");
   what->add_flag("--restore", arguments->restore, "It is shown again");
   what->require_option(0, 1);
-  command->add_option("--remark", arguments->remark, "Why, for the mission's log");
+  CLI::Option* answer =
+      command
+          ->add_option("--answer", arguments->answer,
+                       "Which answer it is about: 1 = the best one, 2 = the first "
+                       "alternative, ...")
+          ->check(CLI::Range(1, 1000))
+          ->capture_default_str();
+  command->add_option("--remark", arguments->remark, "Why, for the mission's log")
+      ->excludes(answer);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->callback([&invocation, arguments] {
     invocation = [arguments](const RunContext&) { return Decide(*arguments); };

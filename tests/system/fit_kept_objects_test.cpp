@@ -148,6 +148,10 @@ TEST(MissionDecide, SaysWhatIsMissing) {
   const ProgramResult other = Ctl({"mission", "decide", kept.Mission(), "7", "--accept"});
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_THAT(other.errors, HasSubstr("there is no object 7; foresightctl mission show"));
+  const ProgramResult answer =
+      Ctl({"mission", "decide", kept.Mission(), "1", "--accept", "--answer", "2"});
+  EXPECT_EQ(answer.exit_code, 3);
+  EXPECT_THAT(answer.errors, HasSubstr("object 1 has no answer 2; it has 1 to 1"));
   const ProgramResult both =
       Ctl({"mission", "decide", kept.Mission(), "1", "--accept", "--reject"});
   EXPECT_EQ(both.exit_code, 2);

@@ -30,6 +30,12 @@ void CommandSender::Send(link::Command command, Done done) {
   wake_.notify_all();
 }
 
+void CommandSender::VoidMoves() {
+  const std::lock_guard lock(mutex_);
+  voided_s_ = LinkSession::Now();
+  wake_.notify_all();
+}
+
 void CommandSender::Work(const std::stop_token& stop) {
   for (;;) {
     Waiting next;
@@ -50,9 +56,11 @@ CommandEnd CommandSender::Carry(const Waiting& waiting, const std::stop_token& s
   command.set_boot_id(boot_id);
   const double end_s = waiting.asked_s + good_s_;
   command.set_void_after_s(session_.DeskTime() + end_s - LinkSession::Now());
+  command.set_given_s(session_.DeskTime() + waiting.asked_s - LinkSession::Now());
+  const auto is_void = [&] { return Moves(command) && waiting.asked_s <= voided_s_; };
   bool sent = false;
   std::string trouble = "the link was lost";
-  while (!stop.stop_requested() && LinkSession::Now() < end_s) {
+  while (!stop.stop_requested() && LinkSession::Now() < end_s && !is_void()) {
     // A lease that was lost in a blackout is taken again before the command is.
     command.set_control_token(session_.Token());
     const double left_s = end_s - LinkSession::Now();
@@ -73,8 +81,12 @@ CommandEnd CommandSender::Carry(const Waiting& waiting, const std::stop_token& s
       return {CommandEnd::Kind::kRefused, session_.ToError(called, "a command"), {}};
     sent = true;
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, stop, kCommandPause, [] { return false; });
+    wake_.wait_for(lock, stop, kCommandPause, is_void);
   }
+  if (!sent && is_void())
+    return {CommandEnd::Kind::kRefused,
+            {ErrorCode::kState, "the head was stopped before the command was sent: command again"},
+            {}};
   if (!sent)
     return {CommandEnd::Kind::kRefused,
             {ErrorCode::kDevice, fmt::format("{}: the command waited {:.0f} s for others and was "

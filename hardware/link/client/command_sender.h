@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -38,6 +39,10 @@ class CommandSender {
   /// from the sender's thread.
   void Send(link::Command command, Done done);
 
+  /// The head is to stop: what would move it and was not carried out yet is not sent (again), and
+  /// ends as refused or, where it was sent, as unknown.
+  void VoidMoves();
+
  private:
   struct Waiting {
     link::Command command;
@@ -49,6 +54,7 @@ class CommandSender {
 
   LinkSession& session_;
   const double good_s_;
+  std::atomic<double> voided_s_ = -1.0;  ///< moves that were asked for until then are void
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::deque<Waiting> waiting_;

@@ -373,6 +373,7 @@ void RemoteHead::EndScan(const std::string& reason) {
 
 void RemoteHead::StopMotor() {
   stopper_->Stop();
+  commands_->VoidMoves();
 }
 
 void RemoteHead::OperatorSeen() {

@@ -9,19 +9,23 @@ constexpr double kGiveUp_s = 60.0;
 constexpr std::chrono::milliseconds kStopTry{1500};
 constexpr std::chrono::milliseconds kStopPause{100};
 
-grpc::Status SendOnce(LinkSession& session, link::Outcome& outcome) {
+/// @param pressed_s LinkSession::Now() when it was pressed
+grpc::Status SendOnce(LinkSession& session, double pressed_s, link::Outcome& outcome) {
   const auto context = LinkSession::Context(kStopTry);
-  return session.stub(*context)->Stop(context.get(), link::StopRequest(), &outcome);
+  link::StopRequest request;
+  request.set_pressed_s(session.DeskTime() + pressed_s - LinkSession::Now());
+  return session.stub(*context)->Stop(context.get(), request, &outcome);
 }
 
 }  // namespace
 
 Result<HeadStatus> StopHead(LinkSession& session, std::chrono::milliseconds patience,
                             const RunContext& context) {
-  const double end_s = LinkSession::Now() + 1e-3 * static_cast<double>(patience.count());
+  const double pressed_s = LinkSession::Now();
+  const double end_s = pressed_s + 1e-3 * static_cast<double>(patience.count());
   for (;;) {
     link::Outcome outcome;
-    const grpc::Status called = SendOnce(session, outcome);
+    const grpc::Status called = SendOnce(session, pressed_s, outcome);
     if (called.ok()) {
       FORESIGHT_CHECK(FromMessage(outcome));
       return FromMessage(outcome.status(), {});
@@ -45,6 +49,7 @@ StopSender::StopSender(LinkSession& session, std::function<void(const link::Outc
 void StopSender::Stop() {
   const std::lock_guard lock(mutex_);
   ++asked_;
+  pressed_s_ = LinkSession::Now();
   answer_ = StopAnswer::kWaiting;
   wake_.notify_all();
 }
@@ -71,16 +76,18 @@ StopAnswer StopSender::AnswerTo(const grpc::Status& called, const link::Outcome&
 void StopSender::Work(const std::stop_token& stop) {
   for (;;) {
     int asked = 0;
+    double pressed_s = 0.0;
     {
       std::unique_lock lock(mutex_);
       if (!wake_.wait(lock, stop, [this] { return asked_ != answered_; })) return;
       asked = asked_;
+      pressed_s = pressed_s_;
     }
     const double end_s = LinkSession::Now() + kGiveUp_s;
     StopAnswer answer = StopAnswer::kWaiting;
     do {  // a stop that was pressed when the program ends is sent once
       link::Outcome outcome;
-      const grpc::Status called = SendOnce(session_, outcome);
+      const grpc::Status called = SendOnce(session_, pressed_s, outcome);
       answer = AnswerTo(called, outcome, end_s);
       std::unique_lock lock(mutex_);
       if (answer == StopAnswer::kWaiting)

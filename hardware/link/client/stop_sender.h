@@ -39,6 +39,7 @@ class StopSender {
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   int asked_ = 0;
+  double pressed_s_ = 0.0;  ///< LinkSession::Now() of the last one
   int answered_ = 0;
   StopAnswer answer_ = StopAnswer::kNone;
   std::jthread thread_;  ///< last: starts when everything else is there

@@ -189,4 +189,16 @@ Result<StopPlan> FromMessage(const link::StartStops& message) {
   return plan;
 }
 
+bool Moves(const link::Command& command) {
+  switch (command.what_case()) {
+    case link::Command::kHome:
+    case link::Command::kStartScan:
+    case link::Command::kStartStops:
+    case link::Command::kMoveStand:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace foresight

@@ -34,4 +34,7 @@ Result<LiveViewOptions> FromMessage(const link::LiveViewRequest& message);
 link::StartStops ToMessage(const StopPlan& plan);
 Result<StopPlan> FromMessage(const link::StartStops& message);
 
+/// Whether the head moves by it: what a stop voids.
+bool Moves(const link::Command& command);
+
 }  // namespace foresight

@@ -108,7 +108,13 @@ Status HeadDesk::Check(const link::Command& command, const Peer& peer) const {
     return Fail(ErrorCode::kState,
                 "the command came {:.1f} s too late and was not carried out: command again",
                 Time() - command.void_after_s());
+  if (Stopped(command))
+    return Fail(ErrorCode::kState, "the head was stopped after that was asked for: command again");
   return {};
+}
+
+bool HeadDesk::Stopped(const link::Command& command) const {
+  return Moves(command) && command.given_s() > 0.0 && command.given_s() <= stopped_s_;
 }
 
 link::Outcome HeadDesk::Execute(const link::Command& command, const Peer& peer) {
@@ -123,6 +129,8 @@ link::Outcome HeadDesk::Execute(const link::Command& command, const Peer& peer) 
     lease_.Renew(command.control_token(), Time());
     head_->OperatorSeen();
     done = Carry(command);
+    // A stop that came while the movement began.
+    if (Stopped(command)) head_->StopMotor();
   }
   if (!done) LogWarning("{}: command refused: {}", peer.name, done.error().message);
   link::Outcome outcome = ToMessage(done);
@@ -237,9 +245,15 @@ void HeadDesk::StopLiveView(const LiveViewSink* sink) {
   head_->StopLiveView();
 }
 
-link::Outcome HeadDesk::Stop(const Peer& peer) {
+link::Outcome HeadDesk::Stop(const Peer& peer, double pressed_s) {
   link::Outcome outcome;
   if (peer.may_operate) {
+    // NaN and a clock that runs ahead count as now.
+    const double now = Time();
+    const double pressed = pressed_s > 0.0 && pressed_s < now ? pressed_s : now;
+    double before = stopped_s_;
+    while (before < pressed && !stopped_s_.compare_exchange_weak(before, pressed)) {
+    }
     head_->StopMotor();
     LogInfo("{} stopped the head", peer.name);
   } else {

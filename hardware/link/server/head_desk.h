@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -45,7 +46,10 @@ class HeadDesk {
   link::ControlReply ReleaseControl(const link::ReleaseRequest& request);
   link::Outcome Execute(const link::Command& command, const Peer& peer);
   /// Any operator may stop the head, with control or without.
-  link::Outcome Stop(const Peer& peer);
+  /// What moves the head and was given before `pressed_s` is refused from now on, however late it
+  /// comes: a scan that waited in a broken link does not begin after the stop.
+  /// @param pressed_s Time() when it was pressed, as far as the station knows it; 0 = now
+  link::Outcome Stop(const Peer& peer, double pressed_s = 0.0);
   /// Hands an accepted pose on to the robot, and waits for its answer.
   link::PoseReply PublishPose(const link::PoseRequest& request, const Peer& peer);
   /// Renews the lease; the head hears that somebody is there. False for who has no control.
@@ -77,6 +81,8 @@ class HeadDesk {
  private:
   Status Check(const link::Command& command, const Peer& peer) const;
   Status Carry(const link::Command& command);
+  /// Whether a stop was pressed after the command was given.
+  bool Stopped(const link::Command& command) const;
   Status StartScan(const link::StartScan& start);
   Status EndScan(const link::EndScan& end);
   HeadFacts Facts() const;
@@ -92,7 +98,8 @@ class HeadDesk {
   ControlLease lease_;
   BurstDesk bursts_;
 
-  std::mutex commands_;  ///< one command at a time; guards the log
+  std::atomic<double> stopped_s_ = -1.0;  ///< when the last stop was pressed
+  std::mutex commands_;                   ///< one command at a time; guards the log
   CommandLog<link::Outcome> log_;
   mutable std::mutex names_;  ///< guards what follows
   std::string scan_id_;       ///< of the running or last scan

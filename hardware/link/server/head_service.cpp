@@ -129,12 +129,12 @@ grpc::Status HeadService::Execute(grpc::ServerContext* context, const link::Comm
   return grpc::Status::OK;
 }
 
-grpc::Status HeadService::Stop(grpc::ServerContext* context, const link::StopRequest* /*request*/,
+grpc::Status HeadService::Stop(grpc::ServerContext* context, const link::StopRequest* request,
                                link::Outcome* outcome) {
   grpc::Status refusal;
   const auto peer = Admit(*context, &refusal);
   if (!peer) return refusal;
-  *outcome = desk_.Stop(*peer);
+  *outcome = desk_.Stop(*peer, request->pressed_s());
   return grpc::Status::OK;
 }
 

@@ -157,6 +157,40 @@ TEST_F(HeadDeskTest, AnyOperatorStopsTheHeadAndAnObserverDoesNot) {
   EXPECT_EQ(head->stops, 1);
 }
 
+TEST_F(HeadDeskTest, WhatWasAskedForBeforeAStopDoesNotBeginAfterIt) {
+  link::Command early = Home("1");
+  early.set_given_s(desk.Time());
+  EXPECT_EQ(desk.Stop(ben).error(), link::NONE);
+  const link::Outcome late = desk.Execute(early, anna);
+  EXPECT_EQ(late.error(), link::WRONG_STATE);
+  EXPECT_THAT(late.message(), HasSubstr("stopped after that was asked for: command again"));
+  EXPECT_EQ(head->homings, 0);
+  // What was asked for since is carried out, and what ends a scan is never void.
+  link::Command since = Home("2");
+  since.set_given_s(desk.Time() + 0.001);
+  EXPECT_EQ(desk.Execute(since, anna).error(), link::NONE);
+  EXPECT_EQ(head->homings, 1);
+  link::Command end = Command("3");
+  end.mutable_end_scan();
+  end.set_given_s(early.given_s());
+  EXPECT_THAT(desk.Execute(end, anna).message(), Not(HasSubstr("stopped after")));
+}
+
+TEST_F(HeadDeskTest, AStopVoidsWhatWasAskedForUntilItWasPressed) {
+  link::Command command = Home("1");
+  command.set_given_s(desk.Time());
+  const double pressed_s = 0.5 * command.given_s();
+  // It was pressed before, and came late.
+  EXPECT_EQ(desk.Stop(anna, pressed_s).error(), link::NONE);
+  EXPECT_EQ(desk.Execute(command, anna).error(), link::NONE);
+  EXPECT_EQ(head->homings, 1);
+  // A clock that runs ahead voids nothing to come.
+  EXPECT_EQ(desk.Stop(anna, desk.Time() + 1000.0).error(), link::NONE);
+  link::Command next = Home("2");
+  next.set_given_s(desk.Time() + 0.001);
+  EXPECT_EQ(desk.Execute(next, anna).error(), link::NONE);
+}
+
 TEST_F(HeadDeskTest, AScanIsKeptUnderTheStationsName) {
   desk.Execute(Home("1"), anna);
   const link::Outcome started = desk.Execute(Scan("2", "scan-7"), anna);
