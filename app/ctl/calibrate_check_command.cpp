@@ -67,6 +67,9 @@ Result<ExitCode> CheckOnScan(const CheckArguments& arguments, const RunContext& 
                        {"points", check->turns->points},
                        {"explained", check->turns->explained},
                        {"spread_rad", check->turns->spread_rad}};
+    if (check->passes)
+      json["passes"] = {{"patches", check->passes->patches},
+                        {"speed_rad_s", check->passes->speed_rad_s}};
     if (check->plate)
       json["plate"] = {{"planes", check->plate->planes},
                        {"cells", check->plate->cells},

@@ -34,9 +34,13 @@ struct EvaluateCheckArguments {
 };
 
 nlohmann::ordered_json ToJson(const CheckOutcome& outcome) {
-  nlohmann::ordered_json json = {{"seed", outcome.seed},       {"scene", outcome.scene},
-                                 {"damage", outcome.damage},   {"sign", outcome.sign},
-                                 {"seconds", outcome.seconds}, {"drifted", outcome.check.drifted}};
+  nlohmann::ordered_json json = {{"seed", outcome.seed},
+                                 {"scene", outcome.scene},
+                                 {"damage", outcome.damage},
+                                 {"sign", outcome.sign},
+                                 {"seconds", outcome.seconds},
+                                 {"drifted", outcome.check.drifted},
+                                 {"cannot_see", outcome.check.cannot_see}};
   for (const RigFinding& finding : outcome.check.findings)
     json["findings"].push_back({{"name", finding.name},
                                 {"value", FiniteOrNull(finding.value)},
@@ -54,6 +58,7 @@ nlohmann::ordered_json ToJson(const CheckOutcome& outcome) {
     json["turns"] = {{"images", outcome.check.turns->images},
                      {"points", outcome.check.turns->points},
                      {"explained", outcome.check.turns->explained}};
+  if (outcome.check.passes) json["passes"] = {{"patches", outcome.check.passes->patches}};
   if (outcome.check.plate)
     json["plate"] = {{"planes", outcome.check.plate->planes},
                      {"cells", outcome.check.plate->cells},

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "app/common/seed_option.h"
@@ -81,6 +83,9 @@ Result<ExitCode> EvaluateConfidence(const EvaluateConfidenceArguments& arguments
   const double all = static_cast<double>(arguments.scenes.size() * arguments.scales.size());
   for (const std::string& folder : arguments.scenes) {
     FORESIGHT_TRY(const StereoScene scene, LoadStereoScene(folder));
+    if (std::find(names.begin(), names.end(), scene.name) != names.end())
+      return Fail(ErrorCode::kInvalidOptions, "there are two scenes '{}': give each once",
+                  scene.name);
     names.push_back(scene.name);
     for (const int scale : arguments.scales) {
       StereoEvaluationOptions options;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "app/ctl/command.h"
@@ -50,7 +51,12 @@ Result<ExitCode> Decide(const DecideArguments& arguments) {
   const bool of_answer = *action == Action::kAccepted || *action == Action::kRejected;
   if (arguments.answer > 1 && !of_answer)
     return Fail(ErrorCode::kInvalidOptions, "--answer goes with --accept and --reject");
-  if (arguments.answer > CandidateCount(detection))
+  if (*action == Action::kRenamed && !arguments.remark.empty())
+    return Fail(ErrorCode::kInvalidOptions, "--remark does not go with --name");
+  if (arguments.remark.starts_with("answer "))
+    return Fail(ErrorCode::kInvalidOptions,
+                "a remark does not begin with 'answer ': say which answer with --answer");
+  if (arguments.answer > std::max(1, CandidateCount(detection)))
     return Fail(ErrorCode::kInvalidInput, "object {} has no answer {}; it has 1 to {}", before.id,
                 arguments.answer, CandidateCount(detection));
   FORESIGHT_CHECK(file->AddDetectionEvent(
@@ -60,14 +66,11 @@ Result<ExitCode> Decide(const DecideArguments& arguments) {
                                               : arguments.remark}));
   FORESIGHT_TRY(const DetectionRecord after, ObjectNamed(*file, before.uuid));
   FORESIGHT_CHECK(file->Close());
-  // A terrain's surfaces are no alternatives: its verdict is of all of them.
   const int candidate = after.decided_candidate;
-  const bool best = candidate == 0 || std::holds_alternative<TerrainDetection>(detection);
-  const VerdictLevel level =
-      best ? VerdictOf(detection).level : CandidateLevel(detection, candidate);
+  const VerdictLevel level = CandidateLevel(detection, candidate);
   if (*action == Action::kAccepted && level == VerdictLevel::kUnsure)
     PrintNote("object {} is accepted although it is UNSURE: {}", after.id,
-              best ? VerdictOf(detection).reason : CandidateText(detection, candidate));
+              candidate == 0 ? VerdictOf(detection).reason : CandidateText(detection, candidate));
   if (arguments.json)
     PrintJson({{"mission", arguments.file},
                {"object", after.id},

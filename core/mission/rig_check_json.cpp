@@ -14,6 +14,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMost = 1e9;
+constexpr int kMostCounted = 10'000'000;  // sums of them stay numbers
 
 /// Row by row.
 template <class Matrix>
@@ -66,7 +67,7 @@ OrderedJson CameraJson(const CameraCheck& camera) {
 
 CameraCheck CameraFrom(const nlohmann::json& json) {
   CameraCheck camera;
-  camera.edges = IntegerIn(json, "depth_edges", 1, 1'000'000'000);
+  camera.edges = IntegerIn(json, "depth_edges", 1, kMostCounted);
   camera.images = IntegerIn(json, "images", 0, 1'000'000);
   camera.score = NumberIn(json, "score", -kMost, kMost);
   camera.score_before = NumberIn(json, "score_before", -kMost, kMost);
@@ -90,8 +91,8 @@ OrderedJson PlateJson(const PlateCheck& plate) {
 
 PlateCheck PlateFrom(const nlohmann::json& json) {
   PlateCheck plate;
-  plate.planes = IntegerIn(json, "planes", 1, 1'000'000'000);
-  plate.cells = IntegerIn(json, "cells", 1, 1'000'000'000);
+  plate.planes = IntegerIn(json, "planes", 1, kMostCounted);
+  plate.cells = IntegerIn(json, "cells", 1, kMostCounted);
   json.at("up_and_down").get_to(plate.up_and_down);
   plate.residual_m = NumberIn(json, "residual_m", 0.0, kMost);
   plate.speed_rad_s = NumberIn(json, "speed_rad_s", 0.0, kMost);
@@ -113,7 +114,7 @@ OrderedJson TurnsJson(const TurnCheck& turns) {
 TurnCheck TurnsFrom(const nlohmann::json& json) {
   TurnCheck turns;
   turns.images = IntegerIn(json, "images", 2, 1'000'000);
-  turns.points = IntegerIn(json, "points", 1, 1'000'000'000);
+  turns.points = IntegerIn(json, "points", 1, kMostCounted);
   turns.explained = NumberIn(json, "explained", 0.0, 1.0);
   turns.spread_rad = NumberIn(json, "spread_rad", 0.0, kMost);
   json.at("bend_seen").get_to(turns.bend_seen);
@@ -132,7 +133,7 @@ OrderedJson PassesJson(const PassCheck& passes) {
 PassCheck PassesFrom(const nlohmann::json& json) {
   PassCheck passes;
   constexpr double kLeast = 1e-9;  // what is averaged is weighed by the inverse
-  passes.patches = IntegerIn(json, "patches", 1, 1'000'000'000);
+  passes.patches = IntegerIn(json, "patches", 1, kMostCounted);
   passes.speed_rad_s = NumberIn(json, "speed_rad_s", kLeast, kMost);
   passes.stamp_s = NumberIn(json, "stamp_s", -kMost, kMost);
   passes.sigma_s = NumberIn(json, "sigma_s", kLeast, kMost);
@@ -201,15 +202,15 @@ RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
   check.no_passes = json.value("no_passes", nothing);
   if (HasMeasurements(json, "camera", "turn_rad", 3)) {
     const CameraCheck camera = CameraFrom(json["camera"]);
-    if (CanBeInverted(camera.covariance)) check.camera = camera;
+    if (camera.turn_rad.allFinite() && CanBeInverted(camera.covariance)) check.camera = camera;
   }
   if (HasMeasurements(json, "plate", "drift", PlateCheck::kUnknowns)) {
     const PlateCheck plate = PlateFrom(json["plate"]);
-    if (CanBeAveraged(plate)) check.plate = plate;
+    if (plate.drift.allFinite() && CanBeAveraged(plate)) check.plate = plate;
   }
   if (HasMeasurements(json, "turns", "drift", TurnCheck::kUnknowns)) {
     const TurnCheck turns = TurnsFrom(json["turns"]);
-    if (CanBeAveraged(turns)) check.turns = turns;
+    if (turns.drift.allFinite() && CanBeAveraged(turns)) check.turns = turns;
   }
   if (json.contains("passes")) {
     check.passes = PassesFrom(json["passes"]);

@@ -179,11 +179,12 @@ class Judge {
   std::string WhichOfBoth() const {
     const State on_plate_y = Finding("camera on plate y").state,
                 on_plate_z = Finding("camera on plate z").state;
-    if (on_plate_y == State::kDrifted || on_plate_z == State::kDrifted)
-      return "the camera moved against the motor: it is the camera that turned";
     const State about_y = Finding("lidar turn y").state, about_z = Finding("lidar turn z").state;
-    if (about_y == State::kDrifted || about_z == State::kDrifted)
-      return "the lidar moved against the motor: it is the lidar that turned";
+    const bool camera_moved = on_plate_y == State::kDrifted || on_plate_z == State::kDrifted;
+    const bool lidar_moved = about_y == State::kDrifted || about_z == State::kDrifted;
+    if (camera_moved && lidar_moved) return "both camera and lidar moved against the motor";
+    if (camera_moved) return "the camera moved against the motor: it is the camera that turned";
+    if (lidar_moved) return "the lidar moved against the motor: it is the lidar that turned";
     const Eigen::Vector3d in_head = rig_.camera_from_head.Inverse().Rotate(check_.camera->turn_rad);
     if (std::abs(in_head.x()) > in_head.tail<2>().norm())
       return "which of both turned does not show: planes do not tell a turn about the motor's axis";

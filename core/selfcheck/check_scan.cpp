@@ -68,6 +68,11 @@ CheckLight Gravest(const std::vector<const RigFinding*>& findings) {
   return light;
 }
 
+bool AllSeen(const std::vector<const RigFinding*>& findings) {
+  return std::none_of(findings.begin(), findings.end(),
+                      [](const RigFinding* finding) { return finding->state == State::kNotSeen; });
+}
+
 std::string JoinedSentence(const std::vector<const RigFinding*>& findings) {
   std::string text;
   for (const RigFinding* finding : findings)
@@ -162,7 +167,8 @@ class ScanJudge {
     Add("lidar against motor", light,
         light == CheckLight::kNotSeen ? OperatorText("lidar against the motor: not seen")
         : light == CheckLight::kGood
-            ? OperatorText("planes are flat: the lidar fits the motor")
+            ? (AllSeen(findings) ? OperatorText("planes are flat: the lidar fits the motor")
+                                 : OperatorText("planes are flat, as far as this scan shows them"))
             : OperatorText("planes bend: {}: look whether the lidar is loose, and calibrate again",
                            JoinedSentence(findings)));
   }
@@ -173,8 +179,8 @@ class ScanJudge {
     Add("stamps", light,
         light == CheckLight::kNotSeen ? OperatorText("clocks: not seen")
         : light == CheckLight::kGood
-            ? OperatorText("planes lie where they do on the way up and down: the clocks agree")
-            : OperatorText("planes differ on the way up and down: {}: check the clocks and the "
+            ? OperatorText("surfaces lie where they do on the way up and down: the clocks agree")
+            : OperatorText("surfaces differ on the way up and down: {}: check the clocks and the "
                            "motor's backlash, and calibrate again",
                            JoinedSentence(findings)));
   }
@@ -186,9 +192,9 @@ class ScanJudge {
     Add("camera and motor", light,
         light == CheckLight::kNotSeen ? OperatorText("camera and motor: not seen")
         : light == CheckLight::kGood
-            ? OperatorText("images turn into each other as the motor says")
+            ? OperatorText("the images agree with the motor's angles")
             : OperatorText(
-                  "images turn otherwise than the motor says: {}: look whether the camera is "
+                  "the images do not agree with the motor's angles: {}: look whether the camera is "
                   "loose or the plate slips, and calibrate again",
                   JoinedSentence(findings)));
   }

@@ -18,6 +18,9 @@ class WeightedMean {
     const Eigen::MatrixXd information = covariance.inverse();
     information_ += information;
     sum_ += information * value;
+    // What a scan does not see adds no misfit.
+    constexpr double kUnseenVariance = 1.0;
+    for (Eigen::Index i = 0; i < value.size(); ++i) unseen_ += covariance(i, i) >= kUnseenVariance;
     values_.push_back(value);
     informations_.push_back(information);
   }
@@ -33,7 +36,7 @@ class WeightedMean {
       const Eigen::VectorXd off = values_[i] - mean;
       misfit += off.dot(informations_[i] * off);
     }
-    const double freedoms = static_cast<double>((count() - 1) * mean.size());
+    const double freedoms = static_cast<double>((count() - 1) * mean.size() - unseen_);
     const double factor = freedoms > 0.0 ? std::max(1.0, misfit / freedoms) : 1.0;
     return factor * information_.inverse();
   }
@@ -41,6 +44,7 @@ class WeightedMean {
  private:
   Eigen::MatrixXd information_;
   Eigen::VectorXd sum_;
+  Eigen::Index unseen_ = 0;
   std::vector<Eigen::VectorXd> values_;
   std::vector<Eigen::MatrixXd> informations_;
 };
@@ -116,15 +120,24 @@ Result<PlateCheck> GatherPlate(std::span<const RigCheck> checks) {
 Result<TurnCheck> GatherTurns(std::span<const RigCheck> checks) {
   WeightedMean drifts(TurnCheck::kUnknowns);
   TurnCheck gathered;
+  for (const RigCheck& check : checks)
+    if (check.turns) gathered.spread_rad = std::max(gathered.spread_rad, check.turns->spread_rad);
   for (const RigCheck& check : checks) {
     if (!check.turns) continue;
     TurnCheck known = *check.turns;
     constexpr double kUnknownBend_rad = 10.0;
-    if (!known.bend_seen)
+    // A bend is halfway between a scan's own outermost images: those of another spread have
+    // another.
+    constexpr double kLikeSpread = 0.8;
+    known.bend_seen &= known.spread_rad > kLikeSpread * gathered.spread_rad;
+    if (!known.bend_seen) {
+      known.drift[TurnCheck::kBend] = 0.0;
+      known.covariance.row(TurnCheck::kBend).setZero();
+      known.covariance.col(TurnCheck::kBend).setZero();
       known.covariance(TurnCheck::kBend, TurnCheck::kBend) = kUnknownBend_rad * kUnknownBend_rad;
+    }
     drifts.Add(known.drift, known.covariance);
     gathered.bend_seen |= known.bend_seen;
-    gathered.spread_rad = std::max(gathered.spread_rad, known.spread_rad);
     gathered.images += known.images;
     gathered.points += known.points;
     gathered.explained += known.points * known.explained;

@@ -35,7 +35,7 @@ struct PlateCheck {
   Eigen::Matrix<double, kUnknowns, 1> drift;
   Eigen::Matrix<double, kUnknowns, kUnknowns> covariance;
   bool up_and_down = false;  ///< else the stamps stay what they are, with an infinite sigma
-  double speed_rad_s = 0.0;  ///< of the plate, rms: a stamp's offset shows as a turn by it
+  double speed_rad_s = 0.0;  ///< of the plate, rms; kept for the record
   int planes = 0;
   int cells = 0;
   double residual_m = 0.0;  ///< rms of the cells about their planes, after the change

@@ -161,7 +161,7 @@ class SurfacesSeen {
 
 /// The points with most contrast, spread over the image.
 std::vector<SeenPoint> PointsOf(const Scan& scan, const RegisteredScan& cloud, const View& view,
-                                double blur_px, const TurnCheckOptions& options) {
+                                double blur_px, std::size_t most) {
   constexpr double kMargin_px = 12.0;
   constexpr int kTile_px = 32;
   constexpr std::size_t kMostOfTile = 12;
@@ -203,7 +203,7 @@ std::vector<SeenPoint> PointsOf(const Scan& scan, const RegisteredScan& cloud, c
     points.insert(points.end(), tile.begin(), tile.end());
   }
   std::stable_sort(points.begin(), points.end(), more);
-  points.resize(std::min(points.size(), static_cast<std::size_t>(options.most_points)));
+  points.resize(std::min(points.size(), most));
   return points;
 }
 
@@ -442,18 +442,23 @@ class TurnAdjustment {
   Eigen::VectorXd right_;
 };
 
-std::vector<View> ViewsOf(const Scan& scan) {
+std::vector<View> ViewsOf(const Scan& scan, int most_images) {
   std::vector<View> views;
   for (const CameraFrame& frame : scan.frames)
     if (frame.image.width() == scan.rig.camera.width &&
-        frame.image.height() == scan.rig.camera.height)
-      views.push_back({&frame,
-                       scan.rig.angle_correction.PlateAngle(frame.motor_angle_rad),
-                       0.0,
-                       LogGray(frame.image),
-                       {}});
+        frame.image.height() == scan.rig.camera.height && std::isfinite(frame.motor_angle_rad))
+      views.push_back(
+          {&frame, scan.rig.angle_correction.PlateAngle(frame.motor_angle_rad), 0.0, {}, {}});
   std::stable_sort(views.begin(), views.end(),
                    [](const View& a, const View& b) { return a.plate_rad < b.plate_rad; });
+  if (std::ssize(views) > most_images) {
+    std::vector<View> some;
+    for (int i = 0; i < most_images; ++i)
+      some.push_back(views[(views.size() - 1) * static_cast<std::size_t>(i) /
+                           static_cast<std::size_t>(most_images - 1)]);
+    views = std::move(some);
+  }
+  for (View& view : views) view.log_gray = LogGray(view.frame->image);
   if (views.empty()) return views;
   const double first = views.front().plate_rad, last = views.back().plate_rad;
   for (View& view : views)
@@ -473,11 +478,16 @@ void UseBlur(std::vector<View>& views, double blur_px) {
 
 std::vector<FollowedPoint> PointsToFollow(const Scan& scan, const RegisteredScan& cloud,
                                           const std::vector<View>& views, double blur_px,
-                                          const TurnCheckOptions& options) {
+                                          const TurnCheckOptions& options,
+                                          const RunContext& context) {
+  const std::size_t pairs = views.size() * (views.size() - 1) / 2;
+  const std::size_t most = std::min(static_cast<std::size_t>(options.most_points),
+                                    static_cast<std::size_t>(options.most_points_in_all) / pairs);
   std::vector<FollowedPoint> followed;
   std::vector<double> azimuths;
   for (std::size_t from = 0; from < views.size(); ++from) {
-    const std::vector<SeenPoint> seen = PointsOf(scan, cloud, views[from], blur_px, options);
+    const std::vector<SeenPoint> seen = PointsOf(scan, cloud, views[from], blur_px, most);
+    if (context.Cancelled()) break;
     for (std::size_t to = from + 1; to < views.size(); ++to) {
       if (views[to].plate_rad - views[from].plate_rad > options.most_apart_rad) continue;
       for (const SeenPoint& point : seen) {
@@ -513,7 +523,7 @@ std::vector<FollowedPoint> PointsToFollow(const Scan& scan, const RegisteredScan
 
 Result<TurnCheck> CheckTurns(const Scan& scan, const RegisteredScan& cloud,
                              const TurnCheckOptions& options, const RunContext& context) {
-  std::vector<View> views = ViewsOf(scan);
+  std::vector<View> views = ViewsOf(scan, options.most_images);
   TurnCheck check;
   check.images = static_cast<int>(views.size());
   if (check.images > 0) check.spread_rad = views.back().plate_rad - views.front().plate_rad;
@@ -525,7 +535,7 @@ Result<TurnCheck> CheckTurns(const Scan& scan, const RegisteredScan& cloud,
   constexpr double kBlurs_px[] = {6.0, 3.0, 1.5};
   UseBlur(views, kBlurs_px[2]);
   TurnAdjustment adjustment(scan.rig, views,
-                            PointsToFollow(scan, cloud, views, kBlurs_px[2], options),
+                            PointsToFollow(scan, cloud, views, kBlurs_px[2], options, context),
                             check.bend_seen, options);
   constexpr int kSteps = 3;
   for (const double blur_px : kBlurs_px) {

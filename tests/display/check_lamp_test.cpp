@@ -163,8 +163,8 @@ TEST_F(CheckLampWindow, TwoScansOfAHeadSpeakTogetherAndTheMissionKnowsThemWhenIt
   running->Settle();
   ASSERT_NE(Panel(), nullptr);
   const auto* together = Panel()->findChild<QWidget*>(QStringLiteral("checkTogether"));
-  EXPECT_EQ(together->findChildren<QLabel*>(QStringLiteral("checkPoint")).size(), 3)
-      << "camera, lidar and clocks";
+  EXPECT_EQ(together->findChildren<QLabel*>(QStringLiteral("checkPoint")).size(), 4)
+      << "camera, lidar, clocks and motor";
   SavePicture("seen_check_together");
 
   const int scans = Live().Together()->scans;

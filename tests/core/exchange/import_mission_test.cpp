@@ -515,7 +515,7 @@ TEST_F(ImportOfFiles, BadInputOfEveryKindIsRefusedInOneLineThatNamesIt) {
   const auto in = [&](const char* name) { return fs::path(folder_ / name); };
   EXPECT_THAT(Why({in("missing.bin")}), HasSubstr("missing.bin"));
   EXPECT_THAT(Why({in("short.bin")}), HasSubstr("short.bin: 5 bytes are no points"));
-  EXPECT_THAT(Why({in("empty.ply")}), HasSubstr("empty.ply: is no point cloud"));
+  EXPECT_THAT(Why({in("empty.ply")}), HasSubstr("empty.ply: is empty"));
   EXPECT_THAT(Why({in("no.bag")}), HasSubstr("no.bag: is no ROS bag"));
   EXPECT_THAT(Why({in("torn.bag")}), HasSubstr("torn.bag: "));
   EXPECT_THAT(Why({in("calib.txt")}), HasSubstr("no cloud among the files"));

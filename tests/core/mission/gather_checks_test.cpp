@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/geometry/angles.h"
+#include "core/mission/rig_check_json.h"
 #include "core/selfcheck/gather_rig.h"
 #include "tests/core/mission/sample_scan.h"
 #include "tests/support/temporary_folder.h"
@@ -91,6 +92,37 @@ TEST(GatherChecks, SeveralScansTellWhatOneDoesNot) {
   EXPECT_EQ(gathered->scans, 5);
   EXPECT_EQ(gathered->check.light, CheckLight::kAmber);
   EXPECT_THAT(gathered->check.advice, HasSubstr("image edges lie"));
+}
+
+TEST(GatherChecks, ADriftThatIsNoNumberBlindsNoOtherScan) {
+  std::vector<KeptCheck> checks = {CheckOf("a", 0.0), CheckOf("b", 0.0)};
+  auto json = nlohmann::json::parse(RigCheckToJson(checks[0].rig));
+  json["turns"]["drift"][0] = nullptr;
+  json["plate"]["drift"][1] = nullptr;
+  json["camera"]["turn_rad"][1] = nullptr;
+  const RigCheck read = RigMeasurementsFromJson(json);
+  EXPECT_FALSE(read.turns || read.plate || read.camera);
+  checks[0].rig = read;
+  checks[1].rig.turns->drift[TurnCheck::kCameraZ] = RadiansFromDegrees(0.5);
+  const RigCheck gathered = GatherRig(std::vector{checks[0].rig, checks[1].rig}, Rig(), {});
+  ASSERT_TRUE(gathered.turns);
+  EXPECT_NEAR(gathered.turns->drift[TurnCheck::kCameraZ], RadiansFromDegrees(0.5), 1e-9);
+}
+
+TEST(GatherChecks, BendsOfScansWithOtherImagesAreNotAveraged) {
+  std::vector<RigCheck> checks = {CheckOf("a", 0.0).rig, CheckOf("b", 0.0).rig};
+  for (RigCheck& check : checks) {
+    check.turns->bend_seen = true;
+    check.turns->covariance(TurnCheck::kBend, TurnCheck::kBend) = 1e-8;
+    check.turns->spread_rad = RadiansFromDegrees(60.0);
+    check.turns->drift[TurnCheck::kBend] = 0.001;
+  }
+  checks[1].turns->spread_rad = RadiansFromDegrees(10.0);
+  checks[1].turns->drift[TurnCheck::kBend] = 0.009;
+  const RigCheck gathered = GatherRig(checks, Rig(), {});
+  ASSERT_TRUE(gathered.turns);
+  EXPECT_NEAR(gathered.turns->drift[TurnCheck::kBend], 0.001, 1e-5);
+  EXPECT_TRUE(gathered.turns->bend_seen);
 }
 
 TEST(GatherChecks, TheNewestCheckOfAScanCountsAndOneScanIsNotSeveral) {

@@ -152,6 +152,19 @@ TEST(JudgeRig, TwoImagesSayNothingOfThePlateBetweenThem) {
                                          "have a pattern, show it"));
 }
 
+TEST(JudgeRig, SaysSoWhereCameraAndLidarBothMoved) {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.y() = RadiansFromDegrees(0.31);
+  camera.gain_sigmas = 8.0;
+  camera.score_before = 0.8;
+  PlateCheck plate = GoodPlate();
+  plate.drift[PlateCheck::kTurnY] = RadiansFromDegrees(0.3);
+  TurnCheck turns = GoodTurns();
+  turns.drift[TurnCheck::kCameraZ] = RadiansFromDegrees(-0.3);
+  EXPECT_THAT(Judged(plate, camera, turns).drifted,
+              Contains("both camera and lidar moved against the motor"));
+}
+
 TEST(JudgeRig, AboutTheMotorsAxisNobodyCanTellWhichOfThemTurned) {
   CameraCheck camera = GoodCamera();
   camera.turn_rad.x() = RadiansFromDegrees(0.31);
