@@ -20,7 +20,7 @@ QuitQuestion::QuitQuestion(HeadViewModel* head, QWidget* window)
 }
 
 bool QuitQuestion::Sweeps() const {
-  return head_->CanAbort() || (head_->Scanning() && !head_->Receiving());
+  return head_->MovesForUs();
 }
 
 bool QuitQuestion::MayClose() {

@@ -8,7 +8,8 @@
 
 namespace foresight {
 
-/// Asks before a window closes in the middle of a sweep. The question holds nothing up, goes when
+/// Asks before a window closes in the middle of a sweep that is this station's: another operator's
+/// goes on, and nobody is asked. The question holds nothing up, goes when
 /// the sweep is over, and its default is to stay.
 class QuitQuestion : public QObject {
   Q_OBJECT

@@ -1,5 +1,6 @@
 #include "core/exchange/mission_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -44,11 +45,11 @@ void AddRow(std::string& csv, const Values&... values) {
   csv += "\r\n";
 }
 
-/// "x,y,z,qw,qx,qy,qz" of the best answer, in robot; commas alone where there is none.
-std::string PoseCells(const Detection& detection,
+/// "x,y,z,qw,qx,qy,qz" of the answer, in robot; commas alone where there is none.
+std::string PoseCells(const Detection& detection, int candidate,
                       const Rigid<frame::Robot, frame::Base>& robot_from_base) {
   if (CandidateCount(detection) == 0) return ",,,,,,";
-  const auto pose = robot_from_base * CandidatePose(detection, 0);
+  const auto pose = robot_from_base * CandidatePose(detection, candidate);
   const Eigen::Vector3d& t = pose.translation();
   const Eigen::Quaterniond& q = pose.rotation();
   return fmt::format("{},{},{},{},{},{},{}", t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
@@ -76,24 +77,28 @@ Result<std::string> DetectionsCsv(const MissionFile& mission) {
   std::map<std::int64_t, Rigid<frame::Robot, frame::Base>> mounts;
   std::string csv =
       "detection,uuid,scan,scan_uuid,kind,name,found_utc,author,decision,decided_utc,decided_by,"
-      "deleted,verdict,source,image,program_version,x_m,y_m,z_m,qw,qx,qy,qz\r\n";
+      "deleted,answer,verdict,source,image,program_version,x_m,y_m,z_m,qw,qx,qy,qz\r\n";
   for (const DetectionRecord& record : records) {
     if (record.scan_id != 0 && !mounts.contains(record.scan_id)) {
       FORESIGHT_TRY(const Scan header, mission.LoadHeader(record.scan_id));
       mounts[record.scan_id] = header.rig.robot_from_base;
     }
     const auto detection = DetectionFromJson(record.json);
+    // Other programs act on this row: it is about the answer that was decided on.
+    const int candidate = detection ? std::clamp(record.decided_candidate, 0,
+                                                 std::max(0, CandidateCount(*detection) - 1))
+                                    : record.decided_candidate;
     const auto provenance = ProvenanceFromJson(record.provenance_json, record.uuid);
     const auto mount = mounts.find(record.scan_id);
     std::string pose = ",,,,,,";
-    if (detection && mount != mounts.end()) pose = PoseCells(*detection, mount->second);
+    if (detection && mount != mounts.end()) pose = PoseCells(*detection, candidate, mount->second);
     csv += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", record.id, Cell(record.uuid),
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", record.id, Cell(record.uuid),
         record.scan_id, Cell(record.scan_uuid), Cell(record.kind), Cell(record.name),
         UtcText(record.utc_ns), Cell(record.author), ToString(record.decision),
         record.decision == Decision::kOpen ? "" : UtcText(record.decided_utc_ns),
-        Cell(record.decided_by), Cell(record.deleted),
-        detection ? ToString(VerdictOf(*detection).level) : "",
+        Cell(record.decided_by), Cell(record.deleted), candidate + 1,
+        detection ? ToString(CandidateLevel(*detection, candidate)) : "",
         provenance ? Cell(provenance->source) : "",
         provenance && provenance->image_position >= 0 ? Cell(provenance->image_position) : "",
         provenance ? Cell(provenance->program_version) : "", pose);

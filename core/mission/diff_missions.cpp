@@ -91,6 +91,7 @@ Status CompareDetections(const DetectionRecord& was, const DetectionRecord& is, 
   CompareValue(tell, "author", was.author, is.author);
   CompareValue(tell, "decision", std::string(ToString(was.decision)),
                std::string(ToString(is.decision)));
+  CompareValue(tell, "answer decided on", was.decided_candidate + 1, is.decided_candidate + 1);
   CompareValue(tell, "deleted", was.deleted, is.deleted);
   for (const std::string& difference : JsonDifferences(was.json, is.json, {"seconds"}))
     tell(difference);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,15 @@ const char* ToString(Decision decision) {
     default:
       return "open";
   }
+}
+
+int DecidedCandidateOf(const std::string& text) {
+  constexpr std::string_view kAnswer = "answer ";
+  if (!text.starts_with(kAnswer)) return 0;
+  int number = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + kAnswer.size(), end, number);
+  return read.ec == std::errc() && read.ptr == end && number >= 1 ? number - 1 : 0;
 }
 
 const char* ToString(EventAction action) {

@@ -60,6 +60,8 @@ struct DetectionEvent {
 
   bool operator==(const DetectionEvent&) const = default;
 };
+/// The answer that the text of a decision names, counted from 0; 0 where it names none.
+int DecidedCandidateOf(const std::string& text);
 /// "accepted", "rejected", "reopened", "renamed", "deleted", "restored",
 /// "sent": to the robot.
 const char* ToString(DetectionEvent::Action action);

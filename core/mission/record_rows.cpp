@@ -1,7 +1,5 @@
 #include "core/mission/record_rows.h"
 
-#include <algorithm>
-#include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
@@ -157,16 +155,6 @@ Result<std::vector<DetectionRecord>> ReadDetections1(const SqliteDatabase& datab
   });
 }
 
-/// The answer that the remark of a decision names, counted from 0; 0 where it names none.
-int CandidateOf(const std::string& remark) {
-  constexpr std::string_view kAnswer = "answer ";
-  if (!remark.starts_with(kAnswer)) return 0;
-  int number = 0;
-  const char* end = remark.data() + remark.size();
-  const auto read = std::from_chars(remark.data() + kAnswer.size(), end, number);
-  return read.ec == std::errc() && read.ptr == end ? std::max(0, number - 1) : 0;
-}
-
 void Apply(const DetectionEvent& event, DetectionRecord& detection) {
   using Action = DetectionEvent::Action;
   switch (event.action) {
@@ -189,7 +177,9 @@ void Apply(const DetectionEvent& event, DetectionRecord& detection) {
       detection.decision = Decision::kOpen;
       break;
   }
-  detection.decided_candidate = CandidateOf(event.text);
+  // Open again, there is no answer that a decision is about.
+  detection.decided_candidate =
+      event.action == Action::kReopened ? 0 : DecidedCandidateOf(event.text);
   detection.decided_utc_ns = event.utc_ns;
   detection.decided_by = event.author;
 }

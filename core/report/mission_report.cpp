@@ -128,7 +128,7 @@ Table ObjectsTable(const ReportedScan& reported) {
     const DetectionRecord& record = object.record;
     const Verdict& verdict = VerdictOf(object.detection);
     std::string decision = ToString(record.decision);
-    if (record.decided_candidate > 0)
+    if (record.decision != Decision::kOpen && record.decided_candidate > 0)
       decision += fmt::format(" (answer {})", record.decided_candidate + 1);
     if (!record.decided_by.empty())
       decision += fmt::format(" by {}, {}", record.decided_by, UtcText(record.decided_utc_ns));

@@ -13,11 +13,12 @@ struct BurstHealth {
   std::string trouble;       ///< why the head sends none; empty when it does
 };
 
-/// What this computer knows of the operator's last stop.
+/// What this computer knows of the operator's last stop, or of the last end of a scan that the
+/// operator asked for.
 enum class StopAnswer {
   kNone,     ///< there was no stop
   kWaiting,  ///< it is sent again and again, and the head has not answered
-  kObeyed,   ///< the head answered that it told its motor to stop
+  kObeyed,   ///< the head answered that it did so: told its motor to stop, told the scan to end
   kRefused,  ///< the head answered that it does not obey
   kUnknown,  ///< the head did not answer in time; it is sent no longer
 };
@@ -33,6 +34,8 @@ struct LinkHealth {
   double left_s = 0.0;            ///< at that rate; infinite where nothing comes
   BurstHealth burst;
   StopAnswer stop = StopAnswer::kNone;
+  StopAnswer end_scan = StopAnswer::kNone;
+  std::string end_scan_refusal;  ///< why, where that is kRefused
   bool has_control = false;
   std::string holder;   ///< who has control; empty = nobody
   std::string address;  ///< of the head

@@ -5,8 +5,7 @@
 #include <QLabel>
 
 #include "tests/display/paint_counter.h"
-#include "tests/ui/fake_head.h"
-#include "tests/ui/fake_link.h"
+#include "tests/ui/linked_head.h"
 #include "ui/panels/device_lamps.h"
 #include "ui/panels/head_device_rows.h"
 #include "ui/panels/head_strip.h"
@@ -57,12 +56,6 @@ TEST_F(DeviceLampsOnScreen, NameTheDevicesAndNothingElseWhileAllIsWell) {
 }
 
 TEST(DeviceLampsOverALink, HaveALampForTheLinkThatSaysWhenItIsLost) {
-  class LinkedHead final : public FakeHead {
-   public:
-    using FakeHead::FakeHead;
-    HeadLink* Link() override { return &link; }
-    FakeLink link;
-  };
   const auto head = std::make_shared<LinkedHead>(DefaultSensorRig());
   head->link.health.connected = head->link.health.has_control = true;
   head->link.health.address = "robot:47130";
@@ -110,6 +103,24 @@ TEST_F(DeviceLampsOnScreen, NumbersThatChangeAllTheTimeDrawNothing) {
     QCoreApplication::processEvents();
   }
   EXPECT_EQ(counter.Paints(), 0) << counter.Widgets();
+}
+
+TEST(HeadStripOverALink, ShowsTheHeadsMessageAlsoWhileTheLinkIsLost) {
+  const auto head = std::make_shared<LinkedHead>(DefaultSensorRig());
+  HeadViewModel model(head);
+  CommandTable commands;
+  for (const char* id : {"view.live", "head.release", "head.stop"})
+    commands.Add({.id = id, .text = QString::fromLatin1(id), .run = [] {}});
+  HeadStrip strip(&model, &commands);
+  strip.resize(2400, strip.sizeHint().height());
+  strip.show();
+  head->link.health.connected = false;
+  head->SetFault("whether it runs shows when the link is back");
+  model.Poll();
+  QCoreApplication::processEvents();
+  const auto* message = strip.findChild<QuietLabel*>();
+  EXPECT_TRUE(message->isVisible());
+  EXPECT_EQ(message->Text().toStdString(), "whether it runs shows when the link is back");
 }
 
 TEST_F(DeviceLampsOnScreen, ALongMessageOfTheHeadMakesTheStripNoHigher) {

@@ -32,8 +32,9 @@ TEST(Hints, TheMissionsObjectsAndNotesOfBeforeAreMentioned) {
       if (label->text().contains(text)) return true;
     return false;
   };
-  EXPECT_TRUE(mentions(objects, QStringLiteral("The mission holds 2 objects of before")));
-  EXPECT_TRUE(mentions(notes, QStringLiteral("The mission holds 1 note of before")));
+  EXPECT_TRUE(
+      mentions(objects, QStringLiteral("The mission holds 2 objects from before the restart")));
+  EXPECT_TRUE(mentions(notes, QStringLiteral("The mission holds 1 note from before the restart")));
 }
 
 TEST(Hints, AReviewedScanWithoutAnImageIsSaidToHaveNone) {

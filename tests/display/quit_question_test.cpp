@@ -7,7 +7,7 @@
 #include <QPushButton>
 #include <QTest>
 
-#include "tests/ui/fake_head.h"
+#include "tests/ui/linked_head.h"
 #include "tests/ui/wait_for.h"
 
 namespace foresight {
@@ -69,6 +69,19 @@ TEST_F(QuitQuestionOnScreen, TheQuestionGoesWhenTheSweepIsOver) {
   model.Poll();
   EXPECT_TRUE(window.Question() == nullptr || !window.Question()->isVisible());
   EXPECT_TRUE(window.close());
+}
+
+TEST(QuitQuestionOverALink, AnotherOperatorsSweepGoesOnWhenThisWindowCloses) {
+  const auto head = std::make_shared<LinkedHead>(DefaultSensorRig());
+  head->link.health.connected = true;
+  HeadViewModel model(head);
+  AskingWindow window(&model);
+  window.show();
+  head->SetState(HeadState::kSweeping);
+  model.Poll();
+  EXPECT_TRUE(window.close());
+  EXPECT_EQ(window.Question(), nullptr);
+  EXPECT_FALSE(head->Stopped());
 }
 
 }  // namespace

@@ -105,6 +105,33 @@ TEST(ReplayScan, AnObjectIsThereFromWhenItWasFoundAndStandsAsItStoodThen) {
   EXPECT_NE(replay.ObjectStatesAt(After(replay, 9.1)), replay.ObjectStatesAt(After(replay, 10.1)));
 }
 
+TEST(ReplayScan, ADecisionIsAboutTheAnswerThatItNamedThen) {
+  ReplayScan replay = TwoSecondScan();
+  using Action = DetectionEvent::Action;
+  ReviewedObject valve;
+  ValveDetection detection;
+  detection.alternatives = {detection.best};
+  valve.object.detection = detection;
+  valve.object.decision = Decision::kAccepted;
+  valve.object.decided_candidate = 1;
+  valve.found_utc_ns = After(replay, 5.0);
+  valve.actions = {{After(replay, 6.0), "anna", Action::kRejected, "answer 2"},
+                   {After(replay, 7.0), "anna", Action::kReopened, ""},
+                   {After(replay, 8.0), "anna", Action::kAccepted, "answer 9"},
+                   {After(replay, 9.0), "anna", Action::kAccepted, ""},
+                   {After(replay, 10.0), "anna", Action::kAccepted, "answer 2"}};
+  replay.reviewed.objects = {valve};
+  const auto candidate_after = [&](double seconds) {
+    return replay.ObjectsAt(After(replay, seconds)).at(0).decided_candidate;
+  };
+  EXPECT_EQ(candidate_after(5.1), 0) << "nothing was decided yet";
+  EXPECT_EQ(candidate_after(6.1), 1);
+  EXPECT_EQ(candidate_after(7.1), 0);
+  EXPECT_EQ(candidate_after(8.1), 1) << "there is no ninth";
+  EXPECT_EQ(candidate_after(9.1), 0);
+  EXPECT_EQ(candidate_after(10.1), 1);
+}
+
 TEST(ReplayScan, DepthIsThereFromWhenItWasComputedOrElseFromTheScansEnd) {
   ReplayScan replay = TwoSecondScan();
   EXPECT_FALSE(replay.HasDepthAt(0, replay.end_utc_ns - 1));

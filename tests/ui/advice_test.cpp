@@ -51,6 +51,14 @@ TEST(StateText, AnAcceptedAlternativeDoesNotBorrowTheVerdictOfTheBestAnswer) {
   EXPECT_EQ(StateText(valve, true).toStdString(), "accepted, although UNSURE");
 }
 
+TEST(StateText, ATerrainWithoutASurfaceIsUnsureAndNotWithoutAWord) {
+  FoundObject terrain;
+  TerrainDetection nothing;
+  nothing.verdict.level = VerdictLevel::kUnsure;
+  terrain.detection = nothing;
+  EXPECT_EQ(StateText(terrain, true).toStdString(), "UNSURE");
+}
+
 TEST(Advice, WhatWasRejectedIsNotAdvised) {
   FoundObject valve = ConfirmedValve();
   valve.decision = Decision::kRejected;

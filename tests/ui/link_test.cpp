@@ -134,6 +134,77 @@ TEST_F(HeadOverALink, AStopWithoutAnAnswerOrWithARefusalIsNeverCalledDone) {
   }
 }
 
+TEST_F(HeadOverALink, AHeadInFaultOrNotConnectedIsNeverCalledStopped) {
+  head->link.health.stop = StopAnswer::kObeyed;
+  model.stop();
+  head->SetFault("the motor does not answer");
+  model.Poll();
+  EXPECT_FALSE(model.Answers().StopConfirmed());
+  EXPECT_EQ(Text(), "STOP answered, the head is in fault: see that it stands");
+  head->SetState(HeadState::kDisconnected);
+  model.Poll();
+  EXPECT_EQ(Text(), "STOP answered, the head is not connected: see that it stands");
+}
+
+TEST(HeadInThisProcess, InFaultItIsNotCalledStoppedEither) {
+  const auto head = std::make_shared<FakeHead>(DefaultSensorRig());
+  HeadViewModel model(head);
+  head->SetFault("the motor does not answer");
+  model.stop();
+  EXPECT_EQ(model.Answers().Text().toStdString(),
+            "STOP answered, the head is in fault: see that it stands");
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  EXPECT_EQ(model.Answers().Text().toStdString(), "Head: STOPPED");
+}
+
+TEST_F(HeadOverALink, AnAbortThatEndsInAFaultAsksToSeeThatTheHeadStands) {
+  FallSilent(5.0);
+  model.abort();
+  head->link.health.connected = true;
+  head->SetFault("the motor does not answer");
+  model.Poll();
+  EXPECT_EQ(Top(), "The scan was ended, and the head is in fault.");
+  EXPECT_TRUE(log.Top()->notice.next.startsWith("See that it stands"));
+}
+
+TEST_F(HeadOverALink, AnAbortThatTheHeadRefusesIsToldWithItsReasonUntilTheSweepIsOver) {
+  FallSilent(5.0);
+  model.abort();
+  head->link.health.connected = true;
+  head->link.health.end_scan = StopAnswer::kRefused;
+  head->link.health.end_scan_refusal = "anna does not have control: ben has it";
+  head->SetState(HeadState::kSweeping);
+  model.Poll();
+  EXPECT_EQ(Top(), "The head refused Abort: anna does not have control: ben has it");
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  EXPECT_EQ(Top(), "");
+}
+
+TEST_F(HeadOverALink, ASweepOfAnotherOperatorIsNotOursAlsoWhileOurScanStillComes) {
+  EXPECT_TRUE(model.MovesForUs()) << "this station has control";
+  head->link.health.has_control = false;
+  model.Poll();
+  EXPECT_FALSE(model.MovesForUs());
+  model.StopForGood();
+  EXPECT_FALSE(head->Stopped());
+  head->link.health.has_control = true;
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  model.scan();
+  head->link.health.has_control = false;
+  head->Deliver(WallAndValveScan({}), 20);
+  model.Poll();
+  EXPECT_TRUE(model.MovesForUs()) << "it was started here";
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  ASSERT_TRUE(model.Receiving());
+  head->SetState(HeadState::kSweeping);
+  model.Poll();
+  EXPECT_FALSE(model.MovesForUs());
+}
+
 TEST_F(HeadOverALink, ASilentHeadIsNotShownAsIfItsLastWordWereCurrent) {
   FallSilent(12.3);
   EXPECT_EQ(Text(), "Head: no word for 12 s (was sweeping)");

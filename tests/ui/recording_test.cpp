@@ -220,7 +220,8 @@ TEST_F(RecordingTest, AnInterruptedMissionThatIsGoneOnWithSaysWhatItHolds) {
   EXPECT_TRUE(later.Earlier().interrupted.isValid());
   ASSERT_EQ(told.size(), 1u);
   EXPECT_TRUE(told[0].what.startsWith("The program ended unexpectedly the last time."));
-  EXPECT_TRUE(told[0].next.startsWith("It holds 2 scans and 1 object of before. The scan of "))
+  EXPECT_TRUE(told[0].next.startsWith(
+      "It holds 2 scans and 1 object from before the restart. The scan of "))
       << told[0].next.toStdString();
   EXPECT_TRUE(NoScanHint(later).endsWith("was interrupted."));
   EXPECT_TRUE(EarlierObjectsHint(later).contains("1 object"));

@@ -403,6 +403,31 @@ TEST_F(SessionTest, AcceptingWhatIsUnsureIsPossibleAndSaidOnce) {
   over.clear();
   session.Undo()->undo();
   EXPECT_TRUE(over.contains(notices[0].topic)) << "it was taken back";
+  session.Undo()->redo();
+  EXPECT_EQ(notices.size(), 2u) << "it is accepted again";
+  session.AddObject(ValveWithTwoAlternatives());
+  over.clear();
+  session.Decide(Decision::kRejected);
+  EXPECT_FALSE(over.contains(notices[0].topic)) << "that is another object";
+}
+
+TEST_F(SessionTest, AnUnsureAnswerAsLikelyAsTheBestOneIsWarnedOfWithTheBestOnesReason) {
+  FoundObject valve = ValveWithTwoAlternatives();
+  auto& found = std::get<ValveDetection>(valve.detection);
+  found.verdict = {VerdictLevel::kUnsure, 0.3, "Little of the rim is seen.", {}};
+  found.alternatives[0].log_likelihood = found.best.log_likelihood;
+  found.alternatives[1].log_likelihood = found.best.log_likelihood - 275.0;
+  session.AddObject(valve);
+  session.nextCandidate();
+  session.Decide(Decision::kAccepted);
+  session.nextCandidate();
+  session.Decide(Decision::kAccepted);
+  session.Decide(Decision::kOpen);
+  EXPECT_EQ(session.Objects()[0].decided_candidate, 0);
+  ASSERT_EQ(notices.size(), 2u);
+  EXPECT_EQ(notices[0].what.toStdString(), "Accepted although UNSURE: Little of the rim is seen.");
+  EXPECT_EQ(notices[1].what.toStdString(),
+            "Accepted although UNSURE: the best answer explains the measurements better.");
 }
 
 TEST_F(SessionTest, ADeletedObjectComesBackWhereItWas) {

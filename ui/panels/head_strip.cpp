@@ -114,7 +114,7 @@ void HeadStrip::ShowStatus() {
   release_->setVisible(head_->StopLatched());
   ShowMotion(status, answers);
   message_->SetText(QString::fromStdString(status.message));
-  row_->SetWanted(message_, answers.Current() && !status.message.empty());
+  row_->SetWanted(message_, !status.message.empty());
   row_->Arrange();
 }
 

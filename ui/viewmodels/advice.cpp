@@ -26,6 +26,12 @@ const Verdict* OwnVerdict(const Detection& detection, int candidate) {
   return candidate <= 0 ? &VerdictOf(detection) : nullptr;
 }
 
+/// As OwnVerdict; of a terrain in which no surface was found, why that is.
+const Verdict* StatedVerdict(const Detection& detection, int candidate) {
+  const Verdict* own = OwnVerdict(detection, candidate);
+  return own == nullptr && candidate == 0 ? &VerdictOf(detection) : own;
+}
+
 QString WhyNotToActOn(bool is_current, SessionMode mode, Decision decision) {
   if (mode == SessionMode::kReplay)
     return AdviceTexts::tr("Review: do not act on it. The scene may have changed since.");
@@ -72,7 +78,7 @@ QString ReasonFor(const Detection& detection, int candidate) {
 
 QString StateText(const FoundObject& object, bool is_current) {
   const int candidate = object.decision == Decision::kOpen ? 0 : object.decided_candidate;
-  const Verdict* own = OwnVerdict(object.detection, candidate);
+  const Verdict* own = StatedVerdict(object.detection, candidate);
   const bool doubtful = object.decision == Decision::kAccepted &&
                         CandidateLevel(object.detection, candidate) == VerdictLevel::kUnsure;
   QStringList parts;

@@ -89,9 +89,14 @@ QString HeadAnswers::Silence() const {
   return ShortTime(link_ ? link_->age_s : 0.0);
 }
 
+/// A head in fault told its motor to stop, and does not know that it did; one that is not connected
+/// knows nothing of its motor.
 bool HeadAnswers::Stands() const {
-  return state_ == HeadState::kReady || state_ == HeadState::kDisconnected ||
-         state_ == HeadState::kFault;
+  return state_ == HeadState::kReady;
+}
+
+bool HeadAnswers::KnowsNotWhetherItStands() const {
+  return state_ == HeadState::kFault || state_ == HeadState::kDisconnected;
 }
 
 void HeadAnswers::LookAtLink(News* news) {
@@ -105,7 +110,7 @@ void HeadAnswers::LookAtLink(News* news) {
                             .arg(QString::fromStdString(link_->address));
   news->notices << Notice{
       Notice::Level::kWarning, AnswerTexts::tr("The link is lost: no word from the head."),
-      (Stands()
+      (Stands() || state_ == HeadState::kDisconnected
            ? AnswerTexts::tr("What is shown of the head is old.")
            : AnswerTexts::tr("The head may still move. What it measures comes when the link is "
                              "back.")) +
@@ -117,7 +122,8 @@ void HeadAnswers::LookAtStop(News* news) {
   if (!StopLatched()) return;
   const StopAnswer answer = link_ ? link_->stop : StopAnswer::kObeyed;
   const bool obeyed = answer == StopAnswer::kObeyed;
-  stop_confirmed_ = !link_ || (obeyed && Stands() && (Current() || stop_confirmed_));
+  stop_confirmed_ =
+      link_ ? obeyed && Stands() && (Current() || stop_confirmed_) : !KnowsNotWhetherItStands();
   if (stop_told_ == answer) return;
   stop_told_ = answer;
   news->over << kStopTopic;
@@ -126,9 +132,32 @@ void HeadAnswers::LookAtStop(News* news) {
 
 void HeadAnswers::LookAtAbort(News* news) {
   if (abort_ == Abort::kNone) return;
+  if (Current() && KnowsNotWhetherItStands()) {
+    abort_ = Abort::kNone;
+    news->over << kAbortTopic;
+    news->notices << Notice{Notice::Level::kWarning,
+                            state_ == HeadState::kFault
+                                ? AnswerTexts::tr("The scan was ended, and the head is in fault.")
+                                : AnswerTexts::tr("The scan was ended, and the head is not "
+                                                  "connected."),
+                            AnswerTexts::tr("See that it stands, then press Home."), kAbortTopic};
+    return;
+  }
   if (!link_ || (Current() && Stands())) {
     abort_ = Abort::kNone;
     news->over << kAbortTopic;
+    return;
+  }
+  if (abort_ == Abort::kRefused) return;
+  if (link_->end_scan == StopAnswer::kRefused) {
+    abort_ = Abort::kRefused;
+    news->over << kAbortTopic;
+    news->notices << Notice{
+        Notice::Level::kError,
+        AnswerTexts::tr("The head refused Abort: %1")
+            .arg(QString::fromStdString(link_->end_scan_refusal)),
+        AnswerTexts::tr("The head sweeps on. STOP HEAD stops it without control, too."),
+        kAbortTopic};
     return;
   }
   const double waited_s = now_s_ - abort_pressed_s_;
@@ -157,10 +186,15 @@ QString HeadAnswers::StopText() const {
   if (stop_confirmed_)
     return Current() ? AnswerTexts::tr("Head: STOPPED")
                      : AnswerTexts::tr("Head: STOPPED, no word for %1").arg(Silence());
-  switch (link_ ? link_->stop : StopAnswer::kNone) {
+  switch (link_ ? link_->stop : StopAnswer::kObeyed) {
     case StopAnswer::kRefused:
       return AnswerTexts::tr("STOP refused");
     case StopAnswer::kObeyed:
+      if (Current() && KnowsNotWhetherItStands())
+        return state_ == HeadState::kFault
+                   ? AnswerTexts::tr("STOP answered, the head is in fault: see that it stands")
+                   : AnswerTexts::tr(
+                         "STOP answered, the head is not connected: see that it stands");
       return Current() ? AnswerTexts::tr("STOP answered, head still %1")
                              .arg(QString::fromUtf8(ToString(state_)))
                        : AnswerTexts::tr("STOP answered, no word for %1").arg(Silence());

@@ -45,6 +45,7 @@ class HeadAnswers {
   void LookAtAbort(News* news);
   QString StopText() const;
   bool Stands() const;
+  bool KnowsNotWhetherItStands() const;
 
   double now_s_ = 0.0;
   std::optional<LinkHealth> link_;
@@ -53,7 +54,7 @@ class HeadAnswers {
   std::optional<double> stop_pressed_s_;  ///< empty = not pressed, or released
   bool stop_confirmed_ = false;
   std::optional<StopAnswer> stop_told_;  ///< the answer that the operator was told of
-  enum class Abort { kNone, kSent, kDoubted, kGivenUp } abort_ = Abort::kNone;
+  enum class Abort { kNone, kSent, kDoubted, kGivenUp, kRefused } abort_ = Abort::kNone;
   double abort_pressed_s_ = 0.0;
 };
 

@@ -302,6 +302,18 @@ bool HeadViewModel::Sweeps() const {
   return status_.state == HeadState::kSweeping || status_.state == HeadState::kStopping;
 }
 
+bool HeadViewModel::HasControl() const {
+  return !link_health_ || link_health_->has_control;
+}
+
+bool HeadViewModel::OwnSweep() const {
+  return live_ != nullptr && !own_sweep_over_;
+}
+
+bool HeadViewModel::MovesForUs() const {
+  return OwnSweep() || (CanAbort() && HasControl());
+}
+
 void HeadViewModel::Poll() {
   head_->OperatorSeen();  // a window that hangs does not say so, and the head stops its motor
   const HeadStatus before = status_;
@@ -313,6 +325,8 @@ void HeadViewModel::Poll() {
   PollAnswers();
   ShowDevices();
   if (live_) PollScan();
+  // What the head sweeps later, while the scan still comes, may be another operator's.
+  if (Receiving()) own_sweep_over_ = true;
   if (ended_) PollLateLines();
   // A signal for nothing would draw the window again, ten times a second.
   if (!LooksSame(before, status_) || scanned != Scanning() || devices_before != devices_ ||
@@ -391,6 +405,7 @@ void HeadViewModel::scan() {
     return;
   }
   live_ = std::move(live);
+  own_sweep_over_ = false;
   early_.reset();
   ended_.reset();
   polls_ = polls_without_scan_ = lines_shown_ = frames_shown_ = 0;
@@ -425,8 +440,8 @@ void HeadViewModel::StopLiveView() {
 }
 
 void HeadViewModel::StopForGood() {
-  if (live_) head_->AbortScan();
-  head_->StopMotor();
+  if (OwnSweep()) head_->AbortScan();
+  if (OwnSweep() || HasControl()) head_->StopMotor();
   Poll();
 }
 

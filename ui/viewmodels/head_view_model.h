@@ -105,6 +105,9 @@ class HeadViewModel : public QObject {
   bool Scanning() const { return live_ != nullptr; }
   /// Whether the sweep is over and the scan still comes over the link. The next one may start.
   bool Receiving() const;
+  /// Whether the head sweeps for this station: what was started here, or anything while this
+  /// station has control. Another operator's sweep is none of it.
+  bool MovesForUs() const;
 
   /// Captures and sweeps that are no scans: shown nowhere and not recorded. Fail with kState after
   /// a stop that was not released, and as the head's own.
@@ -125,7 +128,8 @@ class HeadViewModel : public QObject {
   /// operator is there.
   void Poll();
 
-  /// Before the program ends: ends the running scan and stops the motor.
+  /// Before the program ends: ends the running scan and stops the motor, unless another operator
+  /// has the head.
   void StopForGood();
 
  public Q_SLOTS:
@@ -164,6 +168,8 @@ class HeadViewModel : public QObject {
   void ShowDevices();
   QVector<DeviceRow> DescribeDevices() const;
   bool Sweeps() const;
+  bool OwnSweep() const;
+  bool HasControl() const;
   QString WhyNoWord() const;
 
   std::shared_ptr<SensorHead> head_;
@@ -178,6 +184,7 @@ class HeadViewModel : public QObject {
   PlanFields plan_;
   std::function<std::shared_ptr<ScanSink>()> recorder_source_;
   std::shared_ptr<ScanAssembler> live_;
+  bool own_sweep_over_ = false;             ///< of live_, which may still come over the link
   std::shared_ptr<const EarlyScan> early_;  ///< that scanCame told last
   int polls_ = 0;
   int polls_without_scan_ = 0;

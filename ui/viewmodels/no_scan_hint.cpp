@@ -52,18 +52,21 @@ QString InterruptedText(const EarlierContents& earlier) {
 QString EarlierObjectsHint(const SessionModel& session) {
   const int objects = session.Earlier().objects;
   if (session.Mode() == SessionMode::kReplay || objects == 0) return {};
-  return Counted(objects,
-                 "The mission holds 1 object of before: choose its scan in the list of "
-                 "scans.",
-                 "The mission holds %1 objects of before: choose their scans in the list of "
-                 "scans.");
+  return Counted(
+      objects,
+      "The mission holds 1 object from before the restart: choose its scan in the list of "
+      "scans.",
+      "The mission holds %1 objects from before the restart: choose their scans in the list of "
+      "scans.");
 }
 
 QString EarlierNotesHint(const SessionModel& session) {
   const int notes = session.Earlier().notes;
   if (session.Mode() == SessionMode::kReplay || notes == 0) return {};
-  return Counted(notes, "The mission holds 1 note of before: choose a scan in the list of scans.",
-                 "The mission holds %1 notes of before: choose a scan in the list of scans.");
+  return Counted(
+      notes,
+      "The mission holds 1 note from before the restart: choose a scan in the list of scans.",
+      "The mission holds %1 notes from before the restart: choose a scan in the list of scans.");
 }
 
 }  // namespace foresight

@@ -14,8 +14,8 @@ QString NoScanHint(const SessionModel& session);
 QString EarlierText(const EarlierContents& earlier);
 /// "The scan of 14:03:21 was interrupted."; empty where the last one was not.
 QString InterruptedText(const EarlierContents& earlier);
-/// That the mission holds objects, or notes, of before, and where they are; empty where it does
-/// not.
+/// That the mission holds objects, or notes, from before the restart, and where they are; empty
+/// where it does not.
 QString EarlierObjectsHint(const SessionModel& session);
 QString EarlierNotesHint(const SessionModel& session);
 

@@ -22,16 +22,19 @@ struct Notice {
   bool operator==(const Notice&) const = default;
 };
 
-/// Topics: the last scan, the operator's stop and abort, the link to the head, the decision on an
-/// object, the mission file that is written, the one that the program left behind when it was
-/// killed.
+/// Topics: the last scan, the operator's stop and abort, the link to the head, the mission file
+/// that is written, the one that the program left behind when it was killed.
 inline const QString kScanTopic = QStringLiteral("scan");
 inline const QString kStopTopic = QStringLiteral("stop");
 inline const QString kAbortTopic = QStringLiteral("abort");
 inline const QString kLinkTopic = QStringLiteral("link");
-inline const QString kDecisionTopic = QStringLiteral("decision");
 inline const QString kRecordingTopic = QStringLiteral("recording");
 inline const QString kInterruptedTopic = QStringLiteral("interrupted");
+
+/// Topic: the decision on this object.
+inline QString DecisionTopic(const std::string& object_uuid) {
+  return QStringLiteral("decision ") + QString::fromStdString(object_uuid);
+}
 
 /// The notice for a failed step; `doing` starts the sentence, e.g. "Fitting the valve".
 Notice NoticeOf(const QString& doing, const Error& error);

@@ -169,13 +169,13 @@ bool RecordingViewModel::Begin(const QString& path) {
   Use(std::move(file), earlier);
   if (left_behind) {
     const QString held = EarlierText(earlier);
-    session_->Report(
-        {Notice::Level::kWarning,
-         tr("The program ended unexpectedly the last time. Recording goes on in the "
-            "same mission."),
-         held.isEmpty()
-             ? tr("It was empty.")
-             : (tr("It holds %1 of before. ").arg(held) + InterruptedText(earlier)).trimmed()});
+    session_->Report({Notice::Level::kWarning,
+                      tr("The program ended unexpectedly the last time. Recording goes on in the "
+                         "same mission."),
+                      held.isEmpty() ? tr("It was empty.")
+                                     : (tr("It holds %1 from before the restart. ").arg(held) +
+                                        InterruptedText(earlier))
+                                           .trimmed()});
   }
   return true;
 }

@@ -2,8 +2,15 @@
 
 #include <algorithm>
 
+#include "core/detection/candidates.h"
+
 namespace foresight {
 namespace {
+
+int NamedCandidate(const DetectionEvent& decision, const Detection& detection) {
+  return std::clamp(DecidedCandidateOf(decision.text), 0,
+                    std::max(0, CandidateCount(detection) - 1));
+}
 
 /// The object after the first `count` of what was done to it.
 FoundObject After(const ReviewedObject& reviewed, std::size_t count, bool* deleted) {
@@ -11,17 +18,21 @@ FoundObject After(const ReviewedObject& reviewed, std::size_t count, bool* delet
   FoundObject object = reviewed.object;
   object.name.clear();
   object.decision = Decision::kOpen;
+  object.decided_candidate = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const DetectionEvent& action = reviewed.actions[i];
     switch (action.action) {
       case DetectionEvent::Action::kAccepted:
         object.decision = Decision::kAccepted;
+        object.decided_candidate = NamedCandidate(action, object.detection);
         break;
       case DetectionEvent::Action::kRejected:
         object.decision = Decision::kRejected;
+        object.decided_candidate = NamedCandidate(action, object.detection);
         break;
       case DetectionEvent::Action::kReopened:
         object.decision = Decision::kOpen;
+        object.decided_candidate = 0;
         break;
       case DetectionEvent::Action::kRenamed:
         object.name = QString::fromStdString(action.text);

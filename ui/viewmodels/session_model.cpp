@@ -165,6 +165,7 @@ void SessionModel::Touch(const ObjectEvent& event) {
         break;
       case DetectionEvent::Action::kReopened:
         object->decision = Decision::kOpen;
+        object->decided_candidate = 0;
         break;
       case DetectionEvent::Action::kRenamed:
         object->name = event.text;
@@ -180,7 +181,7 @@ void SessionModel::Touch(const ObjectEvent& event) {
   }
   if (event.action != DetectionEvent::Action::kSent &&
       event.action != DetectionEvent::Action::kRenamed)
-    Q_EMIT settled(kDecisionTopic);
+    Q_EMIT settled(DecisionTopic(event.uuid));
   Q_EMIT objectTouched(event);
   Q_EMIT objectsChanged();
 }
@@ -188,7 +189,8 @@ void SessionModel::Touch(const ObjectEvent& event) {
 void SessionModel::Decide(Decision decision) {
   const FoundObject* object = Selected();
   if (object == nullptr) return;
-  if (object->decision == decision && object->decided_candidate == candidate_) return;
+  const int decided = decision == Decision::kOpen ? 0 : candidate_;
+  if (object->decision == decision && object->decided_candidate == decided) return;
   // What was on the screen is what was decided on: a surface of a terrain, or an alternative.
   const auto event = [uuid = object->uuid](Decision value, int candidate) {
     // Not translated: it is read back from the mission.
@@ -203,14 +205,18 @@ void SessionModel::Decide(Decision decision) {
   const QString text = decision == Decision::kAccepted   ? tr("Accept object")
                        : decision == Decision::kRejected ? tr("Reject object")
                                                          : tr("Take a decision back");
+  const auto decide = [this, event, uuid = object->uuid](Decision value, int candidate) {
+    Touch(event(value, candidate));
+    const FoundObject* decided_on = Find(uuid);
+    if (value == Decision::kAccepted && decided_on != nullptr) WarnOfUnsure(*decided_on);
+  };
   undo_.Push(
       text, kObjectTopic,
-      [this, event, before = object->decision, candidate = object->decided_candidate] {
-        Touch(event(before, candidate));
+      [decide, before = object->decision, candidate = object->decided_candidate] {
+        decide(before, candidate);
       },
-      [this, event, decision, candidate = candidate_] { Touch(event(decision, candidate)); });
-  Touch(event(decision, candidate_));
-  if (decision == Decision::kAccepted) WarnOfUnsure(*Selected());
+      [decide, decision, decided] { decide(decision, decided); });
+  decide(decision, decided);
 }
 
 /// The operator may know better; nobody is to overlook it.
@@ -218,9 +224,14 @@ void SessionModel::WarnOfUnsure(const FoundObject& accepted) {
   const int candidate = accepted.decided_candidate;
   if (CandidateLevel(accepted.detection, candidate) != VerdictLevel::kUnsure) return;
   QString why = ReasonFor(accepted.detection, candidate);
-  if (why.isEmpty()) why = tr("the best answer explains the measurements better.");
+  const auto behind = MarginBehindBest(accepted.detection, candidate);
+  if (behind && *behind >= kComparable_nats)
+    why = tr("the best answer explains the measurements better.");
+  else if (why.isEmpty())  // it is UNSURE because the best answer is
+    why = QString::fromStdString(VerdictOf(accepted.detection).reason);
   Report({Notice::Level::kWarning, tr("Accepted although UNSURE: %1").arg(why),
-          tr("Do not act on it without another look. Ctrl+Z takes it back."), kDecisionTopic});
+          tr("Do not act on it without another look. Ctrl+Z takes it back."),
+          DecisionTopic(accepted.uuid)});
 }
 
 void SessionModel::KeepSending(const std::string& uuid, const QString& answer) {

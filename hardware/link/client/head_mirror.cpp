@@ -58,7 +58,11 @@ HeadStatus HeadMirror::Now() const {
     status.message = asked_message_;
   }
   const double age_s = LinkSession::Now() - heard_s_;
-  if (age_s > kQuiet_s)
+  if (age_s <= kQuiet_s) return status;
+  // What this end has to tell is no old word, and comes first: a strip cuts the end off.
+  if (!asked_ && !own_message_.empty())
+    status.message = fmt::format("{}; no word from the head for {:.0f} s", own_message_, age_s);
+  else
     status.message = fmt::format("no word from the head for {:.0f} s{}", age_s,
                                  status.message.empty() ? "" : "; before: " + status.message);
   return status;

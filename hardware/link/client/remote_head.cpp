@@ -185,6 +185,11 @@ LinkHealth RemoteHead::Health() const {
     health.burst = {true, counts.bytes, counts.Refused(), burst_->Trouble()};
   }
   health.stop = stopper_->Answer();
+  {
+    const std::lock_guard lock(mutex_);
+    health.end_scan = end_scan_;
+    health.end_scan_refusal = end_scan_refusal_;
+  }
   health.has_control = !session_.Token().empty();
   health.holder = session_.Holder();
   health.address = options_.address;
@@ -365,10 +370,38 @@ void RemoteHead::EndScan(const std::string& reason) {
   link::Command command;
   command.mutable_end_scan()->set_scan_id(mirror_.ScanOnHead());
   command.mutable_end_scan()->set_reason(reason);
-  commands_->Send(std::move(command), [this](const CommandEnd& end) {
-    if (end.kind != CommandEnd::Kind::kDone)
-      mirror_.Tell("the scan was not ended: " + end.error.message);
-  });
+  int asked = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    asked = ++ends_asked_;
+    end_scan_ = StopAnswer::kWaiting;
+  }
+  commands_->Send(std::move(command),
+                  [this, asked](const CommandEnd& end) { OnScanEndAnswer(asked, end); });
+}
+
+void RemoteHead::OnScanEndAnswer(int asked, const CommandEnd& end) {
+  // Before the refusal: a scan that ended by itself meanwhile is none that sweeps on.
+  if (end.outcome.has_status())
+    static_cast<void>(mirror_.Take(end.outcome.status(), end.outcome.desk_time_s()));
+  if (end.kind != CommandEnd::Kind::kDone)
+    mirror_.Tell("the scan was not ended: " + end.error.message);
+  const std::lock_guard lock(mutex_);
+  // An end that was asked for meanwhile waits for its own answer.
+  if (asked != ends_asked_) return;
+  end_scan_refusal_.clear();
+  switch (end.kind) {
+    case CommandEnd::Kind::kDone:
+      end_scan_ = StopAnswer::kObeyed;
+      break;
+    case CommandEnd::Kind::kRefused:
+      end_scan_ = StopAnswer::kRefused;
+      end_scan_refusal_ = end.error.message;
+      break;
+    case CommandEnd::Kind::kUnknown:
+      end_scan_ = StopAnswer::kUnknown;
+      break;
+  }
 }
 
 void RemoteHead::StopMotor() {

@@ -81,6 +81,7 @@ class RemoteHead final : public SensorHead, public HeadLink {
   foresight::Status FetchRig();
   foresight::Status FetchStand();
   foresight::Status MayAct(const char* what) const;
+  void OnScanEndAnswer(int asked, const CommandEnd& end);
   void OnBegin();
   void OnEvent(const link::Event& event);
 
@@ -93,6 +94,9 @@ class RemoteHead final : public SensorHead, public HeadLink {
   std::string rig_id_;
   HeadMotion motion_;
   std::string boot_id_;
+  int ends_asked_ = 0;  ///< of scans
+  StopAnswer end_scan_ = StopAnswer::kNone;
+  std::string end_scan_refusal_;
   std::shared_ptr<StopsClient> stops_;
   std::unique_ptr<LookClient> look_;
   std::unique_ptr<BurstClient> burst_;

@@ -6,7 +6,8 @@ namespace foresight {
 namespace {
 
 constexpr double kGiveUp_s = 60.0;
-constexpr std::chrono::milliseconds kStopTry{1500};
+/// One try; longer than that of a command: over a link that carries commands a stop is confirmed.
+constexpr std::chrono::milliseconds kStopTry{2500};
 constexpr std::chrono::milliseconds kStopPause{100};
 
 /// @param pressed_s LinkSession::Now() when it was pressed

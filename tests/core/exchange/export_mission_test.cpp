@@ -362,7 +362,7 @@ TEST_F(ExportMissionTest, TablesQuoteWhatNeedsIt) {
             "2026-11-22T13:06:33.250Z,operator,info,\"said \"\"go\"\", then\nwaited\",\r\n");
   const std::string detections = ReadFile(Out("detections.csv")).value();
   EXPECT_THAT(detections, HasSubstr(",valve,"));
-  EXPECT_THAT(detections, HasSubstr(",accepted,2026-11-22T13:06:34.250Z,operator,false,"));
+  EXPECT_THAT(detections, HasSubstr(",accepted,2026-11-22T13:06:34.250Z,operator,false,1,"));
   const std::string scans = ReadFile(Out("scans.csv")).value();
   EXPECT_THAT(scans, HasSubstr(scan_.uuid));
   EXPECT_THAT(scans, HasSubstr(",complete,"));

@@ -56,6 +56,19 @@ class MergeMissionsTest : public testing::Test {
   const std::filesystem::path target_ = folder_ / "merged.foresight";
 };
 
+TEST_F(MergeMissionsTest, ADecisionOnAnotherAnswerIsADifference) {
+  const auto a = Mission("a.foresight", {1}), b = folder_ / "b.foresight";
+  std::filesystem::copy_file(a, b);
+  const auto mission = MissionFile::Open(b).value();
+  const std::int64_t valve = mission->ListDetections()->at(0).id;
+  ASSERT_TRUE(mission->AddDetectionEvent(
+      valve, {45, "operator", DetectionEvent::Action::kAccepted, "answer 2"}));
+  ASSERT_TRUE(mission->Close());
+  const auto differences = Diff(a, b);
+  ASSERT_EQ(differences.size(), 1u);
+  EXPECT_EQ(differences[0].text, "answer decided on: was 1, is 2");
+}
+
 TEST_F(MergeMissionsTest, TwoMissionsBecomeOneAsIfRecordedInOne) {
   const auto a = Mission("a.foresight", {1, 2}), b = Mission("b.foresight", {3});
   const MergeReport report = Merge({a, b}).value();

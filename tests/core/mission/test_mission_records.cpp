@@ -111,6 +111,22 @@ TEST_F(MissionRecords, TheLastDecisionCountsAndAllAreKept) {
   EXPECT_EQ(mission_->ListDetections()->at(0).decision, Decision::kOpen);
 }
 
+TEST_F(MissionRecords, AnObjectThatIsOpenAgainHasNoAnswerThatWasDecidedOn) {
+  const std::int64_t id = mission_->AddDetection(Valve("a")).value();
+  ASSERT_TRUE(mission_->AddDetectionEvent(id, {1, "anna", Action::kAccepted, "answer 2"}));
+  EXPECT_EQ(mission_->ListDetections()->at(0).decided_candidate, 1);
+  ASSERT_TRUE(mission_->AddDetectionEvent(id, {2, "anna", Action::kReopened, "answer 2"}));
+  EXPECT_EQ(mission_->ListDetections()->at(0).decided_candidate, 0);
+}
+
+TEST(DecidedCandidate, IsReadFromTheTextOfADecisionAndNeverNegative) {
+  EXPECT_EQ(DecidedCandidateOf("answer 1"), 0);
+  EXPECT_EQ(DecidedCandidateOf("answer 3"), 2);
+  for (const char* none : {"", "answer", "answer ", "answer 2b", "answer 0", "answer -1",
+                           "answer -2147483648", "answer 99999999999", "looks like answer 2"})
+    EXPECT_EQ(DecidedCandidateOf(none), 0) << none;
+}
+
 TEST_F(MissionRecords, AnEventBelongsToItsDetectionOnly) {
   const std::int64_t a = mission_->AddDetection(Valve("a")).value();
   const std::int64_t b = mission_->AddDetection(Valve("b")).value();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -31,6 +32,7 @@ class FakeHead final : public SensorHead {
   }
   foresight::Status Home() override {
     if (may_home.valid()) may_home.wait();
+    if (on_home) on_home();
     ++homings;
     SetState(HeadState::kReady);
     return {};
@@ -116,6 +118,7 @@ class FakeHead final : public SensorHead {
   }
 
   std::shared_future<void> may_home;  ///< where it is given, Home() waits for it
+  std::function<void()> on_home;      ///< called in Home()
   std::atomic<int> homings{0};
   std::atomic<int> scans{0};
   std::atomic<int> stops{0};

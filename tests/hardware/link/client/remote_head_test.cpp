@@ -301,6 +301,19 @@ TEST_F(RemoteHeadTest, ControlThatWasGivenAwayIsNotTakenBackByItself) {
   EXPECT_TRUE(remote->Health().has_control);
 }
 
+TEST_F(RemoteHeadTest, AnEndThatTheHeadRefusesIsToldWithItsReason) {
+  const auto remote = Ready();
+  ASSERT_TRUE(remote->StartScan(ScanPlan(), std::make_shared<Collector>()));
+  ASSERT_TRUE(Eventually([&] { return head->Sink() != nullptr; }));
+  EXPECT_EQ(remote->Health().end_scan, StopAnswer::kNone);
+  ASSERT_TRUE(remote->GiveControl(""));
+  ASSERT_TRUE(bench.desk().TakeControl({}, {"bert", true}).granted());
+  remote->AbortScan();
+  EXPECT_TRUE(Eventually([&] { return remote->Health().end_scan == StopAnswer::kRefused; }));
+  EXPECT_THAT(remote->Health().end_scan_refusal, HasSubstr("bert has it"));
+  EXPECT_EQ(head->EndReason(), "");
+}
+
 /// Of the same name, as two programs of one person have.
 TEST_F(RemoteHeadTest, WhoLooksOnLeavesControlToWhoHasIt) {
   const auto operating = Ready();

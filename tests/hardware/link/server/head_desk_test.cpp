@@ -191,6 +191,19 @@ TEST_F(HeadDeskTest, AStopVoidsWhatWasAskedForUntilItWasPressed) {
   EXPECT_EQ(desk.Execute(next, anna).error(), link::NONE);
 }
 
+TEST_F(HeadDeskTest, AStopThatComesWhileAMovementBeginsStopsItToo) {
+  int stops_in_home = 0;
+  head->on_home = [&] {
+    desk.Stop(ben);
+    stops_in_home = head->stops;
+  };
+  link::Command command = Home("1");
+  command.set_given_s(desk.Time());
+  EXPECT_EQ(desk.Execute(command, anna).error(), link::NONE);
+  EXPECT_EQ(head->homings, 1);
+  EXPECT_EQ(head->stops, stops_in_home + 1) << "the motor may have begun after the first one";
+}
+
 TEST_F(HeadDeskTest, AScanIsKeptUnderTheStationsName) {
   desk.Execute(Home("1"), anna);
   const link::Outcome started = desk.Execute(Scan("2", "scan-7"), anna);
