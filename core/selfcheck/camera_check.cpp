@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/parallel.h"
 #include "core/calibration/tangent.h"
 #include "core/selfcheck/log_gray.h"
+#include "core/selfcheck/neighbour_groups.h"
 
 namespace foresight {
 namespace {
@@ -165,18 +165,8 @@ class EdgeMatcher {
 
   /// Interpolated; zero outside of the image.
   static Eigen::Vector2d Sampled(const Gradient& gradient, const Eigen::Vector2d& at) {
-    // NaN fails the comparison.
-    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < gradient.x.width() &&
-          at.y() < gradient.x.height()))
-      return Eigen::Vector2d::Zero();
-    const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
-    if (x + 1 >= gradient.x.width() || y + 1 >= gradient.x.height()) return Eigen::Vector2d::Zero();
-    const double fx = at.x() - x, fy = at.y() - y;
-    const auto sample = [&](const FloatImage& image) {
-      return (1.0 - fy) * ((1.0 - fx) * image(x, y) + fx * image(x + 1, y)) +
-             fy * ((1.0 - fx) * image(x, y + 1) + fx * image(x + 1, y + 1));
-    };
-    return {sample(gradient.x), sample(gradient.y)};
+    const Eigen::Vector2d sampled(Interpolated(gradient.x, at), Interpolated(gradient.y, at));
+    return sampled.allFinite() ? sampled : Eigen::Vector2d::Zero();
   }
 
   static double Strength(const Gradient& gradient, const Eigen::Vector2d& at,
@@ -230,13 +220,8 @@ std::vector<ImageEdge> EdgesInImages(const Scan& scan, const std::vector<DepthEd
       azimuths.push_back(std::atan2(edge.point.x(), edge.point.z()));
     }
   }
-  std::vector<std::size_t> order(seen.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return azimuths[a] < azimuths[b]; });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    seen[order[i]].group =
-        static_cast<int>(i * static_cast<std::size_t>(options.groups) / order.size());
+  const std::vector<int> groups = NeighbourGroups(azimuths, options.groups);
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i].group = groups[i];
   return seen;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/quantile.h"
+#include "core/base/tukey_weight.h"
 
 namespace foresight {
 namespace {
@@ -145,7 +146,7 @@ class StampAdjustment {
     for (const PatchOffset& patch : patches_) {
       const double u = Off(patch) / (scale_ * options_.tukey_sigmas);
       const double full = 1.0 / (patch.sigma_m * patch.sigma_m);
-      weights_.push_back(std::abs(u) < 1.0 ? full * std::pow(1.0 - u * u, 2) : 0.0);
+      weights_.push_back(full * TukeyWeight(u));
     }
   }
   double Without(int group) const {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/quantile.h"
+#include "core/base/tukey_weight.h"
 
 namespace foresight {
 namespace {
@@ -168,8 +169,7 @@ class PlaneAdjustment {
     const double off = std::abs(Residual(d)) / (scale_ * d.sigma_m);
     const double full = 1.0 / (d.sigma_m * d.sigma_m);
     if (huber_) return full * std::min(1.0, options_.huber_sigmas / off);
-    const double u = off / options_.tukey_sigmas;
-    return u < 1.0 ? full * std::pow(1.0 - u * u, 2) : 0.0;
+    return full * TukeyWeight(off / options_.tukey_sigmas);
   }
   /// How much more the cells scatter than their sigmas say: bent walls, unevenness.
   void UpdateScale() {

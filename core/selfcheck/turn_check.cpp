@@ -11,9 +11,11 @@
 
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
+#include "core/base/tukey_weight.h"
 #include "core/calibration/tangent.h"
 #include "core/geometry/angles.h"
 #include "core/selfcheck/log_gray.h"
+#include "core/selfcheck/neighbour_groups.h"
 
 namespace foresight {
 namespace {
@@ -44,21 +46,10 @@ struct FollowedPoint {
   std::array<Eigen::Vector3d, kPatch> in_camera;  ///< where they are seen, at the point's range
 };
 
-/// Interpolated; NaN outside.
-double Sampled(const FloatImage& image, const Eigen::Vector2d& at) {
-  if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < image.width() - 1 &&
-        at.y() < image.height() - 1))
-    return std::nan("");
-  const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
-  const double fx = at.x() - x, fy = at.y() - y;
-  return (1.0 - fy) * ((1.0 - fx) * image(x, y) + fx * image(x + 1, y)) +
-         fy * ((1.0 - fx) * image(x, y + 1) + fx * image(x + 1, y + 1));
-}
-
 Eigen::Vector2d GradientAt(const FloatImage& image, const Eigen::Vector2d& at) {
   const Eigen::Vector2d right(1.0, 0.0), down(0.0, 1.0);
-  return 0.5 * Eigen::Vector2d(Sampled(image, at + right) - Sampled(image, at - right),
-                               Sampled(image, at + down) - Sampled(image, at - down));
+  return 0.5 * Eigen::Vector2d(Interpolated(image, at + right) - Interpolated(image, at - right),
+                               Interpolated(image, at + down) - Interpolated(image, at - down));
 }
 
 /// What an image's noise alone makes of its gradient's length once it is blurred: the noise of a
@@ -355,8 +346,8 @@ class TurnAdjustment {
       const auto at = static_cast<std::size_t>(i);
       const auto pixel = rig_.camera.Project(pair.Place(point.in_camera[at]));
       if (!pixel) return says;
-      there[i] = Sampled(to.band, *pixel);
-      here[i] = Sampled(from.band, point.pixels[at]);
+      there[i] = Interpolated(to.band, *pixel);
+      here[i] = Interpolated(from.band, point.pixels[at]);
       by.row(i) = GradientAt(to.band, *pixel).transpose() * by_pixel;
     }
     if (!there.allFinite() || !here.allFinite() || !by.allFinite()) return says;
@@ -415,7 +406,7 @@ class TurnAdjustment {
       if (!says_[i].seen) continue;
       const double off = std::sqrt(says_[i].squares / kPatch / noise_) / options_.tukey_sigmas;
       if (off >= 1.0) continue;
-      weights_[i] = std::pow(1.0 - off * off, 2);
+      weights_[i] = TukeyWeight(off);
       Add(i, weights_[i], matrix_, right_);
     }
     // In units of the patches' noise.
@@ -508,14 +499,8 @@ std::vector<FollowedPoint> PointsToFollow(const Scan& scan, const RegisteredScan
       }
     }
   }
-  // Groups are of neighbours, so that one thing that moved is one group's.
-  std::vector<std::size_t> order(followed.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return azimuths[a] < azimuths[b]; });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    followed[order[i]].group =
-        static_cast<int>(i * static_cast<std::size_t>(options.groups) / order.size());
+  const std::vector<int> groups = NeighbourGroups(azimuths, options.groups);
+  for (std::size_t i = 0; i < followed.size(); ++i) followed[i].group = groups[i];
   return followed;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/tukey_weight.h"
 #include "core/fitting/terrain/range_plane.h"
 
 namespace foresight {
@@ -12,13 +13,6 @@ constexpr double kRoughness_m = 0.002;
 constexpr double kTukeySigmas = 4.0;
 constexpr int kGrowRounds = 3;
 constexpr double kLeastClosing = 0.05;  // cosine between ray and normal, for areas
-
-double TukeyWeight(double error_sigmas) {
-  const double ratio = error_sigmas / kTukeySigmas;
-  if (std::abs(ratio) >= 1.0) return 0.0;
-  const double weight = 1.0 - ratio * ratio;
-  return weight * weight;
-}
 
 /// False when the points make no plane.
 bool Refit(const SurfaceGrid& grid, const std::vector<int>& points, SurfacePlane& surface) {
@@ -30,8 +24,9 @@ bool Refit(const SurfaceGrid& grid, const std::vector<int>& points, SurfacePlane
     RangePlaneSums sums(grid.viewpoint(), center - grid.viewpoint());
     const bool known = round > 0 || surface.points > 0;
     for (const int i : points)
-      sums.Add(grid[i].point, known ? TukeyWeight(surface.plane.Distance(grid[i].point) /
-                                                  DistanceSigma(grid, i, surface.plane))
+      sums.Add(grid[i].point, known ? TukeyWeight((surface.plane.Distance(grid[i].point) /
+                                                   DistanceSigma(grid, i, surface.plane)) /
+                                                  kTukeySigmas)
                                     : 1.0);
     const auto plane = sums.Solve();
     if (!plane) return false;
@@ -43,7 +38,8 @@ bool Refit(const SurfaceGrid& grid, const std::vector<int>& points, SurfacePlane
   double squares = 0.0, weights = 0.0;
   for (const int i : points) {
     const double error = surface.plane.Distance(grid[i].point);
-    const double weight = TukeyWeight(error / DistanceSigma(grid, i, surface.plane));
+    const double weight =
+        TukeyWeight((error / DistanceSigma(grid, i, surface.plane)) / kTukeySigmas);
     squares += weight * error * error;
     weights += weight;
     surface.area_m2 += AreaOn(surface.plane, grid[i], grid[i].range_m);

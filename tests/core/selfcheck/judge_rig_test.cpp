@@ -26,6 +26,15 @@ CameraCheck GoodCamera() {
   return camera;
 }
 
+/// By 0.31 deg about its y axis, and sure of it.
+CameraCheck TurnedCamera() {
+  CameraCheck camera = GoodCamera();
+  camera.turn_rad.y() = RadiansFromDegrees(0.31);
+  camera.gain_sigmas = 8.0;
+  camera.score_before = 0.8;
+  return camera;
+}
+
 PlateCheck GoodPlate() {
   PlateCheck plate;
   plate.drift.setZero();
@@ -96,20 +105,14 @@ TEST(JudgeRig, DoesNotBlameTheCameraForAnEdgeThatFitsALittleBetter) {
 }
 
 TEST(JudgeRig, SaysByHowMuchTheCameraTurnedAndThatItWasTheCamera) {
-  CameraCheck camera = GoodCamera();
-  camera.turn_rad.y() = RadiansFromDegrees(0.31);
-  camera.gain_sigmas = 8.0;
-  camera.score_before = 0.8;
+  const CameraCheck camera = TurnedCamera();
   const RigCheck check = Judged(GoodPlate(), camera);
   EXPECT_THAT(check.drifted, Contains(HasSubstr("camera's y axis: off by 0.31 deg +- 0.02 deg")));
   EXPECT_THAT(check.drifted, Contains(HasSubstr("it is the camera that turned")));
 }
 
 TEST(JudgeRig, BlamesTheLidarWherePlanesBendToo) {
-  CameraCheck camera = GoodCamera();
-  camera.turn_rad.y() = RadiansFromDegrees(0.31);
-  camera.gain_sigmas = 8.0;
-  camera.score_before = 0.8;
+  const CameraCheck camera = TurnedCamera();
   PlateCheck plate = GoodPlate();
   plate.drift[PlateCheck::kTurnY] = RadiansFromDegrees(0.3);
   const RigCheck check = Judged(plate, camera);
@@ -118,10 +121,7 @@ TEST(JudgeRig, BlamesTheLidarWherePlanesBendToo) {
 }
 
 TEST(JudgeRig, ImagesThatTurnAsTheMotorSaysClearTheCamera) {
-  CameraCheck camera = GoodCamera();
-  camera.turn_rad.y() = RadiansFromDegrees(0.31);
-  camera.gain_sigmas = 8.0;
-  camera.score_before = 0.8;
+  const CameraCheck camera = TurnedCamera();
   const RigCheck check = Judged(Fail(ErrorCode::kTooFewPoints, "no planes"), camera);
   EXPECT_THAT(check.drifted, Contains(HasSubstr("it is the lidar that turned")));
 }
@@ -153,10 +153,7 @@ TEST(JudgeRig, TwoImagesSayNothingOfThePlateBetweenThem) {
 }
 
 TEST(JudgeRig, SaysSoWhereCameraAndLidarBothMoved) {
-  CameraCheck camera = GoodCamera();
-  camera.turn_rad.y() = RadiansFromDegrees(0.31);
-  camera.gain_sigmas = 8.0;
-  camera.score_before = 0.8;
+  const CameraCheck camera = TurnedCamera();
   PlateCheck plate = GoodPlate();
   plate.drift[PlateCheck::kTurnY] = RadiansFromDegrees(0.3);
   TurnCheck turns = GoodTurns();
