@@ -96,7 +96,8 @@ void Compare(int count, std::uint64_t first_seed) {
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
     const auto scene = MakeValveScene(samples::RandomValveView(seed));
     Random random(seed, 1);
-    const BeamFootprints footprints(scene.rays, SplitWall(scene.rays, random).wall);
+    const BeamFootprints footprints =
+        ValveFootprints(scene.rays, SplitWall(scene.rays, random).wall);
     ValveStep off = ValveStep::Zero();
     for (const int p : {kMoveX, kMoveY, kMoveZ}) off[p] = 0.010 * random.Normal();
     for (const int p : {kTiltX, kTiltY, kPhase}) off[p] = 0.052 * random.Normal();

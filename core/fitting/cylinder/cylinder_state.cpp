@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/fitting/solids/pattern_search.h"
+#include "core/fitting/solids/solid_coverage.h"
 #include "core/fitting/solids/solid_tracer.h"
 #include "core/geometry/rotation_between.h"
 
@@ -21,13 +22,7 @@ SolidPart CylinderState::Part() const {
 }
 
 double LogLikelihoodOf(const SolidPart& solid_in_base, const BeamLikelihood& likelihood) {
-  const SolidTracer tracer({&solid_in_base, 1}, {});
-  return likelihood(
-      [&tracer](const RangeRay& ray, double reach_m) -> std::optional<BeamIntersection> {
-        const SolidIntersection intersection = tracer.IntersectWithDepth(ray, reach_m);
-        if (intersection.part < 0) return std::nullopt;
-        return BeamIntersection{intersection.clearance_m, intersection.range_m};
-      });
+  return likelihood(CoverBySamples(IntersectionWith(SolidTracer({&solid_in_base, 1}, {}))));
 }
 
 CylinderState Retract(const CylinderState& cylinder, const CylinderStep& step) {

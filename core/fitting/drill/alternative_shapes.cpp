@@ -130,7 +130,7 @@ std::vector<SolidPart> PartsOf(Kind kind, const Eigen::VectorXd& v) {
   return {CylinderOf(v.head<kCylinderParameters>()), BoxOf(v.tail<kBoxParameters>())};
 }
 
-PatternSearchResult Climb(const SolidLikelihood& likelihood, const TableFrame& base_from_table,
+PatternSearchResult Climb(const BeamLikelihood& likelihood, const TableFrame& base_from_table,
                           Kind kind, const Eigen::VectorXd& start) {
   PatternSearchOptions options;
   options.rounds = 3;
@@ -143,7 +143,7 @@ PatternSearchResult Climb(const SolidLikelihood& likelihood, const TableFrame& b
     const std::vector<SolidPart> parts = PartsOf(kind, values);
     if (!std::all_of(parts.begin(), parts.end(), Real))
       return -std::numeric_limits<double>::infinity();
-    return likelihood(parts, base_from_table);
+    return LogLikelihoodOf(parts, base_from_table, likelihood);
   };
   return ClimbByPatternSearch(start, score, options);
 }
@@ -168,7 +168,7 @@ Points Unexplained(const Points& points, const SolidPart& part, double tolerance
 
 }  // namespace
 
-std::vector<AlternativeShape> FitAlternativeShapes(const SolidLikelihood& likelihood,
+std::vector<AlternativeShape> FitAlternativeShapes(const BeamLikelihood& likelihood,
                                                    const std::vector<Eigen::Vector3d>& foreground,
                                                    const TableFrame& base_from_table,
                                                    const Eigen::Vector2d& place) {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/fitting/beam_likelihood.h"
 #include "core/fitting/drill/drill_state.h"
-#include "core/fitting/solids/solid_likelihood.h"
 
 namespace foresight {
 
@@ -18,7 +18,7 @@ struct AlternativeShape {
 
 /// The best free box, upright cylinder, and both together (side by side or stacked) near a place of
 /// the table, the best first. `foreground` in base.
-std::vector<AlternativeShape> FitAlternativeShapes(const SolidLikelihood& likelihood,
+std::vector<AlternativeShape> FitAlternativeShapes(const BeamLikelihood& likelihood,
                                                    const std::vector<Eigen::Vector3d>& foreground,
                                                    const TableFrame& base_from_table,
                                                    const Eigen::Vector2d& place);

@@ -9,7 +9,7 @@
 #include "core/fitting/beam_model.h"
 #include "core/fitting/line_covariance.h"
 #include "core/fitting/ray_selection.h"
-#include "core/fitting/solids/solid_likelihood.h"
+#include "core/fitting/solids/solid_coverage.h"
 #include "core/fitting/solids/solid_tracer.h"
 
 namespace foresight {
@@ -93,7 +93,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
                      const DrillPrior& prior) {
   constexpr double kStep = 1e-3;  // metres and radians
   constexpr double kReach_m = 0.02;
-  const double sigma = std::hypot(rays.sigma_m, kDrillTemplateError_m);
+  const double sigma = std::hypot(rays.sigma_m, kDrillBeams.shape_error_m);
   const auto tracer_at = [&](const DrillState& state) {
     return SolidTracer(state.Model().parts, state.Pose(base_from_table));
   };
@@ -110,7 +110,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
     const RangeRay& ray = rays.rays[i];
     const SolidIntersection intersection = here.IntersectWithDepth(ray, kReach_m);
     if (intersection.part < 0) continue;
-    const double width = 0.5 * rays.footprint_rad * ray.range_m + kDrillEdgeError_m;
+    const double width = 0.5 * rays.footprint_rad * ray.range_m + kDrillBeams.edge_error_m;
     const bool inside = intersection.Hits();
     if (inside && std::abs(ray.range_m - intersection.range_m) > BeamModel::kAgreeSigmas * sigma)
       continue;

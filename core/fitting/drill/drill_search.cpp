@@ -44,7 +44,7 @@ struct Scored {
 };
 
 /// The best scales at each yaw of a template on a body.
-std::vector<DrillState> BestByYaw(const SolidLikelihood& likelihood, const DrillTemplate& kind,
+std::vector<DrillState> BestByYaw(const BeamLikelihood& likelihood, const DrillTemplate& kind,
                                   const Eigen::Vector2d& body, const TableFrame& base_from_table,
                                   const DrillPrior& prior) {
   std::vector<DrillState> best(kYaws);
@@ -131,7 +131,7 @@ Eigen::VectorXd GripAlone(double yaw) {
 }
 
 /// The bit's length by trying all: its few rays make many local maxima.
-DrillState WithBestBit(const SolidLikelihood& likelihood, const DrillState& state,
+DrillState WithBestBit(const BeamLikelihood& likelihood, const DrillState& state,
                        const TableFrame& base_from_table, const DrillPrior& prior) {
   DrillState best = state;
   const int lengths = static_cast<int>(state.kind->max_bit_length_m / kBitStep_m);
@@ -146,14 +146,14 @@ DrillState WithBestBit(const SolidLikelihood& likelihood, const DrillState& stat
 
 }  // namespace
 
-double Score(const SolidLikelihood& likelihood, const DrillState& state,
+double Score(const BeamLikelihood& likelihood, const DrillState& state,
              const TableFrame& base_from_table, const DrillPrior& prior) {
   const double log_prior = prior(state);
   if (!std::isfinite(log_prior)) return log_prior;
-  return likelihood(state.Model().parts, state.Pose(base_from_table)) + log_prior;
+  return LogLikelihoodOf(state.Model().parts, state.Pose(base_from_table), likelihood) + log_prior;
 }
 
-std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
+std::vector<Eigen::Vector2d> FindBodies(const BeamLikelihood& likelihood,
                                         const std::vector<Eigen::Vector3d>& foreground,
                                         const TableFrame& base_from_table, double radius_m) {
   const auto table_from_base = base_from_table.Inverse();
@@ -170,7 +170,7 @@ std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
   for (std::size_t i = 0; i < facing.size(); i += stride) {
     const Rigid<frame::Object, frame::Object> at(Eigen::Quaterniond::Identity(),
                                                  {facing[i].x(), facing[i].y(), 0.0});
-    scored.push_back({likelihood(body, base_from_table * at), facing[i]});
+    scored.push_back({LogLikelihoodOf(body, base_from_table * at, likelihood), facing[i]});
   }
   std::stable_sort(scored.begin(), scored.end(),
                    [](const Scored& a, const Scored& b) { return a.score > b.score; });
@@ -185,7 +185,7 @@ std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
   return bodies;
 }
 
-Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
+Result<std::vector<DrillState>> FindModes(const BeamLikelihood& likelihood,
                                           std::span<const DrillTemplate> templates,
                                           const std::vector<Eigen::Vector2d>& bodies,
                                           const TableFrame& base_from_table,
@@ -212,7 +212,7 @@ Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
   return modes;
 }
 
-DrillState OfKind(const SolidLikelihood& likelihood, const DrillTemplate& kind,
+DrillState OfKind(const BeamLikelihood& likelihood, const DrillTemplate& kind,
                   const DrillState& state, const TableFrame& base_from_table,
                   const DrillPrior& prior) {
   // The middle of the grip stays where it is.
@@ -236,7 +236,7 @@ DrillState OfKind(const SolidLikelihood& likelihood, const DrillTemplate& kind,
   return best;
 }
 
-DrillState LocalSearch(const SolidLikelihood& likelihood, const DrillState& start,
+DrillState LocalSearch(const BeamLikelihood& likelihood, const DrillState& start,
                        const TableFrame& base_from_table, const DrillPrior& prior,
                        LocalSearchEffort effort) {
   DrillState best = start;

@@ -5,21 +5,21 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/fitting/beam_likelihood.h"
 #include "core/fitting/drill/drill_state.h"
-#include "core/fitting/solids/solid_likelihood.h"
 
 namespace foresight {
 
 /// Where on the table something as thick as a grip stands upright: the middle of a circle behind
 /// each of the points that faces the viewer, kept where the rays agree with a cylinder there. At
 /// the noise of a lidar normals are useless for this. The best few, at least 25 mm apart.
-std::vector<Eigen::Vector2d> FindBodies(const SolidLikelihood& likelihood,
+std::vector<Eigen::Vector2d> FindBodies(const BeamLikelihood& likelihood,
                                         const std::vector<Eigen::Vector3d>& foreground,
                                         const TableFrame& base_from_table, double radius_m);
 
 /// Every direction and size of each template at each body, scored by ray; the leading local maxima,
 /// best first, none near a better one of its template. Fails with kCancelled.
-Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
+Result<std::vector<DrillState>> FindModes(const BeamLikelihood& likelihood,
                                           std::span<const DrillTemplate> templates,
                                           const std::vector<Eigen::Vector2d>& bodies,
                                           const TableFrame& base_from_table,
@@ -27,7 +27,7 @@ Result<std::vector<DrillState>> FindModes(const SolidLikelihood& likelihood,
 
 /// Another template where a drill stands, the way that it points, in the size that explains the
 /// rays best, its proportions those of the template.
-DrillState OfKind(const SolidLikelihood& likelihood, const DrillTemplate& kind,
+DrillState OfKind(const BeamLikelihood& likelihood, const DrillTemplate& kind,
                   const DrillState& state, const TableFrame& base_from_table,
                   const DrillPrior& prior);
 
@@ -35,12 +35,12 @@ enum class LocalSearchEffort { kCoarse, kFine };
 
 /// Climbs the likelihood over all parameters of a drill, the bit's length by trying lengths first.
 /// The result's log_likelihood is never below the start's under the same likelihood.
-DrillState LocalSearch(const SolidLikelihood& likelihood, const DrillState& start,
+DrillState LocalSearch(const BeamLikelihood& likelihood, const DrillState& start,
                        const TableFrame& base_from_table, const DrillPrior& prior,
                        LocalSearchEffort effort);
 
 /// Log likelihood with the prior.
-double Score(const SolidLikelihood& likelihood, const DrillState& state,
+double Score(const BeamLikelihood& likelihood, const DrillState& state,
              const TableFrame& base_from_table, const DrillPrior& prior);
 
 }  // namespace foresight

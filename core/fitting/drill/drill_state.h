@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "core/fitting/beam_footprints.h"
 #include "core/fitting/drill/drill_detection.h"
 #include "core/geometry/plane.h"
 #include "core/objects/drill_template.h"
@@ -38,6 +39,9 @@ enum DrillParameter {
 constexpr int kDrillFreeParameters = kDrillHeadUp;
 using DrillStep = Eigen::Matrix<double, kDrillParameters, 1>;
 using DrillInformation = Eigen::Matrix<double, kDrillParameters, kDrillParameters>;
+
+/// How beams before a drill are looked at: no real one is made of cylinders and boxes.
+inline constexpr BeamOptions kDrillBeams;
 
 /// Where drills may stand: a table's frame, z = its normal.
 using TableFrame = Rigid<frame::Base, frame::Object>;

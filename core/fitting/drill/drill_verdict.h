@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/fitting/beam_likelihood.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/fit_drill.h"
-#include "core/fitting/solids/solid_likelihood.h"
 
 namespace foresight {
 

@@ -17,7 +17,7 @@
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/region_place.h"
-#include "core/fitting/solids/solid_likelihood.h"
+#include "core/fitting/solids/solid_coverage.h"
 
 namespace foresight {
 namespace {
@@ -78,9 +78,9 @@ class DrillFit {
       : region_(region),
         options_(options),
         around_(around),
-        likelihood_(rays, around.planes),
-        coarse_(few_rays, around.planes),
-        coarse_beams_(WithoutImage(std::move(few_rays)), around.planes),
+        likelihood_(rays, around.planes, kDrillBeams),
+        coarse_(few_rays, around.planes, kDrillBeams),
+        coarse_beams_(WithoutImage(std::move(few_rays)), around.planes, kDrillBeams),
         table_(around.table.value_or(GuessedTable(around.foreground, options.up))),
         base_from_table_(FrameOf(table_, Mean(around.foreground))) {
     prior_.max_tilt_rad = options.max_body_tilt_rad;
@@ -181,7 +181,7 @@ class DrillFit {
     return Fail(ErrorCode::kCancelled, "fitting the drill was cancelled");
   }
 
-  Status LocalSearchOfAll(const SolidLikelihood& likelihood, std::vector<DrillState>& states,
+  Status LocalSearchOfAll(const BeamLikelihood& likelihood, std::vector<DrillState>& states,
                           std::size_t count, LocalSearchEffort effort,
                           const RunContext& context) const {
     if (states.size() > count) states.resize(count);
@@ -238,8 +238,8 @@ class DrillFit {
     std::erase_if(headless, [](const SolidPart& part) {
       return part.name != DrillTemplate::kBody && part.name != DrillTemplate::kFoot;
     });
-    evidence.head_nats =
-        best.log_likelihood - prior_(best) - likelihood_(headless, detection.best.base_from_object);
+    evidence.head_nats = best.log_likelihood - prior_(best) -
+                         LogLikelihoodOf(headless, detection.best.base_from_object, likelihood_);
   }
 
   DrillState OfAnyProportions(const DrillState& state) const {
@@ -254,16 +254,19 @@ class DrillFit {
                                DrillSupport& support) const {
     const DrillModel model = flipped.Model();
     const auto pose = flipped.Pose(base_from_table_);
-    const double margin = best.log_likelihood - prior_(best) - likelihood_(model.parts, pose);
+    const double margin =
+        best.log_likelihood - prior_(best) - LogLikelihoodOf(model.parts, pose, likelihood_);
     support.any_flip_margin_nats = std::min(margin, detection.evidence.flip_margin_nats);
     support.any_way_margin_nats =
-        likelihood_(own_way.Model().parts, own_way.Pose(base_from_table_)) -
-        likelihood_(model.parts, pose);
+        LogLikelihoodOf(own_way.Model().parts, own_way.Pose(base_from_table_), likelihood_) -
+        LogLikelihoodOf(model.parts, pose, likelihood_);
     support.outline =
-        likelihood_.OfImage(detection.best.model.parts, detection.best.base_from_object);
-    support.image_flip_nats = support.outline.nats - likelihood_.OfImage(model.parts, pose).nats;
+        OfImage(detection.best.model.parts, detection.best.base_from_object, likelihood_.rays());
+    support.image_flip_nats =
+        support.outline.nats - OfImage(model.parts, pose, likelihood_.rays()).nats;
     support.flip_line_sigmas = likelihood_.DeviationsAhead(
-        detection.best.model.parts, detection.best.base_from_object, model.parts, pose);
+        CoverByRays(SolidTracer(detection.best.model.parts, detection.best.base_from_object)),
+        CoverByRays(SolidTracer(model.parts, pose)));
   }
 
   /// Whether it ends as drills do, in a chuck that is narrower than the head: lamps and blowers on
@@ -280,12 +283,12 @@ class DrillFit {
     const auto chuck = std::find_if(blunt.begin(), blunt.end(), is_chuck);
     if (head != blunt.end() && chuck != blunt.end()) {
       chuck->size_m.head<2>().setConstant(head->size_m.y());
-      support.blunt_margin_nats = own - likelihood_(blunt, pose);
+      support.blunt_margin_nats = own - LogLikelihoodOf(blunt, pose, likelihood_);
       std::erase_if(blunt, [](const SolidPart& part) { return part.name == DrillTemplate::kBit; });
       support.blunt_margin_nats =
-          std::min(support.blunt_margin_nats, own - likelihood_(blunt, pose));
+          std::min(support.blunt_margin_nats, own - LogLikelihoodOf(blunt, pose, likelihood_));
       std::erase_if(blunt, is_chuck);
-      support.chuck_nats = own - likelihood_(blunt, pose);
+      support.chuck_nats = own - LogLikelihoodOf(blunt, pose, likelihood_);
     }
   }
 
@@ -304,7 +307,8 @@ class DrillFit {
                                {0.0, 0.0, part.object_from_part.translation().z()}};
     }
     if (!has_feet) return std::numeric_limits<double>::infinity();
-    return best.log_likelihood - prior_(best) - likelihood_(parts, detection.best.base_from_object);
+    return best.log_likelihood - prior_(best) -
+           LogLikelihoodOf(parts, detection.best.base_from_object, likelihood_);
   }
 
   /// The foreground that a drill may account for, without the clutter beside it.
@@ -325,8 +329,9 @@ class DrillFit {
   void SetAlternativeMargin(const DrillState& best, DrillDetection& detection) const {
     const auto& parts = detection.best.model.parts;
     const auto& pose = detection.best.base_from_object;
-    const SolidLikelihood near = likelihood_.Near(parts, pose, kAlternativeReach_m);
-    const double own = near(parts, pose) + prior_(best) -
+    const BeamLikelihood near(RaysNear(likelihood_.rays(), parts, pose, kAlternativeReach_m),
+                              around_.planes, kDrillBeams);
+    const double own = LogLikelihoodOf(parts, pose, near) + prior_(best) -
                        kKnownProportion_nats * (kDrillParameters - kDrillFreeParameters);
     const double measurements =
         std::max(2.0, static_cast<double>(near.rays().rays.size()) * near.rays().samples_per_ray);
@@ -347,9 +352,9 @@ class DrillFit {
   const RaySet& region_;
   const FitDrillOptions& options_;
   const SupportAndBackground& around_;
-  SolidLikelihood likelihood_;
-  SolidLikelihood coarse_;
-  SolidLikelihood coarse_beams_;  ///< where thousands of places are tried
+  BeamLikelihood likelihood_;
+  BeamLikelihood coarse_;
+  BeamLikelihood coarse_beams_;  ///< where thousands of places are tried
   Plane table_;
   TableFrame base_from_table_;
   DrillPrior prior_;

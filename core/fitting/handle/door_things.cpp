@@ -155,17 +155,22 @@ DoorThing ThingOf(const HandleModel& model,
   return DoorThing(BarsOf(model), {PlateOf(model.plate, model.standoff_m)}, base_from_object);
 }
 
-IntersectBeam IntersectionWith(const DoorThing& thing) {
-  return [&thing](const RangeRay& ray, double reach_m) { return thing.Intersect(ray, reach_m); };
+CoverBeam CoverByFootprints(IntersectBeam object) {
+  return CoverBySamples(std::move(object), 0.0);
+}
+
+CoverBeam CoverBy(DoorThing thing) {
+  return CoverByFootprints([thing = std::move(thing)](const RangeRay& ray, double reach_m) {
+    return thing.Intersect(ray, reach_m);
+  });
 }
 
 OutlineSupport OfImage(const DoorThing& thing, const RaySet& rays) {
-  return rays.image ? rays.image->SupportOf(thing.Parts(), thing.base_from_object())
-                    : OutlineSupport();
+  return OfImage(thing.Parts(), thing.base_from_object(), rays);
 }
 
 double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood) {
-  return likelihood(IntersectionWith(thing)) + OfImage(thing, likelihood.rays()).nats;
+  return likelihood(CoverBy(thing)) + OfImage(thing, likelihood.rays()).nats;
 }
 
 }  // namespace foresight

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fitting/beam_likelihood.h"
+#include "core/fitting/sampled_coverage.h"
 #include "core/fitting/solids/image_edges.h"
 #include "core/objects/handle_model.h"
 
@@ -70,8 +71,10 @@ DoorThing::Plate PlateOf(HandleModel::Plate kind, double standoff_m);
 DoorThing ThingOf(const HandleModel& model,
                   const Rigid<frame::Base, frame::Object>& base_from_object);
 
-/// How rays pass a thing, which must outlive what is returned.
-IntersectBeam IntersectionWith(const DoorThing& thing);
+/// The coverage of an object before a door: an edge through the middle of a sample returns half of
+/// its beams.
+CoverBeam CoverByFootprints(IntersectBeam object);
+CoverBeam CoverBy(DoorThing thing);
 
 /// What the image says of its outline; nothing where there is none.
 OutlineSupport OfImage(const DoorThing& thing, const RaySet& rays);

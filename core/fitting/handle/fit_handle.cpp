@@ -48,9 +48,8 @@ tl::unexpected<Error> Cancelled() {
   return Fail(ErrorCode::kCancelled, "fitting the door handle was cancelled");
 }
 
-BeamLikelihoodOptions HandleBeams() {
-  BeamLikelihoodOptions options;
-  options.early_return = 0.0;
+BeamOptions HandleBeams() {
+  BeamOptions options;
   options.samples = kFootprintSamples;
   options.mixed_ranges = true;
   return options;
@@ -161,8 +160,8 @@ class HandleFit {
   /// their number some would be sure of the wrong way.
   /// @param around null = not known
   TwoWays Weighed(TwoWays found, const RaySet* around) const {
-    const double ahead = likelihood_.DeviationsAhead(IntersectionWith(ThingOf(found.best)),
-                                                     IntersectionWith(ThingOf(found.mirrored)));
+    const double ahead =
+        likelihood_.DeviationsAhead(CoverBy(ThingOf(found.best)), CoverBy(ThingOf(found.mirrored)));
     found.beams_nats =
         kNatsPerDeviation * (likelihood_.rays().image ? ahead : std::max(0.0, ahead));
     found.image_nats =

@@ -12,6 +12,7 @@
 
 #include "core/base/parallel.h"
 #include "core/fitting/solids/pattern_search.h"
+#include "core/fitting/solids/solid_coverage.h"
 #include "core/fitting/solids/solid_tracer.h"
 
 namespace foresight {
@@ -205,15 +206,8 @@ class OtherThings {
     box.shape = SolidPart::Shape::kBox;
     box.size_m = size_m;
     parts.push_back(std::move(box));
-    const SolidTracer tracer(parts, pose);
-    const auto& image = likelihood_.rays().image;
-    const OutlineSupport outline = image ? image->SupportOf(parts, pose) : OutlineSupport();
-    return outline.nats + likelihood_([&tracer](const RangeRay& ray,
-                                                double reach_m) -> std::optional<BeamIntersection> {
-             const SolidIntersection passed = tracer.IntersectWithDepth(ray, reach_m);
-             if (passed.part < 0) return std::nullopt;
-             return BeamIntersection{passed.clearance_m, passed.range_m};
-           });
+    return OfImage(parts, pose, likelihood_.rays()).nats +
+           likelihood_(CoverByFootprints(IntersectionWith(SolidTracer(parts, pose))));
   }
 
   /// Of a bar (middle, turn, height, length, radius) on posts along it.

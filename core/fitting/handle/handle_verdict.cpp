@@ -226,13 +226,13 @@ BeamSlopes SlopesOf(const BeamLikelihood& likelihood, const HandleScorer& scorer
                     const HandleState& handle, const Plane& door) {
   const std::array<double, kHandleParameters> steps = {0.002, 0.002, 0.02,  0.002, 0.004,
                                                        0.004, 0.004, 0.004, 0.001};
-  std::vector<DoorThing> moved;
+  std::vector<CoverBeam> moved;
   for (int p = 0; p < kHandleParameters; ++p) {
     HandleState state = handle;
     state.values[p] += steps[static_cast<std::size_t>(p)];
-    moved.push_back(ThingOf(state.Model(), state.Pose(scorer.base_from_door)));
+    moved.push_back(CoverBy(ThingOf(state.Model(), state.Pose(scorer.base_from_door))));
   }
-  const DoorThing here = ThingOf(handle.Model(), handle.Pose(scorer.base_from_door));
+  const CoverBeam here = CoverBy(ThingOf(handle.Model(), handle.Pose(scorer.base_from_door)));
   const RaySet& rays = likelihood.rays();
   BeamSlopes found;
   const auto most = static_cast<Eigen::Index>(rays.rays.size());
@@ -240,8 +240,8 @@ BeamSlopes SlopesOf(const BeamLikelihood& likelihood, const HandleScorer& scorer
   found.residuals.resize(most);
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
     const double door_m = DoorRange(rays.rays[i], door);
-    const auto reading = [&](const DoorThing& thing) {
-      const auto expected = likelihood.Expect(i, IntersectionWith(thing));
+    const auto reading = [&](const CoverBeam& thing) {
+      const auto expected = likelihood.Expect(i, thing);
       if (!expected) return ExpectedBeam{0.0, door_m, door_m, likelihood.Sigma(), false};
       return *expected;
     };
@@ -301,6 +301,7 @@ HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door
                               const HandleCandidate& handle) {
   const BeamLikelihood& likelihood = OfMeasured(of_region);
   const DoorThing thing = ThingOf(handle.model, handle.base_from_object);
+  const CoverBeam cover = CoverBy(thing);
   const auto object_from_base = handle.base_from_object.Inverse();
   const RaySet& rays = likelihood.rays();
   HandleEvidence evidence;
@@ -310,7 +311,7 @@ HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
     const RangeRay& ray = rays.rays[i];
     ++evidence.rays;
-    const auto expected = likelihood.Expect(i, IntersectionWith(thing));
+    const auto expected = likelihood.Expect(i, cover);
     if (!expected || expected->fraction < 0.02) {
       if (!thing.Intersect(ray, kRound_m)) continue;
       ++round;

@@ -13,12 +13,12 @@
 #include "core/fitting/valve/local_search.h"
 #include "core/fitting/valve/outline_evidence.h"
 #include "core/fitting/valve/part_evidence.h"
-#include "core/fitting/valve/ray_likelihood.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/rim_search.h"
 #include "core/fitting/valve/spoke_search.h"
 #include "core/fitting/valve/thin_rims.h"
 #include "core/fitting/valve/valve_covariance.h"
+#include "core/fitting/valve/valve_coverage.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/valve/valve_state.h"
 #include "core/fitting/valve/valve_verdict.h"
@@ -107,7 +107,7 @@ std::vector<Eigen::Vector3d> Facings(const RaySet& rays, const WallSplit& split)
 
 /// Where rims may be.
 std::vector<ValveCandidate> SearchRims(const RaySet& rays, const WallSplit& split,
-                                       const RayLikelihood& coarse,
+                                       const BeamLikelihood& coarse,
                                        const FitValveOptions& options) {
   Random random(options.seed, kRims);
   const std::vector<Eigen::Vector3d> points = RandomSubset(split.foreground, kRimPoints, random);
@@ -129,15 +129,15 @@ std::vector<ValveCandidate> SearchRims(const RaySet& rays, const WallSplit& spli
 }
 
 /// Rims as valves without spokes, fitted to the rays, the best few first.
-Result<std::vector<ValveCandidate>> FitRims(const RayLikelihood& likelihood,
+Result<std::vector<ValveCandidate>> FitRims(const BeamLikelihood& likelihood,
                                             std::vector<ValveCandidate> rims,
                                             const RunContext& context) {
   RefineOptions options;
   options.parts = ValveParts::kRim;
   FORESIGHT_CHECK(ForEach(rims, context, [&](ValveCandidate& rim) {
-    rim.log_likelihood = likelihood(rim, ValveParts::kRim);
+    rim.log_likelihood = ScoreOf(rim, likelihood, ValveParts::kRim);
     ValveCandidate refined = Refine(likelihood.Footprints(), rim, options);
-    refined.log_likelihood = likelihood(refined, ValveParts::kRim);
+    refined.log_likelihood = ScoreOf(refined, likelihood, ValveParts::kRim);
     if (refined.log_likelihood > rim.log_likelihood) rim = refined;
   }));
   KeepDistinctRims(kKeptRims, rims);
@@ -147,7 +147,7 @@ Result<std::vector<ValveCandidate>> FitRims(const RayLikelihood& likelihood,
 /// The best lever, if there is a bar at all; only roughly placed when it is far behind
 /// `alternative`.
 Result<std::optional<ValveCandidate>> FitLever(const RaySet& rays, const WallSplit& split,
-                                               const RayLikelihood& likelihood,
+                                               const BeamLikelihood& likelihood,
                                                const std::optional<ValveCandidate>& alternative,
                                                const FitValveOptions& options,
                                                const RunContext& context) {
@@ -163,7 +163,7 @@ Result<std::optional<ValveCandidate>> FitLever(const RaySet& rays, const WallSpl
     const ValveCandidate& start = found[static_cast<std::size_t>(i / 2)];
     ValveCandidate& lever = levers[static_cast<std::size_t>(i)];
     lever = i % 2 == 0 ? start : Refine(likelihood.Footprints(), start, {});
-    lever.log_likelihood = likelihood(lever);
+    lever.log_likelihood = ScoreOf(lever, likelihood);
   };
   if (!ParallelFor(static_cast<int>(levers.size()), context, fit)) return Cancelled();
   SortByLikelihood(levers);
@@ -192,7 +192,7 @@ void SortByPlaceAndLikelihood(const RaySet& region, std::vector<ValveCandidate>&
 }
 
 /// Runs local search on the leading candidates and puts them back in order.
-Status LocalSearchOfLeaders(const RaySet& region, const RayLikelihood& likelihood,
+Status LocalSearchOfLeaders(const RaySet& region, const BeamLikelihood& likelihood,
                             std::vector<ValveCandidate>& valves, const RunContext& context) {
   const std::span leaders(valves.begin(), std::min(kLocallySearched, valves.size()));
   FORESIGHT_CHECK(ForEach(leaders, context,
@@ -203,7 +203,7 @@ Status LocalSearchOfLeaders(const RaySet& region, const RayLikelihood& likelihoo
 
 /// Asks an image which of the candidates that rays do not leave far behind has its parts: rays have
 /// each in its place to a pixel or two, and the sides of a spoke lie further apart.
-void RankByImage(const RaySet& region, const RayLikelihood& likelihood,
+void RankByImage(const RaySet& region, const BeamLikelihood& likelihood,
                  std::vector<ValveCandidate>& valves) {
   if (region.image == nullptr) return;
   const double least = valves.front().log_likelihood - kHopeless_nats;
@@ -240,8 +240,8 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
 
   context.Report(0.1, "looking for the rim");
   FORESIGHT_CHECK(CheckForeground(rays, split));
-  const RayLikelihood likelihood(rays, split.wall);
-  const RayLikelihood coarse(few_rays, split.wall);
+  const BeamLikelihood likelihood = ValveLikelihood(rays, split.wall);
+  const BeamLikelihood coarse = ValveLikelihood(few_rays, split.wall);
   FORESIGHT_TRY(const std::vector<ValveCandidate> rims,
                 FitRims(likelihood, SearchRims(rays, split, coarse, options), context));
 
@@ -273,12 +273,13 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   for (std::size_t i = 1; i < valves.size() && i <= kAlternatives; ++i)
     detection.alternatives.push_back(WithUpwardSpoke(valves[i]));
   SetSigmas(InformationAt(likelihood.Footprints(), detection.best, {}), detection);
-  detection.evidence = GatherEvidence(likelihood.MeasuredFootprints(), detection.best);
+  detection.evidence = GatherEvidence(likelihood.Measured().Footprints(), detection.best);
   detection.evidence.margin_nats =
       valves.size() > 1 ? valves[0].log_likelihood - valves[1].log_likelihood : 0.0;
   detection.evidence.gain_nats = gain_nats;
   if (valves.size() > 1)
-    detection.evidence.margin_line_sigmas = likelihood.DeviationsAhead(valves[0], valves[1]);
+    detection.evidence.margin_line_sigmas =
+        likelihood.DeviationsAhead(CoverBy(valves[0]), CoverBy(valves[1]));
   AddEvidenceOfParts(likelihood, detection.best, detection.evidence);
   if (region.image) AddEvidenceOfOutline(*region.image, detection.best, detection.evidence);
   WidenSigmas(likelihood.Footprints(), detection);

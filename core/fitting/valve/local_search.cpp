@@ -4,6 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/fitting/valve/valve_coverage.h"
+
 namespace foresight {
 namespace {
 
@@ -49,7 +51,7 @@ std::vector<ValveStep> Directions(const ValveModel& model) {
 
 }  // namespace
 
-ValveCandidate LocalSearch(const RayLikelihood& likelihood, const ValveCandidate& start) {
+ValveCandidate LocalSearch(const BeamLikelihood& likelihood, const ValveCandidate& start) {
   ValveCandidate best = start;
   const std::vector<ValveStep> directions = Directions(start.model);
   double scale = 1.0;
@@ -58,7 +60,7 @@ ValveCandidate LocalSearch(const RayLikelihood& likelihood, const ValveCandidate
       for (const ValveStep& direction : directions) {
         for (const double sign : {1.0, -1.0}) {
           ValveCandidate tried = Retract(best, sign * scale * direction);
-          tried.log_likelihood = likelihood(tried);
+          tried.log_likelihood = ScoreOf(tried, likelihood);
           if (tried.log_likelihood > best.log_likelihood) {
             best = tried;
             break;

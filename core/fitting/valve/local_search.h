@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/fitting/valve/ray_likelihood.h"
+#include "core/fitting/beam_likelihood.h"
 
 namespace foresight {
 
 /// Climbs the ray likelihood by a shrinking pattern search over all parameters; it is not smooth
 /// enough for derivatives. `start` must carry its own log_likelihood; the result's is never lower.
-ValveCandidate LocalSearch(const RayLikelihood& likelihood, const ValveCandidate& start);
+ValveCandidate LocalSearch(const BeamLikelihood& likelihood, const ValveCandidate& start);
 
 }  // namespace foresight

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/fitting/valve/valve_coverage.h"
 #include "core/fitting/valve/valve_tracer.h"
 #include "core/geometry/angles.h"
 
@@ -56,14 +57,14 @@ ValveCandidate Turned(const ValveCandidate& valve, double turn_rad) {
 
 /// How much the beams that the valve leaves alone (where `gains` is 0) speak for one more spoke
 /// like its own, at the angle where they speak for it most.
-double FurtherSpokeNats(const RayLikelihood& likelihood, const ValveCandidate& valve,
+double FurtherSpokeNats(const BeamLikelihood& likelihood, const ValveCandidate& valve,
                         const Eigen::VectorXd& gains) {
-  const std::vector<RangeRay>& rays = likelihood.Measured().rays;
+  const std::vector<RangeRay>& rays = likelihood.Measured().rays().rays;
   const double length_m = SpokeLength(valve.model);
   double most = 0.0;
   for (const double turn : TurnsToFurtherSpokes(valve.model)) {
     const ValveCandidate turned = Turned(valve, turn);
-    const Eigen::VectorXd turned_gains = likelihood.Gains(turned);
+    const Eigen::VectorXd turned_gains = likelihood.Gains(CoverBy(turned));
     const ValveTracer tracer(turned, ValveParts::kAll);
     std::vector<SpokeNats> spokes(static_cast<std::size_t>(valve.model.spokes));
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -88,14 +89,14 @@ std::vector<double> TurnsToFurtherSpokes(const ValveModel& model) {
   return turns;
 }
 
-void AddEvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve,
+void AddEvidenceOfParts(const BeamLikelihood& likelihood, const ValveCandidate& valve,
                         ValveEvidence& evidence) {
   evidence.rim_nats = evidence.weakest_arc_nats = 0.0;
   evidence.weakest_spoke_nats = evidence.weakest_spoke_middle_nats = 0.0;
   evidence.further_spoke_nats = 0.0;
   if (valve.model.IsLever()) return;
-  const std::vector<RangeRay>& rays = likelihood.Measured().rays;
-  const Eigen::VectorXd gains = likelihood.Gains(valve);
+  const std::vector<RangeRay>& rays = likelihood.Measured().rays().rays;
+  const Eigen::VectorXd gains = likelihood.Gains(CoverBy(valve));
   const ValveTracer tracer(valve, ValveParts::kAll);
   const double length_m = SpokeLength(valve.model);
   std::vector<SpokeNats> spokes(static_cast<std::size_t>(valve.model.spokes));

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/fitting/beam_footprints.h"
 #include "core/fitting/ray_set.h"
-#include "core/fitting/valve/beam_footprints.h"
 #include "core/fitting/valve/valve_state.h"
 #include "core/geometry/plane.h"
 

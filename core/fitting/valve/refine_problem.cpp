@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/valve/valve_coverage.h"
 #include "core/fitting/valve/valve_tracer.h"
 
 namespace foresight {
@@ -43,12 +44,13 @@ void RefineProblem::AssignRoles(const ValveCandidate& valve) {
   for (RoledRay& roled : roled_) {
     const double range_m = rays_.rays[roled.index].range_m;
     const ValveIntersection intersection = tracer.Intersect(rays_.rays[roled.index]);
-    const ExpectedRange expected = footprints_.Expect(roled.index, intersection, valve.brightness);
+    const ExpectedBeam expected = footprints_.Expect(
+        roled.index, CoverageOf(footprints_, roled.index, intersection, valve.brightness));
     const double behind = range_m - intersection.middle_m;
     // A range nearer to the wall's than to the template's says nothing of the template.
-    const double from_wall = std::abs(range_m - footprints_.WallRange(roled.index));
+    const double from_wall = std::abs(range_m - footprints_.BackgroundRange(roled.index));
     const bool on_template = std::abs(behind) < std::min(kGate * footprints_.Sigma(), from_wall);
-    const bool between = expected.fraction > kLeastFraction && expected.gap_m > 0.0 &&
+    const bool between = expected.fraction > kLeastFraction && expected.mixed &&
                          std::abs(range_m - expected.range_m) < kGate * expected.sigma_m;
     roled.role = on_template || between                ? Role::kSurface
                  : behind > 0.0 && options_.free_space ? Role::kFree
@@ -71,8 +73,9 @@ Eigen::VectorXd RefineProblem::Residuals(const ValveCandidate& valve) const {
       continue;
     }
     const ValveIntersection intersection = tracer.Intersect(ray);
-    const ExpectedRange expected =
-        footprints_.Expect(roled.index, intersection, valve.brightness, kLeastFraction);
+    BeamCoverage coverage = CoverageOf(footprints_, roled.index, intersection, valve.brightness);
+    coverage.fraction = std::max(coverage.fraction, kLeastFraction);
+    const ExpectedBeam expected = footprints_.Expect(roled.index, coverage);
     residuals[2 * i] = (ray.range_m - expected.range_m) / expected.sigma_m;
     if (intersection.Clearance() > 0.0)
       residuals[2 * i + 1] =
@@ -81,7 +84,7 @@ Eigen::VectorXd RefineProblem::Residuals(const ValveCandidate& valve) const {
   residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
                                    ValvePrior::kTubeRadiusSigma_m,
       OwnSizeResidual(valve.model), std::log(valve.brightness) / ValvePrior::kBrightnessSigma,
-      AxisPriorResiduals(valve, footprints_.Wall()), SectionResiduals(valve.model);
+      AxisPriorResiduals(valve, footprints_.Background()), SectionResiduals(valve.model);
   return residuals;
 }
 

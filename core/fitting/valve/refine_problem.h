@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/fitting/valve/beam_footprints.h"
+#include "core/fitting/beam_footprints.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/valve_state.h"
 

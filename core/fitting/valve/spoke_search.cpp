@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/fitting/valve/refine.h"
+#include "core/fitting/valve/valve_coverage.h"
 
 namespace foresight {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kDishStep_m = 0.020;
 constexpr int kDishes = 6;
 constexpr double kPhaseStep_rad = 0.1;
 
-ValveCandidate BestOfGrid(const RayLikelihood& likelihood, const ValveCandidate& rim, int spokes) {
+ValveCandidate BestOfGrid(const BeamLikelihood& likelihood, const ValveCandidate& rim, int spokes) {
   const double sector = spokes > 0 ? 2.0 * std::numbers::pi / spokes : 0.0;
   const int phases = std::max(1, static_cast<int>(std::ceil(sector / kPhaseStep_rad)));
   std::optional<ValveCandidate> best;
@@ -26,7 +27,7 @@ ValveCandidate BestOfGrid(const RayLikelihood& likelihood, const ValveCandidate&
       tried.model = UsualValve(rim.model.rim_radius_m, rim.model.tube_radius_m, spokes,
                                kFirstDish_m + d * kDishStep_m);
       tried.model.rim_depth_ratio = rim.model.rim_depth_ratio;
-      tried.log_likelihood = likelihood(tried);
+      tried.log_likelihood = ScoreOf(tried, likelihood);
       if (!best || tried.log_likelihood > best->log_likelihood) best = tried;
     }
   }
@@ -35,8 +36,8 @@ ValveCandidate BestOfGrid(const RayLikelihood& likelihood, const ValveCandidate&
 
 }  // namespace
 
-Result<std::vector<ValveCandidate>> FindSpokes(const RayLikelihood& coarse,
-                                               const RayLikelihood& fine,
+Result<std::vector<ValveCandidate>> FindSpokes(const BeamLikelihood& coarse,
+                                               const BeamLikelihood& fine,
                                                const std::vector<ValveCandidate>& rims,
                                                const std::vector<int>& spoke_counts,
                                                const RunContext& context) {
@@ -49,9 +50,9 @@ Result<std::vector<ValveCandidate>> FindSpokes(const RayLikelihood& coarse,
     const ValveCandidate start = BestOfGrid(coarse, rims[index % rims.size()], spokes);
     ValveCandidate& valve = refined[index];
     valve = start;
-    valve.log_likelihood = fine(start);
+    valve.log_likelihood = ScoreOf(start, fine);
     ValveCandidate tried = Refine(fine.Footprints(), start, {});
-    tried.log_likelihood = fine(tried);
+    tried.log_likelihood = ScoreOf(tried, fine);
     if (tried.log_likelihood > valve.log_likelihood) valve = tried;
   });
   if (!finished) return Fail(ErrorCode::kCancelled, "fitting the valve was cancelled");

@@ -4,6 +4,7 @@
 
 #include "core/base/quantile.h"
 #include "core/fitting/best_distinct.h"
+#include "core/fitting/valve/valve_coverage.h"
 #include "core/geometry/plane.h"
 
 namespace foresight {
@@ -56,7 +57,7 @@ void KeepDistinctRims(std::size_t most, std::vector<ValveCandidate>& rims) {
 
 std::vector<ValveCandidate> SearchThinRims(const std::vector<Eigen::Vector3d>& points,
                                            const Eigen::Vector3d& viewpoint,
-                                           const RayLikelihood& coarse, RimSearchOptions search,
+                                           const BeamLikelihood& coarse, RimSearchOptions search,
                                            Random& random) {
   search.trials = kThinTrials;
   search.keep = static_cast<int>(kThinRims);
@@ -68,7 +69,7 @@ std::vector<ValveCandidate> SearchThinRims(const std::vector<Eigen::Vector3d>& p
       for (const double tube_radius_m : kTubes_m) {
         ValveCandidate thin = RimFrom(rim, tube_radius_m);
         thin.model.rim_depth_ratio = ValvePrior::kRimDepth_m / tube_radius_m;
-        thin.log_likelihood = coarse(thin, ValveParts::kRim);
+        thin.log_likelihood = ScoreOf(thin, coarse, ValveParts::kRim);
         found.push_back(thin);
       }
   KeepDistinctRims(kThinRims, found);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/fitting/valve/ray_likelihood.h"
+#include "core/fitting/beam_likelihood.h"
 #include "core/fitting/valve/rim_search.h"
 #include "core/fitting/valve/valve_state.h"
 
@@ -23,7 +23,7 @@ void KeepDistinctRims(std::size_t most, std::vector<ValveCandidate>& rims);
 /// base; `coarse` judges.
 std::vector<ValveCandidate> SearchThinRims(const std::vector<Eigen::Vector3d>& points,
                                            const Eigen::Vector3d& viewpoint,
-                                           const RayLikelihood& coarse, RimSearchOptions search,
+                                           const BeamLikelihood& coarse, RimSearchOptions search,
                                            Random& random);
 
 }  // namespace foresight

@@ -10,6 +10,7 @@
 #include "core/fitting/beam_model.h"
 #include "core/fitting/compressed_nats.h"
 #include "core/fitting/region_place.h"
+#include "core/fitting/valve/valve_coverage.h"
 #include "core/fitting/valve/valve_tracer.h"
 
 namespace foresight {
@@ -86,7 +87,8 @@ ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandid
     ++evidence.rays;
     if (!tracer.Near(ray, 0.0)) continue;
     const ValveIntersection intersection = tracer.Intersect(ray);
-    const ExpectedRange expected = footprints.Expect(i, intersection, valve.brightness);
+    const ExpectedBeam expected =
+        footprints.Expect(i, CoverageOf(footprints, i, intersection, valve.brightness));
     if (intersection.Clearance() >= 0.0 || expected.fraction < kIntersectedFraction) continue;
     const double error = ray.range_m - expected.range_m;
     const double agree_m = footprints.Agreement(expected);
@@ -97,7 +99,7 @@ ValveEvidence GatherEvidence(const BeamFootprints& footprints, const ValveCandid
       spoke.agreeing += agrees ? 1 : 0;
     }
     // A footprint that is partly on something unknown may read anything in between.
-    if (!agrees && !footprints.BeforeWall(i) && expected.fraction < kWholeFraction) continue;
+    if (!agrees && !footprints.ReachesBackground(i) && expected.fraction < kWholeFraction) continue;
     ++evidence.hits;
     if (error > agree_m) ++behind;
     if (!agrees) continue;

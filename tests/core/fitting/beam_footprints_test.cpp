@@ -1,4 +1,4 @@
-#include "core/fitting/valve/beam_footprints.h"
+#include "core/fitting/valve/valve_coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -29,20 +29,25 @@ class BeamFootprintsAtTwoMetres : public ::testing::Test {
     return intersection;
   }
 
+  static ExpectedBeam Expected(const BeamFootprints& footprints,
+                               const ValveIntersection& intersection, double brightness) {
+    return footprints.Expect(0, CoverageOf(footprints, 0, intersection, brightness));
+  }
+
   RaySet rays_;
   const Plane wall_{-Eigen::Vector3d::UnitZ(), -2.15};
 };
 
 TEST_F(BeamFootprintsAtTwoMetres, AreTallerThanWide) {
-  const BeamFootprints footprints(rays_, wall_);
+  const BeamFootprints footprints = ValveFootprints(rays_, wall_);
   EXPECT_NEAR(footprints.HalfWidth(0, Eigen::Vector3d::UnitX()), 0.005, 0.001);
   EXPECT_NEAR(footprints.HalfWidth(0, Eigen::Vector3d::UnitY()), 0.012, 0.001);
-  EXPECT_NEAR(footprints.WallRange(0), 2.15, 1e-9);
+  EXPECT_NEAR(footprints.BackgroundRange(0), 2.15, 1e-9);
 }
 
 TEST_F(BeamFootprintsAtTwoMetres, OnAThickTubeReadItsFront) {
-  const ExpectedRange expected =
-      BeamFootprints(rays_, wall_).Expect(0, Tube(0.05, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  const ExpectedBeam expected =
+      Expected(ValveFootprints(rays_, wall_), Tube(0.05, 0.0, Eigen::Vector3d::UnitY()), 1.0);
   EXPECT_EQ(expected.fraction, 1.0);
   EXPECT_NEAR(expected.range_m, 1.95, 0.001);
 }
@@ -51,48 +56,48 @@ TEST_F(BeamFootprintsAtTwoMetres, OnAFlatBarReadItsFrontWhichLeansWithIt) {
   ValveIntersection bar = Tube(0.05, 0.02, Eigen::Vector3d::UnitX());
   bar.depth_m = 0.01;
   bar.lean = -0.5;  // 10 mm nearer where the ray passes, 20 mm beside the middle
-  const ExpectedRange expected = BeamFootprints(rays_, wall_).Expect(0, bar, 1.0);
+  const ExpectedBeam expected = Expected(ValveFootprints(rays_, wall_), bar, 1.0);
   EXPECT_EQ(expected.fraction, 1.0);
   EXPECT_NEAR(expected.range_m, 1.981, 0.001);
 }
 
 TEST_F(BeamFootprintsAtTwoMetres, OnAThinTubeReadBetweenItAndTheWall) {
-  const ExpectedRange expected =
-      BeamFootprints(rays_, wall_).Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  const ExpectedBeam expected =
+      Expected(ValveFootprints(rays_, wall_), Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
   EXPECT_NEAR(expected.fraction, 0.5, 0.03);
   EXPECT_NEAR(expected.range_m, 2.0 + 0.075, 0.010);
   // Nobody knows exactly how much of the footprint is on it.
-  EXPECT_GT(expected.sigma_m, 1.5 * BeamFootprints(rays_, wall_).Sigma());
+  EXPECT_GT(expected.sigma_m, 1.5 * ValveFootprints(rays_, wall_).Sigma());
 }
 
 TEST_F(BeamFootprintsAtTwoMetres, ReadNearerToTheBrighterSurface) {
-  const BeamFootprints footprints(rays_, wall_);
+  const BeamFootprints footprints = ValveFootprints(rays_, wall_);
   const ValveIntersection tube = Tube(0.006, 0.0, Eigen::Vector3d::UnitY());
-  EXPECT_LT(footprints.Expect(0, tube, 3.0).range_m,
-            footprints.Expect(0, tube, 1.0).range_m - 0.02);
+  EXPECT_LT(Expected(footprints, tube, 3.0).range_m,
+            Expected(footprints, tube, 1.0).range_m - 0.02);
 }
 
 TEST_F(BeamFootprintsAtTwoMetres, DoNotMixWithTheWallWhereABodyIsBeforeIt) {
   for (RangeRay& ray : rays_.rays)
     if (ray.range_m > 2.1) ray.range_m = 2.07;
-  const BeamFootprints footprints(rays_, wall_);
-  EXPECT_FALSE(footprints.BeforeWall(0));
-  const ExpectedRange expected =
-      footprints.Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
-  EXPECT_EQ(expected.gap_m, 0.0);
-  EXPECT_NEAR(expected.range_m, expected.valve_m, 1e-12);
+  const BeamFootprints footprints = ValveFootprints(rays_, wall_);
+  EXPECT_FALSE(footprints.ReachesBackground(0));
+  const ExpectedBeam expected =
+      Expected(footprints, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_FALSE(expected.mixed);
+  EXPECT_NEAR(expected.range_m, expected.object_m, 1e-12);
 }
 
 TEST_F(BeamFootprintsAtTwoMetres, BesideATubeHaveNoPartInIt) {
-  const ExpectedRange expected =
-      BeamFootprints(rays_, wall_).Expect(0, Tube(0.01, 0.03, Eigen::Vector3d::UnitX()), 1.0);
+  const ExpectedBeam expected =
+      Expected(ValveFootprints(rays_, wall_), Tube(0.01, 0.03, Eigen::Vector3d::UnitX()), 1.0);
   EXPECT_EQ(expected.fraction, 0.0);
 }
 
 TEST_F(BeamFootprintsAtTwoMetres, DoNotMixWithoutAWall) {
-  const ExpectedRange expected = BeamFootprints(rays_, std::nullopt)
-                                     .Expect(0, Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
-  EXPECT_EQ(expected.gap_m, 0.0);
+  const ExpectedBeam expected = Expected(ValveFootprints(rays_, std::nullopt),
+                                         Tube(0.006, 0.0, Eigen::Vector3d::UnitY()), 1.0);
+  EXPECT_FALSE(expected.mixed);
   EXPECT_LT(expected.range_m, 2.0);
 }
 

@@ -165,7 +165,7 @@ TEST(FitDrill, AKindThatIsHardlyEverMetIsNotBelieved) {
 TEST(FitDrill, LocalSearchNeverLowersTheLikelihood) {
   const DrillRays& scene = UsualScene();
   const Bench bench(scene);
-  const SolidLikelihood likelihood(scene.rays, bench.around.planes);
+  const BeamLikelihood likelihood(scene.rays, bench.around.planes, kDrillBeams);
   Random random(3);
   for (int i = 0; i < 5; ++i) {
     DrillState start = bench.truth;
@@ -183,7 +183,7 @@ TEST(FitDrill, TheFlippedDrillExplainsTheRaysWorse) {
   // Fed with a drill that points backwards, the explicit flip turns it round.
   const DrillRays& scene = UsualScene();
   const Bench bench(scene);
-  const SolidLikelihood likelihood(scene.rays, bench.around.planes);
+  const BeamLikelihood likelihood(scene.rays, bench.around.planes, kDrillBeams);
   const auto searched = [&](const DrillState& state) {
     return LocalSearch(likelihood, state, bench.frame, bench.prior, LocalSearchEffort::kFine);
   };

@@ -437,15 +437,13 @@ TEST(BeamLikelihood, AFootprintOnBarAndDoorReadsARangeInBetween) {
   rays.footprint_rad = 0.010;
   rays.rays.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1.18});
   const Plane door{-Eigen::Vector3d::UnitX(), -kDoor_m};
-  BeamLikelihoodOptions options;
-  options.early_return = 0.0;
+  BeamOptions options;
   options.mixed_ranges = true;
   const BeamLikelihood likelihood(rays, {&door, 1}, options);
   // A bar across the beam whose edge runs through the beam's middle.
   const DoorThing bar({{{0.0, -0.1, 0.0}, {0.0, 0.1, 0.0}, 0.010}}, {},
                       {Eigen::Quaterniond::Identity(), {1.15, 0.0, 0.010}});
-  const auto expected = likelihood.Expect(
-      0, [&](const RangeRay& ray, double reach_m) { return bar.Intersect(ray, reach_m); });
+  const auto expected = likelihood.Expect(0, CoverBy(bar));
   ASSERT_TRUE(expected);
   EXPECT_NEAR(expected->fraction, 0.5, 0.02);
   EXPECT_TRUE(expected->mixed);

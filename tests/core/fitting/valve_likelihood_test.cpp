@@ -1,4 +1,4 @@
-#include "core/fitting/valve/ray_likelihood.h"
+#include "core/fitting/valve/valve_coverage.h"
 
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -56,20 +56,21 @@ RaySet AsMap(RaySet rays) {
   return rays;
 }
 
-TEST(RayLikelihood, PrefersTheTruthToABiggerWheel) {
+TEST(ValveLikelihood, PrefersTheTruthToABiggerWheel) {
   // Rays that passed outside the rim would have been stopped by it.
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   const ValveStep bigger = 0.020 * ValveStep::Unit(int{kRimRadius});
-  EXPECT_GT(likelihood(scene.truth), likelihood(Retract(scene.truth, bigger)) + 50.0);
+  EXPECT_GT(ScoreOf(scene.truth, likelihood),
+            ScoreOf(Retract(scene.truth, bigger), likelihood) + 50.0);
 }
 
-TEST(RayLikelihood, DoesNotPayForSpokesThatRaysWentThrough) {
+TEST(ValveLikelihood, DoesNotPayForSpokesThatRaysWentThrough) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   ValveCandidate more = scene.truth;
   more.model.spokes = 6;
-  EXPECT_GT(likelihood(scene.truth), likelihood(more) + 10.0);
+  EXPECT_GT(ScoreOf(scene.truth, likelihood), ScoreOf(more, likelihood) + 10.0);
 }
 
 TEST(AxisPrior, PrefersAnAxisSquareToTheWallAndForgivesOneThatIsNot) {
@@ -91,59 +92,63 @@ TEST(AxisPrior, PrefersAnAxisSquareToTheWallAndForgivesOneThatIsNot) {
   }
 }
 
-TEST(RayLikelihood, ThatTheValveIsThereBeatsNothing) {
+TEST(ValveLikelihood, ThatTheValveIsThereBeatsNothing) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
-  EXPECT_GT(likelihood(scene.truth), likelihood.Nothing() + 100.0);
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
+  EXPECT_GT(ScoreOf(scene.truth, likelihood), likelihood.Nothing() + 100.0);
 }
 
-TEST(RayLikelihood, CorrelatedRaysCountForLess) {
+TEST(ValveLikelihood, CorrelatedRaysCountForLess) {
   ValveScene scene = FourSpokes();
   const auto wall = WallOf(scene.rays);
-  const RayLikelihood independent(scene.rays, wall);
+  const BeamLikelihood independent = ValveLikelihood(scene.rays, wall);
   RaySet correlated_rays = scene.rays;
   correlated_rays.samples_per_ray = 0.25;
-  const RayLikelihood correlated(correlated_rays, wall);
+  const BeamLikelihood correlated = ValveLikelihood(correlated_rays, wall);
   EXPECT_NEAR(correlated.Nothing(), 0.25 * independent.Nothing(), 1e-9);
 }
 
-TEST(RayLikelihood, BeamsBehindAMapCountInFullAndTheMapForAFraction) {
+TEST(ValveLikelihood, BeamsBehindAMapCountInFullAndTheMapForAFraction) {
   const ValveScene scene = FourSpokes();
   const auto wall = WallOf(scene.rays);
   RaySet map = AsMap(scene.rays);
-  const RayLikelihood beams(scene.rays, wall), alone(map, wall);
+  const BeamLikelihood beams = ValveLikelihood(scene.rays, wall);
+  const BeamLikelihood alone = ValveLikelihood(map, wall);
   map.beams = std::make_shared<const RaySet>(scene.rays);
-  const RayLikelihood both(map, wall);
+  const BeamLikelihood both = ValveLikelihood(map, wall);
   const double prior = LogPrior(scene.truth, wall);
-  EXPECT_NEAR(both(scene.truth) - prior,
-              BeamModel::kMapWithBeams * (alone(scene.truth) - prior) + beams(scene.truth) - prior,
+  EXPECT_NEAR(ScoreOf(scene.truth, both) - prior,
+              BeamModel::kMapWithBeams * (ScoreOf(scene.truth, alone) - prior) +
+                  ScoreOf(scene.truth, beams) - prior,
               1e-9);
   EXPECT_NEAR(both.Nothing(), BeamModel::kMapWithBeams * alone.Nothing() + beams.Nothing(), 1e-9);
 }
 
-TEST(RayLikelihood, GainsOfItsRaysAreWhatAValveIsAheadOfNone) {
+TEST(ValveLikelihood, GainsOfItsRaysAreWhatAValveIsAheadOfNone) {
   const ValveScene scene = FourSpokes();
   const auto wall = WallOf(scene.rays);
   RaySet map = AsMap(scene.rays);
-  const RayLikelihood alone(map, wall);
-  EXPECT_NEAR(alone.Gains(scene.truth).sum(),
-              alone(scene.truth) - LogPrior(scene.truth, wall) - alone.Nothing(), 1e-9);
+  const BeamLikelihood alone = ValveLikelihood(map, wall);
+  EXPECT_NEAR(alone.Gains(CoverBy(scene.truth)).sum(),
+              ScoreOf(scene.truth, alone) - LogPrior(scene.truth, wall) - alone.Nothing(), 1e-9);
   map.beams = std::make_shared<const RaySet>(scene.rays);
-  const RayLikelihood both(map, wall), beams(scene.rays, wall);
-  EXPECT_EQ(both.Gains(scene.truth), beams.Gains(scene.truth)) << "the map is made from the beams";
+  const BeamLikelihood both = ValveLikelihood(map, wall);
+  const BeamLikelihood beams = ValveLikelihood(scene.rays, wall);
+  EXPECT_EQ(both.Gains(CoverBy(scene.truth)), beams.Gains(CoverBy(scene.truth)))
+      << "the map is made from the beams";
 }
 
-TEST(RayLikelihood, TheTruthIsAheadOfAnotherNumberOfSpokesByManyLines) {
+TEST(ValveLikelihood, TheTruthIsAheadOfAnotherNumberOfSpokesByManyLines) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   ValveCandidate more = scene.truth;
   more.model.spokes = 5;
-  EXPECT_GT(likelihood.DeviationsAhead(scene.truth, more), 2.0);
-  EXPECT_EQ(likelihood.DeviationsAhead(scene.truth, more),
-            -likelihood.DeviationsAhead(more, scene.truth));
+  EXPECT_GT(likelihood.DeviationsAhead(CoverBy(scene.truth), CoverBy(more)), 2.0);
+  EXPECT_EQ(likelihood.DeviationsAhead(CoverBy(scene.truth), CoverBy(more)),
+            -likelihood.DeviationsAhead(CoverBy(more), CoverBy(scene.truth)));
 }
 
-ValveEvidence EvidenceOfParts(const RayLikelihood& likelihood, const ValveCandidate& valve) {
+ValveEvidence EvidenceOfParts(const BeamLikelihood& likelihood, const ValveCandidate& valve) {
   ValveEvidence evidence;
   AddEvidenceOfParts(likelihood, valve, evidence);
   return evidence;
@@ -151,7 +156,7 @@ ValveEvidence EvidenceOfParts(const RayLikelihood& likelihood, const ValveCandid
 
 TEST(ValveEvidence, BeamsSpeakAgainstASpokeThatIsNotThere) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_spoke_nats, 10.0);
   ValveCandidate more = scene.truth;
   more.model.spokes = 5;
@@ -162,7 +167,7 @@ TEST(ValveEvidence, BeamsSpeakAgainstASpokeThatIsNotThere) {
 
 TEST(ValveEvidence, HubAndRimSpeakForNoSpokeBetweenThem) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_spoke_middle_nats, 10.0);
   ValveCandidate more = scene.truth;
   more.model.spokes = 5;
@@ -173,7 +178,7 @@ TEST(ValveEvidence, HubAndRimSpeakForNoSpokeBetweenThem) {
 
 TEST(ValveEvidence, BeamsSpeakAgainstAPartOfTheRimWhereThereIsNone) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_arc_nats, 10.0);
   ValveCandidate beside = scene.truth;
   beside.base_from_object = {
@@ -184,7 +189,7 @@ TEST(ValveEvidence, BeamsSpeakAgainstAPartOfTheRimWhereThereIsNone) {
 
 TEST(ValveEvidence, BeamsSpeakForASpokeThatIsLeftOut) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   EXPECT_LT(EvidenceOfParts(likelihood, scene.truth).further_spoke_nats, 3.0);
   ValveCandidate fewer = scene.truth;
   fewer.model.spokes = 2;
@@ -195,7 +200,7 @@ TEST(ValveEvidence, BeamsSpeakForASpokeThatIsLeftOut) {
 
 TEST(ValveEvidence, BeamsSpeakAgainstARimThatIsNotThere) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).rim_nats, 100.0);
   ValveCandidate wider = scene.truth;  // where the beams reach the wall
   wider.model.rim_radius_m *= 1.25;
@@ -240,13 +245,13 @@ TEST(FitValve, BeamsBehindAMapThatIsShiftedBringTheValveBack) {
 
 TEST(LocalSearch, NeverLosesLikelihood) {
   const ValveScene scene = FourSpokes();
-  const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     ValveCandidate start = Displaced(scene, seed);
-    start.log_likelihood = likelihood(start);
+    start.log_likelihood = ScoreOf(start, likelihood);
     const ValveCandidate end = LocalSearch(likelihood, start);
     EXPECT_GT(end.log_likelihood, start.log_likelihood);
-    EXPECT_NEAR(end.log_likelihood, likelihood(end), 1e-9);
+    EXPECT_NEAR(end.log_likelihood, ScoreOf(end, likelihood), 1e-9);
     // From a centimetre and a few degrees away to what the fit promises.
     EXPECT_LT(CompareValves(end, scene.truth).center_m, 0.010);
   }
@@ -254,7 +259,7 @@ TEST(LocalSearch, NeverLosesLikelihood) {
 
 TEST(Refine, ComesBackFromACentimetre) {
   const ValveScene scene = FourSpokes();
-  const BeamFootprints footprints(scene.rays, WallOf(scene.rays));
+  const BeamFootprints footprints = ValveFootprints(scene.rays, WallOf(scene.rays));
   // To the end: the four steps a round of a fit, which looks on by itself, leave more.
   RefineOptions options;
   options.steps = 16;
@@ -277,12 +282,12 @@ TEST(Refine, RaysThatWentPastTheWheelImproveTheFit) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const ValveScene scene = MakeValveScene(RandomValveView(seed));
     RefineOptions options;
-    const RayLikelihood likelihood(scene.rays, WallOf(scene.rays));
+    const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
     const BeamFootprints& footprints = likelihood.Footprints();
     const ValveCandidate start = Displaced(scene, seed);
-    const double with = likelihood(Refine(footprints, start, options));
+    const double with = ScoreOf(Refine(footprints, start, options), likelihood);
     options.free_space = false;
-    gained_nats += with - likelihood(Refine(footprints, start, options));
+    gained_nats += with - ScoreOf(Refine(footprints, start, options), likelihood);
   }
   EXPECT_GT(gained_nats, 6 * 5.0);  // 5 nats a view: 150 times as likely
 }
@@ -290,7 +295,7 @@ TEST(Refine, RaysThatWentPastTheWheelImproveTheFit) {
 TEST(Refine, ASizeAtTheEndOfItsRangeComesBack) {
   const ValveScene scene = FourSpokes();
   const ValveCandidate thick = Retract(scene.truth, 0.050 * ValveStep::Unit(int{kTubeRadius}));
-  const BeamFootprints footprints(scene.rays, WallOf(scene.rays));
+  const BeamFootprints footprints = ValveFootprints(scene.rays, WallOf(scene.rays));
   EXPECT_LT(Refine(footprints, thick, {}).model.tube_radius_m,
             scene.truth.model.tube_radius_m + 0.003);
 }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/fitting/beam_likelihood.h"
+#include "core/fitting/ray_set.h"
+
+namespace foresight {
+
+/// How a ray passes an object.
+struct BeamIntersection {
+  /// Least distance between ray and object in metres; negative where the ray enters it: how deep.
+  double clearance_m = 0.0;
+  double range_m = 0.0;  ///< where the ray enters the object, or passes it closest
+};
+
+/// An object at a place, in base. nullopt where the ray stays further than `reach_m` from it.
+using IntersectBeam =
+    std::function<std::optional<BeamIntersection>(const RangeRay& ray, double reach_m)>;
+
+/// The coverage of an object of which only the intersection with a ray is known: each sample of a
+/// footprint (BeamOptions::samples) is an error function of how far the ray passes from the
+/// outline, in widths of half a sample.
+/// @param early_return part of half a sample's width that must lie on the object beyond its middle
+///     before half of the beams return from it: 0 = an edge through the middle; 0.5 = a quarter of
+///     the sample suffices
+CoverBeam CoverBySamples(IntersectBeam object, double early_return = 0.5);
+
+}  // namespace foresight

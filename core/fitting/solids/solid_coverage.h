@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+
+#include "core/fitting/beam_likelihood.h"
+#include "core/fitting/ray_set.h"
+#include "core/fitting/sampled_coverage.h"
+#include "core/fitting/solids/image_edges.h"
+#include "core/fitting/solids/solid_tracer.h"
+#include "core/objects/solid_part.h"
+
+namespace foresight {
+
+/// Solids at a place as the beam model asks for them, with how deep a ray enters.
+IntersectBeam IntersectionWith(SolidTracer solids);
+
+/// A ray that enters the solids returns from them, one that passes within its footprint may have
+/// touched them: the coverage of a ray without a width of its own inside.
+CoverBeam CoverByRays(SolidTracer solids);
+
+/// Log likelihood of solids at a place in nats: of the rays, and of the image where one shows the
+/// region (RaySet::image), on whose edges their outline must lie.
+double LogLikelihoodOf(std::span<const SolidPart> parts,
+                       const Rigid<frame::Base, frame::Object>& base_from_object,
+                       const BeamLikelihood& likelihood);
+
+/// What the image says of their outline; nothing where there is none.
+OutlineSupport OfImage(std::span<const SolidPart> parts,
+                       const Rigid<frame::Base, frame::Object>& base_from_object,
+                       const RaySet& rays);
+
+/// The rays that pass within `reach_m` of solids alone, without beams and image.
+RaySet RaysNear(const RaySet& rays, std::span<const SolidPart> parts,
+                const Rigid<frame::Base, frame::Object>& base_from_object, double reach_m);
+
+}  // namespace foresight
