@@ -7,6 +7,7 @@
 
 #include "core/base/quantile.h"
 #include "core/fitting/solids/pattern_search.h"
+#include "core/fitting/solids/solid_coverage.h"
 
 namespace foresight {
 namespace {

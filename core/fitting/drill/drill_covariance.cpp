@@ -9,7 +9,6 @@
 #include "core/fitting/beam_model.h"
 #include "core/fitting/line_covariance.h"
 #include "core/fitting/ray_selection.h"
-#include "core/fitting/solids/solid_coverage.h"
 #include "core/fitting/solids/solid_tracer.h"
 
 namespace foresight {

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/fitting/best_distinct.h"
 #include "core/fitting/solids/pattern_search.h"
+#include "core/fitting/solids/solid_coverage.h"
 
 namespace foresight {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/fitting/beam_likelihood.h"
 #include "core/fitting/sampled_coverage.h"
-#include "core/fitting/solids/image_edges.h"
+#include "core/fitting/solids/solid_coverage.h"
 #include "core/objects/handle_model.h"
 
 namespace foresight {

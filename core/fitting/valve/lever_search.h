@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/fitting/valve/ray_likelihood.h"
+#include "core/fitting/valve/valve_state.h"
 
 namespace foresight {
 
