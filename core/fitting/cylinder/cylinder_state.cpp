@@ -22,7 +22,7 @@ SolidPart CylinderState::Part() const {
 }
 
 double LogLikelihoodOf(const SolidPart& solid_in_base, const BeamLikelihood& likelihood) {
-  return likelihood(CoverBySamples(IntersectionWith(SolidTracer({&solid_in_base, 1}, {}))));
+  return likelihood(CoverBy(SolidTracer({&solid_in_base, 1}, {})));
 }
 
 CylinderState Retract(const CylinderState& cylinder, const CylinderStep& step) {

@@ -265,8 +265,8 @@ class DrillFit {
     support.image_flip_nats =
         support.outline.nats - OfImage(model.parts, pose, likelihood_.rays()).nats;
     support.flip_line_sigmas = likelihood_.DeviationsAhead(
-        CoverByRays(SolidTracer(detection.best.model.parts, detection.best.base_from_object)),
-        CoverByRays(SolidTracer(model.parts, pose)));
+        CoverBy(SolidTracer(detection.best.model.parts, detection.best.base_from_object)),
+        CoverBy(SolidTracer(model.parts, pose)));
   }
 
   /// Whether it ends as drills do, in a chuck that is narrower than the head: lamps and blowers on

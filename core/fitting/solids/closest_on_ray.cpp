@@ -154,7 +154,7 @@ ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
 // How far a point is beyond all faces is convex along a line: two tangents, one from each side,
 // cross below the least value, and the next tangent is taken there.
 ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
-                              const Eigen::Vector3d& half, double bound_m) {
+                              const Eigen::Vector3d& half, double bound_m, double enough_m) {
   // Of a capsule's middle line that is known everywhere.
   if (shape == SolidPart::Shape::kCapsule) return BesideCapsule(ray, half);
   const double middle = -ray.origin.dot(ray.direction);
@@ -167,7 +167,7 @@ ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
         (low.slope - high.slope);
     const double least_m = low.beyond_m + low.slope * (range_m - low.range_m);
     next = BeyondFaces(shape, ray, half, range_m);
-    if (next.beyond_m - least_m < kDepthError_m) break;
+    if (next.beyond_m - least_m < kDepthError_m || next.beyond_m < -enough_m) break;
     (next.slope < 0.0 ? low : high) = next;
   }
   return {next.beyond_m, next.range_m};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "core/objects/solid_part.h"
 
@@ -24,9 +25,10 @@ struct ClosestApproach {
 ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
                               const Eigen::Vector3d& half);
 
-/// How deep a line that enters the solid gets: the least signed distance along it. `bound_m` is the
-/// radius of a sphere round the solid.
+/// How deep a line that enters the solid gets: the least signed distance along it, or one below
+/// -`enough_m`. `bound_m` is the radius of a sphere round the solid.
 ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
-                              const Eigen::Vector3d& half, double bound_m);
+                              const Eigen::Vector3d& half, double bound_m,
+                              double enough_m = std::numeric_limits<double>::infinity());
 
 }  // namespace foresight

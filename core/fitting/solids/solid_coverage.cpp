@@ -1,19 +1,9 @@
 #include "core/fitting/solids/solid_coverage.h"
 
-#include <cmath>
 #include <optional>
 #include <utility>
 
-#include "core/fitting/beam_model.h"
-
 namespace foresight {
-namespace {
-
-// A ray that just misses a solid returns from it every other time.
-constexpr double kGrazing = 0.5 / BeamModel::kHit;
-constexpr double kReachWidths = 3.5;
-
-}  // namespace
 
 IntersectBeam IntersectionWith(SolidTracer solids) {
   return [solids = std::move(solids)](const RangeRay& ray,
@@ -24,24 +14,15 @@ IntersectBeam IntersectionWith(SolidTracer solids) {
   };
 }
 
-CoverBeam CoverByRays(SolidTracer solids) {
-  return [solids = std::move(solids)](const BeamFootprints& footprints,
-                                      std::size_t i) -> std::optional<BeamCoverage> {
-    const double width_m = footprints.HalfWidth(i) + footprints.Options().edge_error_m;
-    const SolidIntersection intersection =
-        solids.Intersect(footprints.Rays().rays[i], kReachWidths * width_m);
-    if (intersection.part < 0) return std::nullopt;
-    const double ratio = intersection.clearance_m / width_m;
-    const double fraction = intersection.Hits() ? 1.0 : kGrazing * std::exp(-0.5 * ratio * ratio);
-    return BeamCoverage{fraction, intersection.range_m};
-  };
+CoverBeam CoverBy(SolidTracer solids) {
+  return CoverBySamples(IntersectionWith(std::move(solids)));
 }
 
 double LogLikelihoodOf(std::span<const SolidPart> parts,
                        const Rigid<frame::Base, frame::Object>& base_from_object,
                        const BeamLikelihood& likelihood) {
   return OfImage(parts, base_from_object, likelihood.rays()).nats +
-         likelihood(CoverByRays(SolidTracer(parts, base_from_object)));
+         likelihood(CoverBy(SolidTracer(parts, base_from_object)));
 }
 
 OutlineSupport OfImage(std::span<const SolidPart> parts,

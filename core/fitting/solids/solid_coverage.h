@@ -14,9 +14,8 @@ namespace foresight {
 /// Solids at a place as the beam model asks for them, with how deep a ray enters.
 IntersectBeam IntersectionWith(SolidTracer solids);
 
-/// A ray that enters the solids returns from them, one that passes within its footprint may have
-/// touched them: the coverage of a ray without a width of its own inside.
-CoverBeam CoverByRays(SolidTracer solids);
+/// Their coverage: a quarter of a round footprint suffices for half of its beams.
+CoverBeam CoverBy(SolidTracer solids);
 
 /// Log likelihood of solids at a place in nats: of the rays, and of the image where one shows the
 /// region (RaySet::image), on whose edges their outline must lie.

@@ -12,6 +12,8 @@ namespace {
 using Shape = SolidPart::Shape;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUnmeasuredDepth_m = -1.0;
+// Parts that a ray enters one after another within this are one body, without an edge between them.
+constexpr double kSameSurface_m = 0.02;
 
 using LocalRay = RayBesideSolid;
 
@@ -141,9 +143,19 @@ SolidIntersection SolidTracer::Passed(const RangeRay& ray, double reach_m) const
 SolidIntersection SolidTracer::IntersectWithDepth(const RangeRay& ray, double reach_m) const {
   SolidIntersection intersection = Intersect(ray, reach_m);
   if (!intersection.Hits()) return intersection;
-  const Part& part = parts_[static_cast<std::size_t>(intersection.part)];
-  intersection.clearance_m = std::min(
-      DeepestInside(part.shape, InPart(ray, part), part.half, part.bound_m).distance_m, -1e-9);
+  const auto depth_in = [&](const Part& part) {
+    return DeepestInside(part.shape, InPart(ray, part), part.half, part.bound_m, reach_m)
+        .distance_m;
+  };
+  const auto first = static_cast<std::size_t>(intersection.part);
+  intersection.clearance_m = std::min(depth_in(parts_[first]), -1e-9);
+  for (std::size_t i = 0; i < parts_.size() && intersection.clearance_m > -reach_m; ++i) {
+    const Part& part = parts_[i];
+    if (i == first || !PassesNear(ray, part.middle, part.bound_m)) continue;
+    const double enter = Enter(part.shape, InPart(ray, part), part.half);
+    if (enter - intersection.range_m < kSameSurface_m)
+      intersection.clearance_m = std::min(intersection.clearance_m, depth_in(part));
+  }
   return intersection;
 }
 

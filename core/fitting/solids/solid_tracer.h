@@ -29,7 +29,9 @@ class SolidTracer {
   /// What the ray intersects, or misses by at most `reach_m`. A hit's clearance is not measured: -1
   /// m.
   SolidIntersection Intersect(const RangeRay& ray, double reach_m) const;
-  /// The same with a hit's depth: how far the ray gets inside the solid that it enters first.
+  /// The same with a hit's depth: how far the ray gets inside the solid that it enters first, or
+  /// inside one that stands in or against that; where that is more than `reach_m` it may be more
+  /// still.
   SolidIntersection IntersectWithDepth(const RangeRay& ray, double reach_m) const;
 
  private:

@@ -84,6 +84,9 @@ TEST(ClosestOnRay, DeepestInsideIsNoLessDeepThanTheMiddleOfWhatIsPassed) {
       const ClosestApproach deepest = DeepestInside(shape, ray, half, 0.2);
       EXPECT_LT(deepest.distance_m, -0.015) << i;
       EXPECT_NEAR(deepest.distance_m, BySteps(shape, ray, half), 1e-6) << i;
+      const double enough = DeepestInside(shape, ray, half, 0.2, 0.010).distance_m;
+      EXPECT_LT(enough, -0.010) << i;
+      EXPECT_GE(enough, deepest.distance_m - 1e-6) << i;
     }
   }
 }

@@ -72,5 +72,30 @@ TEST(SolidTracer, IntersectsWhatSmallStepsAlongTheRayIntersect) {
   EXPECT_GT(misses, 50);
 }
 
+SolidPart Box(double width_m, const Eigen::Vector3d& middle) {
+  SolidPart box;
+  box.shape = SolidPart::Shape::kBox;
+  box.size_m = {width_m, width_m, width_m};
+  box.object_from_part = {Eigen::Quaterniond::Identity(), middle};
+  return box;
+}
+
+TEST(SolidTracer, ThereIsNoEdgeWherePartsStandInEachOther) {
+  const RangeRay ray{{-1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), 1.0};
+  // The ray enters both, one of them 1 mm above its lower face.
+  const SolidPart above = Box(0.1, {0.0, 0.0, 0.049}), round = Box(0.1, {0.005, 0.0, 0.0});
+  const SolidPart alone[] = {above}, both[] = {above, round};
+  EXPECT_NEAR(SolidTracer(alone, {}).IntersectWithDepth(ray, kReach_m).clearance_m, -0.001, 1e-5);
+  const SolidIntersection joined = SolidTracer(both, {}).IntersectWithDepth(ray, kReach_m);
+  EXPECT_LT(joined.clearance_m, -kReach_m);
+  EXPECT_NEAR(joined.range_m, 0.95, 1e-9);
+}
+
+TEST(SolidTracer, WhatStandsBehindDoesNotMakeAPartWider) {
+  const RangeRay ray{{-1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), 1.0};
+  const SolidPart parts[] = {Box(0.1, {0.0, 0.0, 0.049}), Box(0.1, {0.2, 0.0, 0.0})};
+  EXPECT_NEAR(SolidTracer(parts, {}).IntersectWithDepth(ray, kReach_m).clearance_m, -0.001, 1e-5);
+}
+
 }  // namespace
 }  // namespace foresight
