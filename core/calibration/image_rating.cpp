@@ -256,10 +256,9 @@ std::string ImageFault(const GrayImage& image) {
     for (int x = 2; x + 2 < image.width(); x += 3)
       steps.push_back(std::abs(static_cast<double>(image(x + 2, y)) - image(x - 2, y)));
   if (steps.empty()) return "the image is too small";
-  const auto strong =
-      steps.begin() + static_cast<std::ptrdiff_t>(0.998 * static_cast<double>(steps.size() - 1));
-  std::nth_element(steps.begin(), strong, steps.end());
-  const double width_px = 0.8 * (light - dark) * 4.0 / std::max(1.0, *strong);
+  const auto rank = static_cast<std::size_t>(0.998 * static_cast<double>(steps.size() - 1));
+  const double strong = ValueAtRank(std::move(steps), rank);
+  const double width_px = 0.8 * (light - dark) * 4.0 / std::max(1.0, strong);
   if (width_px > 8.0)
     return fmt::format("blurred: even the sharpest edges are about {:.0f} px wide", width_px);
   return {};

@@ -5,16 +5,15 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 
-double Percentile(std::vector<double>& values, double p) {
+double Percentile(std::vector<double> values, double p) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto rank =
-      static_cast<std::ptrdiff_t>(std::ceil(p / 100.0 * static_cast<double>(values.size()))) - 1;
-  const auto at = values.begin() + std::clamp<std::ptrdiff_t>(
-                                       rank, 0, static_cast<std::ptrdiff_t>(values.size()) - 1);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  const double last = static_cast<double>(values.size() - 1);
+  const double rank = std::ceil(p / 100.0 * static_cast<double>(values.size())) - 1.0;
+  return ValueAtRank(std::move(values), static_cast<std::size_t>(std::clamp(rank, 0.0, last)));
 }
 
 Result<DepthAccuracy> ScoreDepth(const DepthImage& depth_m, const MaskImage& mask,

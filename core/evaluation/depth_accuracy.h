@@ -24,7 +24,7 @@ struct DepthAccuracy {
 Result<DepthAccuracy> ScoreDepth(const DepthImage& depth_m, const MaskImage& mask,
                                  const DepthImage& truth_m, int stride);
 
-/// The p-th percentile, 0 <= p <= 100, of the values (reordered): the value at rank ceil(p/100 n).
-double Percentile(std::vector<double>& values, double p);
+/// The p-th percentile, 0 <= p <= 100, of the values: that at rank ceil(p/100 n).
+double Percentile(std::vector<double> values, double p);
 
 }  // namespace foresight

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "core/base/quantile.h"
 #include "core/evaluation/other_world.h"
 #include "core/simulation/ray_caster.h"
 #include "core/simulation/shapes.h"
@@ -321,8 +322,7 @@ double MedianRun(const Silhouette& view, double low_m, double high_m, double x) 
   std::vector<double> lengths;
   for (int row = Silhouette::RowAt(low_m); row <= Silhouette::RowAt(high_m); ++row)
     lengths.push_back(LengthOf(view.RunRound(row, Silhouette::ColumnAt(x))));
-  std::sort(lengths.begin(), lengths.end());
-  return lengths[lengths.size() / 2];
+  return UpperMedian(std::move(lengths));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/quantile.h"
 #include "core/evaluation/other_world.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/ray_caster.h"
@@ -170,17 +171,12 @@ Band OutermostBand(const AxialView& view) {
     width.push_back(last - first);
   }
   if (outer.empty()) return {};
-  const auto middle_of = [](std::vector<int> values) {
-    const auto middle = values.begin() + std::ssize(values) / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
-  const double usual = middle_of(outer);
+  const double usual = UpperMedian(outer);
   std::erase_if(outer, [&](int r) { return std::abs(r - usual) > kMostWaves * usual; });
   Band band;
   band.closed = static_cast<double>(outer.size()) >= kClosed * kDirections;
   band.outer = std::accumulate(outer.begin(), outer.end(), 0.0) / static_cast<double>(outer.size());
-  band.inner = std::max(0.0, band.outer - middle_of(width));
+  band.inner = std::max(0.0, band.outer - UpperMedian(width));
   return band;
 }
 

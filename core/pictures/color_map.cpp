@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 namespace {
 
@@ -108,14 +110,8 @@ ValueRange RobustRange(std::span<const float> values) {
   for (std::size_t i = 0; i < values.size(); i += stride)
     if (std::isfinite(values[i])) finite.push_back(values[i]);
   if (finite.empty()) return {};
-  const auto percentile = [&finite](std::size_t percent) {
-    const auto at =
-        finite.begin() + static_cast<std::ptrdiff_t>(percent * (finite.size() - 1) / 100);
-    std::nth_element(finite.begin(), at, finite.end());
-    return static_cast<double>(*at);
-  };
-  const double low = percentile(1);
-  return {low, std::max(percentile(99), low + 1e-3)};
+  const double low = Quantile(finite, 0.01);
+  return {low, std::max<double>(Quantile(std::move(finite), 0.99), low + 1e-3)};
 }
 
 }  // namespace foresight

@@ -5,6 +5,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 
 namespace foresight {
 namespace {
@@ -79,11 +80,6 @@ class PointTree {
   std::vector<unsigned char> axis_;
 };
 
-/// The value below which `fraction` of the sorted values lie.
-double Quantile(const std::vector<float>& sorted, double fraction) {
-  return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) + 0.5)];
-}
-
 }  // namespace
 
 Result<std::vector<float>> NearestDistances(std::span<const Eigen::Vector3f> from,
@@ -110,9 +106,8 @@ Result<std::vector<float>> NearestDistances(std::span<const Eigen::Vector3f> fro
 
 CloudDistance SummaryOf(std::vector<float> distances_m) {
   FORESIGHT_EXPECTS(!distances_m.empty(), "a distance");
-  std::sort(distances_m.begin(), distances_m.end());
   return {distances_m.size(), Quantile(distances_m, 0.5), Quantile(distances_m, 0.95),
-          distances_m.back()};
+          *std::max_element(distances_m.begin(), distances_m.end())};
 }
 
 Result<CloudDistance> DistanceOfClouds(std::span<const Eigen::Vector3f> from,

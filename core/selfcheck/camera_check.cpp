@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/calibration/tangent.h"
 #include "core/selfcheck/log_gray.h"
 #include "core/selfcheck/neighbour_groups.h"
@@ -36,9 +37,8 @@ Gradient GradientOf(const FloatImage& log_gray, double blur_px) {
   std::vector<float> lengths;
   for (std::size_t i = 0; i < gradient.x.size(); i += 17)
     lengths.push_back(std::hypot(gradient.x.values()[i], gradient.y.values()[i]));
-  const auto most = lengths.begin() + static_cast<std::ptrdiff_t>(9 * lengths.size() / 10);
-  std::nth_element(lengths.begin(), most, lengths.end());
-  gradient.usual = std::max(*most, 1e-6f);
+  const std::size_t most = 9 * lengths.size() / 10;
+  gradient.usual = std::max(ValueAtRank(std::move(lengths), most), 1e-6f);
   return gradient;
 }
 

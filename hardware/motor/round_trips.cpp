@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/quantile.h"
+
 namespace foresight {
 
 void RoundTrips::Add(double sent_s, double answered_s) {
@@ -12,10 +14,8 @@ void RoundTrips::Add(double sent_s, double answered_s) {
 
 double RoundTrips::Median_s() const {
   if (count_ == 0) return 0.0;
-  std::array<double, kKept> sorted = duration_s_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(size()));
-  return *middle;
+  const auto end = duration_s_.begin() + static_cast<std::ptrdiff_t>(size());
+  return UpperMedian(std::vector<double>(duration_s_.begin(), end));
 }
 
 void RoundTrips::Describe(MotorHealth& health) const {

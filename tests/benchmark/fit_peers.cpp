@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/base/quantile.h"
 #include "core/depth/depth_method.h"
 #include "core/evaluation/fit_populations.h"
 #include "core/evaluation/paired_lead.h"
@@ -303,12 +304,6 @@ void JudgePoses(const Bench& bench, const std::vector<nlohmann::json>& poses) {
   }
 }
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 struct Arguments {
   std::string kind;
   std::uint64_t first_seed = 10000;
@@ -381,7 +376,8 @@ Status Run(const Arguments& arguments) {
     const PairedLead lead = LeadOverSharedScenes(ours.right_of_scene, tally.right_of_scene);
     fmt::print("| {} | {} of {} | {} | {}, {} | {:.2f} ({:.2f} to {:.2f}) | {:.1f} | {:.3f} |\n",
                name, tally.right, tally.asked, tally.wrong, lead.only_first, lead.only_second,
-               lead.lead, lead.low, lead.high, Median(tally.center_mm), Median(tally.seconds));
+               lead.lead, lead.low, lead.high, UpperMedian(tally.center_mm),
+               UpperMedian(tally.seconds));
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "hardware/link/wire/channel_arguments.h"
 #include "hardware/link/wire/credentials.h"
 #include "hardware/link/wire/peer.h"
@@ -127,13 +128,8 @@ void RoundTrip(benchmark::State& state, Transport transport) {
         std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count());
   }
   if (times_ms.empty()) return;
-  const auto at = [&](double part) {
-    const auto index = static_cast<std::ptrdiff_t>(part * static_cast<double>(times_ms.size() - 1));
-    std::nth_element(times_ms.begin(), times_ms.begin() + index, times_ms.end());
-    return times_ms[static_cast<std::size_t>(index)];
-  };
-  state.counters["median_ms"] = at(0.5);
-  state.counters["p99_ms"] = at(0.99);
+  state.counters["median_ms"] = Quantile(times_ms, 0.5);
+  state.counters["p99_ms"] = Quantile(times_ms, 0.99);
 }
 
 /// What the gate costs at a handshake and at each call.

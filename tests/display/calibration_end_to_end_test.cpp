@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/calibration/compare_rigs.h"
 #include "core/detection/fit_in_scan.h"
 #include "core/evaluation/calibration_scene.h"
@@ -167,9 +168,7 @@ struct CalibrationEndToEnd : testing::Test {
         if (depth->mask(x, y) != 0 && std::isfinite(truth(x, y)))
           squares_m2.push_back(std::pow(depth->dense.depth_m(x, y) - truth(x, y), 2));
     ASSERT_GT(squares_m2.size(), 1000u);
-    const auto middle = squares_m2.begin() + static_cast<std::ptrdiff_t>(squares_m2.size() / 2);
-    std::nth_element(squares_m2.begin(), middle, squares_m2.end());
-    errors->depth_m2 += *middle;
+    errors->depth_m2 += UpperMedian(std::move(squares_m2));
 
     const auto found = FitValveInScan({rig, *cloud, {}, &*depth}, FitSource::kRaw,
                                       RoundTheValve(image.motor_angle_rad), {}, {});

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "tests/hardware/emulated_head.h"
 
 namespace foresight {
@@ -23,13 +24,7 @@ class AngleErrors {
     for (const double error : magnitudes_) sum += error * error;
     return std::sqrt(sum / static_cast<double>(size()));
   }
-  double Quantile(double fraction) const {
-    std::vector<double> sorted = magnitudes_;
-    const auto at = sorted.begin() +
-                    static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), at, sorted.end());
-    return *at;
-  }
+  double Quantile(double fraction) const { return foresight::Quantile(magnitudes_, fraction); }
   void Print(double speed_deg_s, const char* name) const {
     std::printf("%2.0f deg/s, %-28s rms %.4f, 95 %% %.4f, largest %.4f deg\n", speed_deg_s, name,
                 Rms(), Quantile(0.95), Quantile(1.0));

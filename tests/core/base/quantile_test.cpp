@@ -14,6 +14,13 @@ TEST(Quantile, LiesBetweenTwoValuesInProportion) {
   EXPECT_EQ(Quantile({7.0, 5.0}, 0.0), 5.0);
   EXPECT_EQ(Quantile({7.0, 5.0}, 1.0), 7.0);
   EXPECT_TRUE(std::isnan(Quantile({}, 0.5)));
+  EXPECT_EQ(Quantile(std::vector<float>{4.0f, 1.0f, 2.0f, 3.0f}, 0.5), 2.5f);
+}
+
+TEST(ValueAtRank, IsTheValueThatStandsThereInOrder) {
+  for (std::size_t rank = 0; rank < 4; ++rank)
+    EXPECT_EQ(ValueAtRank<int>({30, 0, 20, 10}, rank), 10 * static_cast<int>(rank));
+  EXPECT_THROW(ValueAtRank<int>({1}, 1), ContractViolation);
 }
 
 TEST(UpperMedian, IsOneOfTheValuesTheUpperOfTwoMiddleOnes) {
