@@ -7,10 +7,14 @@
 #include "core/io/png.h"
 
 namespace foresight {
+
 void AddDepthArguments(CLI::App& command, DepthArguments& arguments) {
+  const std::string group = command.option_defaults()->get_group();
+  command.option_defaults()->group("Depth map");
   command.add_option("--method", arguments.method, "Depth method: " + MethodNames())
       ->capture_default_str();
   AddOptionFlags(command, DepthOptionTable(), arguments.given);
+  command.option_defaults()->group(group);
 }
 
 std::vector<std::string> DepthOptionNames() {

@@ -17,6 +17,7 @@ struct DepthArguments {
   GivenFlags given;  ///< of DepthOptionTable
 };
 
+/// Below a heading of their own in the help.
 void AddDepthArguments(CLI::App& command, DepthArguments& arguments);
 /// What AddDepthArguments adds: "--method", ...
 std::vector<std::string> DepthOptionNames();

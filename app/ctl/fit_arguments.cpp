@@ -9,32 +9,33 @@ namespace {
 /// The word for the dense map of `--method`, from when there was one.
 constexpr const char* kDepthAlias = "depth";
 
+/// The options that are added from now on stand below this heading of the help.
+void BeginGroup(CLI::App& command, const std::string& heading) {
+  command.option_defaults()->group(heading);
+}
+
 void AddRegionArguments(CLI::App& command, RegionArguments& region) {
-  constexpr const char* kGroup = "Region, one of; with --cloud: none is the whole cloud";
+  BeginGroup(command, "Region, one of; with --cloud: none is the whole cloud");
   command.add_option("--roi", region.rectangle, "Rectangle: left,top,right,bottom in pixels")
       ->expected(4)
-      ->delimiter(',')
-      ->group(kGroup);
+      ->delimiter(',');
   command.add_option("--polygon", region.polygon, "Polygon: x,y,x,y,x,y,... in pixels")
       ->expected(6, 2000)
-      ->delimiter(',')
-      ->group(kGroup);
+      ->delimiter(',');
   command
       .add_option("--two-clicks", region.two_clicks,
                   "Two points on opposite sides of the object: x,y,x,y in pixels")
       ->expected(4)
-      ->delimiter(',')
-      ->group(kGroup);
+      ->delimiter(',');
   command
       .add_option("--box", region.box,
                   "Box in the robot's frame, or with --cloud in the cloud's: middle x,y,z and "
                   "size x,y,z in metres")
       ->expected(6)
-      ->delimiter(',')
-      ->group(kGroup);
+      ->delimiter(',');
 }
 
-void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
+void AddSourceArgument(CLI::App& command, FitArguments& arguments) {
   std::vector<std::string> names = SourceNames();
   names.push_back(kDepthAlias);
   for (std::size_t i = names.size(); i-- > 1;)
@@ -46,44 +47,46 @@ void AddSourceArguments(CLI::App& command, FitArguments& arguments) {
           "the returns behind it or, with -alone after its name, without them")
       ->check(CLI::IsMember(names))
       ->capture_default_str();
-  constexpr const char* kGroup = "Instead of a mission";
-  command
-      .add_option("--depth", arguments.depth_file,
-                  "Depth map: PFM, or PNG of 16 bits, in millimetres along the camera's axis")
-      ->group(kGroup);
+}
+
+void AddAnswerArguments(CLI::App& command, FitArguments& arguments) {
+  BeginGroup(command, "Answer");
+  command.add_flag("--json", arguments.json, "Print the answer as JSON");
+  command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
+  command.add_flag("--save", arguments.save, "Write the answer into the mission file");
+  command.add_option("--gallery", arguments.gallery,
+                     "Fit to every source and set the answers side by side in this folder");
+}
+
+void AddFileArguments(CLI::App& command, FitArguments& arguments) {
+  BeginGroup(command, "Instead of a mission");
+  command.add_option("--depth", arguments.depth_file,
+                     "Depth map: PFM, or PNG of 16 bits, in millimetres along the camera's axis");
   command
       .add_option("--density", arguments.density,
                   "With --depth: fraction of its pixels with a measurement of their own")
       ->check(CLI::Range(1e-6, 1.0))
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option(
-          "--cloud", arguments.cloud_file,
-          "Point cloud, in metres: PLY, PCD, .bin of four floats a point, or text. Regions and "
-          "robot_from_object of the answer are in the cloud's own frame")
-      ->group(kGroup);
+      ->capture_default_str();
+  command.add_option(
+      "--cloud", arguments.cloud_file,
+      "Point cloud, in metres: PLY, PCD, .bin of four floats a point, or text. Regions and "
+      "robot_from_object of the answer are in the cloud's own frame");
   command
       .add_option("--viewpoint", arguments.viewpoint,
                   "With --cloud: where it was seen from, x,y,z in metres")
       ->expected(3)
-      ->delimiter(',')
-      ->group(kGroup);
+      ->delimiter(',');
   command
       .add_option("--up", arguments.up,
                   "With --cloud: which way is up in its frame, x,y,z; default: z is up")
       ->expected(3)
-      ->delimiter(',')
-      ->group(kGroup);
+      ->delimiter(',');
   command
       .add_option("--noise-mm", arguments.noise_mm,
                   "With --cloud: standard deviation of its ranges; default: measured in the region")
-      ->check(CLI::Range(0.1, 200.0))
-      ->group(kGroup);
-  command
-      .add_option("--rig", arguments.rig,
-                  "Calibration of the head whose camera took the image (YAML)")
-      ->group(kGroup);
+      ->check(CLI::Range(0.1, 200.0));
+  command.add_option("--rig", arguments.rig,
+                     "Calibration of the head whose camera took the image (YAML)");
 }
 
 }  // namespace
@@ -94,31 +97,28 @@ std::vector<std::string> SourceNames() {
   return names;
 }
 
-void AddSubjectArguments(CLI::App& command, FitArguments& arguments) {
-  arguments.command = &command;
-  AddScanArguments(command, arguments.scan, NeedMission::kNo);
-  AddRegionArguments(command, arguments.region);
-  AddSourceArguments(command, arguments);
-  AddDepthArguments(command, arguments.depth);
-  command.add_flag("--json", arguments.json, "Print the answer as JSON");
-  command.add_option("--picture", arguments.picture, "Draw the answer into this PNG");
-}
-
 void AddFitArguments(CLI::App& command, FitArguments& arguments) {
+  arguments.command = &command;
   constexpr bool kHasDepth = true;  // a scan's map is computed where it is wanted
   if (UsualSourceFor(arguments.kind, kHasDepth) == FitSource::kDepth)
     arguments.source = kDepthAlias;
-  AddSubjectArguments(command, arguments);
+  // As the help lists them: first what every fit needs.
+  AddScanArguments(command, arguments.scan, NeedMission::kNo);
+  AddSourceArgument(command, arguments);
+  AddRegionArguments(command, arguments.region);
+  AddAnswerArguments(command, arguments);
+  AddFileArguments(command, arguments);
+  BeginGroup(command, "In a scan that a head keeps");
   CLI::Option* head = AddLinkOptions(command, arguments.link);
   command
       .add_option("--head-scan", arguments.head_scan,
                   "With --head: the scan that the head fits in, by its id or how that begins; "
                   "default: the newest")
       ->needs(head);
+  BeginGroup(command,
+             fmt::format("What a {} may be, and the search for it", ToString(arguments.kind)));
   AddOptionFlags(command, FitOptionTable(arguments.kind), arguments.given);
-  command.add_flag("--save", arguments.save, "Write the answer into the mission file");
-  command.add_option("--gallery", arguments.gallery,
-                     "Fit to every source and set the answers side by side in this folder");
+  AddDepthArguments(command, arguments.depth);
 }
 
 namespace {

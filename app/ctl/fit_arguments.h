@@ -47,10 +47,8 @@ struct FitArguments {
   std::string gallery;
 };
 
-/// Adds what any fit is given: scan, depth map or cloud, region, source, --json and --picture.
-void AddSubjectArguments(CLI::App& command, FitArguments& arguments);
-
-/// The same, and what belongs to the kind of object in `arguments`.
+/// Adds scan, source, region and what becomes of the answer, then depth map or cloud, a head, what
+/// belongs to the kind of object in `arguments`, and last the depth method's options.
 void AddFitArguments(CLI::App& command, FitArguments& arguments);
 
 /// Options that contradict each other or lack one another. Fails with kInvalidOptions.

@@ -1,6 +1,7 @@
 // `foresightctl fit` on scans, depth maps and point clouds; whatever it is fed, one clear line.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -23,6 +24,26 @@ namespace {
 Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
   const auto& p = answer["best"]["robot_from_object"]["position_m"];
   return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
+}
+
+TEST(FitHelp, BeginsWithWhatEveryFitNeedsAndEndsWithTheDepthMethods) {
+  const std::string help = RunProgram(FORESIGHTCTL, {"fit", "valve", "--help"}).output;
+  std::size_t last = 0;
+  for (const char* text :
+       {"--mission ", "--image ", "--source ", "Region, one of", "--roi ", "--box ",
+        "\nAnswer:", "--json ", "--save ", "\nInstead of a mission:", "--cloud ",
+        "\nIn a scan that a head keeps:", "--head ", "\nWhat a valve may be", "--max-rays ",
+        "\nDepth map:", "--method ", "--threshold "}) {
+    const std::size_t at = help.find(text, last);
+    ASSERT_NE(at, std::string::npos) << text << " is not behind the one before in\n" << help;
+    last = at;
+  }
+  const std::size_t heading = help.find("\nDepth map:");
+  EXPECT_EQ(help.find("\n\n\n", heading), std::string::npos) << "no heading follows";
+  EXPECT_LT(std::count(help.begin(), help.begin() + static_cast<std::ptrdiff_t>(help.find("--box")),
+                       '\n'),
+            30)
+      << "the region stands on the first page";
 }
 
 /// One scan of the valve scene for all tests.
