@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/ctl/choose_object.h"
 #include "app/ctl/command.h"
 #include "core/detection/candidates.h"
 #include "core/detection/detection_json.h"
@@ -31,22 +32,13 @@ std::optional<Action> ActionOf(const DecideArguments& arguments) {
   return arguments.name.empty() ? std::nullopt : std::optional(Action::kRenamed);
 }
 
-Result<DetectionRecord> ObjectNamed(const MissionFile& file, const std::string& object) {
-  FORESIGHT_TRY(const std::vector<DetectionRecord> objects, file.ListDetections());
-  for (const DetectionRecord& record : objects)
-    if (record.uuid == object || fmt::format("{}", record.id) == object) return record;
-  return Fail(ErrorCode::kInvalidInput,
-              "{}: there is no object {}; foresightctl mission show lists them",
-              file.path().string(), object);
-}
-
 Result<ExitCode> Decide(const DecideArguments& arguments) {
   const std::optional<Action> action = ActionOf(arguments);
   if (!action)
     return Fail(ErrorCode::kInvalidOptions,
                 "give one of --accept, --reject, --reopen, --name, --delete and --restore");
   FORESIGHT_TRY(const auto file, MissionFile::Open(arguments.file));
-  FORESIGHT_TRY(const DetectionRecord before, ObjectNamed(*file, arguments.object));
+  FORESIGHT_TRY(const DetectionRecord before, ChooseObject(*file, arguments.object));
   FORESIGHT_TRY(const Detection detection, DetectionFromJson(before.json));
   const bool of_answer = *action == Action::kAccepted || *action == Action::kRejected;
   if (arguments.answer > 1 && !of_answer)
@@ -64,7 +56,7 @@ Result<ExitCode> Decide(const DecideArguments& arguments) {
                   *action == Action::kRenamed ? arguments.name
                   : arguments.answer > 1      ? fmt::format("answer {}", arguments.answer)
                                               : arguments.remark}));
-  FORESIGHT_TRY(const DetectionRecord after, ObjectNamed(*file, before.uuid));
+  FORESIGHT_TRY(const DetectionRecord after, ChooseObject(*file, before.uuid));
   FORESIGHT_CHECK(file->Close());
   const int candidate = after.decided_candidate;
   const VerdictLevel level = CandidateLevel(detection, candidate);

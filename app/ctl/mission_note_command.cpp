@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/ctl/choose_object.h"
 #include "app/ctl/command.h"
 #include "core/mission/mission_file.h"
 #include "core/mission/new_records.h"
@@ -41,16 +42,10 @@ Result<NoteRecord> NewNote(const MissionFile& file, const NoteArguments& argumen
   note.kind = kNoteKind;
   note.scan_id = arguments.scan.value_or(0);
   if (arguments.object.empty()) return note;
-  FORESIGHT_TRY(const std::vector<DetectionRecord> objects, file.ListDetections());
-  for (const DetectionRecord& object : objects) {
-    if (object.uuid != arguments.object && fmt::format("{}", object.id) != arguments.object)
-      continue;
-    note.object_uuid = object.uuid;
-    note.scan_uuid = object.scan_uuid;
-    return note;
-  }
-  return Fail(ErrorCode::kInvalidInput, "{}: there is no object {}", arguments.file,
-              arguments.object);
+  FORESIGHT_TRY(const DetectionRecord object, ChooseObject(file, arguments.object));
+  note.object_uuid = object.uuid;
+  note.scan_uuid = object.scan_uuid;
+  return note;
 }
 
 Result<ExitCode> Note(const NoteArguments& arguments) {

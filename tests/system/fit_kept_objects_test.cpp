@@ -148,6 +148,9 @@ TEST(MissionDecide, SaysWhatIsMissing) {
   const ProgramResult other = Ctl({"mission", "decide", kept.Mission(), "7", "--accept"});
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_THAT(other.errors, HasSubstr("there is no object 7; foresightctl mission show"));
+  const ProgramResult note = Ctl({"mission", "note", kept.Mission(), "bent", "--object", "7"});
+  EXPECT_EQ(note.exit_code, 3);
+  EXPECT_EQ(note.errors, other.errors) << "an object is looked for in one way";
   const ProgramResult answer =
       Ctl({"mission", "decide", kept.Mission(), "1", "--accept", "--answer", "2"});
   EXPECT_EQ(answer.exit_code, 3);
