@@ -7,6 +7,7 @@
 
 #include "core/io/json_numbers.h"
 #include "core/io/json_reader.h"
+#include "core/selfcheck/seen_drifts.h"
 
 namespace foresight {
 namespace {
@@ -14,7 +15,11 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMost = 1e9;
-constexpr int kMostCounted = 10'000'000;  // sums of them stay numbers
+
+int CountIn(const nlohmann::json& json, const char* key, int least = 1) {
+  constexpr int kMostCounted = 10'000'000;  // sums of them stay numbers
+  return IntegerIn(json, key, least, kMostCounted);
+}
 
 /// Row by row.
 template <class Matrix>
@@ -47,10 +52,10 @@ void ReadNumbers(const nlohmann::json& object, const char* key, Matrix& matrix) 
       matrix(row, column) = NumberFrom(list[at++], key);
 }
 
-/// Averages are weighed by the inverse.
-template <class Matrix>
-bool CanBeInverted(const Matrix& matrix) {
-  return matrix.allFinite() && matrix.llt().info() == Eigen::Success;
+/// Averages are weighed by the covariance's inverse.
+template <class Vector, class Matrix>
+bool CanBeAveraged(const Vector& value, const Matrix& covariance) {
+  return value.allFinite() && covariance.allFinite() && covariance.llt().info() == Eigen::Success;
 }
 
 OrderedJson CameraJson(const CameraCheck& camera) {
@@ -67,8 +72,8 @@ OrderedJson CameraJson(const CameraCheck& camera) {
 
 CameraCheck CameraFrom(const nlohmann::json& json) {
   CameraCheck camera;
-  camera.edges = IntegerIn(json, "depth_edges", 1, kMostCounted);
-  camera.images = IntegerIn(json, "images", 0, 1'000'000);
+  camera.edges = CountIn(json, "depth_edges");
+  camera.images = CountIn(json, "images", 0);
   camera.score = NumberIn(json, "score", -kMost, kMost);
   camera.score_before = NumberIn(json, "score_before", -kMost, kMost);
   camera.score_aside = NumberIn(json, "score_aside", -kMost, kMost);
@@ -91,8 +96,8 @@ OrderedJson PlateJson(const PlateCheck& plate) {
 
 PlateCheck PlateFrom(const nlohmann::json& json) {
   PlateCheck plate;
-  plate.planes = IntegerIn(json, "planes", 1, kMostCounted);
-  plate.cells = IntegerIn(json, "cells", 1, kMostCounted);
+  plate.planes = CountIn(json, "planes");
+  plate.cells = CountIn(json, "cells");
   json.at("up_and_down").get_to(plate.up_and_down);
   plate.residual_m = NumberIn(json, "residual_m", 0.0, kMost);
   plate.speed_rad_s = NumberIn(json, "speed_rad_s", 0.0, kMost);
@@ -113,8 +118,8 @@ OrderedJson TurnsJson(const TurnCheck& turns) {
 
 TurnCheck TurnsFrom(const nlohmann::json& json) {
   TurnCheck turns;
-  turns.images = IntegerIn(json, "images", 2, 1'000'000);
-  turns.points = IntegerIn(json, "points", 1, kMostCounted);
+  turns.images = CountIn(json, "images", 2);
+  turns.points = CountIn(json, "points");
   turns.explained = NumberIn(json, "explained", 0.0, 1.0);
   turns.spread_rad = NumberIn(json, "spread_rad", 0.0, kMost);
   json.at("bend_seen").get_to(turns.bend_seen);
@@ -133,7 +138,7 @@ OrderedJson PassesJson(const PassCheck& passes) {
 PassCheck PassesFrom(const nlohmann::json& json) {
   PassCheck passes;
   constexpr double kLeast = 1e-9;  // what is averaged is weighed by the inverse
-  passes.patches = IntegerIn(json, "patches", 1, kMostCounted);
+  passes.patches = CountIn(json, "patches");
   passes.speed_rad_s = NumberIn(json, "speed_rad_s", kLeast, kMost);
   passes.stamp_s = NumberIn(json, "stamp_s", -kMost, kMost);
   passes.sigma_s = NumberIn(json, "sigma_s", kLeast, kMost);
@@ -146,20 +151,33 @@ bool HasMeasurements(const nlohmann::json& json, const char* key, const char* va
   return json.contains(key) && json[key].contains(value) && json[key][value].size() == unknowns;
 }
 
-bool CanBeAveraged(const PlateCheck& plate) {
-  // A scan that sweeps one way says nothing of the stamps, the last unknown.
-  static_assert(PlateCheck::kStamp + 1 == PlateCheck::kUnknowns);
-  constexpr int kOthers = PlateCheck::kStamp;
-  return plate.up_and_down
-             ? CanBeInverted(plate.covariance)
-             : CanBeInverted(plate.covariance.topLeftCorner<kOthers, kOthers>().eval());
+bool CanBeAveraged(const CameraCheck& camera) {
+  return CanBeAveraged(camera.turn_rad, camera.covariance);
 }
 
-bool CanBeAveraged(const TurnCheck& turns) {
-  Eigen::Matrix<double, TurnCheck::kUnknowns, TurnCheck::kUnknowns> covariance = turns.covariance;
-  // Two images say nothing of the bend.
-  if (!turns.bend_seen) covariance(TurnCheck::kBend, TurnCheck::kBend) = 1.0;
-  return CanBeInverted(covariance);
+/// Of a plate's or of turns' drifts, those that are not seen take no part.
+template <class Check>
+bool CanBeAveraged(const Check& check) {
+  const Check seen = WithSeenDrifts(check);
+  return CanBeAveraged(check.drift, seen.covariance);
+}
+
+/// `no_...` is why there is no such measurement.
+template <class Check, class ToJson>
+void Put(OrderedJson& json, const char* key, const std::optional<Check>& check,
+         const std::string& no_check, ToJson to_json) {
+  if (check)
+    json[key] = to_json(*check);
+  else
+    json[fmt::format("no_{}", key)] = no_check;
+}
+
+template <class Check, class FromJson>
+void Take(const nlohmann::json& json, const char* key, const char* value, std::size_t unknowns,
+          FromJson from_json, std::optional<Check>& check) {
+  if (!HasMeasurements(json, key, value, unknowns)) return;
+  const Check kept = from_json(json[key]);
+  if (CanBeAveraged(kept)) check = kept;
 }
 
 }  // namespace
@@ -174,22 +192,10 @@ std::string RigCheckToJson(const RigCheck& check) {
                         {"limit", FiniteOrNull(finding.limit)},
                         {"unit", finding.unit}});
   OrderedJson json = {{"findings", findings}, {"drifted", check.drifted}};
-  if (check.camera)
-    json["camera"] = CameraJson(*check.camera);
-  else
-    json["no_camera"] = check.no_camera;
-  if (check.plate)
-    json["plate"] = PlateJson(*check.plate);
-  else
-    json["no_plate"] = check.no_plate;
-  if (check.turns)
-    json["turns"] = TurnsJson(*check.turns);
-  else
-    json["no_turns"] = check.no_turns;
-  if (check.passes)
-    json["passes"] = PassesJson(*check.passes);
-  else
-    json["no_passes"] = check.no_passes;
+  Put(json, "camera", check.camera, check.no_camera, CameraJson);
+  Put(json, "plate", check.plate, check.no_plate, PlateJson);
+  Put(json, "turns", check.turns, check.no_turns, TurnsJson);
+  Put(json, "passes", check.passes, check.no_passes, PassesJson);
   return json.dump();
 }
 
@@ -200,18 +206,9 @@ RigCheck RigMeasurementsFromJson(const nlohmann::json& json) {
   check.no_plate = json.value("no_plate", nothing);
   check.no_turns = json.value("no_turns", nothing);
   check.no_passes = json.value("no_passes", nothing);
-  if (HasMeasurements(json, "camera", "turn_rad", 3)) {
-    const CameraCheck camera = CameraFrom(json["camera"]);
-    if (camera.turn_rad.allFinite() && CanBeInverted(camera.covariance)) check.camera = camera;
-  }
-  if (HasMeasurements(json, "plate", "drift", PlateCheck::kUnknowns)) {
-    const PlateCheck plate = PlateFrom(json["plate"]);
-    if (plate.drift.allFinite() && CanBeAveraged(plate)) check.plate = plate;
-  }
-  if (HasMeasurements(json, "turns", "drift", TurnCheck::kUnknowns)) {
-    const TurnCheck turns = TurnsFrom(json["turns"]);
-    if (turns.drift.allFinite() && CanBeAveraged(turns)) check.turns = turns;
-  }
+  Take(json, "camera", "turn_rad", 3, CameraFrom, check.camera);
+  Take(json, "plate", "drift", PlateCheck::kUnknowns, PlateFrom, check.plate);
+  Take(json, "turns", "drift", TurnCheck::kUnknowns, TurnsFrom, check.turns);
   if (json.contains("passes")) {
     check.passes = PassesFrom(json["passes"]);
     check.no_passes.clear();

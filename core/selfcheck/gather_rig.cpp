@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/selfcheck/seen_drifts.h"
+
 namespace foresight {
 namespace {
 
@@ -49,6 +51,12 @@ class WeightedMean {
   std::vector<Eigen::MatrixXd> informations_;
 };
 
+/// Why no scan says anything.
+tl::unexpected<Error> NothingIn(std::span<const RigCheck> checks, std::string RigCheck::*why) {
+  return Fail(ErrorCode::kTooFewPoints, "{}",
+              checks.empty() ? "there is no scan" : checks.front().*why);
+}
+
 Result<CameraCheck> GatherCamera(std::span<const RigCheck> checks) {
   WeightedMean turns(3);
   CameraCheck gathered;
@@ -67,9 +75,7 @@ Result<CameraCheck> GatherCamera(std::span<const RigCheck> checks) {
     gathered.score_aside += camera.edges * camera.score_aside;
     gathered.outward_px += camera.edges * camera.outward_px;
   }
-  if (turns.count() == 0)
-    return Fail(ErrorCode::kTooFewPoints, "{}",
-                checks.empty() ? "there is no scan" : checks.front().no_camera);
+  if (turns.count() == 0) return NothingIn(checks, &RigCheck::no_camera);
   gathered.turn_rad = turns.Mean();
   gathered.covariance = turns.Covariance();
   gathered.edges = static_cast<int>(edges);
@@ -82,34 +88,21 @@ Result<CameraCheck> GatherCamera(std::span<const RigCheck> checks) {
   return gathered;
 }
 
-/// The stamps are seen only where a scan went up and down.
-void AddPlate(const PlateCheck& plate, WeightedMean& drifts) {
-  PlateCheck known = plate;
-  constexpr double kUnknownStamp_s = 10.0;
-  if (!plate.up_and_down) {
-    known.covariance.row(PlateCheck::kStamp).setZero();
-    known.covariance.col(PlateCheck::kStamp).setZero();
-    known.covariance(PlateCheck::kStamp, PlateCheck::kStamp) = kUnknownStamp_s * kUnknownStamp_s;
-  }
-  drifts.Add(known.drift, known.covariance);
-}
-
 Result<PlateCheck> GatherPlate(std::span<const RigCheck> checks) {
   WeightedMean drifts(PlateCheck::kUnknowns);
   PlateCheck gathered;
   double squares = 0.0, speeds = 0.0;
   for (const RigCheck& check : checks) {
     if (!check.plate) continue;
-    AddPlate(*check.plate, drifts);
+    const PlateCheck seen = WithSeenDrifts(*check.plate);
+    drifts.Add(seen.drift, seen.covariance);
     gathered.up_and_down |= check.plate->up_and_down;
     gathered.planes += check.plate->planes;
     gathered.cells += check.plate->cells;
     squares += check.plate->cells * std::pow(check.plate->residual_m, 2);
     speeds += check.plate->cells * std::pow(check.plate->speed_rad_s, 2);
   }
-  if (drifts.count() == 0)
-    return Fail(ErrorCode::kTooFewPoints, "{}",
-                checks.empty() ? "there is no scan" : checks.front().no_plate);
+  if (drifts.count() == 0) return NothingIn(checks, &RigCheck::no_plate);
   gathered.drift = drifts.Mean();
   gathered.covariance = drifts.Covariance();
   gathered.residual_m = std::sqrt(squares / gathered.cells);
@@ -125,26 +118,18 @@ Result<TurnCheck> GatherTurns(std::span<const RigCheck> checks) {
   for (const RigCheck& check : checks) {
     if (!check.turns) continue;
     TurnCheck known = *check.turns;
-    constexpr double kUnknownBend_rad = 10.0;
     // A bend is halfway between a scan's own outermost images: those of another spread have
     // another.
     constexpr double kLikeSpread = 0.8;
     known.bend_seen &= known.spread_rad > kLikeSpread * gathered.spread_rad;
-    if (!known.bend_seen) {
-      known.drift[TurnCheck::kBend] = 0.0;
-      known.covariance.row(TurnCheck::kBend).setZero();
-      known.covariance.col(TurnCheck::kBend).setZero();
-      known.covariance(TurnCheck::kBend, TurnCheck::kBend) = kUnknownBend_rad * kUnknownBend_rad;
-    }
-    drifts.Add(known.drift, known.covariance);
+    const TurnCheck seen = WithSeenDrifts(known);
+    drifts.Add(seen.drift, seen.covariance);
     gathered.bend_seen |= known.bend_seen;
     gathered.images += known.images;
     gathered.points += known.points;
     gathered.explained += known.points * known.explained;
   }
-  if (drifts.count() == 0)
-    return Fail(ErrorCode::kTooFewPoints, "{}",
-                checks.empty() ? "there is no scan" : checks.front().no_turns);
+  if (drifts.count() == 0) return NothingIn(checks, &RigCheck::no_turns);
   gathered.drift = drifts.Mean();
   gathered.covariance = drifts.Covariance();
   gathered.explained /= gathered.points;
@@ -163,9 +148,7 @@ Result<PassCheck> GatherPasses(std::span<const RigCheck> checks) {
     gathered.patches += passes.patches;
     speeds += passes.speed_rad_s;
   }
-  if (stamps.count() == 0)
-    return Fail(ErrorCode::kTooFewPoints, "{}",
-                checks.empty() ? "there is no scan" : checks.front().no_passes);
+  if (stamps.count() == 0) return NothingIn(checks, &RigCheck::no_passes);
   gathered.stamp_s = stamps.Mean()[0];
   gathered.sigma_s = std::sqrt(stamps.Covariance()(0, 0));
   gathered.speed_rad_s = speeds / stamps.count();
