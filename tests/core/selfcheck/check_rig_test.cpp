@@ -18,9 +18,23 @@ std::shared_ptr<const Scene> Room() {
   return std::make_shared<const Scene>(std::move(*scene));
 }
 
+CheckTrial RoomTrial(std::uint64_t seed, const CheckTrialOptions& options) {
+  auto trial = MakeCheckTrial(Room(), seed, options, {});
+  EXPECT_TRUE(trial) << trial.error().message;
+  return std::move(*trial);
+}
+
+constexpr std::uint64_t kSeed = 3;
+
+/// One scan for all tests: to simulate it takes longer than to check it.
+const CheckTrial& Trial() {
+  static const CheckTrial kTrial = RoomTrial(kSeed, {});
+  return kTrial;
+}
+
 const std::vector<CheckOutcome>& Outcomes() {
   static const std::vector<CheckOutcome> kOutcomes = [] {
-    auto outcomes = RunCheckTrial(Room(), 3, UsualDamages(RadiansFromDegrees(0.3), 0.010), {}, {});
+    auto outcomes = CheckDamages(Trial(), UsualDamages(RadiansFromDegrees(0.3), 0.010), {}, {});
     EXPECT_TRUE(outcomes) << outcomes.error().message;
     return std::move(*outcomes);
   }();
@@ -95,14 +109,17 @@ TEST(CheckRig, SeesInItsImagesThatThePlateTurnsOtherwiseThanTheMotorSays) {
 TEST(CheckRig, FindsATurnAboutTheMotorsAxisInSeveralScans) {
   const RigDamage turned = {.name = "camera turn x",
                             .camera_turn_rad = {RadiansFromDegrees(0.35), 0.0, 0.0}};
+  CheckTrialOptions options;
+  options.rig_seed = kSeed;
   std::vector<RigCheck> checks;
-  for (const std::uint64_t seed : {3, 10, 17}) {
-    CheckTrialOptions options;
-    options.rig_seed = 3;
-    const auto outcomes = RunCheckTrial(Room(), seed, {turned}, options, {});
+  const auto check = [&](const CheckTrial& trial) {
+    const auto outcomes = CheckDamages(trial, {turned}, options, {});
     ASSERT_TRUE(outcomes) << outcomes.error().message;
     checks.push_back(outcomes->front().check);
-  }
+  };
+  check(Trial());
+  for (const std::uint64_t seed : {10, 17}) check(RoomTrial(seed, options));
+  ASSERT_EQ(checks.size(), 3u);
   const RigCheck all = GatherRig(checks, DefaultSensorRig(), {});
   EXPECT_THAT(all.drifted, testing::Contains(testing::HasSubstr("about the camera's x axis")));
 }
