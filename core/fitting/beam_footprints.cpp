@@ -26,11 +26,13 @@ constexpr std::size_t kLeastBehind = 60;
 
 }  // namespace
 
+double SigmaOf(const RaySet& rays, const BeamOptions& options) {
+  return std::hypot(rays.sigma_m, options.shape_error_m);
+}
+
 BeamFootprints::BeamFootprints(RaySet rays, std::span<const Plane> background,
                                const BeamOptions& options)
-    : rays_(std::move(rays)),
-      options_(options),
-      sigma_m_(std::hypot(rays_.sigma_m, options.shape_error_m)) {
+    : rays_(std::move(rays)), options_(options), sigma_m_(SigmaOf(rays_, options)) {
   if (!background.empty()) background_ = background.front();
   const std::vector<Eigen::Vector3d> normals = LineNormalsOf(rays_);
   const double spacing_rad = rays_.footprint_height_rad / options.samples;
@@ -94,7 +96,7 @@ double BeamFootprints::HalfHeight(std::size_t i) const {
   return 0.5 * rays_.footprint_height_rad * rays_.rays[i].range_m;
 }
 
-double BeamFootprints::HalfWidth(std::size_t i, const Eigen::Vector3d& across) const {
+double BeamFootprints::HalfWidthAlong(std::size_t i, const Eigen::Vector3d& across) const {
   const Footprint& footprint = footprints_[i];
   const double edge2 = options_.edge_error_m * options_.edge_error_m;
   if (footprint.across_line.isZero()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,6 +32,10 @@ struct ExpectedBeam {
 struct BeamOptions {
   double shape_error_m = 0.005;  ///< no real thing is its template
   double edge_error_m = 0.003;   ///< ... nor has its outline
+  /// Part of half a sample's width that must lie on the object beyond its middle before half of the
+  /// beams return from it: 0 = an edge through the middle; 0.5 = a quarter of the sample suffices.
+  /// Of objects of which the intersection with a ray alone is known (CoverBySamples).
+  double early_return = 0.5;
   /// Samples across a scan line, of a footprint whose height is known; each as wide as the beams
   /// are apart. 1 = a round footprint.
   int samples = 1;
@@ -44,6 +49,9 @@ struct BeamOptions {
   /// part. Else each is, as often as its part is large.
   bool stronger_return = false;
 };
+
+/// Deviation of a range of the object's, the shape's error included.
+double SigmaOf(const RaySet& rays, const BeamOptions& options);
 
 /// The footprints of a set of rays before planes. A lidar's footprint at 2 m is as wide as a rim's
 /// tube: its range then lies between tube and wall, and a fit that takes it for the tube's is drawn
@@ -68,7 +76,7 @@ class BeamFootprints {
   double HalfWidth(std::size_t i) const;
   double HalfHeight(std::size_t i) const;
   /// Half the footprint's extent along `across`, at the ray's range, with the outline's own error.
-  double HalfWidth(std::size_t i, const Eigen::Vector3d& across) const;
+  double HalfWidthAlong(std::size_t i, const Eigen::Vector3d& across) const;
   /// The largest of these in any direction.
   double Reach(std::size_t i) const;
   /// Of the samples across the scan line, in base; empty where there is one alone.
@@ -77,7 +85,7 @@ class BeamFootprints {
   }
 
   ExpectedBeam Expect(std::size_t i, const BeamCoverage& coverage) const;
-  /// Deviation of a range, the shape's error included.
+  /// SigmaOf.
   double Sigma() const { return sigma_m_; }
   /// How far off a range may be that agrees with `expected`: as far as most ranges of the
   /// background are, whose errors may have longer tails than a normal distribution's.

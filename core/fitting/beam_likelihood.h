@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +28,7 @@ using CoverBeam =
 /// The part F of a footprint that lies on the object returns the object's range with probability
 /// 0.93 (or something nearer, or nonsense); the rest returns one of the planes behind, or anything:
 ///   p(z) = 0.93 F [0.9 N(z; z_object, s) + 0.1 U] + (1 - 0.93 F) bg(z),   s^2 = sigma^2 + shape^2
+/// (with BeamOptions::stronger_return min(1, 1.5 F - 0.1) for F: the larger part is reported).
 /// With BeamOptions::mixed_ranges a footprint on object and first plane, less than a pulse's length
 /// apart, reads a range in between, F of the way. Dense maps count for BeamModel::kMapWithBeams of
 /// their own where the beams behind them are known. Cost: a coverage of each ray.

@@ -36,12 +36,13 @@ class Samples {
 
 }  // namespace
 
-CoverBeam CoverBySamples(IntersectBeam object, double early_return) {
-  return [object = std::move(object), early_return](const BeamFootprints& footprints,
-                                                    std::size_t i) -> std::optional<BeamCoverage> {
+CoverBeam CoverBySamples(IntersectBeam object) {
+  return [object = std::move(object)](const BeamFootprints& footprints,
+                                      std::size_t i) -> std::optional<BeamCoverage> {
     const RangeRay& ray = footprints.Rays().rays[i];
     const double half_m = footprints.HalfWidth(i);
-    Samples samples(early_return * half_m, 0.5 * half_m + footprints.Options().edge_error_m);
+    const BeamOptions& options = footprints.Options();
+    Samples samples(options.early_return * half_m, 0.5 * half_m + options.edge_error_m);
     const auto directions = footprints.SampleDirections(i);
     if (directions.empty()) {
       samples.Add(object(ray, samples.Reach()));

@@ -19,12 +19,9 @@ struct BeamIntersection {
 using IntersectBeam =
     std::function<std::optional<BeamIntersection>(const RangeRay& ray, double reach_m)>;
 
-/// The coverage of an object of which only the intersection with a ray is known: each sample of a
-/// footprint (BeamOptions::samples) is an error function of how far the ray passes from the
-/// outline, in widths of half a sample.
-/// @param early_return part of half a sample's width that must lie on the object beyond its middle
-///     before half of the beams return from it: 0 = an edge through the middle; 0.5 = a quarter of
-///     the sample suffices
-CoverBeam CoverBySamples(IntersectBeam object, double early_return = 0.5);
+/// The coverage of an object of which only the intersection with a ray is known: of each sample of
+/// a footprint (BeamOptions::samples) an error function of how far the ray passes from the outline,
+/// whose deviation is a quarter of the sample's width and the outline's own error.
+CoverBeam CoverBySamples(IntersectBeam object);
 
 }  // namespace foresight

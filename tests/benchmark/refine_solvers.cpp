@@ -15,6 +15,7 @@
 #include "core/base/quantile.h"
 #include "core/base/random.h"
 #include "core/fitting/valve/refine_problem.h"
+#include "core/fitting/valve/valve_coverage.h"
 #include "core/fitting/wall.h"
 #include "tests/support/valve_rays.h"
 

@@ -21,8 +21,6 @@ constexpr double kGross_m = 0.15;  // further off, it is something else
 constexpr double kMadToSigma = 1.4826;
 constexpr double kLeastSigma_m = 0.003, kLargestSigma_m = 0.060;
 constexpr int kLeastHits = 12;
-constexpr double kShapeError_m = 0.005;  // no real pole is smooth and straight
-constexpr double kEdgeError_m = 0.003;
 constexpr double kOnMantle = 0.999;  // of the radius
 
 constexpr double kLikelyHits = 30.0;  // independent measurements
@@ -35,10 +33,6 @@ constexpr double kLikelyRadiusSigma = 0.15;  // of the radius
 SolidTracer TracerOf(const CylinderState& cylinder) {
   const SolidPart part = cylinder.Part();
   return {{&part, 1}, {}};
-}
-
-double Sigma(const RaySet& rays) {
-  return std::hypot(rays.sigma_m, kShapeError_m);
 }
 
 /// |measured - predicted| over the hits, the gross ones left out.
@@ -74,7 +68,7 @@ double RangeSigmaFrom(const RaySet& rays, const CylinderState& cylinder) {
 CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinder) {
   const SolidTracer tracer = TracerOf(cylinder);
   const Eigen::Vector3d x = cylinder.axis.unitOrthogonal(), y = cylinder.axis.cross(x);
-  const double agree_m = BeamModel::kAgreeSigmas * Sigma(rays);
+  const double agree_m = BeamModel::kAgreeSigmas * SigmaOf(rays, kCylinderBeams);
   CylinderEvidence evidence;
   evidence.rays = static_cast<int>(rays.rays.size());
   evidence.range_sigma_m = rays.sigma_m;
@@ -112,11 +106,11 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
   for (int i = 0; i < kInner; ++i)
     moved.push_back(TracerOf(Retract(cylinder, steps[i] * CylinderStep::Unit(i))));
   const SolidTracer tracer = TracerOf(cylinder);
-  const double sigma_m = Sigma(rays);
+  const double sigma_m = SigmaOf(rays, kCylinderBeams);
   Eigen::Matrix<double, kInner, kInner> information =
       Eigen::Matrix<double, kInner, kInner>::Identity() * 1e-6;
   for (const RangeRay& ray : rays.rays) {
-    const double width_m = 0.5 * rays.footprint_rad * ray.range_m + kEdgeError_m;
+    const double width_m = 0.5 * rays.footprint_rad * ray.range_m + kCylinderBeams.edge_error_m;
     const SolidIntersection intersection = tracer.IntersectWithDepth(ray, kReach_m);
     if (intersection.part < 0) continue;
     const bool agrees =

@@ -7,6 +7,9 @@
 
 namespace foresight {
 
+/// How beams before a cylinder are looked at: no real pole is smooth and straight.
+inline constexpr BeamOptions kCylinderBeams;
+
 /// A cylinder while it is looked for.
 struct CylinderState {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< in base

@@ -44,8 +44,8 @@ class CylinderFit {
     std::vector<CylinderState> found;
     for (const std::vector<Eigen::Vector3d>& points : {PointsOffPlanes(), AllPoints()}) {
       context.Report(found.empty() ? 0.1 : 0.3, "looking for circles");
-      const auto more =
-          FindCylinders(BeamLikelihood(few, {}), points, options_.up, bounds_, random);
+      const auto more = FindCylinders(BeamLikelihood(few, {}, kCylinderBeams), points, options_.up,
+                                      bounds_, random);
       found.insert(found.end(), more.begin(), more.end());
       if (context.Cancelled()) return Cancelled();
     }
@@ -70,7 +70,7 @@ class CylinderFit {
     detection.base_from_object = {RotationBetween(Eigen::Vector3d::UnitZ(), z), cylinder.middle};
     detection.model = {cylinder.radius_m, cylinder.length_m};
     detection.evidence = GatherEvidence(rays_, cylinder);
-    const BeamLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_));
+    const BeamLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_), kCylinderBeams);
     // Half of Schwarz's penalty for each parameter that a box has more.
     const double measurements =
         std::max(2.0, static_cast<double>(rays_.rays.size()) * rays_.samples_per_ray);
@@ -111,7 +111,7 @@ class CylinderFit {
   /// Before the flat surfaces that are not slabs through it.
   CylinderState AfterLocalSearchBeforePlanes(const RaySet& rays, const CylinderState& cylinder,
                                              double first_step_m, int rounds) const {
-    const BeamLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays));
+    const BeamLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays), kCylinderBeams);
     return AfterLocalSearch(cylinder, likelihood, bounds_, first_step_m, rounds);
   }
 

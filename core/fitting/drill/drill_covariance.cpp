@@ -92,7 +92,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
                      const DrillPrior& prior) {
   constexpr double kStep = 1e-3;  // metres and radians
   constexpr double kReach_m = 0.02;
-  const double sigma = std::hypot(rays.sigma_m, kDrillBeams.shape_error_m);
+  const double sigma = SigmaOf(rays, kDrillBeams);
   const auto tracer_at = [&](const DrillState& state) {
     return SolidTracer(state.Model().parts, state.Pose(base_from_table));
   };

@@ -266,8 +266,7 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
 
 DrillEvidence GatherEvidence(const RaySet& rays, const DrillCandidate& drill) {
   const SolidTracer tracer(drill.model.parts, drill.base_from_object);
-  const double agree_m =
-      BeamModel::kAgreeSigmas * std::hypot(rays.Measured().sigma_m, kDrillBeams.shape_error_m);
+  const double agree_m = BeamModel::kAgreeSigmas * SigmaOf(rays.Measured(), kDrillBeams);
   DrillEvidence evidence;
   int agreeing = 0;
   int behind = 0;

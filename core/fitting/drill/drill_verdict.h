@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/fitting/ray_set.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/fit_drill.h"
+#include "core/fitting/ray_set.h"
 #include "core/fitting/solids/image_edges.h"
 
 namespace foresight {

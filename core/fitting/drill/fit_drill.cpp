@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/fitting/beam_likelihood.h"
 #include "core/fitting/drill/alternative_shapes.h"
 #include "core/fitting/drill/drill_covariance.h"
 #include "core/fitting/drill/drill_search.h"
@@ -18,6 +19,7 @@
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/region_place.h"
 #include "core/fitting/solids/solid_coverage.h"
+#include "core/fitting/solids/solid_tracer.h"
 
 namespace foresight {
 namespace {
@@ -27,7 +29,7 @@ constexpr std::size_t kMinForeground = 25;
 constexpr int kCoarseRays = 500;
 constexpr std::size_t kCoarseModes = 10;
 constexpr std::size_t kFineModes = 4;
-constexpr std::size_t kFineRivals = 2;  // of other templates in the leader's place
+constexpr std::size_t kFineAlternatives = 2;  // of other templates in the leader's place
 constexpr std::size_t kAlternatives = 3;
 constexpr double kBodyRadius_m = 0.027;
 constexpr double kOtherWay_rad = 0.5;
@@ -123,19 +125,19 @@ class DrillFit {
     constexpr int kMostTurns = 4;
     for (int i = 0; i < kMostTurns; ++i) {
       const DrillState leader = modes.front();
-      std::vector<DrillState> rivals;
+      std::vector<DrillState> alternatives;
       for (const DrillTemplate& kind : options_.templates) {
         if (&kind == leader.kind) continue;
         for (const DrillState& way : {leader, Flipped(leader, prior_)})
-          rivals.push_back(OfKind(coarse_, kind, way, base_from_table_, prior_));
+          alternatives.push_back(OfKind(coarse_, kind, way, base_from_table_, prior_));
       }
-      FORESIGHT_CHECK(
-          LocalSearchOfAll(coarse_, rivals, rivals.size(), LocalSearchEffort::kCoarse, context));
-      if (rivals.size() > kFineRivals) rivals.resize(kFineRivals);
-      rivals.push_back(Flipped(leader, prior_));
-      FORESIGHT_CHECK(
-          LocalSearchOfAll(likelihood_, rivals, rivals.size(), LocalSearchEffort::kFine, context));
-      modes.insert(modes.end(), rivals.begin(), rivals.end());
+      FORESIGHT_CHECK(LocalSearchOfAll(coarse_, alternatives, alternatives.size(),
+                                       LocalSearchEffort::kCoarse, context));
+      if (alternatives.size() > kFineAlternatives) alternatives.resize(kFineAlternatives);
+      alternatives.push_back(Flipped(leader, prior_));
+      FORESIGHT_CHECK(LocalSearchOfAll(likelihood_, alternatives, alternatives.size(),
+                                       LocalSearchEffort::kFine, context));
+      modes.insert(modes.end(), alternatives.begin(), alternatives.end());
       SortBest(modes);
       if (!(modes.front().log_likelihood > leader.log_likelihood)) break;
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fitting/solids/solid_coverage.h"
+
 namespace foresight {
 namespace {
 
@@ -155,12 +157,8 @@ DoorThing ThingOf(const HandleModel& model,
   return DoorThing(BarsOf(model), {PlateOf(model.plate, model.standoff_m)}, base_from_object);
 }
 
-CoverBeam CoverByFootprints(IntersectBeam object) {
-  return CoverBySamples(std::move(object), 0.0);
-}
-
 CoverBeam CoverBy(DoorThing thing) {
-  return CoverByFootprints([thing = std::move(thing)](const RangeRay& ray, double reach_m) {
+  return CoverBySamples([thing = std::move(thing)](const RangeRay& ray, double reach_m) {
     return thing.Intersect(ray, reach_m);
   });
 }

@@ -5,8 +5,9 @@
 
 #include "core/fitting/beam_likelihood.h"
 #include "core/fitting/sampled_coverage.h"
-#include "core/fitting/solids/solid_coverage.h"
+#include "core/fitting/solids/image_edges.h"
 #include "core/objects/handle_model.h"
+#include "core/objects/solid_part.h"
 
 namespace foresight {
 
@@ -71,9 +72,6 @@ DoorThing::Plate PlateOf(HandleModel::Plate kind, double standoff_m);
 DoorThing ThingOf(const HandleModel& model,
                   const Rigid<frame::Base, frame::Object>& base_from_object);
 
-/// The coverage of an object before a door: an edge through the middle of a sample returns half of
-/// its beams.
-CoverBeam CoverByFootprints(IntersectBeam object);
 CoverBeam CoverBy(DoorThing thing);
 
 /// What the image says of its outline; nothing where there is none.

@@ -50,6 +50,7 @@ tl::unexpected<Error> Cancelled() {
 
 BeamOptions HandleBeams() {
   BeamOptions options;
+  options.early_return = 0.0;
   options.samples = kFootprintSamples;
   options.mixed_ranges = true;
   return options;

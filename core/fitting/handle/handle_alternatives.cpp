@@ -7,7 +7,6 @@
 #include <initializer_list>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -207,7 +206,7 @@ class OtherThings {
     box.size_m = size_m;
     parts.push_back(std::move(box));
     return OfImage(parts, pose, likelihood_.rays()).nats +
-           likelihood_(CoverByFootprints(IntersectionWith(SolidTracer(parts, pose))));
+           likelihood_(CoverBy(SolidTracer(parts, pose)));
   }
 
   /// Of a bar (middle, turn, height, length, radius) on posts along it.

@@ -14,6 +14,7 @@
 #include "core/fitting/line_covariance.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/verdict_model.h"
+#include "core/fitting/wall.h"
 
 namespace foresight {
 namespace {
@@ -49,11 +50,6 @@ constexpr double kStripByChance_nats = 10.0;
 constexpr const char* kNotYet =
     "a door handle is never confirmed yet: of answers as sure as that too many were wrong on "
     "scenes that were drawn to find out";
-
-/// Of what was measured: the beams behind a map, or a map that comes alone.
-const BeamLikelihood& OfMeasured(const BeamLikelihood& likelihood) {
-  return likelihood.BehindMap() != nullptr ? *likelihood.BehindMap() : likelihood;
-}
 
 double RangeOf(const RaySet& rays, const HandleDetection& detection) {
   return (detection.best.base_from_object.translation() - rays.viewpoint).norm();
@@ -184,11 +180,6 @@ std::vector<FeatureGate> FeatureGates(const RaySet& region, const HandleDetectio
                            usual_nats("log_alternative_margin"))}};
 }
 
-/// What a beam should read in which no handle is: the door.
-double DoorRange(const RangeRay& ray, const Plane& door) {
-  return -door.Distance(ray.origin) / door.normal.dot(ray.direction);
-}
-
 /// Of the normal about the door's x and y, in the frame of the handle: what lies round the region
 /// knows it best.
 Eigen::Vector2d NormalSigmas(const BeamLikelihood& likelihood, const Plane& door,
@@ -239,7 +230,7 @@ BeamSlopes SlopesOf(const BeamLikelihood& likelihood, const HandleScorer& scorer
   found.slopes.resize(most, kHandleParameters);
   found.residuals.resize(most);
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
-    const double door_m = DoorRange(rays.rays[i], door);
+    const double door_m = RangeToPlane(rays.rays[i], door);
     const auto reading = [&](const CoverBeam& thing) {
       const auto expected = likelihood.Expect(i, thing);
       if (!expected) return ExpectedBeam{0.0, door_m, door_m, likelihood.Sigma(), false};
@@ -283,7 +274,7 @@ struct HandleCovariances {
 
 HandleCovariances CovariancesOf(const HandleScorer& scorer, const HandleState& handle,
                                 const Plane& door) {
-  const BeamLikelihood& likelihood = OfMeasured(scorer.likelihood);
+  const BeamLikelihood& likelihood = scorer.likelihood.Measured();
   const BeamSlopes beams = SlopesOf(likelihood, scorer, handle, door);
   const double worth = likelihood.rays().Worth();
   const HandleInformation prior = PriorInformation();
@@ -299,7 +290,7 @@ HandleCovariances CovariancesOf(const HandleScorer& scorer, const HandleState& h
 
 HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door,
                               const HandleCandidate& handle) {
-  const BeamLikelihood& likelihood = OfMeasured(of_region);
+  const BeamLikelihood& likelihood = of_region.Measured();
   const DoorThing thing = ThingOf(handle.model, handle.base_from_object);
   const CoverBeam cover = CoverBy(thing);
   const auto object_from_base = handle.base_from_object.Inverse();
@@ -316,7 +307,7 @@ HandleEvidence GatherEvidence(const BeamLikelihood& of_region, const Plane& door
       if (!thing.Intersect(ray, kRound_m)) continue;
       ++round;
       round_before +=
-          ray.range_m < DoorRange(ray, door) - BeamModel::kAgreeSigmas * likelihood.Sigma();
+          ray.range_m < RangeToPlane(ray, door) - BeamModel::kAgreeSigmas * likelihood.Sigma();
       continue;
     }
     if (expected->fraction < kOnHandle) continue;

@@ -30,8 +30,8 @@ class SolidTracer {
   /// m.
   SolidIntersection Intersect(const RangeRay& ray, double reach_m) const;
   /// The same with a hit's depth: how far the ray gets inside the solid that it enters first, or
-  /// inside one that stands in or against that; where that is more than `reach_m` it may be more
-  /// still.
+  /// inside another that it enters within 20 mm of that; where that is more than `reach_m` it may
+  /// be more still. Solids that only touch keep the edge between them.
   SolidIntersection IntersectWithDepth(const RangeRay& ray, double reach_m) const;
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/fitting/beam_likelihood.h"
+#include "core/fitting/valve/valve_state.h"
 
 namespace foresight {
 

@@ -50,7 +50,9 @@ void RefineProblem::AssignRoles(const ValveCandidate& valve) {
     // A range nearer to the wall's than to the template's says nothing of the template.
     const double from_wall = std::abs(range_m - footprints_.BackgroundRange(roled.index));
     const bool on_template = std::abs(behind) < std::min(kGate * footprints_.Sigma(), from_wall);
-    const bool between = expected.fraction > kLeastFraction && expected.mixed &&
+    // A disc has no sides: nothing of a footprint lies beside it.
+    const bool between = intersection.part != ValvePart::kDisc &&
+                         expected.fraction > kLeastFraction && expected.mixed &&
                          std::abs(range_m - expected.range_m) < kGate * expected.sigma_m;
     roled.role = on_template || between                ? Role::kSurface
                  : behind > 0.0 && options_.free_space ? Role::kFree
@@ -68,8 +70,8 @@ Eigen::VectorXd RefineProblem::Residuals(const ValveCandidate& valve) const {
     if (roled.role == Role::kFree) {
       const ValveIntersection intersection = tracer.Intersect(ray, 0.0);
       if (intersection.Clearance() < 0.0)
-        residuals[2 * i] =
-            -intersection.Clearance() / footprints_.HalfWidth(roled.index, intersection.across);
+        residuals[2 * i] = -intersection.Clearance() /
+                           footprints_.HalfWidthAlong(roled.index, intersection.across);
       continue;
     }
     const ValveIntersection intersection = tracer.Intersect(ray);
@@ -79,7 +81,7 @@ Eigen::VectorXd RefineProblem::Residuals(const ValveCandidate& valve) const {
     residuals[2 * i] = (ray.range_m - expected.range_m) / expected.sigma_m;
     if (intersection.Clearance() > 0.0)
       residuals[2 * i + 1] =
-          intersection.Clearance() / footprints_.HalfWidth(roled.index, intersection.across);
+          intersection.Clearance() / footprints_.HalfWidthAlong(roled.index, intersection.across);
   }
   residuals.tail<kPriors>() << (valve.model.tube_radius_m - ValvePrior::kTubeRadius_m) /
                                    ValvePrior::kTubeRadiusSigma_m,

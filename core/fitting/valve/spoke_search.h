@@ -5,6 +5,7 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/fitting/beam_likelihood.h"
+#include "core/fitting/valve/valve_state.h"
 
 namespace foresight {
 

@@ -37,7 +37,7 @@ BeamCoverage CoverageOf(const BeamFootprints& footprints, std::size_t i,
     coverage.fraction = 1.0;
     return coverage;
   }
-  const double half = footprints.HalfWidth(i, intersection.across);
+  const double half = footprints.HalfWidthAlong(i, intersection.across);
   const double low = std::max(-intersection.radius_m, intersection.offset_m - half);
   const double high = std::min(intersection.radius_m, intersection.offset_m + half);
   if (!(high > low)) return coverage;

@@ -1,6 +1,8 @@
-#include "core/fitting/valve/valve_coverage.h"
+#include "core/fitting/beam_footprints.h"
 
 #include <gtest/gtest.h>
+
+#include "core/fitting/valve/valve_coverage.h"
 
 namespace foresight {
 namespace {
@@ -40,8 +42,8 @@ class BeamFootprintsAtTwoMetres : public ::testing::Test {
 
 TEST_F(BeamFootprintsAtTwoMetres, AreTallerThanWide) {
   const BeamFootprints footprints = ValveFootprints(rays_, wall_);
-  EXPECT_NEAR(footprints.HalfWidth(0, Eigen::Vector3d::UnitX()), 0.005, 0.001);
-  EXPECT_NEAR(footprints.HalfWidth(0, Eigen::Vector3d::UnitY()), 0.012, 0.001);
+  EXPECT_NEAR(footprints.HalfWidthAlong(0, Eigen::Vector3d::UnitX()), 0.005, 0.001);
+  EXPECT_NEAR(footprints.HalfWidthAlong(0, Eigen::Vector3d::UnitY()), 0.012, 0.001);
   EXPECT_NEAR(footprints.BackgroundRange(0), 2.15, 1e-9);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numbers>
 
 #include "core/base/quantile.h"
 #include "core/fitting/beam_model.h"
@@ -12,6 +13,7 @@
 #include "core/fitting/valve/local_search.h"
 #include "core/fitting/valve/part_evidence.h"
 #include "core/fitting/valve/refine.h"
+#include "core/fitting/valve/refine_problem.h"
 #include "core/fitting/valve/valve_evidence.h"
 #include "core/fitting/wall.h"
 #include "core/geometry/angles.h"
@@ -298,6 +300,31 @@ TEST(Refine, ASizeAtTheEndOfItsRangeComesBack) {
   const BeamFootprints footprints = ValveFootprints(scene.rays, WallOf(scene.rays));
   EXPECT_LT(Refine(footprints, thick, {}).model.tube_radius_m,
             scene.truth.model.tube_radius_m + 0.003);
+}
+
+TEST(RefineProblem, ADiscsRayThatEndsNearerToTheWallSaysNothing) {
+  ValveCandidate disc;
+  disc.model.spokes = 0;
+  disc.base_from_object = {
+      Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())),
+      {0.0, 0.0, 2.0}};
+  RaySet rays;
+  rays.sigma_m = 0.010;
+  const Plane wall{-Eigen::Vector3d::UnitZ(), -2.02};
+  const auto residual = [&](double range_m) {
+    rays.rays = {{{0.06, 0.0, 0.0}, Eigen::Vector3d::UnitZ(), range_m}};
+    const BeamFootprints footprints = ValveFootprints(rays, wall);
+    RefineOptions options;
+    options.free_space = false;
+    RefineProblem problem(footprints, options);
+    problem.AssignRoles(disc);
+    return problem.Residuals(disc)[0];
+  };
+  const double front_m = ValveTracer(disc, ValveParts::kAll)
+                             .Intersect({{0.06, 0.0, 0.0}, Eigen::Vector3d::UnitZ(), 1.0})
+                             .Range();
+  EXPECT_NE(residual(front_m + 0.005), 0.0);
+  EXPECT_EQ(residual(2.012), 0.0);
 }
 
 }  // namespace

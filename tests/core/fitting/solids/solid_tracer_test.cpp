@@ -83,8 +83,8 @@ SolidPart Box(double width_m, const Eigen::Vector3d& middle) {
 TEST(SolidTracer, ThereIsNoEdgeWherePartsStandInEachOther) {
   const RangeRay ray{{-1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), 1.0};
   // The ray enters both, one of them 1 mm above its lower face.
-  const SolidPart above = Box(0.1, {0.0, 0.0, 0.049}), round = Box(0.1, {0.005, 0.0, 0.0});
-  const SolidPart alone[] = {above}, both[] = {above, round};
+  const SolidPart above = Box(0.1, {0.0, 0.0, 0.049}), deeper = Box(0.1, {0.005, 0.0, 0.0});
+  const SolidPart alone[] = {above}, both[] = {above, deeper};
   EXPECT_NEAR(SolidTracer(alone, {}).IntersectWithDepth(ray, kReach_m).clearance_m, -0.001, 1e-5);
   const SolidIntersection joined = SolidTracer(both, {}).IntersectWithDepth(ray, kReach_m);
   EXPECT_LT(joined.clearance_m, -kReach_m);
