@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kPulse_m = 0.5;         // surfaces closer than this merge into one return
 constexpr double kFractionError = 0.08;  // of the part of a footprint that lies on the object
-constexpr double kLeastFraction = 1e-3;  // that mixes
 // A spoke is narrower than this neighbourhood, so that some of it ends behind the spoke.
 constexpr double kNeighbourhood_rad = 0.015;
 constexpr double kFarFraction = 0.8;
@@ -117,7 +116,9 @@ double BeamFootprints::Reach(std::size_t i) const {
 ExpectedBeam BeamFootprints::Expect(std::size_t i, const BeamCoverage& coverage) const {
   const double fraction = coverage.fraction;
   ExpectedBeam expected{fraction, coverage.range_m, coverage.range_m, sigma_m_, false};
-  if (!options_.mixed_ranges || fraction < kLeastFraction || !ReachesBackground(i)) return expected;
+  if (!options_.mixed_ranges || !(fraction > 0.0) || fraction < options_.least_mixed_fraction ||
+      !ReachesBackground(i))
+    return expected;
   const double gap_m = BackgroundRange(i) - expected.object_m;
   if (!(gap_m > 0.0) || gap_m > kPulse_m) return expected;
   const double light = coverage.brightness * fraction;

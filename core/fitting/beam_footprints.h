@@ -41,6 +41,8 @@ struct BeamOptions {
   int samples = 1;
   /// A footprint on object and background reads a range in between. Else it reads one of both.
   bool mixed_ranges = false;
+  /// The least part of a footprint that mixes.
+  double least_mixed_fraction = 1e-3;
   /// How unsure it is how much more light the object returns than the background, in logarithms.
   double brightness_error = 0.30;
   /// Footprints mix only where the beams beside them reach the background.

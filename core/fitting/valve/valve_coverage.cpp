@@ -12,6 +12,7 @@ BeamOptions ValveBeams() {
   options.shape_error_m = 0.0045;  // no real wheel is a torus with capsules
   options.edge_error_m = 0.00275;
   options.mixed_ranges = true;
+  options.least_mixed_fraction = 0.0;
   options.brightness_error = 0.15;  // over one valve; its own is fitted
   options.look_behind = true;
   options.stronger_return = true;

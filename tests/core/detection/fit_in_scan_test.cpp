@@ -60,7 +60,7 @@ FitOutcome OutcomeOf(const char* kind, std::uint64_t seed, bool with_image) {
 }
 
 TEST(FitInScan, TheImageTellsWhichWayADrillPointsWhereBeamsDoNot) {
-  for (const std::uint64_t seed : {20063, 20071}) {
+  for (const std::uint64_t seed : {189, 20071}) {
     EXPECT_FALSE(OutcomeOf("drill", seed, false).pose_ok) << seed;
     EXPECT_TRUE(OutcomeOf("drill", seed, true).all_ok) << seed;
   }

@@ -92,7 +92,7 @@ TEST(DrillPopulation, EveryTemplateIsTriedEitherWayRound) {
   FitTrialOptions options;
   options.sources = {*FitSourceFromName("foresight")};
   const auto population = MakeVaried(std::make_unique<DrillPopulation>());
-  const auto outcomes = RunFitTrial(*population, 5002, options, {});
+  const auto outcomes = RunFitTrial(*population, 5022, options, {});
   ASSERT_TRUE(outcomes) << outcomes.error().message;
   EXPECT_TRUE(outcomes->front().all_ok);
 }

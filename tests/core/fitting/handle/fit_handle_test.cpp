@@ -438,6 +438,7 @@ TEST(BeamLikelihood, AFootprintOnBarAndDoorReadsARangeInBetween) {
   rays.rays.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1.18});
   const Plane door{-Eigen::Vector3d::UnitX(), -kDoor_m};
   BeamOptions options;
+  options.early_return = 0.0;
   options.mixed_ranges = true;
   const BeamLikelihood likelihood(rays, {&door, 1}, options);
   // A bar across the beam whose edge runs through the beam's middle.
