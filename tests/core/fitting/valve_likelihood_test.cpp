@@ -150,63 +150,56 @@ TEST(ValveLikelihood, TheTruthIsAheadOfAnotherNumberOfSpokesByManyLines) {
             -likelihood.DeviationsAhead(CoverBy(more), CoverBy(scene.truth)));
 }
 
-ValveEvidence EvidenceOfParts(const BeamLikelihood& likelihood, const ValveCandidate& valve) {
-  ValveEvidence evidence;
-  AddEvidenceOfParts(likelihood, valve, evidence);
-  return evidence;
+/// What the beams of a wheel of four spokes say of the parts of wheels.
+class EvidenceOfParts : public ::testing::Test {
+ protected:
+  ValveEvidence Of(const ValveCandidate& valve) const {
+    ValveEvidence evidence;
+    AddEvidenceOfParts(likelihood_, valve, evidence);
+    return evidence;
+  }
+  ValveEvidence OfSpokes(int spokes) const {
+    ValveCandidate valve = scene_.truth;
+    valve.model.spokes = spokes;
+    return Of(valve);
+  }
+
+  const ValveScene scene_ = FourSpokes();
+  const BeamLikelihood likelihood_ = ValveLikelihood(scene_.rays, WallOf(scene_.rays));
+};
+
+TEST_F(EvidenceOfParts, BeamsSpeakAgainstASpokeThatIsNotThere) {
+  EXPECT_GT(OfSpokes(4).weakest_spoke_nats, 10.0);
+  EXPECT_LT(OfSpokes(5).weakest_spoke_nats, -10.0);
+  EXPECT_EQ(OfSpokes(0).weakest_spoke_nats, 0.0);
 }
 
-TEST(ValveEvidence, BeamsSpeakAgainstASpokeThatIsNotThere) {
-  const ValveScene scene = FourSpokes();
-  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
-  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_spoke_nats, 10.0);
-  ValveCandidate more = scene.truth;
-  more.model.spokes = 5;
-  EXPECT_LT(EvidenceOfParts(likelihood, more).weakest_spoke_nats, -10.0);
-  more.model.spokes = 0;
-  EXPECT_EQ(EvidenceOfParts(likelihood, more).weakest_spoke_nats, 0.0);
+TEST_F(EvidenceOfParts, HubAndRimSpeakForNoSpokeBetweenThem) {
+  EXPECT_GT(OfSpokes(4).weakest_spoke_middle_nats, 10.0);
+  EXPECT_LT(OfSpokes(5).weakest_spoke_middle_nats, -10.0);
+  EXPECT_EQ(OfSpokes(0).weakest_spoke_middle_nats, 0.0);
 }
 
-TEST(ValveEvidence, HubAndRimSpeakForNoSpokeBetweenThem) {
-  const ValveScene scene = FourSpokes();
-  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
-  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_spoke_middle_nats, 10.0);
-  ValveCandidate more = scene.truth;
-  more.model.spokes = 5;
-  EXPECT_LT(EvidenceOfParts(likelihood, more).weakest_spoke_middle_nats, -10.0);
-  more.model.spokes = 0;
-  EXPECT_EQ(EvidenceOfParts(likelihood, more).weakest_spoke_middle_nats, 0.0);
-}
-
-TEST(ValveEvidence, BeamsSpeakAgainstAPartOfTheRimWhereThereIsNone) {
-  const ValveScene scene = FourSpokes();
-  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
-  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).weakest_arc_nats, 10.0);
-  ValveCandidate beside = scene.truth;
+TEST_F(EvidenceOfParts, BeamsSpeakAgainstAPartOfTheRimWhereThereIsNone) {
+  EXPECT_GT(Of(scene_.truth).weakest_arc_nats, 10.0);
+  ValveCandidate beside = scene_.truth;
   beside.base_from_object = {
       beside.base_from_object.rotation(),
       beside.base_from_object * Eigen::Vector3d(0.3 * beside.model.rim_radius_m, 0.0, 0.0)};
-  EXPECT_LT(EvidenceOfParts(likelihood, beside).weakest_arc_nats, -10.0);
+  EXPECT_LT(Of(beside).weakest_arc_nats, -10.0);
 }
 
-TEST(ValveEvidence, BeamsSpeakForASpokeThatIsLeftOut) {
-  const ValveScene scene = FourSpokes();
-  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
-  EXPECT_LT(EvidenceOfParts(likelihood, scene.truth).further_spoke_nats, 3.0);
-  ValveCandidate fewer = scene.truth;
-  fewer.model.spokes = 2;
-  EXPECT_GT(EvidenceOfParts(likelihood, fewer).further_spoke_nats, 10.0);
-  fewer.model.spokes = 0;
-  EXPECT_EQ(EvidenceOfParts(likelihood, fewer).further_spoke_nats, 0.0);
+TEST_F(EvidenceOfParts, BeamsSpeakForASpokeThatIsLeftOut) {
+  EXPECT_LT(OfSpokes(4).further_spoke_nats, 3.0);
+  EXPECT_GT(OfSpokes(2).further_spoke_nats, 10.0);
+  EXPECT_EQ(OfSpokes(0).further_spoke_nats, 0.0);
 }
 
-TEST(ValveEvidence, BeamsSpeakAgainstARimThatIsNotThere) {
-  const ValveScene scene = FourSpokes();
-  const BeamLikelihood likelihood = ValveLikelihood(scene.rays, WallOf(scene.rays));
-  EXPECT_GT(EvidenceOfParts(likelihood, scene.truth).rim_nats, 100.0);
-  ValveCandidate wider = scene.truth;  // where the beams reach the wall
+TEST_F(EvidenceOfParts, BeamsSpeakAgainstARimThatIsNotThere) {
+  EXPECT_GT(Of(scene_.truth).rim_nats, 100.0);
+  ValveCandidate wider = scene_.truth;  // where the beams reach the wall
   wider.model.rim_radius_m *= 1.25;
-  EXPECT_LT(EvidenceOfParts(likelihood, wider).rim_nats, 0.0);
+  EXPECT_LT(Of(wider).rim_nats, 0.0);
 }
 
 TEST(ValveEvidence, WhatIsKnownWellIsHardlyOff) {
