@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "core/detection/json_values.h"
@@ -30,6 +31,15 @@ Json CandidateJson(const DrillCandidate& drill,
           {"log_likelihood", drill.log_likelihood}};
 }
 
+Json NumberOrNull(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
+std::optional<double> NumberOrNone(const Json& value, const char* name) {
+  if (!value.contains(name) || value.at(name).is_null()) return std::nullopt;
+  return NumberFrom(value.at(name));
+}
+
 Json EvidenceJson(const DrillEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
@@ -41,7 +51,9 @@ Json EvidenceJson(const DrillEvidence& evidence) {
           {"head_nats", evidence.head_nats},
           {"gain_nats", evidence.gain_nats},
           {"alternative_margin_nats", evidence.alternative_margin_nats},
-          {"best_alternative", evidence.best_alternative}};
+          {"best_alternative", evidence.best_alternative},
+          {"no_foot_margin_nats", NumberOrNull(evidence.no_foot_margin_nats)},
+          {"no_chuck_margin_nats", NumberOrNull(evidence.no_chuck_margin_nats)}};
 }
 
 DrillCandidate DrillCandidateFrom(const Json& value) {
@@ -63,6 +75,8 @@ DrillEvidence DrillEvidenceFrom(const Json& value) {
   evidence.alternative_margin_nats =
       NumberFrom(Renamed(value, "alternative_margin_nats", "rival_margin_nats"));
   evidence.best_alternative = Renamed(value, "best_alternative", "best_rival");
+  evidence.no_foot_margin_nats = NumberOrNone(value, "no_foot_margin_nats");
+  evidence.no_chuck_margin_nats = NumberOrNone(value, "no_chuck_margin_nats");
   return evidence;
 }
 

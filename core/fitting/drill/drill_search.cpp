@@ -98,7 +98,7 @@ PatternSearchOptions Steps(LocalSearchEffort effort) {
   add({{kDrillFoot, 0.080}});
   // Thicker or thinner, as tall and on as large a foot as before.
   add({{kDrillScale, 0.040}, {kDrillHeadUp, -0.040 * kHeadHeight_m}, {kDrillFoot, -0.040}});
-  options.rounds = effort == LocalSearchEffort::kCoarse ? 3 : 5;
+  options.rounds = effort == LocalSearchEffort::kFine ? 5 : 3;
   if (effort == LocalSearchEffort::kCoarse) return options;
   add({{kDrillFootHeight, 0.10}});
   add({{kDrillGrip, 0.06}});
@@ -242,7 +242,7 @@ DrillState LocalSearch(const BeamLikelihood& likelihood, const DrillState& start
                        LocalSearchEffort effort) {
   DrillState best = start;
   best.log_likelihood = Score(likelihood, start, base_from_table, prior);
-  if (effort == LocalSearchEffort::kFine)
+  if (effort != LocalSearchEffort::kCoarse)
     best = WithBestBit(likelihood, best, base_from_table, prior);
   // A lean about the middle of the body, whose place is known best, moves the foot.
   const auto score = [&](const Eigen::VectorXd& values) {
@@ -262,7 +262,7 @@ DrillState LocalSearch(const BeamLikelihood& likelihood, const DrillState& start
     step.head<2>() = -kTiltHeight_m * kLean_rad * along;
     options.steps.push_back(step);
   }
-  if (effort == LocalSearchEffort::kFine) options.steps.push_back(GripAlone(yaw));
+  if (effort != LocalSearchEffort::kCoarse) options.steps.push_back(GripAlone(yaw));
   const PatternSearchResult found = ClimbByPatternSearch(best.values, score, options);
   best.values = found.values;
   best.log_likelihood = found.score;

@@ -31,7 +31,11 @@ DrillState OfKind(const BeamLikelihood& likelihood, const DrillTemplate& kind,
                   const DrillState& state, const TableFrame& base_from_table,
                   const DrillPrior& prior);
 
-enum class LocalSearchEffort { kCoarse, kFine };
+enum class LocalSearchEffort {
+  kCoarse,  ///< some parameters, to 2 mm
+  kRough,   ///< all, to 2 mm
+  kFine,    ///< all, to 0.6 mm
+};
 
 /// Climbs the likelihood over all parameters of a drill, the bit's length by trying lengths first.
 /// The result's log_likelihood is never below the start's under the same likelihood.

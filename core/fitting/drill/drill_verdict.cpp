@@ -40,7 +40,8 @@ constexpr double kMinChuck_nats = 10.0;
 // Of 308 right drills on training scenes that are sure from lidar returns the least has 16.3 nats
 // for a foot that is wider than its grip, of 300 dense 26.9 (docs/evaluation/drill.md, "The model's
 // outline").
-constexpr double kMinFoot_nats = 15.0;
+constexpr double kMinNoFootMargin_nats = 15.0;
+constexpr double kMinNoChuckMargin_nats = 0.0;
 constexpr double kUsualFoot_nats = 50.0;  // of a kind without feet, whose feet say nothing
 // Chucks of cordless drills are 30 to 50 mm long; hot air tools and dryers end in nozzles.
 constexpr double kLongestChuck_m = 0.065;
@@ -125,6 +126,24 @@ Gate FootGate(const DrillSupport& support, double limit_nats) {
           .advice = "it may be another tool"};
 }
 
+/// Ahead of what it may be instead: tools that take any pose, size and proportions.
+std::vector<Gate> OtherToolGates(const DrillEvidence& evidence) {
+  std::vector<Gate> gates;
+  if (evidence.no_foot_margin_nats)
+    gates.push_back(
+        {.what = "the odds against another tool, one that stands on the end of its grip, are {}",
+         .unit = Gate::Unit::kOdds,
+         .number = *evidence.no_foot_margin_nats,
+         .limit = kMinNoFootMargin_nats});
+  if (evidence.no_chuck_margin_nats)
+    gates.push_back(
+        {.what = "the odds against another tool, one whose head stays wide to its mouth, are {}",
+         .unit = Gate::Unit::kOdds,
+         .number = *evidence.no_chuck_margin_nats,
+         .limit = kMinNoChuckMargin_nats});
+  return gates;
+}
+
 /// What its direction has against it: the first of these that it misses.
 std::vector<Gate> DirectionGates(const DrillEvidence& evidence, const DrillSupport& support) {
   const bool image_tells = support.image_flip_nats >= kImageTellsWay_nats;
@@ -142,7 +161,6 @@ std::vector<Gate> DirectionGates(const DrillEvidence& evidence, const DrillSuppo
           FlipLinesGate(support, image_tells ? -std::numeric_limits<double>::infinity()
                                              : kMinFlipLines_sigmas),
           ChuckGate(support, kMinChuck_nats),
-          BluntGate(support, 0.0),
           {.what = "the odds against another direction are {}",
            .unit = Gate::Unit::kOdds,
            .number = evidence.yaw_margin_nats,
@@ -221,7 +239,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
     if (gate.Failed()) break;
   }
   AddLongChuck(model, failed);
-  AddIfFailed(FootGate(support, kMinFoot_nats), failed);
+  for (const Gate& gate : OtherToolGates(evidence)) AddIfFailed(gate, failed);
   AddFailedBoundGates(model, drill, prior, failed);
   AddIfFailed(
       OffCenterGate(kObject, region,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -15,6 +16,7 @@
 #include "core/fitting/drill/drill_search.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/drill_verdict.h"
+#include "core/fitting/drill/other_tools.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/region_place.h"
@@ -159,9 +161,12 @@ class DrillFit {
     SetMargins(modes, flipped.log_likelihood, detection);
     support.proportions_nats = prior_(best);
     DrillState any_flipped, any_own_way;
+    std::optional<double> without_foot, with_blunt_head;
     const std::function<void()> independent[] = {
         [&] { any_flipped = OfAnyProportions(flipped); },
         [&] { any_own_way = OfAnyProportions(best); },
+        [&] { without_foot = LikelihoodOfTool(WithoutFoot(*best.kind), best); },
+        [&] { with_blunt_head = LikelihoodOfTool(WithBluntHead(*best.kind), best); },
         [&] { SetAlternativeMargin(best, detection); },
         [&] {
           support.beam_sigma_yaw_rad =
@@ -172,6 +177,10 @@ class DrillFit {
     if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
       return Cancelled();
     SetFlipOfAnyProportions(best, any_flipped, any_own_way, detection, support);
+    const double drill = std::max(WithoutPrior(best), WithoutPrior(any_own_way));
+    DrillEvidence& evidence = detection.evidence;
+    if (without_foot) evidence.no_foot_margin_nats = drill - *without_foot;
+    if (with_blunt_head) evidence.no_chuck_margin_nats = drill - *with_blunt_head;
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);
     return detection;
   }
@@ -247,6 +256,30 @@ class DrillFit {
   DrillState OfAnyProportions(const DrillState& state) const {
     return LocalSearch(likelihood_, state, base_from_table_, AnyProportions(prior_),
                        LocalSearchEffort::kFine);
+  }
+
+  double WithoutPrior(const DrillState& state) const {
+    return LogLikelihoodOf(state.Model().parts, state.Pose(base_from_table_), likelihood_);
+  }
+
+  /// Log likelihood, without prior, of another tool where a drill stands, in the pose, size and
+  /// proportions that suit the tool best: a tool that must be built as the drill is only behind it
+  /// because it is not. The search starts from what is built alike or from the usual tool,
+  /// whichever a few rays find better.
+  std::optional<double> LikelihoodOfTool(const std::optional<DrillTemplate>& tool,
+                                         const DrillState& drill) const {
+    if (!tool) return std::nullopt;
+    const DrillPrior any = AnyProportions(prior_);
+    DrillState alike = drill;
+    alike.kind = &*tool;
+    const auto climbed = [&](const DrillState& start) {
+      return LocalSearch(coarse_, start, base_from_table_, any, LocalSearchEffort::kCoarse);
+    };
+    const DrillState near = climbed(alike);
+    const DrillState usual = climbed(OfKind(coarse_, *tool, drill, base_from_table_, any));
+    const DrillState& better = near.log_likelihood > usual.log_likelihood ? near : usual;
+    return WithoutPrior(
+        LocalSearch(likelihood_, better, base_from_table_, any, LocalSearchEffort::kRough));
   }
 
   /// No drill is its template, and a head that is longer behind than the template's is a drill that

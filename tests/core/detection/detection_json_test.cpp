@@ -110,6 +110,7 @@ DrillDetection SampleDrill() {
   drill.table = Plane{-Eigen::Vector3d::UnitY(), 0.2};
   drill.evidence.best_alternative = "box";
   drill.evidence.flip_margin_nats = 21.0;
+  drill.evidence.no_foot_margin_nats = 63.5;  // and no chuck
   drill.alternatives = {drill.best};
   drill.alternatives[0].log_likelihood = 80.0;
   drill.verdict = {VerdictLevel::kConfirmed, 0.97, "drill", {1.0}};
@@ -125,6 +126,8 @@ TEST(DetectionJson, ADrillSurvivesTheRoundTrip) {
   ASSERT_NE(read, nullptr);
   EXPECT_EQ(read->best.model.parts.size(), sample.best.model.parts.size());
   EXPECT_EQ(read->table->offset, 0.2);
+  EXPECT_EQ(read->evidence.no_foot_margin_nats, 63.5);
+  EXPECT_EQ(read->evidence.no_chuck_margin_nats, std::nullopt);
   EXPECT_EQ(std::get<BoxRoi>(read->origin.roi).size_m, Eigen::Vector3d(0.3, 0.4, 0.5));
   EXPECT_EQ(DetectionToJson(*read, {}), DetectionToJson(sample, {}));
 }
