@@ -37,9 +37,9 @@ constexpr double kImageTellsWay_nats = 15.0;
 // training scenes that are sure from lidar returns 308 have 10 and more, of 314 dense 300
 // (docs/evaluation/drill.md, "The model's outline").
 constexpr double kMinChuck_nats = 10.0;
-// Of what another tool in the pose, size and proportions that suit it best is behind. Foot: of 125
+// Of what another tool in the pose, size and proportions that suit it best is behind. Foot: of 124
 // right drills on training scenes that are sure from lidar returns all but four, which fail other
-// gates too, have 28 nats and more, of 119 dense all but three 26 and more. Head: as likely is not
+// gates too, have 28 nats and more, of 113 dense all but three 26 and more. Head: as likely is not
 // behind (docs/evaluation/drill.md, "Other tools of their own").
 constexpr double kMinNoFootMargin_nats = 25.0;
 constexpr double kMinNoChuckMargin_nats = 0.0;
