@@ -28,10 +28,7 @@ struct DrillEvidence {
   std::string best_alternative;          ///< "box", "cylinder", "box and cylinder"
   /// Ahead of the best tool of any proportions that stands on the end of its grip; none for a kind
   /// without feet, and in files of earlier programs.
-  std::optional<double> no_foot_margin_nats;
-  /// Ahead of the best tool of any proportions whose head stays wide to its mouth; none for a kind
-  /// without chuck, and in files of earlier programs.
-  std::optional<double> no_chuck_margin_nats;
+  std::optional<double> no_foot_margin_nats = {};
 };
 
 /// One answer to "where is the drill".

@@ -37,12 +37,10 @@ constexpr double kImageTellsWay_nats = 15.0;
 // training scenes that are sure from lidar returns 308 have 10 and more, of 314 dense 300
 // (docs/evaluation/drill.md, "The model's outline").
 constexpr double kMinChuck_nats = 10.0;
-// Of what another tool in the pose, size and proportions that suit it best is behind. Foot: of 124
-// right drills on training scenes that are sure from lidar returns all but four, which fail other
-// gates too, have 28 nats and more, of 113 dense all but three 26 and more. Head: as likely is not
-// behind (docs/evaluation/drill.md, "Other tools of their own").
+// Of 124 right drills on training scenes that are sure from lidar returns all but four, which fail
+// other gates too, have 28 nats and more, of 113 dense all but three 26 and more
+// (docs/evaluation/drill.md, "A heat gun of its own").
 constexpr double kMinNoFootMargin_nats = 25.0;
-constexpr double kMinNoChuckMargin_nats = 0.0;
 constexpr double kUsualFoot_nats = 50.0;  // of a kind without feet, whose feet say nothing
 // Chucks of cordless drills are 30 to 50 mm long; hot air tools and dryers end in nozzles.
 constexpr double kLongestChuck_m = 0.065;
@@ -127,22 +125,12 @@ Gate FootGate(const DrillSupport& support, double limit_nats) {
           .advice = "it may be another tool"};
 }
 
-/// Ahead of what it may be instead: tools that take any pose, size and proportions.
-std::vector<Gate> OtherToolGates(const DrillEvidence& evidence) {
-  std::vector<Gate> gates;
-  if (evidence.no_foot_margin_nats)
-    gates.push_back(
-        {.what = "the odds against another tool, one that stands on the end of its grip, are {}",
-         .unit = Gate::Unit::kOdds,
-         .number = *evidence.no_foot_margin_nats,
-         .limit = kMinNoFootMargin_nats});
-  if (evidence.no_chuck_margin_nats)
-    gates.push_back(
-        {.what = "the odds against another tool, one whose head stays wide to its mouth, are {}",
-         .unit = Gate::Unit::kOdds,
-         .number = *evidence.no_chuck_margin_nats,
-         .limit = kMinNoChuckMargin_nats});
-  return gates;
+Gate NoFootGate(double margin_nats) {
+  return {.what = "the odds against a tool that stands on the end of its grip are {}",
+          .unit = Gate::Unit::kOdds,
+          .number = margin_nats,
+          .limit = kMinNoFootMargin_nats,
+          .advice = "it may be another tool"};
 }
 
 /// What its direction has against it: the first of these that it misses.
@@ -162,6 +150,7 @@ std::vector<Gate> DirectionGates(const DrillEvidence& evidence, const DrillSuppo
           FlipLinesGate(support, image_tells ? -std::numeric_limits<double>::infinity()
                                              : kMinFlipLines_sigmas),
           ChuckGate(support, kMinChuck_nats),
+          BluntGate(support, 0.0),
           {.what = "the odds against another direction are {}",
            .unit = Gate::Unit::kOdds,
            .number = evidence.yaw_margin_nats,
@@ -240,7 +229,7 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
     if (gate.Failed()) break;
   }
   AddLongChuck(model, failed);
-  for (const Gate& gate : OtherToolGates(evidence)) AddIfFailed(gate, failed);
+  if (evidence.no_foot_margin_nats) AddIfFailed(NoFootGate(*evidence.no_foot_margin_nats), failed);
   AddFailedBoundGates(model, drill, prior, failed);
   AddIfFailed(
       OffCenterGate(kObject, region,

@@ -161,12 +161,11 @@ class DrillFit {
     SetMargins(modes, flipped.log_likelihood, detection);
     support.proportions_nats = prior_(best);
     DrillState any_flipped, any_own_way;
-    std::optional<double> without_foot, with_blunt_head;
+    std::optional<double> without_foot;
     const std::function<void()> independent[] = {
         [&] { any_flipped = OfAnyProportions(flipped); },
         [&] { any_own_way = OfAnyProportions(best); },
         [&] { without_foot = LikelihoodOfTool(WithoutFoot(*best.kind), best); },
-        [&] { with_blunt_head = LikelihoodOfTool(WithBluntHead(*best.kind), best); },
         [&] { SetAlternativeMargin(best, detection); },
         [&] {
           support.beam_sigma_yaw_rad =
@@ -177,10 +176,9 @@ class DrillFit {
     if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
       return Cancelled();
     SetFlipOfAnyProportions(best, any_flipped, any_own_way, detection, support);
-    const double drill = std::max(WithoutPrior(best), WithoutPrior(any_own_way));
-    DrillEvidence& evidence = detection.evidence;
-    if (without_foot) evidence.no_foot_margin_nats = drill - *without_foot;
-    if (with_blunt_head) evidence.no_chuck_margin_nats = drill - *with_blunt_head;
+    if (without_foot)
+      detection.evidence.no_foot_margin_nats =
+          std::max(WithoutPrior(best), WithoutPrior(any_own_way)) - *without_foot;
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);
     return detection;
   }

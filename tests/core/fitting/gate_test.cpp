@@ -303,8 +303,7 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
                       .gain_nats = 500.0,
                       .alternative_margin_nats = random.Uniform(-50.0, 400.0),
                       .best_alternative = "box and cylinder",
-                      .no_foot_margin_nats = random.Uniform(-20.0, 100.0),
-                      .no_chuck_margin_nats = random.Uniform(-20.0, 100.0)};
+                      .no_foot_margin_nats = random.Uniform(-20.0, 100.0)};
     const DrillSupport support = {.beam_sigma_yaw_rad = found.sigma_yaw_rad,
                                   .any_flip_margin_nats = random.Uniform(-20.0, 100.0),
                                   .flip_line_sigmas = random.Uniform(-1.0, 4.0),
@@ -340,19 +339,14 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
                           .proportions_nats = -1.0};
   const auto chuck = ::testing::Contains(HasSubstr("whether it has a chuck"));
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(chuck));
-  const auto another = ::testing::Contains(HasSubstr("the odds against another tool"));
-  // A kind without feet, or without a chuck, has no such alternative.
-  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(another));
-  found.evidence.no_foot_margin_nats = found.evidence.no_chuck_margin_nats = 50.0;
-  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(another));
-  found.evidence.no_foot_margin_nats = 9.0;
-  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates,
-              ::testing::Contains(HasSubstr("that stands on the end of its grip")));
-  found.evidence.no_foot_margin_nats = 50.0;
-  found.evidence.no_chuck_margin_nats = -1.0;
-  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates,
-              ::testing::Contains(HasSubstr("whose head stays wide to its mouth")));
-  found.evidence.no_chuck_margin_nats = 50.0;
+  const auto foot = ::testing::Contains(HasSubstr("a tool that stands on the end of its grip"));
+  // A kind without feet has no such alternative.
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(foot));
+  found.evidence.no_foot_margin_nats = 60.0;
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(foot));
+  found.evidence.no_foot_margin_nats = 20.0;  // a heat gun that stands on the end of its grip
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, foot);
+  found.evidence.no_foot_margin_nats = 60.0;
   support.chuck_nats = 0.0;
   const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);

@@ -16,9 +16,8 @@ using samples::DrillView;
 using samples::MakeDrillRays;
 
 int PartsNamed(const std::string& name, const DrillModel& model) {
-  return static_cast<int>(
-      std::count_if(model.parts.begin(), model.parts.end(),
-                    [&](const SolidPart& part) { return part.name == name; }));
+  return static_cast<int>(std::count_if(model.parts.begin(), model.parts.end(),
+                                        [&](const SolidPart& part) { return part.name == name; }));
 }
 
 DrillTemplate BarrelDrill() {
@@ -45,25 +44,11 @@ TEST(OtherTools, WithoutAFootTheGripStandsOnTheTable) {
   EXPECT_FALSE(WithoutFoot(*tool).has_value()) << "there is none to take away";
 }
 
-TEST(OtherTools, ABluntHeadGoesOnInTheChucksPlaceAndGrowsWithTheHead) {
-  const auto tool = WithBluntHead(BarrelDrill());
-  ASSERT_TRUE(tool.has_value());
-  ASSERT_TRUE(tool->Check());
-  for (const double head : {1.0, 1.2}) {
-    const DrillModel model = tool->Make(1.0, {0.0, 0.0}, 0.0, {.head_fraction = head});
-    EXPECT_EQ(PartsNamed(DrillTemplate::kChuck, model), 0);
-    // Over the middle of where the chuck was: the head's radius is 34 mm.
-    EXPECT_NEAR(model.Distance({0.115, 0.0, 0.208 + 0.050}), 0.050 - 0.88 * 0.034 * head, 1e-6);
-  }
-  EXPECT_FALSE(WithBluntHead(*tool).has_value()) << "there is no chuck any more";
-}
-
-TEST(OtherTools, ADrillOnItsBatteryIsAheadOfThem) {
+TEST(OtherTools, ADrillOnItsBatteryIsAheadOfOneWithoutAFoot) {
   const auto found = FitDrill(MakeDrillRays({}).rays, {}, {});
   ASSERT_TRUE(found) << found.error().message;
-  ASSERT_TRUE(found->evidence.no_foot_margin_nats && found->evidence.no_chuck_margin_nats);
+  ASSERT_TRUE(found->evidence.no_foot_margin_nats.has_value());
   EXPECT_GT(*found->evidence.no_foot_margin_nats, 50.0);
-  EXPECT_GT(*found->evidence.no_chuck_margin_nats, 10.0);
 }
 
 // As a heat gun does: it leans, and its grip is thicker than a drill's. A drill whose foot was cut
@@ -78,18 +63,6 @@ TEST(OtherTools, WhatStandsOnTheEndOfItsGripIsNotAheadOfIt) {
   ASSERT_TRUE(found) << found.error().message;
   ASSERT_TRUE(found->evidence.no_foot_margin_nats.has_value());
   EXPECT_LT(*found->evidence.no_foot_margin_nats, 10.0);
-  EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed);
-}
-
-TEST(OtherTools, WhatStaysWideToItsMouthIsNotAheadOfIt) {
-  DrillView view;
-  view.shape.chuck_radius_m = 0.031;
-  view.shape.chuck_length_m = 0.050;
-  view.shape.bit_length_m = 0.0;
-  const auto found = FitDrill(MakeDrillRays(view).rays, {}, {});
-  ASSERT_TRUE(found) << found.error().message;
-  ASSERT_TRUE(found->evidence.no_chuck_margin_nats.has_value());
-  EXPECT_LT(*found->evidence.no_chuck_margin_nats, 0.0);
   EXPECT_NE(found->verdict.level, VerdictLevel::kConfirmed);
 }
 
