@@ -16,7 +16,7 @@ namespace foresight {
 namespace {
 
 std::shared_ptr<const Scan> ScanOfSession() {
-  // 4 deg/s over 30 deg is dense enough for a fit; made once, as it takes a while.
+  // 6 deg/s over 30 deg is dense enough for a fit; made once, as it takes a while.
   static const auto scan = std::make_shared<const Scan>(
       WallAndValveScan({.from_rad = -0.26, .to_rad = 0.26, .speed_rad_s = 0.10}));
   return scan;
