@@ -31,16 +31,17 @@ std::filesystem::path DataFile(const std::string& name) {
   if (!std::filesystem::exists(DataFile(file))) \
   GTEST_SKIP() << "needs FORESIGHT_TEST_DATA: " << DataFile(file)
 
-/// x y z, a point a line.
-Points ReadTextPoints(const std::filesystem::path& path) {
+/// As 3DTK writes them: x y z, a point a line, in centimetres, left-handed with y up.
+Points Read3dtkPoints(const std::filesystem::path& path) {
   std::ifstream stream(path);
   Points points;
-  for (Eigen::Vector3d p; stream >> p.x() >> p.y() >> p.z();) points.push_back(p);
+  for (Eigen::Vector3d p; stream >> p.x() >> p.y() >> p.z();)
+    points.push_back(0.01 * Eigen::Vector3d(p.x(), p.y(), -p.z()));
   return points;
 }
 
 Points PointsOf(const std::string& name) {
-  if (name.ends_with(".3d")) return ReadTextPoints(DataFile(name));
+  if (name.ends_with(".3d")) return Read3dtkPoints(DataFile(name));
   const auto points = ReadPointCloud(DataFile(name));
   EXPECT_TRUE(points) << points.error().message;
   return points.value_or(Points());
@@ -108,7 +109,7 @@ std::vector<Eigen::Vector3d> OccupiedPlaces(const Points& points, double reach_m
   return places;
 }
 
-// One of them by day, all by night.
+// The stair, which takes longer than the others together, by night.
 class EveryPlaceOfARealScan : public ::testing::TestWithParam<RealScan> {};
 
 TEST_P(EveryPlaceOfARealScan, IsNotConfirmedAsAValveOrADrill) {
