@@ -32,8 +32,8 @@ DrillState OfKind(const BeamLikelihood& likelihood, const DrillTemplate& kind,
                   const DrillPrior& prior);
 
 enum class LocalSearchEffort {
-  kCoarse,  ///< some parameters, to 2 mm
-  kRough,   ///< all, to 2 mm
+  kCoarse,  ///< some parameters, to 2.5 mm
+  kRough,   ///< all, to 2.5 mm
   kFine,    ///< all, to 0.6 mm
 };
 

@@ -175,10 +175,11 @@ class DrillFit {
         }};
     if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
       return Cancelled();
-    SetFlipOfAnyProportions(best, any_flipped, any_own_way, detection, support);
+    const double own_way = WithoutPrior(any_own_way);
+    SetFlipOfAnyProportions(best, any_flipped, own_way, detection, support);
     if (without_foot)
       detection.evidence.no_foot_margin_nats =
-          std::max(WithoutPrior(best), WithoutPrior(any_own_way)) - *without_foot;
+          std::max(best.log_likelihood - prior_(best), own_way) - *without_foot;
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);
     return detection;
   }
@@ -282,17 +283,14 @@ class DrillFit {
 
   /// No drill is its template, and a head that is longer behind than the template's is a drill that
   /// points the other way: the flipped one may take any proportions, at no cost.
-  void SetFlipOfAnyProportions(const DrillState& best, const DrillState& flipped,
-                               const DrillState& own_way, const DrillDetection& detection,
-                               DrillSupport& support) const {
+  void SetFlipOfAnyProportions(const DrillState& best, const DrillState& flipped, double own_way,
+                               const DrillDetection& detection, DrillSupport& support) const {
     const DrillModel model = flipped.Model();
     const auto pose = flipped.Pose(base_from_table_);
-    const double margin =
-        best.log_likelihood - prior_(best) - LogLikelihoodOf(model.parts, pose, likelihood_);
+    const double turned = WithoutPrior(flipped);
+    const double margin = best.log_likelihood - prior_(best) - turned;
     support.any_flip_margin_nats = std::min(margin, detection.evidence.flip_margin_nats);
-    support.any_way_margin_nats =
-        LogLikelihoodOf(own_way.Model().parts, own_way.Pose(base_from_table_), likelihood_) -
-        LogLikelihoodOf(model.parts, pose, likelihood_);
+    support.any_way_margin_nats = own_way - turned;
     support.outline =
         OfImage(detection.best.model.parts, detection.best.base_from_object, likelihood_.rays());
     support.image_flip_nats =

@@ -51,8 +51,7 @@ TEST(OtherTools, ADrillOnItsBatteryIsAheadOfOneWithoutAFoot) {
   EXPECT_GT(*found->evidence.no_foot_margin_nats, 50.0);
 }
 
-// As a heat gun does: it leans, and its grip is thicker than a drill's. A drill whose foot was cut
-// away in the pose of the drill was far behind it.
+// As a heat gun does: it leans, and its grip is thicker than a drill's.
 TEST(OtherTools, WhatStandsOnTheEndOfItsGripIsNotAheadOfIt) {
   DrillView view;
   view.shape.foot_m = {0.056, 0.056, 0.040};
