@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMostExtraDecimals = 4;
 constexpr double kWordedOdds = 6.0;  ///< powers of ten that are written out
+constexpr double kLargeOdds = 3.0;   ///< powers of ten that read as certain
 
 /// A value in the unit that is printed; of odds the power of ten.
 double Printed(Gate::Unit unit, double value) {
@@ -112,6 +113,16 @@ std::pair<std::string, std::string> NumberAndLimit(const Gate& gate) {
   return texts;
 }
 
+/// What stands behind a limit. Beams are modelled as independent, which they hardly are: limits on
+/// odds are so high for that, and odds just below them would read as certain.
+std::string LimitNote(const Gate& gate) {
+  if (!gate.limit_note.empty()) return " " + gate.limit_note;
+  const bool read_as_certain = gate.unit == Gate::Unit::kOdds && gate.kind == Gate::Kind::kHard &&
+                               gate.side == Gate::Side::kAtLeast && gate.number > 0.0 &&
+                               Printed(gate.unit, gate.limit) >= kLargeOdds;
+  return read_as_certain ? ", as computed odds run high" : "";
+}
+
 /// The sentence of the first that failed.
 std::string FirstFailed(const std::vector<Gate>& gates) {
   for (const Gate& gate : gates)
@@ -131,9 +142,9 @@ std::string Gate::Sentence() const {
   std::string sentence = what;
   if (const std::size_t at = sentence.find("{}"); at != std::string::npos)
     sentence.replace(at, 2, number_text);
-  sentence += fmt::format(" ({}{} {}{}{})", kind == Kind::kUsual ? "usually " : "",
-                          side == Side::kAtLeast ? "at least" : "at most", limit_text,
-                          limit_note.empty() ? "" : " ", limit_note);
+  sentence +=
+      fmt::format(" ({}{} {}{})", kind == Kind::kUsual ? "usually " : "",
+                  side == Side::kAtLeast ? "at least" : "at most", limit_text, LimitNote(*this));
   return advice.empty() ? sentence : sentence + ": " + advice;
 }
 

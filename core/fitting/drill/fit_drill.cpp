@@ -16,7 +16,7 @@
 #include "core/fitting/drill/drill_search.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/drill_verdict.h"
-#include "core/fitting/drill/other_tools.h"
+#include "core/fitting/drill/drill_without_foot.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/region_place.h"

@@ -1,4 +1,4 @@
-#include "core/fitting/drill/other_tools.h"
+#include "core/fitting/drill/drill_without_foot.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ DrillTemplate BarrelDrill() {
   return *barrel;
 }
 
-TEST(OtherTools, WithoutAFootTheGripStandsOnTheTable) {
+TEST(DrillWithoutFoot, WithoutAFootTheGripStandsOnTheTable) {
   const auto tool = WithoutFoot(BarrelDrill());
   ASSERT_TRUE(tool.has_value());
   ASSERT_TRUE(tool->Check());
@@ -44,7 +44,7 @@ TEST(OtherTools, WithoutAFootTheGripStandsOnTheTable) {
   EXPECT_FALSE(WithoutFoot(*tool).has_value()) << "there is none to take away";
 }
 
-TEST(OtherTools, ADrillOnItsBatteryIsAheadOfOneWithoutAFoot) {
+TEST(DrillWithoutFoot, ADrillOnItsBatteryIsAheadOfOneWithoutAFoot) {
   const auto found = FitDrill(MakeDrillRays({}).rays, {}, {});
   ASSERT_TRUE(found) << found.error().message;
   ASSERT_TRUE(found->evidence.no_foot_margin_nats.has_value());
@@ -52,7 +52,7 @@ TEST(OtherTools, ADrillOnItsBatteryIsAheadOfOneWithoutAFoot) {
 }
 
 // As a heat gun does: it leans, and its grip is thicker than a drill's.
-TEST(OtherTools, WhatStandsOnTheEndOfItsGripIsNotAheadOfIt) {
+TEST(DrillWithoutFoot, WhatStandsOnTheEndOfItsGripIsNotAheadOfIt) {
   DrillView view;
   view.shape.foot_m = {0.056, 0.056, 0.040};
   view.shape.foot_forward_m = 0.0;

@@ -1,4 +1,4 @@
-#include "core/fitting/drill/other_tools.h"
+#include "core/fitting/drill/drill_without_foot.h"
 
 #include <algorithm>
 
