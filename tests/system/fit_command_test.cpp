@@ -21,9 +21,13 @@
 namespace foresight {
 namespace {
 
-Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
-  const auto& p = answer["best"]["robot_from_object"]["position_m"];
+Eigen::Vector3d PositionOf(const nlohmann::json& object) {
+  const auto& p = object["robot_from_object"]["position_m"];
   return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
+}
+
+Eigen::Vector3d PositionIn(const nlohmann::json& answer) {
+  return PositionOf(answer["best"]);
 }
 
 TEST(FitHelp, BeginsWithWhatEveryFitNeedsAndEndsWithTheDepthMethods) {
@@ -305,6 +309,38 @@ TEST_F(FitOfAScan, APoleInACloudOfFourFloatsAPointIsACylinder) {
                                     "--box", "2,3,0,0.3,0.3,0.3", "--json"});
   EXPECT_EQ(beside.exit_code, 1) << beside.output;
   EXPECT_EQ(nlohmann::json::parse(beside.output)["verdict"], "UNSURE");
+}
+
+// The front of a thin pipe is flat to within the noise, and the wall behind it a large cylinder's.
+TEST_F(FitOfAScan, PipesAreFoundBeforeTheirWall) {
+  struct Pipe {
+    const char* name;
+    std::vector<std::string> box;
+    double radius_m;
+    Eigen::Vector3d on_axis, axis;
+  };
+  const Pipe pipes[] = {
+      {"riser", {"1.61", "0.42", "1.3", "0.3", "0.3", "0.8"}, 0.030, {1.61, 0.42, 0.0}, {0, 0, 1}},
+      {"drain",
+       {"1.61", "-0.55", "1.1", "0.25", "0.25", "0.4"},
+       0.020,
+       {1.62, -0.55, 0},
+       {0, 0, 1}},
+      {"main pipe",
+       {"1.61", "0.7", "1.36", "0.3", "0.5", "0.3"},
+       0.050,
+       {1.62, 0, 1.36},
+       {0, 1, 0}},
+  };
+  for (const Pipe& pipe : pipes) {
+    std::vector<std::string> arguments = {"fit", "cylinder", mission_, "--json", "--box"};
+    arguments.insert(arguments.end(), pipe.box.begin(), pipe.box.end());
+    const ProgramResult fitted = Run(arguments);
+    ASSERT_LE(fitted.exit_code, 1) << pipe.name << ": " << fitted.errors;
+    const auto answer = nlohmann::json::parse(fitted.output);
+    EXPECT_NEAR(answer["radius_m"].get<double>(), pipe.radius_m, 0.004) << pipe.name;
+    EXPECT_LT((PositionOf(answer) - pipe.on_axis).cross(pipe.axis).norm(), 0.006) << pipe.name;
+  }
 }
 
 TEST_F(FitOfAScan, InALargeBoxTheWheelIsNotLostToAConduitAtItsEdge) {

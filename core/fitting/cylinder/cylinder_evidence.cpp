@@ -74,11 +74,14 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
   evidence.range_sigma_m = rays.sigma_m;
   int inliers = 0, through = 0;
   std::vector<double> angles;
+  const double half_rad = 0.5 * std::max(rays.footprint_rad, rays.footprint_height_rad);
   for (const RangeRay& ray : rays.rays) {
-    const SolidIntersection intersection = tracer.Intersect(ray, 0.0);
+    const SolidIntersection intersection = tracer.IntersectWithDepth(ray, 0.0);
     if (!intersection.Hits()) continue;
-    ++evidence.hits;
     const double behind = ray.range_m - intersection.range_m;
+    // A footprint over the outline reads in between, or what is behind: it went past.
+    if (behind > agree_m && intersection.clearance_m > -half_rad * ray.range_m) continue;
+    ++evidence.hits;
     if (behind > agree_m) ++through;
     if (std::abs(behind) > agree_m) continue;
     ++inliers;

@@ -7,8 +7,10 @@
 
 namespace foresight {
 
-/// How beams before a cylinder are looked at: no real pole is smooth and straight.
-inline constexpr BeamOptions kCylinderBeams;
+/// How beams before a cylinder are looked at: no real pole is smooth and straight, and a pipe is
+/// hardly wider than a footprint, which reads in between it and its wall.
+inline constexpr BeamOptions kCylinderBeams = {
+    .early_return = 0.0, .samples = 3, .mixed_ranges = true};
 
 /// A cylinder while it is looked for.
 struct CylinderState {

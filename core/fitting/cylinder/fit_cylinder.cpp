@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/fitting/cylinder/background_planes.h"
@@ -20,6 +21,7 @@ namespace {
 constexpr int kMinRays = 30;
 constexpr int kCoarseRays = 300;
 constexpr double kCoarseSigma_m = 0.030;  // a smoother hill to climb first
+constexpr BeamOptions kCoarseBeams;       // round footprints of one ray
 constexpr std::size_t kFine = 3;
 constexpr int kSigmaRounds = 2;
 
@@ -42,10 +44,15 @@ class CylinderFit {
     RaySet few = Thinned(rays_, kCoarseRays, random);
     few.sigma_m = std::max(few.sigma_m, kCoarseSigma_m);
     std::vector<CylinderState> found;
-    for (const std::vector<Eigen::Vector3d>& points : {PointsOffPlanes(), AllPoints()}) {
-      context.Report(found.empty() ? 0.1 : 0.3, "looking for circles");
-      const auto more = FindCylinders(BeamLikelihood(few, {}, kCylinderBeams), points, options_.up,
-                                      bounds_, random);
+    // What looks flat may be the front of a thin pipe, or of a thick one: before no plane, before
+    // the largest, ...
+    for (std::size_t count = 0; count <= planes_.size(); ++count) {
+      context.Report(
+          0.1 + 0.5 * static_cast<double>(count) / static_cast<double>(planes_.size() + 1),
+          "looking for circles");
+      const std::span<const Plane> behind = std::span(planes_).first(count);
+      const auto more = FindCylinders(BeamLikelihood(few, behind, kCoarseBeams), PointsOff(behind),
+                                      options_.up, bounds_, random);
       found.insert(found.end(), more.begin(), more.end());
       if (context.Cancelled()) return Cancelled();
     }
@@ -54,11 +61,11 @@ class CylinderFit {
                   "nothing round in the region: draw it around a pole or a pipe");
     context.Report(0.6, "improving the cylinder");
     for (CylinderState& cylinder : found)
-      cylinder = AfterLocalSearchBeforePlanes(few, cylinder, 0.06, 4);
+      cylinder = AfterLocalSearchBeforePlanes(few, kCoarseBeams, cylinder, 0.06, 4);
     KeepBest(found, kFine);
     if (context.Cancelled()) return Cancelled();
     for (CylinderState& cylinder : found)
-      cylinder = AfterLocalSearchBeforePlanes(rays_, cylinder, 0.02, 4);
+      cylinder = AfterLocalSearchBeforePlanes(rays_, kCylinderBeams, cylinder, 0.02, 4);
     KeepBest(found, 1);
     return WithOwnSigma(found.front());
   }
@@ -93,15 +100,10 @@ class CylinderFit {
     if (cylinders.size() > count) cylinders.resize(count);
   }
 
-  std::vector<Eigen::Vector3d> AllPoints() const {
+  std::vector<Eigen::Vector3d> PointsOff(std::span<const Plane> planes) const {
     std::vector<Eigen::Vector3d> points;
     for (const RangeRay& ray : rays_.rays) points.push_back(ray.Point());
-    return points;
-  }
-
-  std::vector<Eigen::Vector3d> PointsOffPlanes() const {
-    std::vector<Eigen::Vector3d> points = AllPoints();
-    for (const Plane& plane : planes_)
+    for (const Plane& plane : planes)
       std::erase_if(points, [&](const Eigen::Vector3d& point) {
         return std::abs(plane.Distance(point)) < 2.5 * rays_.sigma_m;
       });
@@ -109,9 +111,10 @@ class CylinderFit {
   }
 
   /// Before the flat surfaces that are not slabs through it.
-  CylinderState AfterLocalSearchBeforePlanes(const RaySet& rays, const CylinderState& cylinder,
-                                             double first_step_m, int rounds) const {
-    const BeamLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays), kCylinderBeams);
+  CylinderState AfterLocalSearchBeforePlanes(const RaySet& rays, const BeamOptions& beams,
+                                             const CylinderState& cylinder, double first_step_m,
+                                             int rounds) const {
+    const BeamLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays), beams);
     return AfterLocalSearch(cylinder, likelihood, bounds_, first_step_m, rounds);
   }
 
@@ -121,7 +124,7 @@ class CylinderFit {
       const double sigma_m = RangeSigmaFrom(rays_, cylinder);
       if (!std::isfinite(sigma_m)) break;
       rays_.sigma_m = sigma_m;
-      cylinder = AfterLocalSearchBeforePlanes(rays_, cylinder, 0.01, 5);
+      cylinder = AfterLocalSearchBeforePlanes(rays_, kCylinderBeams, cylinder, 0.01, 5);
     }
     return cylinder;
   }
