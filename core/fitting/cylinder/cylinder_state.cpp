@@ -21,6 +21,15 @@ SolidPart CylinderState::Part() const {
   return part;
 }
 
+BeamOptions CylinderBeams(const RaySet& rays) {
+  BeamOptions options = kCylinderBeams;
+  if (!(rays.footprint_height_rad > 0.0)) return options;
+  options.early_return = 0.0;
+  options.samples = 3;
+  options.mixed_ranges = true;
+  return options;
+}
+
 double LogLikelihoodOf(const SolidPart& solid_in_base, const BeamLikelihood& likelihood) {
   return likelihood(CoverBy(SolidTracer({&solid_in_base, 1}, {})));
 }

@@ -7,10 +7,11 @@
 
 namespace foresight {
 
-/// How beams before a cylinder are looked at: no real pole is smooth and straight, and a pipe is
-/// hardly wider than a footprint, which reads in between it and its wall.
-inline constexpr BeamOptions kCylinderBeams = {
-    .early_return = 0.0, .samples = 3, .mixed_ranges = true};
+/// How beams before a cylinder are looked at: no real pole is smooth and straight.
+inline constexpr BeamOptions kCylinderBeams;
+/// The same where footprints are known (RaySet::footprint_height_rad): a pipe is hardly wider than
+/// one, which reads in between it and its wall.
+BeamOptions CylinderBeams(const RaySet& rays);
 
 /// A cylinder while it is looked for.
 struct CylinderState {

@@ -21,7 +21,6 @@ namespace {
 constexpr int kMinRays = 30;
 constexpr int kCoarseRays = 300;
 constexpr double kCoarseSigma_m = 0.030;  // a smoother hill to climb first
-constexpr BeamOptions kCoarseBeams;       // round footprints of one ray
 constexpr std::size_t kFine = 3;
 constexpr int kSigmaRounds = 2;
 
@@ -51,8 +50,8 @@ class CylinderFit {
           0.1 + 0.5 * static_cast<double>(count) / static_cast<double>(planes_.size() + 1),
           "looking for circles");
       const std::span<const Plane> behind = std::span(planes_).first(count);
-      const auto more = FindCylinders(BeamLikelihood(few, behind, kCoarseBeams), PointsOff(behind),
-                                      options_.up, bounds_, random);
+      const auto more = FindCylinders(BeamLikelihood(few, behind, kCylinderBeams),
+                                      PointsOff(behind), options_.up, bounds_, random);
       found.insert(found.end(), more.begin(), more.end());
       if (context.Cancelled()) return Cancelled();
     }
@@ -61,11 +60,11 @@ class CylinderFit {
                   "nothing round in the region: draw it around a pole or a pipe");
     context.Report(0.6, "improving the cylinder");
     for (CylinderState& cylinder : found)
-      cylinder = AfterLocalSearchBeforePlanes(few, kCoarseBeams, cylinder, 0.06, 4);
+      cylinder = AfterLocalSearchBeforePlanes(few, kCylinderBeams, cylinder, 0.06, 4);
     KeepBest(found, kFine);
     if (context.Cancelled()) return Cancelled();
     for (CylinderState& cylinder : found)
-      cylinder = AfterLocalSearchBeforePlanes(rays_, kCylinderBeams, cylinder, 0.02, 4);
+      cylinder = AfterLocalSearchBeforePlanes(rays_, CylinderBeams(rays_), cylinder, 0.02, 4);
     KeepBest(found, 1);
     return WithOwnSigma(found.front());
   }
@@ -77,7 +76,8 @@ class CylinderFit {
     detection.base_from_object = {RotationBetween(Eigen::Vector3d::UnitZ(), z), cylinder.middle};
     detection.model = {cylinder.radius_m, cylinder.length_m};
     detection.evidence = GatherEvidence(rays_, cylinder);
-    const BeamLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_), kCylinderBeams);
+    const BeamLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_),
+                                    CylinderBeams(rays_));
     // Half of Schwarz's penalty for each parameter that a box has more.
     const double measurements =
         std::max(2.0, static_cast<double>(rays_.rays.size()) * rays_.samples_per_ray);
@@ -124,7 +124,7 @@ class CylinderFit {
       const double sigma_m = RangeSigmaFrom(rays_, cylinder);
       if (!std::isfinite(sigma_m)) break;
       rays_.sigma_m = sigma_m;
-      cylinder = AfterLocalSearchBeforePlanes(rays_, kCylinderBeams, cylinder, 0.01, 5);
+      cylinder = AfterLocalSearchBeforePlanes(rays_, CylinderBeams(rays_), cylinder, 0.01, 5);
     }
     return cylinder;
   }
