@@ -39,8 +39,12 @@ HeadSwitch::HeadSwitch(Workbench* bench, std::string keys) : bench_(bench), keys
                        .run = [this] { Open(); },
                        .why_not =
                            [bench] {
-                             return bench->head.Scanning()
-                                        ? tr("A scan is running; wait for its end.")
+                             if (bench->head.Scanning())
+                               return tr("A scan is running; wait for its end.");
+                             // The window closes for it.
+                             return bench->recording.Stuck()
+                                        ? tr("Some of it is in memory only; record into another "
+                                             "file first (Ctrl+Shift+S).")
                                         : QString();
                            }});
 }

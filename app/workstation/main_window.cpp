@@ -26,6 +26,7 @@
 #include "app/workstation/quit_question.h"
 #include "app/workstation/result_commands.h"
 #include "app/workstation/shortcut_sheet.h"
+#include "app/workstation/unsaved_question.h"
 #include "core/base/log_file.h"
 #include "ui/panels/camera_calibration_panel.h"
 #include "ui/panels/chain_calibration_panel.h"
@@ -92,7 +93,9 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
       image_(MakeImagePane(&bench->live)),
       depth_(MakeDepthPane(&bench->live, &bench->live_depth)),
       cloud_(MakeCloudPane(&bench->live)),
-      quit_question_(new QuitQuestion(&bench->head, this)) {
+      quit_question_(new QuitQuestion(&bench->head, this)),
+      unsaved_question_(new UnsavedQuestion(
+          &bench->recording, [this] { ChooseRecordingFile(); }, this)) {
   AddWindowCommands();
   AddCommandsOfResults();
   actions_ = new Actions(&bench_->commands, this);
@@ -133,7 +136,7 @@ void MainWindow::CloseUnasked() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!quit_question_->MayClose()) {
+  if (!quit_question_->MayClose() || !unsaved_question_->MayClose()) {
     event->ignore();
     return;
   }
@@ -141,6 +144,21 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   // A dock left floating would keep the program alone, without the button that stops the head.
   for (ads::CFloatingDockContainer* floating : docks_->floatingWidgets()) floating->hide();
   QMainWindow::closeEvent(event);
+}
+
+void MainWindow::ChooseRecordingFile() {
+  ChooseFile(true, tr("Record into"), tr("Missions (*.foresight)"), QStringLiteral("foresight"),
+             [this](const QString& path) {
+               // A scan may have begun while the dialogue was open.
+               if (!bench_->head.Scanning()) {
+                 bench_->recording.SwitchTo(path);
+                 return;
+               }
+               bench_->live.session.Report(
+                   {Notice::Level::kWarning,
+                    tr("A scan is running: recording stays in %1.").arg(bench_->recording.Path()),
+                    tr("Choose the other file when the scan has ended (Ctrl+Shift+S).")});
+             });
 }
 
 void MainWindow::AddWindowCommands() {
@@ -186,11 +204,7 @@ void MainWindow::AddWindowCommands() {
                 .text = tr("Record into another file"),
                 .tip = tr("Go on recording in a new mission file, or in one that is there"),
                 .keys = QStringLiteral("Ctrl+Shift+S"),
-                .run =
-                    [this, missions, suffix] {
-                      ChooseFile(true, tr("Record into"), missions, suffix,
-                                 [this](const QString& path) { bench_->recording.SwitchTo(path); });
-                    },
+                .run = [this] { ChooseRecordingFile(); },
                 .why_not =
                     [this] {
                       return bench_->head.Scanning() ? tr("A scan is running; wait for its end.")

@@ -31,6 +31,7 @@ class MissionSearchPanel;
 class QuitQuestion;
 class SideResultsPanel;
 class SourceGallery;
+class UnsavedQuestion;
 
 /// Places docks, menus and keys; everything else lives in the view-models, views and panels. Shows
 /// the live document or the one for review, and says which.
@@ -87,6 +88,7 @@ class MainWindow : public QMainWindow {
   void Show(QFileDialog* dialog, const std::function<void(QString)>& chosen);
   void ChooseBundle();
   void ChooseFolder(const QString& title, const std::function<void(QString)>& chosen);
+  void ChooseRecordingFile();
   void ChooseFiles(const QString& title, const QString& filter,
                    const std::function<void(QStringList)>& chosen);
   void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
@@ -98,6 +100,7 @@ class MainWindow : public QMainWindow {
   DepthPane* depth_;
   CloudPane* cloud_;
   QuitQuestion* quit_question_;
+  UnsavedQuestion* unsaved_question_;
   HeadStrip* strip_ = nullptr;
   LogStrip* log_ = nullptr;
   MissionPanel* mission_ = nullptr;

@@ -13,7 +13,10 @@ constexpr int kScanEnds_ms = 3000;  ///< a head that stops ends its scan within 
 QuitQuestion::QuitQuestion(HeadViewModel* head, QWidget* window)
     : QObject(window), head_(head), window_(window) {
   connect(head_, &HeadViewModel::statusChanged, this, [this] {
-    if (Sweeps()) return;
+    if (Sweeps()) {
+      SayWhatItDoes();
+      return;
+    }
     if (question_) question_->close();
     if (quitting_) window_->close();
   });
@@ -39,8 +42,7 @@ void QuitQuestion::Ask() {
                               QMessageBox::NoButton, window_);
   question_->setObjectName(QStringLiteral("quitQuestion"));
   question_->setAttribute(Qt::WA_DeleteOnClose);
-  question_->setInformativeText(
-      tr("To quit now stops the head and ends the scan. What has come of it is kept."));
+  SayWhatItDoes();
   QPushButton* stay = question_->addButton(tr("Stay"), QMessageBox::RejectRole);
   QPushButton* quit =
       question_->addButton(tr("End the scan and quit"), QMessageBox::DestructiveRole);
@@ -56,6 +58,17 @@ void QuitQuestion::Ask() {
   });
   question_->setModal(false);
   question_->show();
+}
+
+void QuitQuestion::SayWhatItDoes() {
+  if (!question_) return;
+  const QString text =
+      head_->Answers().Current()
+          ? tr("To quit now stops the head and ends the scan. What has come of it is kept.")
+          : tr("The head cannot be reached: it goes on moving until it notices that nobody is "
+               "there. What has come of the scan is kept. If the head must stand now, use the "
+               "robot's emergency stop.");
+  if (question_->informativeText() != text) question_->setInformativeText(text);
 }
 
 }  // namespace foresight

@@ -26,6 +26,7 @@ class QuitQuestion : public QObject {
  private:
   bool Sweeps() const;
   void Ask();
+  void SayWhatItDoes();
 
   HeadViewModel* head_;
   QWidget* window_;

@@ -24,6 +24,7 @@ namespace foresight {
 namespace {
 
 constexpr const char* kLeftRunning = "the recording program ended before the scan did";
+constexpr const char* kCopiedRunning = "the mission was copied while the scan was running";
 constexpr const char* kReviewKey = "review_of";  ///< in the table meta of a review
 constexpr std::string_view kReviewSuffix = ".review.foresight";
 
@@ -148,6 +149,18 @@ class Snapshot {
 void MergeLog(const std::filesystem::path& path) {
   auto database = SqliteDatabase::Open(path, SqliteDatabase::Mode::kReadWrite);
   if (database) (void)database->Run("PRAGMA journal_mode = DELETE");
+}
+
+/// A scan that runs goes on in the file that was copied, and ends in its copy.
+Status EndScansOfCopy(const std::filesystem::path& path) {
+  FORESIGHT_TRY(SqliteDatabase database,
+                SqliteDatabase::Open(path, SqliteDatabase::Mode::kReadWrite));
+  ScanRows rows(database, path.string());
+  FORESIGHT_TRY(const std::vector<ScanRow> scans, rows.ReadScanRows());
+  for (const ScanRow& scan : scans)
+    if (scan.state == ScanState::kRunning)
+      FORESIGHT_CHECK(rows.EndScan(scan.id, ScanState::kInterrupted, kCopiedRunning));
+  return {};
 }
 
 void RemoveNeighbours(const std::filesystem::path& path) {
@@ -366,6 +379,11 @@ const std::filesystem::path& MissionFile::path() const {
 
 bool MissionFile::IsReview() const {
   return impl_->review;
+}
+
+bool MissionFile::HasMoved() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->database && impl_->database->HasMoved();
 }
 
 bool MissionFile::IsBeingRecorded() const {
@@ -837,7 +855,7 @@ Result<DamageReport> MissionFile::FindDamage(std::size_t at_most, const RunConte
 }
 
 Status MissionFile::ExportTo(const std::filesystem::path& path) const {
-  if (impl_->writable) {  // the recording goes on meanwhile
+  if (impl_->writable && !HasMoved()) {  // the recording goes on meanwhile
     FORESIGHT_TRY(const std::unique_ptr<MissionFile> reader, OpenReadOnly(impl_->path));
     return reader->ExportTo(path);
   }
@@ -849,11 +867,17 @@ Status MissionFile::ExportTo(const std::filesystem::path& path) const {
     return Fail(ErrorCode::kInvalidInput, "{}: cannot be exported onto itself", impl_->file);
   const std::filesystem::path part = Neighbour(target, ".part");
   std::filesystem::remove(part, error);
+  const bool recorded = impl_->writable || impl_->Recorded();
   FORESIGHT_TRY(SqliteStatement copy, impl_->database->Prepare("VACUUM INTO ?"));
   Status status = copy.BindText(part.string()).Run();
+  if (status && recorded) status = EndScansOfCopy(part);
   if (!status) {
     std::filesystem::remove(part, error);
-    return Fail(ErrorCode::kIo, "{}: cannot export: {}", target.string(), status.error().message);
+    std::string why = status.error().message;
+    // Disk and rights are those of the copy, whatever file SQLite names.
+    const std::string named = impl_->file + ": ";
+    if (status.error().code == ErrorCode::kIo && why.starts_with(named)) why.erase(0, named.size());
+    return Fail(ErrorCode::kIo, "{}: cannot export: {}", target.string(), why);
   }
   return PublishFile(part, target);
 }

@@ -123,6 +123,24 @@ TEST(HeadStripOverALink, ShowsTheHeadsMessageAlsoWhileTheLinkIsLost) {
   EXPECT_EQ(message->Text().toStdString(), "whether it runs shows when the link is back");
 }
 
+TEST_F(DeviceLampsOnScreen, AHeadThatIsNotConnectedHasNoAngle) {
+  CommandTable commands;
+  for (const char* id : {"view.live", "head.release", "head.stop"})
+    commands.Add({.id = id, .text = QString::fromLatin1(id), .run = [] {}});
+  HeadStrip strip(&model, &commands);
+  const auto shown = [&](const char* what) {
+    for (const QLabel* label : strip.findChildren<QLabel*>())
+      if (label->text().startsWith(QLatin1String(what))) return label->text().toStdString();
+    return std::string();
+  };
+  model.Poll();
+  EXPECT_EQ(shown("Angle"), "Angle 0.00°");
+  head->SetState(HeadState::kDisconnected);
+  model.Poll();
+  EXPECT_EQ(shown("Angle"), "Angle –") << "nobody has read it";
+  EXPECT_EQ(shown("Speed"), "Speed –");
+}
+
 TEST_F(DeviceLampsOnScreen, ALongMessageOfTheHeadMakesTheStripNoHigher) {
   CommandTable commands;
   for (const char* id : {"view.live", "head.release", "head.stop"})

@@ -71,6 +71,27 @@ TEST_F(QuitQuestionOnScreen, TheQuestionGoesWhenTheSweepIsOver) {
   EXPECT_TRUE(window.close());
 }
 
+TEST(QuitQuestionOverALink, AHeadThatCannotBeReachedIsNotSaidToStop) {
+  const auto head = std::make_shared<LinkedHead>(DefaultSensorRig());
+  head->link.health.connected = true;
+  head->link.health.has_control = true;
+  HeadViewModel model(head);
+  AskingWindow window(&model);
+  window.show();
+  head->SetState(HeadState::kSweeping);
+  model.Poll();
+  EXPECT_FALSE(window.close());
+  ASSERT_NE(window.Question(), nullptr);
+  EXPECT_TRUE(window.Question()->informativeText().contains("stops the head"));
+  head->link.health.connected = false;
+  model.Poll();
+  EXPECT_FALSE(window.Question()->informativeText().contains("stops the head"));
+  EXPECT_TRUE(window.Question()->informativeText().contains("goes on moving"));
+  for (QAbstractButton* button : window.Question()->buttons())
+    if (button != window.Question()->defaultButton()) button->click();
+  EXPECT_TRUE(model.Answers().Text().contains("STOP")) << model.Answers().Text().toStdString();
+}
+
 TEST(QuitQuestionOverALink, AnotherOperatorsSweepGoesOnWhenThisWindowCloses) {
   const auto head = std::make_shared<LinkedHead>(DefaultSensorRig());
   head->link.health.connected = true;

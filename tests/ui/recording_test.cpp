@@ -337,6 +337,64 @@ TEST_F(RecordingTest, AMissionThatIsRecordedIntoIsNotOffered) {
   EXPECT_TRUE(recording->Interrupted().isEmpty());
 }
 
+TEST_F(RecordingTest, AFileThatIsDeletedUnderTheRecordingIsSaidAndTheNextOneHoldsAllOfIt) {
+  ASSERT_TRUE(recording->Begin(path));
+  Record(*SmallScan());
+  recording->keepObject(ValveIn(*SmallScan()));
+  ASSERT_TRUE(AllWritten());
+  for (const char* suffix : {"", "-wal", "-shm"}) QFile::remove(path + suffix);
+  notices.clear();
+  ASSERT_TRUE(WaitFor([&] { return !notices.empty(); }, 10'000)) << "nobody has to write for it";
+  EXPECT_EQ(notices.back().level, Notice::Level::kError);
+  EXPECT_TRUE(notices.back().what.contains(path));
+  Scan second = *SmallScan();
+  second.uuid = NewUuid();
+  recording->keepScan(std::make_shared<const Scan>(second));
+  ASSERT_TRUE(WaitFor([&] { return !recording->Busy() && recording->Stuck(); }));
+  const QString copy = folder.filePath("copy.foresight"), next = folder.filePath("next.foresight");
+  recording->CopyTo(copy);
+  ASSERT_TRUE(WaitFor([&] { return !recording->Busy() && QFileInfo::exists(copy); }));
+  EXPECT_EQ((*MissionFile::OpenReadOnly(copy.toStdString()))->ListScans()->size(), 1u);
+  recording->SwitchTo(next);
+  ASSERT_TRUE(WaitFor([&] { return recording->Path() == next; }));
+  ASSERT_TRUE(AllWritten());
+  const auto file = MissionFile::OpenReadOnly(next.toStdString()).value();
+  EXPECT_EQ(file->ListScans()->size(), 2u);
+  EXPECT_EQ(file->ListDetections()->size(), 1u);
+}
+
+TEST_F(RecordingTest, AFileThatIsBroughtBackIsWrittenAgain) {
+  ASSERT_TRUE(recording->Begin(path));
+  const QString away = folder.filePath("away.foresight");
+  ASSERT_TRUE(QFile::rename(path, away));
+  recording->keepScan(SmallScan());
+  ASSERT_TRUE(WaitFor([&] { return !recording->Busy() && recording->Stuck(); }));
+  ASSERT_TRUE(WaitFor(
+      [&] {
+        for (const Notice& notice : notices)
+          if (notice.what.contains("moved or deleted while")) return true;
+        return false;
+      },
+      10'000));
+  ASSERT_TRUE(QFile::rename(away, path));
+  EXPECT_TRUE(WaitFor([&] { return recording->Waiting() == 0; }, 10'000));
+}
+
+// As the file of a program that was killed, which takes some seconds to go.
+TEST_F(RecordingTest, AFileThatAnotherProgramWritesIsTakenWhenThatEnds) {
+  auto other = MissionFile::Create(path.toStdString()).value();
+  EXPECT_FALSE(recording->Begin(path));
+  ASSERT_FALSE(notices.empty());
+  EXPECT_TRUE(notices.back().next.contains("begins when that program ends"));
+  recording->keepScan(SmallScan());
+  EXPECT_TRUE(recording->Stuck());
+  ASSERT_TRUE(other->Close());
+  other.reset();
+  ASSERT_TRUE(WaitFor([&] { return recording->Recording(); }, 10'000));
+  ASSERT_TRUE(AllWritten());
+  EXPECT_EQ((*MissionFile::OpenReadOnly(path.toStdString()))->ListScans()->size(), 1u);
+}
+
 TEST_F(RecordingTest, AFileThatCannotBeWrittenIsSaidAndNothingIsLost) {
   EXPECT_FALSE(recording->Begin(folder.filePath("no/such/folder/m.foresight")));
   ASSERT_FALSE(notices.empty());

@@ -120,15 +120,19 @@ void HeadStrip::ShowStatus() {
 
 void HeadStrip::ShowMotion(const HeadStatus& status, const HeadAnswers& answers) {
   const bool current = answers.Current();
-  const QString angle = tr("Angle %1°").arg(DegreesFromRadians(status.angle_rad), 0, 'f', 2);
+  // Nobody reads the motor of a head whose devices are not connected.
+  const bool known = status.state != HeadState::kDisconnected;
+  const QString angle =
+      known ? tr("Angle %1°").arg(DegreesFromRadians(status.angle_rad), 0, 'f', 2) : tr("Angle –");
   const QString lines = tr("Line %1 of %2").arg(status.lines).arg(status.expected_lines);
   const QString old = tr("%1, %2 ago");
-  angle_->setText(current ? angle : old.arg(angle, answers.Silence()));
+  angle_->setText(current || !known ? angle : old.arg(angle, answers.Silence()));
   lines_->setText(current ? lines : old.arg(lines, answers.Silence()));
-  speed_->setText(current ? tr("Speed %1 °/s, asked %2 °/s")
-                                .arg(DegreesFromRadians(status.speed_rad_s), 0, 'f', 1)
-                                .arg(DegreesFromRadians(status.commanded_speed_rad_s), 0, 'f', 1)
-                          : tr("Speed –"));
+  speed_->setText(current && known
+                      ? tr("Speed %1 °/s, asked %2 °/s")
+                            .arg(DegreesFromRadians(status.speed_rad_s), 0, 'f', 1)
+                            .arg(DegreesFromRadians(status.commanded_speed_rad_s), 0, 'f', 1)
+                      : tr("Speed –"));
   for (QWidget* value : QVector<QWidget*>{angle_, lines_, speed_, sweep_})
     value->setEnabled(current);
   const bool sweeping = status.state == HeadState::kSweeping;

@@ -440,9 +440,14 @@ void HeadViewModel::StopLiveView() {
 }
 
 void HeadViewModel::StopForGood() {
-  if (OwnSweep()) head_->AbortScan();
-  if (OwnSweep() || HasControl()) head_->StopMotor();
+  const bool sweeps = OwnSweep();
+  if (sweeps) head_->AbortScan();
+  if (sweeps || HasControl()) {
+    head_->StopMotor();
+    answers_.StopPressed();
+  }
   Poll();
+  Q_EMIT statusChanged();
 }
 
 void HeadViewModel::abort() {

@@ -6,7 +6,9 @@
 #include <QEventLoop>
 #include <QFileInfo>
 #include <QStandardPaths>
+#include <QTimer>
 #include <algorithm>
+#include <utility>
 
 #include "core/mission/mission_timeline.h"
 #include "ui/viewmodels/mission_objects.h"
@@ -16,6 +18,9 @@ namespace foresight {
 namespace {
 
 const QString kSuffix = QStringLiteral("foresight");
+constexpr int kTryAgain_ms = 2000;   ///< to write a file that another program still writes
+constexpr int kLookAfter_ms = 2000;  ///< whether the file is where it was
+constexpr int kOfferAgain_ms[] = {2000, 5000, 10000};
 
 QString FreePath(const QString& folder) {
   const QString base = QDir(folder).filePath(
@@ -36,6 +41,11 @@ bool WasLeftBehind(const QString& path) {
   if (!QFileInfo::exists(path + QStringLiteral("-wal"))) return false;
   const auto mission = MissionFile::OpenReadOnly(path.toStdString());
   return mission && !(*mission)->IsBeingRecorded();
+}
+
+bool IsBeingRecorded(const QString& path) {
+  const auto mission = MissionFile::OpenReadOnly(path.toStdString());
+  return mission && (*mission)->IsBeingRecorded();
 }
 
 EarlierContents ContentsOf(const MissionFile& file) {
@@ -94,13 +104,16 @@ RecordingViewModel::RecordingViewModel(SessionModel* live, QObject* parent)
   connect(session_->Notes(), &NotesModel::touched, this, &RecordingViewModel::keepNote);
   for (TaskRunner* runner : {&writer_, &reader_, &copier_})
     connect(runner, &TaskRunner::changed, this, &RecordingViewModel::changed);
+  auto* look_after = new QTimer(this);
+  connect(look_after, &QTimer::timeout, this, &RecordingViewModel::LookAfterFile);
+  look_after->start(kLookAfter_ms);
 }
 
 RecordingViewModel::~RecordingViewModel() {
   recorder_.reset();
   if (!file_) return;
   list_file_.reset();
-  const bool empty = IsEmpty(*file_);
+  const bool empty = IsEmpty(*file_) && !file_->HasMoved();
   if (const Status closed = file_->Close(); closed && empty) QFile::remove(path_);
 }
 
@@ -121,9 +134,17 @@ QStringList RecordingViewModel::LeftBehind(const QString& folder) {
 }
 
 void RecordingViewModel::OfferInterrupted(const QString& folder, const QString& last_path) {
+  if (Offer(folder, last_path)) return;
+  for (const int later_ms : kOfferAgain_ms)
+    QTimer::singleShot(later_ms, this, [this, folder, last_path] {
+      if (interrupted_.isEmpty()) Offer(folder, last_path);
+    });
+}
+
+bool RecordingViewModel::Offer(const QString& folder, const QString& last_path) {
   QStringList left = LeftBehind(folder);
   if (!last_path.isEmpty() && WasLeftBehind(last_path)) left.prepend(last_path);
-  if (left.isEmpty()) return;
+  if (left.isEmpty()) return false;
   interrupted_ = left.first();
   session_->Report({Notice::Level::kWarning,
                     tr("The program ended unexpectedly the last time; its mission was kept: %1.")
@@ -131,6 +152,7 @@ void RecordingViewModel::OfferInterrupted(const QString& folder, const QString& 
                     tr("Go on recording in it, or look at it with Open for review (Ctrl+O)."),
                     kInterruptedTopic, QStringLiteral("recording.continue")});
   Q_EMIT changed();
+  return true;
 }
 
 void RecordingViewModel::continueInterrupted() {
@@ -160,6 +182,13 @@ bool RecordingViewModel::Begin(const QString& path) {
   if (const Status opened = Open(path, &file); !opened) {
     Notice notice = NoticeOf(tr("Recording into %1").arg(path), opened.error());
     notice.next = tr("Nothing is recorded now. Choose another file (Ctrl+Shift+S).");
+    if (IsBeingRecorded(path)) {
+      notice.next =
+          tr("Nothing is recorded now; it begins when that program ends. Or choose "
+             "another file (Ctrl+Shift+S).");
+      wanted_ = path;
+      QTimer::singleShot(kTryAgain_ms, this, &RecordingViewModel::TryAgainToBegin);
+    }
     notice.topic = kRecordingTopic;
     session_->Report(notice);
     return false;
@@ -178,6 +207,36 @@ bool RecordingViewModel::Begin(const QString& path) {
                                            .trimmed()});
   }
   return true;
+}
+
+void RecordingViewModel::TryAgainToBegin() {
+  if (wanted_.isEmpty() || file_ || writer_.Busy()) return;  // another was chosen meanwhile
+  if (IsBeingRecorded(wanted_)) {
+    QTimer::singleShot(kTryAgain_ms, this, &RecordingViewModel::TryAgainToBegin);
+    return;
+  }
+  if (Begin(std::exchange(wanted_, {})) && waiting_.empty()) Q_EMIT allWritten();
+}
+
+void RecordingViewModel::LookAfterFile() {
+  if (!file_ || watcher_.Busy()) return;
+  watcher_.Run<bool>(
+      tr("Looking after the mission file"),
+      [file = file_](const RunContext&) -> Result<bool> { return file->HasMoved(); },
+      [this, file = file_](const Result<bool>& moved) {
+        if (!moved || file != file_ || *moved == moved_) return;
+        moved_ = *moved;
+        if (!moved_) {  // somebody brought it back
+          tryAgain();
+          if (waiting_.empty()) Q_EMIT allWritten();
+          return;
+        }
+        session_->Report(
+            {Notice::Level::kError,
+             tr("The mission file %1 was moved or deleted while it is recorded into.").arg(path_),
+             tr("Record into another file (Ctrl+Shift+S): all that was recorded goes with it."),
+             kRecordingTopic});
+      });
 }
 
 bool RecordingViewModel::BeginInFolder(const QString& folder) {
@@ -199,8 +258,10 @@ void RecordingViewModel::SwitchTo(const QString& path) {
   };
   writer_.Run<Opened>(
       tr("Opening the mission file"),
-      [this, path, open_already](const RunContext&) -> Result<Opened> {
+      [this, path, open_already, old = file_](const RunContext&) -> Result<Opened> {
         std::shared_ptr<MissionFile> file = open_already;
+        if (!file && old && old->HasMoved() && !QFileInfo::exists(path))
+          FORESIGHT_CHECK(old->ExportTo(path.toStdString()));
         if (!file) FORESIGHT_CHECK(Open(path, &file));
         return Opened{file, ContentsOf(*file)};
       },
@@ -219,7 +280,7 @@ void RecordingViewModel::SwitchTo(const QString& path) {
         path_ = path;
         Use(std::move(opened->file), opened->earlier);
         session_->Report({Notice::Level::kInfo, tr("Recording goes on in %1.").arg(path), {}});
-        if (!old) return;
+        if (!old || old->HasMoved()) return;
         if (IsEmpty(*old) && old->Close())
           QFile::remove(old_path);
         else
@@ -231,7 +292,8 @@ void RecordingViewModel::Use(std::shared_ptr<MissionFile> file, const EarlierCon
   file_ = std::move(file);
   session_->SetEarlier(earlier);
   recorder_ = std::make_shared<ScanRecorder>(file_);
-  failed_ = false;
+  failed_ = moved_ = false;
+  wanted_.clear();
   if (!interrupted_.isEmpty() && IsSameFile(path_, interrupted_)) {
     interrupted_.clear();
     Q_EMIT interruptedTaken();
@@ -274,8 +336,7 @@ void RecordingViewModel::CopyTo(const QString& path) {
   }
   copier_.Run<bool>(
       tr("Copying the mission"),
-      [source = path_.toStdString(), path = path.toStdString()](const RunContext&) -> Result<bool> {
-        FORESIGHT_TRY(const auto file, MissionFile::OpenReadOnly(source));
+      [file = file_, path = path.toStdString()](const RunContext&) -> Result<bool> {
         FORESIGHT_CHECK(file->ExportTo(path));
         return true;
       },
@@ -363,6 +424,8 @@ void RecordingViewModel::WriteNext() {
   files.insert(files.begin(), file_);
   const auto work = [file = file_, files, recorder = recorder_, author = author_,
                      change = waiting_.front()](const RunContext& context) -> Result<bool> {
+    if (file->HasMoved())
+      return Fail(ErrorCode::kIo, "{}: was moved or deleted", file->path().string());
     if (const auto* scan = std::get_if<std::shared_ptr<const Scan>>(&change)) {
       // What the recorder could not write is appended; if it still cannot be, that is said.
       (void)recorder->WaitUntilWritten();
@@ -402,8 +465,7 @@ void RecordingViewModel::WriteNext() {
       failed_ = true;
       Notice notice = NoticeOf(tr("Writing the mission file"), written.error());
       notice.next =
-          tr("It stays in memory: make room, or record into another file "
-             "(Ctrl+Shift+S).");
+          tr("It stays in memory: put that right, or record into another file (Ctrl+Shift+S).");
       notice.topic = kRecordingTopic;
       session_->Report(notice);
       return;

@@ -33,21 +33,26 @@ class RecordingViewModel : public QObject {
   static QStringList LeftBehind(const QString& folder);
 
   /// Records into this file from now on: a new one, or one that is continued. Takes some
-  /// milliseconds; for the start of the program.
+  /// milliseconds; for the start of the program. Where another program still writes the file, as
+  /// one that was killed does for some seconds, it is tried again until it is free.
   bool Begin(const QString& path);
   /// The same with a new file named after the date.
   bool BeginInFolder(const QString& folder);
-  /// The same while the program runs: what waits goes into the new file. Not during a sweep.
+  /// The same while the program runs: what waits goes into the new file. Where the present one was
+  /// moved or deleted, a new file begins with all that it holds. Not during a sweep.
   void SwitchTo(const QString& path);
 
   /// Says that a program left a mission in `folder`, or the one at `last_path`, without closing it,
-  /// and offers to go on in it. Call it before Begin.
+  /// and offers to go on in it; looks again for some seconds, as a killed program may take as long
+  /// to let go of its file. Call it before Begin.
   void OfferInterrupted(const QString& folder, const QString& last_path = {});
   /// The mission that is offered; empty = none.
   QString Interrupted() const { return interrupted_; }
 
   QString Path() const { return path_; }
   bool Recording() const { return recorder_ != nullptr; }
+  /// What waits cannot be written: there is no file, or it did not take the last of it.
+  bool Stuck() const { return Waiting() > 0 && (failed_ || !Recording()); }
   /// The file that is recorded into; nullptr while there is none.
   std::shared_ptr<MissionFile> File() const { return file_; }
   /// The sink that writes a scan while it arrives; nullptr while there is no file to write.
@@ -100,6 +105,11 @@ class RecordingViewModel : public QObject {
   using Change = std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, MadeDepth,
                               NoteRecord, KeptCheck, EventRecord>;
 
+  void TryAgainToBegin();
+  /// Whether a mission is offered now.
+  bool Offer(const QString& folder, const QString& last_path);
+  /// Says it once when the file has been moved or deleted under the recording.
+  void LookAfterFile();
   void Keep(Change change);
   void WriteNext();
   /// `earlier`: what it held before this sitting writes into it.
@@ -110,8 +120,11 @@ class RecordingViewModel : public QObject {
   TaskRunner writer_{session_->Tasks(), TaskPolicy::kNeverCancel};
   TaskRunner reader_{session_->Tasks()};
   TaskRunner copier_{session_->Tasks(), TaskPolicy::kQueue};
+  TaskRunner watcher_;  ///< of its own: nobody waits for it
   QString path_;
   QString interrupted_;
+  QString wanted_;      ///< to be recorded into as soon as it is free; empty = none
+  bool moved_ = false;  ///< the file is no longer where it was opened
   std::string author_;
   std::shared_ptr<MissionFile> file_;
   /// Those that were recorded into before: what belongs to their scans is still written there.

@@ -12,6 +12,7 @@
 #include "core/mission/mission_file.h"
 #include "tests/core/mission/other_process.h"
 #include "tests/core/mission/sample_scan.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 // One writer records, others read: in the same process and in another one.
@@ -21,6 +22,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class MissionReaders : public testing::Test {
  protected:
@@ -205,6 +207,46 @@ TEST_F(MissionReaders, TheMainFileAloneDoesNotPassForAClosedOne) {
   EXPECT_THAT(alone.error().message, HasSubstr("is not a mission file"));
   EXPECT_TRUE(MissionFile::OpenReadOnly(folder_ / "export.foresight").value()->WasClosedProperly());
   EXPECT_FALSE(MissionFile::OpenReadOnly(path_).value()->WasClosedProperly());
+}
+
+TEST_F(MissionReaders, AScanThatRunsEndsInACopyAndGoesOnInTheFile) {
+  const auto recorder = MissionFile::Create(path_).value();
+  RecordWithoutEnd(*recorder, SampleScan(1));
+  const auto reader = MissionFile::OpenReadOnly(path_).value();
+  ASSERT_TRUE(reader->ExportTo(folder_ / "read.foresight"));
+  ASSERT_TRUE(recorder->ExportTo(folder_ / "written.foresight"));
+  for (const char* name : {"read.foresight", "written.foresight"}) {
+    const auto copy = MissionFile::OpenReadOnly(folder_ / name).value();
+    const ScanSummary scan = copy->ListScans()->at(0);
+    EXPECT_EQ(scan.state, ScanState::kInterrupted) << name;
+    EXPECT_THAT(scan.reason, HasSubstr("copied while the scan was running")) << name;
+    EXPECT_EQ(copy->LoadScan(scan.id)->lines.size(), SampleScan(1).lines.size());
+    EXPECT_TRUE(copy->WasClosedProperly());
+  }
+  EXPECT_EQ(reader->ListScans()->at(0).state, ScanState::kRunning);
+}
+
+TEST_F(MissionReaders, AFileThatWasDeletedIsCopiedFromWhatIsOpen) {
+  const auto recorder = MissionFile::Create(path_).value();
+  RecordWithoutEnd(*recorder, SampleScan(1));
+  EXPECT_FALSE(recorder->HasMoved());
+  for (const char* suffix : {"", "-wal", "-shm"}) std::filesystem::remove(path_.string() + suffix);
+  EXPECT_TRUE(recorder->HasMoved());
+  ASSERT_TRUE(recorder->ExportTo(folder_ / "rescued.foresight"));
+  const auto copy = MissionFile::OpenReadOnly(folder_ / "rescued.foresight").value();
+  EXPECT_EQ(copy->LoadScan(1)->lines.size(), SampleScan(1).lines.size());
+}
+
+// "copy.foresight: cannot export: mission.foresight: the disk is full (make room there)"
+TEST_F(MissionReaders, ACopyThatFindsNoRoomNamesItsOwnFile) {
+  const auto recorder = MissionFile::Create(path_).value();
+  RecordWithoutEnd(*recorder, SampleScan(1));
+  const FileSizeLimit limit(4096);
+  const Status copied = recorder->ExportTo(folder_ / "copy.foresight");
+  ASSERT_FALSE(copied);
+  EXPECT_THAT(copied.error().message, HasSubstr("copy.foresight"));
+  EXPECT_THAT(copied.error().message, Not(HasSubstr(path_.string())));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "copy.foresight"));
 }
 
 TEST_F(MissionReaders, ADirectoryAndAPipeAreNoMissions) {

@@ -1,0 +1,95 @@
+// That nobody loses what no file has taken by closing the window.
+#include "app/workstation/unsaved_question.h"
+
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QCloseEvent>
+#include <QTemporaryDir>
+
+#include "tests/ui/synthetic_scan.h"
+#include "tests/ui/wait_for.h"
+
+namespace foresight {
+namespace {
+
+class WindowOfRecording final : public QWidget {
+ public:
+  explicit WindowOfRecording(RecordingViewModel* recording)
+      : question_(new UnsavedQuestion(
+            recording, [this] { ++asked_for_file; }, this)) {}
+  QMessageBox* Question() { return findChild<QMessageBox*>(QStringLiteral("unsavedQuestion")); }
+  void Press(const char* text) {
+    for (QAbstractButton* button : Question()->buttons())
+      if (button->text() == text) return button->click();
+    ADD_FAILURE() << "there is no button " << text;
+  }
+  int asked_for_file = 0;
+
+ protected:
+  void closeEvent(QCloseEvent* event) override { event->setAccepted(question_->MayClose()); }
+
+ private:
+  UnsavedQuestion* question_;
+};
+
+struct UnsavedQuestionOnScreen : testing::Test {
+  UnsavedQuestionOnScreen() { window.show(); }
+  void Keep() {
+    recording.keepScan(std::make_shared<const Scan>(
+        WallAndValveScan({.from_rad = -0.02, .to_rad = 0.02, .speed_rad_s = 0.1})));
+  }
+  QTemporaryDir folder;
+  TaskQueue tasks;
+  SessionModel session{SessionMode::kSimulation, &tasks};
+  RecordingViewModel recording{&session};
+  WindowOfRecording window{&recording};
+};
+
+TEST_F(UnsavedQuestionOnScreen, NothingIsAskedWhenAllIsWritten) {
+  ASSERT_TRUE(recording.Begin(folder.filePath("m.foresight")));
+  Keep();
+  ASSERT_TRUE(recording.WriteAll());
+  EXPECT_TRUE(window.close());
+}
+
+TEST_F(UnsavedQuestionOnScreen, WhatNoFileTookIsLostOnlyIfTheOperatorMeansIt) {
+  Keep();
+  EXPECT_FALSE(window.close());
+  ASSERT_NE(window.Question(), nullptr);
+  EXPECT_TRUE(window.Question()->text().contains(QLatin1String("1")));
+  EXPECT_EQ(window.Question()->defaultButton()->text(), "Stay");
+  window.Press("Stay");
+  EXPECT_TRUE(window.isVisible());
+  EXPECT_FALSE(window.close());
+  window.Press("Quit and lose them");
+  EXPECT_FALSE(window.isVisible());
+}
+
+TEST_F(UnsavedQuestionOnScreen, AnotherFileTakesItAndTheWindowCloses) {
+  Keep();
+  EXPECT_FALSE(window.close());
+  window.Press("Record into another file");
+  EXPECT_EQ(window.asked_for_file, 1);
+  ASSERT_TRUE(recording.Begin(folder.filePath("m.foresight")));
+  ASSERT_TRUE(recording.WriteAll());
+  EXPECT_TRUE(window.close());
+}
+
+// The room that was made shows in a last try, without a question.
+TEST_F(UnsavedQuestionOnScreen, TheLastTryIsMadeBeforeAnybodyIsAsked) {
+  const QString path = folder.filePath("m.foresight"), away = folder.filePath("away.foresight");
+  ASSERT_TRUE(recording.Begin(path));
+  ASSERT_TRUE(QFile::rename(path, away));
+  Keep();
+  ASSERT_TRUE(WaitFor([&] { return recording.Stuck() && !recording.Busy(); }));
+  EXPECT_FALSE(window.close());
+  ASSERT_NE(window.Question(), nullptr);
+  window.Press("Stay");
+  ASSERT_TRUE(QFile::rename(away, path));
+  EXPECT_TRUE(window.close());
+  EXPECT_EQ(recording.Waiting(), 0);
+}
+
+}  // namespace
+}  // namespace foresight
