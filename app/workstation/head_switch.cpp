@@ -31,22 +31,22 @@ ConnectModel::Search SearchLocalNetwork() {
 }  // namespace
 
 HeadSwitch::HeadSwitch(Workbench* bench, std::string keys) : bench_(bench), keys_(std::move(keys)) {
-  bench->commands.Add({.id = "head.connect",
-                       .menu = "head",
-                       .text = tr("Connect to another head"),
-                       .tip = tr("Choose a head of the local network, or one by its address"),
-                       .keys = QStringLiteral("Ctrl+Shift+K"),
-                       .run = [this] { Open(); },
-                       .why_not =
-                           [bench] {
-                             if (bench->head.Scanning())
-                               return tr("A scan is running; wait for its end.");
-                             // The window closes for it.
-                             return bench->recording.Stuck()
-                                        ? tr("Some of it is in memory only; record into another "
-                                             "file first (Ctrl+Shift+S).")
-                                        : QString();
-                           }});
+  bench->commands.Add(
+      {.id = "head.connect",
+       .menu = "head",
+       .text = tr("Connect to another head"),
+       .tip = tr("Choose a head of the local network, or one by its address"),
+       .keys = QStringLiteral("Ctrl+Shift+K"),
+       .run = [this] { Open(); },
+       .why_not =
+           [bench] {
+             if (bench->head.Scanning()) return tr("A scan is running; wait for its end.");
+             // The window closes for it.
+             return bench->recording.Stuck()
+                        ? tr("Scans or objects are in memory only; record into another "
+                             "file first (Ctrl+Shift+S).")
+                        : QString();
+           }});
 }
 
 HeadSwitch::~HeadSwitch() = default;

@@ -105,6 +105,7 @@ int Sit(OpenedHead head, const Options& options, std::optional<OpenedHead>* next
     *next = head_switch.TakeHead();
     window.CloseUnasked();
   });
+  QObject::connect(&window, &MainWindow::stayed, &window, [&] { next->reset(); });
   const bool attended = options.unattended.screenshot.empty();
   window.show();
   if (attended) window.RestoreLayout(settings);  // every image shows the same layout

@@ -96,6 +96,8 @@ MainWindow::MainWindow(Workbench* bench, QWidget* parent)
       quit_question_(new QuitQuestion(&bench->head, this)),
       unsaved_question_(new UnsavedQuestion(
           &bench->recording, [this] { ChooseRecordingFile(); }, this)) {
+  connect(unsaved_question_, &UnsavedQuestion::stayed, quit_question_, &QuitQuestion::Forget);
+  connect(unsaved_question_, &UnsavedQuestion::stayed, this, &MainWindow::stayed);
   AddWindowCommands();
   AddCommandsOfResults();
   actions_ = new Actions(&bench_->commands, this);
@@ -136,6 +138,7 @@ void MainWindow::CloseUnasked() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!isVisible()) return;  // it is closed
   if (!quit_question_->MayClose() || !unsaved_question_->MayClose()) {
     event->ignore();
     return;
@@ -156,7 +159,7 @@ void MainWindow::ChooseRecordingFile() {
                }
                bench_->live.session.Report(
                    {Notice::Level::kWarning,
-                    tr("A scan is running: recording stays in %1.").arg(bench_->recording.Path()),
+                    tr("A scan is running: the file that is recorded into was not changed."),
                     tr("Choose the other file when the scan has ended (Ctrl+Shift+S).")});
              });
 }
@@ -246,7 +249,7 @@ void MainWindow::AddWindowCommands() {
   commands.Add({.id = "file.quit",
                 .menu = "file",
                 .text = tr("Quit"),
-                .tip = tr("Close the workstation; everything is kept"),
+                .tip = tr("Close the workstation; it asks where something would be lost"),
                 .keys = QStringLiteral("Ctrl+Q"),
                 .run = [this] { close(); }});
   commands.Add({.id = "view.reset",

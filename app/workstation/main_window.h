@@ -64,6 +64,9 @@ class MainWindow : public QMainWindow {
   /// Also in the middle of a sweep, where the operator would be asked first.
   void CloseUnasked();
 
+ Q_SIGNALS:
+  void stayed();  ///< the operator was asked while it closed, and keeps it open
+
  protected:
   void showEvent(QShowEvent* event) override;
   void closeEvent(QCloseEvent* event) override;

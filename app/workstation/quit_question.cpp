@@ -2,6 +2,7 @@
 
 #include <QPushButton>
 #include <QTimer>
+#include <utility>
 
 namespace foresight {
 namespace {
@@ -18,7 +19,7 @@ QuitQuestion::QuitQuestion(HeadViewModel* head, QWidget* window)
       return;
     }
     if (question_) question_->close();
-    if (quitting_) window_->close();
+    CloseOnce();
   });
 }
 
@@ -53,21 +54,24 @@ void QuitQuestion::Ask() {
     quitting_ = true;
     question_->hide();
     // The scan's end belongs into the mission; a head that does not answer holds nothing up.
-    QTimer::singleShot(kScanEnds_ms, window_, &QWidget::close);
+    QTimer::singleShot(kScanEnds_ms, this, &QuitQuestion::CloseOnce);
     head_->StopForGood();
   });
   question_->setModal(false);
   question_->show();
 }
 
+void QuitQuestion::CloseOnce() {
+  if (std::exchange(quitting_, false)) window_->close();
+}
+
 void QuitQuestion::SayWhatItDoes() {
   if (!question_) return;
   const QString text =
       head_->Answers().Current()
-          ? tr("To quit now stops the head and ends the scan. What has come of it is kept.")
-          : tr("The head cannot be reached: it goes on moving until it notices that nobody is "
-               "there. What has come of the scan is kept. If the head must stand now, use the "
-               "robot's emergency stop.");
+          ? tr("Quitting now stops the head and ends the scan.")
+          : tr("The head cannot be reached: it goes on moving until it notices that this station "
+               "is gone. If it must stand now, use the robot's emergency stop.");
   if (question_->informativeText() != text) question_->setInformativeText(text);
 }
 

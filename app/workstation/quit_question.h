@@ -22,11 +22,14 @@ class QuitQuestion : public QObject {
   bool MayClose();
   /// From now on nobody is asked.
   void Allow() { allowed_ = true; }
+  /// The operator stays after all.
+  void Forget() { allowed_ = quitting_ = false; }
 
  private:
   bool Sweeps() const;
   void Ask();
   void SayWhatItDoes();
+  void CloseOnce();
 
   HeadViewModel* head_;
   QWidget* window_;

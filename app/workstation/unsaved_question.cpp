@@ -1,5 +1,6 @@
 #include "app/workstation/unsaved_question.h"
 
+#include <QFileInfo>
 #include <QPushButton>
 #include <utility>
 
@@ -16,48 +17,94 @@ UnsavedQuestion::UnsavedQuestion(RecordingViewModel* recording, std::function<vo
       recording_(recording),
       choose_file_(std::move(choose_file)),
       window_(window) {
-  connect(recording_, &RecordingViewModel::allWritten, this, [this] {
-    if (question_) question_->close();
-  });
+  last_try_.setSingleShot(true);
+  last_try_.setInterval(kLastTry_ms);
+  connect(&last_try_, &QTimer::timeout, this, &UnsavedQuestion::Ask);
+  // When the task that wrote has ended, too.
+  connect(recording_, &RecordingViewModel::changed, this, &UnsavedQuestion::GoOn,
+          Qt::QueuedConnection);
+  connect(recording_, &RecordingViewModel::allWritten, this, &UnsavedQuestion::GoOn,
+          Qt::QueuedConnection);
+}
+
+bool UnsavedQuestion::AllIsSafe() const {
+  return recording_->Waiting() == 0 && !recording_->FileHasMoved();
+}
+
+bool UnsavedQuestion::Asks() const {
+  return question_ && question_->isVisible();
 }
 
 bool UnsavedQuestion::MayClose() {
-  if (allowed_ || !recording_->Stuck()) return true;
-  if (trying_) return false;
-  trying_ = true;
+  if (allowed_ || AllIsSafe()) return true;
+  if (Asks()) {
+    Ask();
+    return false;
+  }
+  if (last_try_.isActive()) return false;
   recording_->tryAgain();
-  recording_->WriteAll(kLastTry_ms);
-  trying_ = false;
-  if (!recording_->Stuck()) return true;
-  Ask();
+  if (recording_->Stuck() || recording_->FileHasMoved()) {
+    Ask();
+  } else {
+    last_try_.start();
+  }
   return false;
 }
 
+void UnsavedQuestion::GoOn() {
+  if (Asks()) {
+    if (AllIsSafe())
+      question_->close();
+    else
+      question_->setText(WhatIsNotSafe());
+  }
+  if (!last_try_.isActive()) return;
+  if (AllIsSafe()) {
+    last_try_.stop();
+    window_->close();
+  } else if (recording_->Stuck()) {
+    last_try_.stop();
+    Ask();
+  }
+}
+
+void UnsavedQuestion::CloseNow() {
+  allowed_ = true;
+  question_->hide();
+  window_->close();
+  // Another question may have kept it open.
+  allowed_ = false;
+}
+
+QString UnsavedQuestion::WhatIsNotSafe() const {
+  if (recording_->FileHasMoved())
+    return tr("The mission file %1 was moved or deleted.")
+        .arg(QFileInfo(recording_->Path()).fileName());
+  return tr("In memory only: %1 (scans, objects, decisions, notes).").arg(recording_->Waiting());
+}
+
 void UnsavedQuestion::Ask() {
-  if (!question_) {
+  if (!Asks()) {
     question_ =
         new QMessageBox(QMessageBox::Warning, tr("Quit"), {}, QMessageBox::NoButton, window_);
     question_->setObjectName(QStringLiteral("unsavedQuestion"));
     question_->setAttribute(Qt::WA_DeleteOnClose);
-    question_->setInformativeText(
-        tr("No mission file has taken them. They are lost when the window closes."));
+    question_->setInformativeText(tr("What no mission file holds is lost when the window closes."));
     QPushButton* stay = question_->addButton(tr("Stay"), QMessageBox::RejectRole);
     QPushButton* other =
         question_->addButton(tr("Record into another file"), QMessageBox::ActionRole);
-    QPushButton* lose =
-        question_->addButton(tr("Quit and lose them"), QMessageBox::DestructiveRole);
+    QPushButton* lose = question_->addButton(tr("Quit and lose it"), QMessageBox::DestructiveRole);
     question_->setDefaultButton(stay);
     question_->setEscapeButton(stay);
-    connect(other, &QPushButton::clicked, this, [this] { choose_file_(); });
-    connect(lose, &QPushButton::clicked, this, [this] {
-      allowed_ = true;
-      question_->hide();
-      window_->close();
+    connect(stay, &QPushButton::clicked, this, &UnsavedQuestion::stayed);
+    connect(other, &QPushButton::clicked, this, [this] {
+      Q_EMIT stayed();
+      choose_file_();
     });
+    connect(lose, &QPushButton::clicked, this, &UnsavedQuestion::CloseNow);
     question_->setModal(false);
   }
-  question_->setText(
-      tr("In memory only: %1 (scans, objects, decisions).").arg(recording_->Waiting()));
+  question_->setText(WhatIsNotSafe());
   question_->show();
   question_->raise();
   question_->activateWindow();

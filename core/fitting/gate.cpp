@@ -120,7 +120,7 @@ std::string LimitNote(const Gate& gate) {
   const bool read_as_certain = gate.unit == Gate::Unit::kOdds && gate.kind == Gate::Kind::kHard &&
                                gate.side == Gate::Side::kAtLeast && gate.number > 0.0 &&
                                Printed(gate.unit, gate.limit) >= kLargeOdds;
-  return read_as_certain ? ", as computed odds run high" : "";
+  return read_as_certain ? "; computed odds run high" : "";
 }
 
 /// The sentence of the first that failed.

@@ -1,8 +1,11 @@
 #include "core/mission/mission_file.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <mutex>
 #include <optional>
 #include <type_traits>
@@ -27,6 +30,24 @@ constexpr const char* kLeftRunning = "the recording program ended before the sca
 constexpr const char* kCopiedRunning = "the mission was copied while the scan was running";
 constexpr const char* kReviewKey = "review_of";  ///< in the table meta of a review
 constexpr std::string_view kReviewSuffix = ".review.foresight";
+
+/// Which file a name stands for: device and number.
+using FileIdentity = std::pair<::dev_t, ::ino_t>;
+
+/// nullopt where there is none; a file system that does not answer says nothing.
+Result<std::optional<FileIdentity>> IdentityOf(const std::filesystem::path& path) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) == 0) return FileIdentity{status.st_dev, status.st_ino};
+  if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
+  return Fail(ErrorCode::kIo, "{}: {}", path.string(), std::strerror(errno));
+}
+
+bool SaysNoRoom(const std::string& message) {
+  const auto says = [&](const std::string& text) {
+    return message.find(text) != std::string::npos;
+  };
+  return says("disk is full") || says(std::strerror(EFBIG)) || says(std::strerror(EDQUOT));
+}
 
 /// SQLite puts its files beside the real one.
 std::filesystem::path Neighbour(const std::filesystem::path& path, const char* suffix) {
@@ -200,12 +221,15 @@ struct MissionFile::Impl {
         file(path.string()),
         handle(std::move(the_handle)),
         database(std::move(opened)),
-        writable(may_write) {}
+        writable(may_write) {
+    if (const auto found = IdentityOf(path)) identity = *found;
+  }
 
   /// Recursive: Batch holds it while its body appends.
   std::recursive_mutex mutex;
   const std::filesystem::path path;
   const std::string file;
+  std::optional<FileIdentity> identity;     ///< when it was opened
   std::optional<MissionFileHandle> handle;  ///< outlives the connection
   std::optional<SqliteDatabase> database;   ///< empty once closed
   const bool writable;
@@ -382,8 +406,8 @@ bool MissionFile::IsReview() const {
 }
 
 bool MissionFile::HasMoved() const {
-  const std::lock_guard lock(impl_->mutex);
-  return impl_->database && impl_->database->HasMoved();
+  const auto now = IdentityOf(impl_->path);
+  return now && impl_->identity && *now != impl_->identity;
 }
 
 bool MissionFile::IsBeingRecorded() const {
@@ -863,20 +887,23 @@ Status MissionFile::ExportTo(const std::filesystem::path& path) const {
   FORESIGHT_CHECK(impl_->CheckOpen());
   FORESIGHT_TRY(const std::filesystem::path target, ResolveOutput(path));
   std::error_code error;
-  if (std::filesystem::equivalent(target, impl_->path, error))
+  if (const auto there = IdentityOf(target); there && *there && *there == impl_->identity)
     return Fail(ErrorCode::kInvalidInput, "{}: cannot be exported onto itself", impl_->file);
   const std::filesystem::path part = Neighbour(target, ".part");
   std::filesystem::remove(part, error);
   const bool recorded = impl_->writable || impl_->Recorded();
   FORESIGHT_TRY(SqliteStatement copy, impl_->database->Prepare("VACUUM INTO ?"));
   Status status = copy.BindText(part.string()).Run();
-  if (status && recorded) status = EndScansOfCopy(part);
+  if (status && recorded) {
+    // A copy whose scan reads as left running is worth more than none.
+    if (const Status ended = EndScansOfCopy(part); !ended) LogWarning("{}", ended.error().message);
+  }
   if (!status) {
     std::filesystem::remove(part, error);
     std::string why = status.error().message;
-    // Disk and rights are those of the copy, whatever file SQLite names.
-    const std::string named = impl_->file + ": ";
-    if (status.error().code == ErrorCode::kIo && why.starts_with(named)) why.erase(0, named.size());
+    // A reader writes nothing: what has no room is the copy, whatever file SQLite names.
+    if (const std::string named = impl_->file + ": "; why.starts_with(named) && SaysNoRoom(why))
+      why.erase(0, named.size());
     return Fail(ErrorCode::kIo, "{}: cannot export: {}", target.string(), why);
   }
   return PublishFile(part, target);
@@ -891,7 +918,9 @@ Status MissionFile::Close() {
                             "the mission file was closed during the scan");
   if (impl_->writable && status) status = impl_->database->Run("PRAGMA wal_checkpoint(TRUNCATE)");
   // Refused while somebody reads; then the last reader does it.
-  if (impl_->writable && status) (void)impl_->database->Run("PRAGMA journal_mode = DELETE");
+  // It takes the log away by its name, which may be another file's by now.
+  if (impl_->writable && status && !HasMoved())
+    (void)impl_->database->Run("PRAGMA journal_mode = DELETE");
   impl_->database.reset();
   if (!impl_->writable && !impl_->found_log && !impl_->handle->HasWriter() &&
       Exists(Neighbour(impl_->path, "-wal")))

@@ -62,7 +62,7 @@ class MissionFile {
   /// Whether this is the file beside a mission, without scans of its own.
   bool IsReview() const;
   /// Whether the file was moved or deleted since it was opened, by somebody else. What is written
-  /// goes where it was moved to, or is lost with this object.
+  /// goes where it was moved to, or is lost with this object. Waits for no other call.
   bool HasMoved() const;
   /// Whether a program has the file open for writing now, this one included.
   bool IsBeingRecorded() const;
@@ -150,8 +150,9 @@ class MissionFile {
   /// Names every damaged record, at most `at_most` of them (FindDamage).
   Result<DamageReport> FindDamage(std::size_t at_most, const RunContext& context) const;
   /// Writes a compact copy: one file, complete without its neighbours, also while the mission is
-  /// being recorded, which goes on meanwhile; a scan that runs ends in the copy. Of a file that has
-  /// moved, too, by who writes it. Replaces `target`.
+  /// being recorded, which goes on meanwhile; a scan that runs ends in the copy. The
+  /// writer of a file that has moved copies what it has open, and nobody writes meanwhile. Replaces
+  /// `target`.
   Status ExportTo(const std::filesystem::path& target) const;
   /// Ends a running scan as interrupted. Who closes last, writer or reader, leaves one single file.
   /// Nothing can be called after it.

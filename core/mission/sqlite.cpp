@@ -155,13 +155,6 @@ bool SqliteDatabase::InTransaction() const {
   return sqlite3_get_autocommit(connection_.get()) == 0;
 }
 
-bool SqliteDatabase::HasMoved() const {
-  int moved = 0;
-  return sqlite3_file_control(connection_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) ==
-             SQLITE_OK &&
-         moved != 0;
-}
-
 Result<SqliteDatabase> SqliteDatabase::Open(const std::filesystem::path& path, Mode mode) {
   return OpenUri(Uri(path, mode == Mode::kImmutable), path.string(), OpenFlags(mode));
 }

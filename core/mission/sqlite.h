@@ -66,8 +66,6 @@ class SqliteDatabase {
   /// The first column of the first row.
   Result<std::int64_t> Integer(const char* sql) const;
   bool InTransaction() const;
-  /// Whether another file, or none, is where this one was opened: it was moved or deleted.
-  bool HasMoved() const;
 
  private:
   struct Close {

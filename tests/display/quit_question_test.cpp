@@ -17,9 +17,15 @@ class AskingWindow final : public QWidget {
  public:
   explicit AskingWindow(HeadViewModel* head) : question_(new QuitQuestion(head, this)) {}
   QMessageBox* Question() { return findChild<QMessageBox*>(QStringLiteral("quitQuestion")); }
+  void Forget() { question_->Forget(); }
+  int tries = 0;
+  bool refuses = false;
 
  protected:
-  void closeEvent(QCloseEvent* event) override { event->setAccepted(question_->MayClose()); }
+  void closeEvent(QCloseEvent* event) override {
+    ++tries;
+    event->setAccepted(question_->MayClose() && !refuses);
+  }
 
  private:
   QuitQuestion* question_;
@@ -60,6 +66,28 @@ TEST_F(QuitQuestionOnScreen, InMidSweepTheWindowStaysUnlessTheOperatorMeansIt) {
   EXPECT_TRUE(WaitFor([&] { return !window.isVisible(); }, 1000));
   EXPECT_TRUE(head->Stopped());
   EXPECT_EQ(ended, ScanState::kAborted) << "the scan has its end";
+}
+
+TEST_F(QuitQuestionOnScreen, AWindowThatStaysAfterAllIsNotClosedByTheNextStatus) {
+  model.scan();
+  head->Begin(Scan());
+  EXPECT_FALSE(window.close());
+  window.refuses = true;  // another question holds it
+  for (QAbstractButton* button : window.Question()->buttons())
+    if (button != window.Question()->defaultButton()) button->click();
+  ASSERT_TRUE(window.isVisible());
+  const int tries = window.tries;
+  window.Forget();
+  window.refuses = false;
+  for (int i = 0; i < 3; ++i) model.Poll();
+  Q_EMIT model.statusChanged();
+  EXPECT_TRUE(window.isVisible());
+  EXPECT_EQ(window.tries, tries);
+  EXPECT_TRUE(model.StopLatched());
+  model.releaseStop();
+  model.scan();
+  head->Begin(Scan());
+  EXPECT_FALSE(window.close()) << "the next sweep is asked about";
 }
 
 TEST_F(QuitQuestionOnScreen, TheQuestionGoesWhenTheSweepIsOver) {

@@ -7,6 +7,7 @@
 #include <QCloseEvent>
 #include <QTemporaryDir>
 
+#include "tests/support/file_size_limit.h"
 #include "tests/ui/synthetic_scan.h"
 #include "tests/ui/wait_for.h"
 
@@ -25,9 +26,12 @@ class WindowOfRecording final : public QWidget {
     ADD_FAILURE() << "there is no button " << text;
   }
   int asked_for_file = 0;
+  bool refuses = false;
 
  protected:
-  void closeEvent(QCloseEvent* event) override { event->setAccepted(question_->MayClose()); }
+  void closeEvent(QCloseEvent* event) override {
+    event->setAccepted(!refuses && question_->MayClose());
+  }
 
  private:
   UnsavedQuestion* question_;
@@ -62,7 +66,7 @@ TEST_F(UnsavedQuestionOnScreen, WhatNoFileTookIsLostOnlyIfTheOperatorMeansIt) {
   window.Press("Stay");
   EXPECT_TRUE(window.isVisible());
   EXPECT_FALSE(window.close());
-  window.Press("Quit and lose them");
+  window.Press("Quit and lose it");
   EXPECT_FALSE(window.isVisible());
 }
 
@@ -86,9 +90,51 @@ TEST_F(UnsavedQuestionOnScreen, TheLastTryIsMadeBeforeAnybodyIsAsked) {
   EXPECT_FALSE(window.close());
   ASSERT_NE(window.Question(), nullptr);
   window.Press("Stay");
+  ASSERT_TRUE(WaitFor([&] { return recording.Stuck() && !recording.Busy(); }));
   ASSERT_TRUE(QFile::rename(away, path));
-  EXPECT_TRUE(window.close());
+  window.close();
+  EXPECT_TRUE(WaitFor([&] { return !window.isVisible(); }));
   EXPECT_EQ(recording.Waiting(), 0);
+}
+
+// The write that fails may have begun just before: a scan that ends because the window closes.
+TEST_F(UnsavedQuestionOnScreen, WhatIsStillBeingWrittenIsWaitedFor) {
+  ASSERT_TRUE(recording.Begin(folder.filePath("m.foresight")));
+  {
+    const FileSizeLimit limit(4096);
+    Keep();
+    EXPECT_FALSE(window.close());
+    EXPECT_TRUE(WaitFor([&] { return window.Question() != nullptr; }));
+    EXPECT_TRUE(window.isVisible());
+  }
+  window.Press("Stay");
+  recording.tryAgain();
+  EXPECT_FALSE(window.close());
+  EXPECT_TRUE(WaitFor([&] { return !window.isVisible(); })) << "it closes when all is written";
+  EXPECT_EQ(recording.Waiting(), 0);
+}
+
+TEST_F(UnsavedQuestionOnScreen, AFileThatWasDeletedIsAskedAboutThoughNothingWaits) {
+  const QString path = folder.filePath("m.foresight");
+  ASSERT_TRUE(recording.Begin(path));
+  Keep();
+  ASSERT_TRUE(recording.WriteAll());
+  ASSERT_TRUE(QFile::remove(path));
+  EXPECT_FALSE(window.close());
+  ASSERT_NE(window.Question(), nullptr);
+  EXPECT_TRUE(window.Question()->text().contains("m.foresight was moved or deleted"));
+}
+
+// To lose one thing is not to lose the next.
+TEST_F(UnsavedQuestionOnScreen, ThePermissionToLoseIsForOneTime) {
+  Keep();
+  EXPECT_FALSE(window.close());
+  window.refuses = true;  // as in the middle of a sweep
+  window.Press("Quit and lose it");
+  ASSERT_TRUE(window.isVisible());
+  window.refuses = false;
+  EXPECT_FALSE(window.close());
+  ASSERT_TRUE(WaitFor([&] { return window.Question() != nullptr; }));
 }
 
 }  // namespace

@@ -355,6 +355,13 @@ TEST_F(RecordingTest, AFileThatIsDeletedUnderTheRecordingIsSaidAndTheNextOneHold
   recording->CopyTo(copy);
   ASSERT_TRUE(WaitFor([&] { return !recording->Busy() && QFileInfo::exists(copy); }));
   EXPECT_EQ((*MissionFile::OpenReadOnly(copy.toStdString()))->ListScans()->size(), 1u);
+  for (const QString& taken : {path, copy}) {
+    notices.clear();
+    recording->SwitchTo(taken);
+    ASSERT_TRUE(WaitFor([&] { return !notices.empty() && !recording->Busy(); }));
+    EXPECT_TRUE(notices.front().what.contains("choose a new name"));
+    EXPECT_EQ(recording->Path(), path);
+  }
   recording->SwitchTo(next);
   ASSERT_TRUE(WaitFor([&] { return recording->Path() == next; }));
   ASSERT_TRUE(AllWritten());
@@ -385,7 +392,7 @@ TEST_F(RecordingTest, AFileThatAnotherProgramWritesIsTakenWhenThatEnds) {
   auto other = MissionFile::Create(path.toStdString()).value();
   EXPECT_FALSE(recording->Begin(path));
   ASSERT_FALSE(notices.empty());
-  EXPECT_TRUE(notices.back().next.contains("begins when that program ends"));
+  EXPECT_TRUE(notices.back().next.contains("until that program ends"));
   recording->keepScan(SmallScan());
   EXPECT_TRUE(recording->Stuck());
   ASSERT_TRUE(other->Close());

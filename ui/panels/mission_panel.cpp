@@ -78,7 +78,9 @@ void MissionPanel::ShowDocument(bool review) {
 
 void MissionPanel::ShowRecording() {
   recorded_path_->setText(
-      recording_->Recording()
+      recording_->FileHasMoved()
+          ? tr("Moved or deleted: %1").arg(QFileInfo(recording_->Path()).fileName())
+      : recording_->Recording()
           ? tr("Recording into %1").arg(QFileInfo(recording_->Path()).fileName())
           : tr("Not recorded: choose a mission file (Ctrl+Shift+S)."));
   recorded_path_->setToolTip(recording_->Path());

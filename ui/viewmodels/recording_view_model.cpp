@@ -18,8 +18,7 @@ namespace foresight {
 namespace {
 
 const QString kSuffix = QStringLiteral("foresight");
-constexpr int kTryAgain_ms = 2000;   ///< to write a file that another program still writes
-constexpr int kLookAfter_ms = 2000;  ///< whether the file is where it was
+constexpr int kLookAfter_ms = 2000;  ///< whether the file is where it was, or free
 constexpr int kOfferAgain_ms[] = {2000, 5000, 10000};
 
 QString FreePath(const QString& folder) {
@@ -184,10 +183,9 @@ bool RecordingViewModel::Begin(const QString& path) {
     notice.next = tr("Nothing is recorded now. Choose another file (Ctrl+Shift+S).");
     if (IsBeingRecorded(path)) {
       notice.next =
-          tr("Nothing is recorded now; it begins when that program ends. Or choose "
-             "another file (Ctrl+Shift+S).");
+          tr("Nothing is recorded until that program ends, or you choose another file "
+             "(Ctrl+Shift+S).");
       wanted_ = path;
-      QTimer::singleShot(kTryAgain_ms, this, &RecordingViewModel::TryAgainToBegin);
     }
     notice.topic = kRecordingTopic;
     session_->Report(notice);
@@ -209,34 +207,41 @@ bool RecordingViewModel::Begin(const QString& path) {
   return true;
 }
 
-void RecordingViewModel::TryAgainToBegin() {
-  if (wanted_.isEmpty() || file_ || writer_.Busy()) return;  // another was chosen meanwhile
-  if (IsBeingRecorded(wanted_)) {
-    QTimer::singleShot(kTryAgain_ms, this, &RecordingViewModel::TryAgainToBegin);
+void RecordingViewModel::LookAfterFile() {
+  if (watcher_.Busy() || (!file_ && wanted_.isEmpty())) return;
+  if (file_) {
+    watcher_.Run<bool>(
+        tr("Looking after the mission file"),
+        [file = file_](const RunContext&) -> Result<bool> { return file->HasMoved(); },
+        [this, file = file_](const Result<bool>& moved) {
+          if (moved && file == file_) TellWhetherItMoved(*moved);
+        });
     return;
   }
-  if (Begin(std::exchange(wanted_, {})) && waiting_.empty()) Q_EMIT allWritten();
-}
-
-void RecordingViewModel::LookAfterFile() {
-  if (!file_ || watcher_.Busy()) return;
   watcher_.Run<bool>(
       tr("Looking after the mission file"),
-      [file = file_](const RunContext&) -> Result<bool> { return file->HasMoved(); },
-      [this, file = file_](const Result<bool>& moved) {
-        if (!moved || file != file_ || *moved == moved_) return;
-        moved_ = *moved;
-        if (!moved_) {  // somebody brought it back
-          tryAgain();
-          if (waiting_.empty()) Q_EMIT allWritten();
-          return;
-        }
-        session_->Report(
-            {Notice::Level::kError,
-             tr("The mission file %1 was moved or deleted while it is recorded into.").arg(path_),
-             tr("Record into another file (Ctrl+Shift+S): all that was recorded goes with it."),
-             kRecordingTopic});
+      [path = wanted_](const RunContext&) -> Result<bool> { return IsBeingRecorded(path); },
+      [this](const Result<bool>& in_use) {
+        // Another file may have been chosen meanwhile.
+        if (!in_use || *in_use || file_ || wanted_.isEmpty() || writer_.Busy()) return;
+        if (Begin(std::exchange(wanted_, {})) && waiting_.empty()) Q_EMIT allWritten();
       });
+}
+
+void RecordingViewModel::TellWhetherItMoved(bool moved) {
+  if (moved == moved_) return;
+  moved_ = moved;
+  Q_EMIT changed();
+  if (!moved) {  // somebody brought it back
+    tryAgain();
+    if (waiting_.empty()) Q_EMIT allWritten();
+    return;
+  }
+  session_->Report(
+      {Notice::Level::kError,
+       tr("The mission file %1 was moved or deleted while it was being recorded into.").arg(path_),
+       tr("Record into a new file (Ctrl+Shift+S): it begins with everything recorded so far."),
+       kRecordingTopic});
 }
 
 bool RecordingViewModel::BeginInFolder(const QString& folder) {
@@ -247,7 +252,7 @@ void RecordingViewModel::SwitchTo(const QString& path) {
   // What was recorded into before in this sitting is still open: a file has one writer.
   const auto earlier =
       std::find_if(earlier_files_.begin(), earlier_files_.end(), [&](const auto& file) {
-        return IsSameFile(QString::fromStdString(file->path().string()), path);
+        return IsSameFile(QString::fromStdString(file->path().string()), path) && !file->HasMoved();
       });
   const auto open_already = file_ && IsSameFile(path_, path)  ? file_
                             : earlier != earlier_files_.end() ? *earlier
@@ -255,15 +260,25 @@ void RecordingViewModel::SwitchTo(const QString& path) {
   struct Opened {
     std::shared_ptr<MissionFile> file;
     EarlierContents earlier;
+    bool holds_all = false;  ///< of the file before
   };
   writer_.Run<Opened>(
       tr("Opening the mission file"),
       [this, path, open_already, old = file_](const RunContext&) -> Result<Opened> {
         std::shared_ptr<MissionFile> file = open_already;
-        if (!file && old && old->HasMoved() && !QFileInfo::exists(path))
+        const bool moved = old && old->HasMoved();
+        if (moved) {
+          // Its own name, too: what SQLite kept beside the file still lies there.
+          if (QFileInfo::exists(path) ||
+              IsSameFile(QString::fromStdString(old->path().string()), path))
+            return Fail(ErrorCode::kInvalidInput,
+                        "{}: the file before was moved or deleted; choose a new name, which begins "
+                        "with everything recorded so far",
+                        path.toStdString());
           FORESIGHT_CHECK(old->ExportTo(path.toStdString()));
+        }
         if (!file) FORESIGHT_CHECK(Open(path, &file));
-        return Opened{file, ContentsOf(*file)};
+        return Opened{file, ContentsOf(*file), moved};
       },
       [this, path](Result<Opened> opened) {
         if (!opened) {
@@ -280,8 +295,8 @@ void RecordingViewModel::SwitchTo(const QString& path) {
         path_ = path;
         Use(std::move(opened->file), opened->earlier);
         session_->Report({Notice::Level::kInfo, tr("Recording goes on in %1.").arg(path), {}});
-        if (!old || old->HasMoved()) return;
-        if (IsEmpty(*old) && old->Close())
+        if (!old || opened->holds_all) return;
+        if (!old->HasMoved() && IsEmpty(*old) && old->Close())
           QFile::remove(old_path);
         else
           earlier_files_.insert(earlier_files_.begin(), old);  // decisions on its objects go there
@@ -463,9 +478,15 @@ void RecordingViewModel::WriteNext() {
     }
     if (!written) {
       failed_ = true;
+      if (file_->HasMoved()) {
+        moved_ = false;  // said again: there is more to lose
+        TellWhetherItMoved(true);
+        return;
+      }
       Notice notice = NoticeOf(tr("Writing the mission file"), written.error());
       notice.next =
-          tr("It stays in memory: put that right, or record into another file (Ctrl+Shift+S).");
+          tr("It stays in memory until the file can be written again, or you record "
+             "into another one (Ctrl+Shift+S).");
       notice.topic = kRecordingTopic;
       session_->Report(notice);
       return;

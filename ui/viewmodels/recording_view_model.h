@@ -39,7 +39,8 @@ class RecordingViewModel : public QObject {
   /// The same with a new file named after the date.
   bool BeginInFolder(const QString& folder);
   /// The same while the program runs: what waits goes into the new file. Where the present one was
-  /// moved or deleted, a new file begins with all that it holds. Not during a sweep.
+  /// moved or deleted, only a new name is taken, and begins with all that it holds. Not during a
+  /// sweep.
   void SwitchTo(const QString& path);
 
   /// Says that a program left a mission in `folder`, or the one at `last_path`, without closing it,
@@ -53,6 +54,8 @@ class RecordingViewModel : public QObject {
   bool Recording() const { return recorder_ != nullptr; }
   /// What waits cannot be written: there is no file, or it did not take the last of it.
   bool Stuck() const { return Waiting() > 0 && (failed_ || !Recording()); }
+  /// Whether the file was moved or deleted under the recording: what it holds may be lost.
+  bool FileHasMoved() const { return file_ && file_->HasMoved(); }
   /// The file that is recorded into; nullptr while there is none.
   std::shared_ptr<MissionFile> File() const { return file_; }
   /// The sink that writes a scan while it arrives; nullptr while there is no file to write.
@@ -105,11 +108,12 @@ class RecordingViewModel : public QObject {
   using Change = std::variant<std::shared_ptr<const Scan>, FoundObject, ObjectEvent, MadeDepth,
                               NoteRecord, KeptCheck, EventRecord>;
 
-  void TryAgainToBegin();
   /// Whether a mission is offered now.
   bool Offer(const QString& folder, const QString& last_path);
-  /// Says it once when the file has been moved or deleted under the recording.
+  /// Says it once when the file has been moved or deleted under the recording; without a file,
+  /// begins with the one that is wanted when nobody writes it any more.
   void LookAfterFile();
+  void TellWhetherItMoved(bool moved);
   void Keep(Change change);
   void WriteNext();
   /// `earlier`: what it held before this sitting writes into it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/fitting/wall.h"
 
@@ -58,6 +59,16 @@ std::vector<Plane> PlanesBeside(const CylinderState& cylinder, const std::vector
     }
     if (2 * on_both < on_plane) beside.push_back(plane);
   }
+  // Footprints mix with the first: what lies behind it comes before a floor or a wall beside it.
+  const Eigen::Vector3d to_middle = cylinder.middle - rays.viewpoint;
+  const RangeRay ray{rays.viewpoint, to_middle.normalized(), to_middle.norm()};
+  const auto range_behind_m = [&](const Plane& plane) {
+    const double range_m = RangeToPlane(ray, plane);
+    return range_m > ray.range_m ? range_m : std::numeric_limits<double>::infinity();
+  };
+  std::stable_sort(beside.begin(), beside.end(), [&](const Plane& a, const Plane& b) {
+    return range_behind_m(a) < range_behind_m(b);
+  });
   return beside;
 }
 

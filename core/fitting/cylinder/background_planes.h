@@ -13,7 +13,7 @@ namespace foresight {
 std::vector<Plane> FindFlatSurfaces(const RaySet& rays, Random& random);
 
 /// Those of the planes that are no slabs through the cylinder: less than half of their points lie
-/// on it.
+/// on it. First the one behind its middle, if any.
 std::vector<Plane> PlanesBeside(const CylinderState& cylinder, const std::vector<Plane>& planes,
                                 const RaySet& rays);
 

@@ -11,6 +11,7 @@
 #include "core/fitting/beam_model.h"
 #include "core/fitting/common_gates.h"
 #include "core/fitting/gate.h"
+#include "core/fitting/solids/solid_coverage.h"
 #include "core/fitting/solids/solid_tracer.h"
 #include "core/geometry/angles.h"
 
@@ -22,6 +23,7 @@ constexpr double kMadToSigma = 1.4826;
 constexpr double kLeastSigma_m = 0.003, kLargestSigma_m = 0.060;
 constexpr int kLeastHits = 12;
 constexpr double kOnMantle = 0.999;  // of the radius
+constexpr double kWhollyOn = 0.9;    // of a footprint
 
 constexpr double kLikelyHits = 30.0;  // independent measurements
 constexpr double kLikelyInliers = 0.6;
@@ -74,13 +76,19 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
   evidence.range_sigma_m = rays.sigma_m;
   int inliers = 0, through = 0;
   std::vector<double> angles;
-  const double half_rad = 0.5 * std::max(rays.footprint_rad, rays.footprint_height_rad);
-  for (const RangeRay& ray : rays.rays) {
-    const SolidIntersection intersection = tracer.IntersectWithDepth(ray, 0.0);
-    if (!intersection.Hits()) continue;
+  const BeamFootprints footprints(rays, {}, CylinderBeams(rays));
+  const CoverBeam cover = CoverBy(tracer);
+  // A footprint over the outline reads in between, or what is behind, and says nothing of either.
+  const auto wholly_on = [&](std::size_t i) {
+    const auto coverage = cover(footprints, i);
+    return coverage && coverage->fraction > kWhollyOn;
+  };
+  const bool footprints_known = rays.footprint_height_rad > 0.0;
+  for (std::size_t i = 0; i < rays.rays.size(); ++i) {
+    const RangeRay& ray = rays.rays[i];
+    const SolidIntersection intersection = tracer.Intersect(ray, 0.0);
+    if (!intersection.Hits() || (footprints_known && !wholly_on(i))) continue;
     const double behind = ray.range_m - intersection.range_m;
-    // A footprint over the outline reads in between, or what is behind: it went past.
-    if (behind > agree_m && intersection.clearance_m > -half_rad * ray.range_m) continue;
     ++evidence.hits;
     if (behind > agree_m) ++through;
     if (std::abs(behind) > agree_m) continue;

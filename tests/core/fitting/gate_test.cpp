@@ -80,11 +80,11 @@ TEST(Gate, ToldOddsAreThoseOfTheLikelihoods) {
 // "10^13.01 : 1" beside an answer that is not CONFIRMED for it needs a word of explanation.
 TEST(Gate, WhyLargeOddsAreNotEnoughIsTold) {
   Gate gate{.what = "{}", .unit = Gate::Unit::kOdds, .number = 12.0, .limit = 30.0};
-  EXPECT_EQ(gate.Sentence(), "160000 : 1 (at least 10^13 : 1, as computed odds run high)");
+  EXPECT_EQ(gate.Sentence(), "160000 : 1 (at least 10^13 : 1; computed odds run high)");
   gate.number = 29.95;
-  EXPECT_EQ(gate.Sentence(), "10^13.01 : 1 (at least 10^13.03 : 1, as computed odds run high)");
+  EXPECT_EQ(gate.Sentence(), "10^13.01 : 1 (at least 10^13.03 : 1; computed odds run high)");
   gate.number = 9.0, gate.limit = 10.0;
-  EXPECT_EQ(gate.Sentence(), "8100 : 1 (at least 22000 : 1, as computed odds run high)");
+  EXPECT_EQ(gate.Sentence(), "8100 : 1 (at least 22000 : 1; computed odds run high)");
   gate.kind = Gate::Kind::kUsual;
   EXPECT_EQ(gate.Sentence(), "8100 : 1 (usually at least 22000 : 1)");
 }
