@@ -176,7 +176,8 @@ void MergeLog(const std::filesystem::path& path) {
 Status EndScansOfCopy(const std::filesystem::path& path) {
   FORESIGHT_TRY(SqliteDatabase database,
                 SqliteDatabase::Open(path, SqliteDatabase::Mode::kReadWrite));
-  ScanRows rows(database, path.string());
+  const std::string file = path.string();  // rows refer to it
+  ScanRows rows(database, file);
   FORESIGHT_TRY(const std::vector<ScanRow> scans, rows.ReadScanRows());
   for (const ScanRow& scan : scans)
     if (scan.state == ScanState::kRunning)
