@@ -26,13 +26,18 @@ struct flock LockOf(short type) {
   return lock;
 }
 
-using FileId = std::pair<dev_t, ino_t>;
-
 FileId IdOf(const struct stat& status) {
   return {status.st_dev, status.st_ino};
 }
 
 }  // namespace
+
+Result<std::optional<FileId>> FileIdAt(const std::filesystem::path& path) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) == 0) return IdOf(status);
+  if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
+  return Fail(ErrorCode::kIo, "{}: {}", path.string(), std::strerror(errno));
+}
 
 struct MissionFileHandle::Shared {
   FileId id;
@@ -129,6 +134,10 @@ void MissionFileHandle::Unlock() {
   struct flock none = LockOf(F_UNLCK);
   ::fcntl(shared_->descriptors.front(), F_OFD_SETLK, &none);
   shared_->has_writer = locked_ = false;
+}
+
+FileId MissionFileHandle::Id() const {
+  return shared_->id;
 }
 
 bool MissionFileHandle::HasWriter() const {

@@ -1,12 +1,21 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/result.h"
 
 namespace foresight {
+
+/// Which file a name stands for: device and number.
+using FileId = std::pair<::dev_t, ::ino_t>;
+/// nullopt where there is none. Fails with kIo where the file system does not answer.
+Result<std::optional<FileId>> FileIdAt(const std::filesystem::path& path);
 
 /// This process's own descriptor of a mission file: reads its first bytes, holds the lock of the
 /// one writer, and tells whether there is a writer.
@@ -25,6 +34,7 @@ class MissionFileHandle {
   MissionFileHandle(MissionFileHandle&& other) noexcept;
   MissionFileHandle& operator=(MissionFileHandle&&) = delete;
 
+  FileId Id() const;
   /// Becomes the file's writer until the handle is destroyed or unlocked. Fails with kIo where
   /// another handle is, in this process or another one, or the file is write-protected.
   Status LockForWriting();

@@ -1,6 +1,5 @@
 #include "core/mission/mission_file.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -30,17 +29,6 @@ constexpr const char* kLeftRunning = "the recording program ended before the sca
 constexpr const char* kCopiedRunning = "the mission was copied while the scan was running";
 constexpr const char* kReviewKey = "review_of";  ///< in the table meta of a review
 constexpr std::string_view kReviewSuffix = ".review.foresight";
-
-/// Which file a name stands for: device and number.
-using FileIdentity = std::pair<::dev_t, ::ino_t>;
-
-/// nullopt where there is none; a file system that does not answer says nothing.
-Result<std::optional<FileIdentity>> IdentityOf(const std::filesystem::path& path) {
-  struct stat status = {};
-  if (::stat(path.c_str(), &status) == 0) return FileIdentity{status.st_dev, status.st_ino};
-  if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
-  return Fail(ErrorCode::kIo, "{}: {}", path.string(), std::strerror(errno));
-}
 
 bool SaysNoRoom(const std::string& message) {
   const auto says = [&](const std::string& text) {
@@ -220,17 +208,16 @@ struct MissionFile::Impl {
        bool may_write)
       : path(std::move(where)),
         file(path.string()),
+        file_id(the_handle.Id()),
         handle(std::move(the_handle)),
         database(std::move(opened)),
-        writable(may_write) {
-    if (const auto found = IdentityOf(path)) identity = *found;
-  }
+        writable(may_write) {}
 
   /// Recursive: Batch holds it while its body appends.
   std::recursive_mutex mutex;
   const std::filesystem::path path;
   const std::string file;
-  std::optional<FileIdentity> identity;     ///< when it was opened
+  const FileId file_id;                     ///< whatever lies at `path` by now
   std::optional<MissionFileHandle> handle;  ///< outlives the connection
   std::optional<SqliteDatabase> database;   ///< empty once closed
   const bool writable;
@@ -407,8 +394,8 @@ bool MissionFile::IsReview() const {
 }
 
 bool MissionFile::HasMoved() const {
-  const auto now = IdentityOf(impl_->path);
-  return now && impl_->identity && *now != impl_->identity;
+  const auto now = FileIdAt(impl_->path);
+  return now && *now != impl_->file_id;
 }
 
 bool MissionFile::IsBeingRecorded() const {
@@ -888,7 +875,7 @@ Status MissionFile::ExportTo(const std::filesystem::path& path) const {
   FORESIGHT_CHECK(impl_->CheckOpen());
   FORESIGHT_TRY(const std::filesystem::path target, ResolveOutput(path));
   std::error_code error;
-  if (const auto there = IdentityOf(target); there && *there && *there == impl_->identity)
+  if (const auto there = FileIdAt(target); there && *there == impl_->file_id)
     return Fail(ErrorCode::kInvalidInput, "{}: cannot be exported onto itself", impl_->file);
   const std::filesystem::path part = Neighbour(target, ".part");
   std::filesystem::remove(part, error);
