@@ -317,8 +317,7 @@ void AddCommands(Workbench* bench) {
        .why_not = [bench]() -> QString {
          if (bench->recording.Interrupted().isEmpty())
            return Commands::tr("No mission was interrupted.");
-         return bench->head.Scanning() ? Commands::tr("A scan is running; wait for its end.")
-                                       : QString();
+         return bench->head.WhyNotDuringScan();
        }});
   bench->commands.Add(
       {.id = "recording.retry",

@@ -40,12 +40,11 @@ HeadSwitch::HeadSwitch(Workbench* bench, std::string keys) : bench_(bench), keys
        .run = [this] { Open(); },
        .why_not =
            [bench] {
-             if (bench->head.Scanning()) return tr("A scan is running; wait for its end.");
              // The window closes for it.
-             return bench->recording.Stuck()
-                        ? tr("Scans or objects are in memory only; record into another "
-                             "file first (Ctrl+Shift+S).")
-                        : QString();
+             return bench->recording.NeedsOperator()
+                        ? tr("Not all that was recorded is in a file; record into another one "
+                             "first (Ctrl+Shift+S).")
+                        : bench->head.WhyNotDuringScan();
            }});
 }
 

@@ -208,11 +208,7 @@ void MainWindow::AddWindowCommands() {
                 .tip = tr("Go on recording in a new mission file, or in one that is there"),
                 .keys = QStringLiteral("Ctrl+Shift+S"),
                 .run = [this] { ChooseRecordingFile(); },
-                .why_not =
-                    [this] {
-                      return bench_->head.Scanning() ? tr("A scan is running; wait for its end.")
-                                                     : QString();
-                    }});
+                .why_not = [this] { return bench_->head.WhyNotDuringScan(); }});
   commands.Add({.id = "file.export_cloud",
                 .menu = "file",
                 .icon = "export",

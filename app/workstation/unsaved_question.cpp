@@ -27,16 +27,12 @@ UnsavedQuestion::UnsavedQuestion(RecordingViewModel* recording, std::function<vo
           Qt::QueuedConnection);
 }
 
-bool UnsavedQuestion::AllIsSafe() const {
-  return recording_->Waiting() == 0 && !recording_->FileHasMoved();
-}
-
 bool UnsavedQuestion::Asks() const {
   return question_ && question_->isVisible();
 }
 
 bool UnsavedQuestion::MayClose() {
-  if (allowed_ || AllIsSafe()) return true;
+  if (allowed_ || recording_->AllIsSafe()) return true;
   if (Asks()) {
     Ask();
     return false;
@@ -53,13 +49,13 @@ bool UnsavedQuestion::MayClose() {
 
 void UnsavedQuestion::GoOn() {
   if (Asks()) {
-    if (AllIsSafe())
+    if (recording_->AllIsSafe())
       question_->close();
     else
       question_->setText(WhatIsNotSafe());
   }
   if (!last_try_.isActive()) return;
-  if (AllIsSafe()) {
+  if (recording_->AllIsSafe()) {
     last_try_.stop();
     window_->close();
   } else if (recording_->Stuck()) {

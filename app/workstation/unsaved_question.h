@@ -29,7 +29,6 @@ class UnsavedQuestion : public QObject {
   void stayed();  ///< the operator does not want the window to close
 
  private:
-  bool AllIsSafe() const;
   bool Asks() const;
   void GoOn();
   void CloseNow();

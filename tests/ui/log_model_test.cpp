@@ -17,6 +17,16 @@ TEST(LogModel, SomethingLightNeverPushesSomethingWeightyAside) {
   EXPECT_EQ(log.Top()->notice.what.toStdString(), "the lidar is gone");
 }
 
+TEST(LogModel, WhatBecameOfStopStandsBeforeAnyError) {
+  LogModel log;
+  log.add({Level::kError, "the disk is full", "", kRecordingTopic});
+  log.add({Level::kWarning, "the motor was told to stop", "release it", kStopTopic});
+  log.add({Level::kError, "the lidar is gone", "", {}});
+  EXPECT_EQ(log.Top()->notice.what.toStdString(), "the motor was told to stop");
+  log.close(kStopTopic);
+  EXPECT_EQ(log.Top()->notice.what.toStdString(), "the lidar is gone");
+}
+
 TEST(LogModel, AWarningStaysUntilItIsAcknowledged) {
   LogModel log;
   log.add({Level::kWarning, "a", "", {}});

@@ -139,6 +139,35 @@ TEST_F(SessionTest, DrawingOverAValveWithTheToolFindsIt) {
   EXPECT_LT(miss_m, 0.02);  // the tool's own accuracy is tested with the fit: here only "the valve"
 }
 
+TEST_F(SessionTest, ARegionOfAnotherObjectWaitsForTheFitBefore) {
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
+  const auto [a, b] = AroundValve();
+  fit.SetTool(ObjectKind::kValve, true);
+  fit.DrawRegion({a, b});
+  fit.DrawRegion({{20, 20}, {60, 60}});  // elsewhere: nothing but wall
+  fit.SetTool(ObjectKind::kCylinder, true);
+  fit.DrawRegion({a, b});
+  ASSERT_TRUE(WaitFor([&] { return !fit.Runner()->Busy(); }));
+  ASSERT_FALSE(session.Objects().empty());
+  EXPECT_EQ(ObjectKindOf(session.Objects()[0].detection), ObjectKind::kValve);
+  ASSERT_FALSE(notices.empty());
+  EXPECT_TRUE(notices[0].what.startsWith(QStringLiteral("Fitting the valve failed")))
+      << notices[0].what.toStdString();
+  // A cylinder is no such thing; either answer tells that it was looked for.
+  EXPECT_EQ(session.Objects().size() + notices.size(), 3u);
+}
+
+TEST_F(SessionTest, ARegionDrawnAgainReplacesTheFitBefore) {
+  ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
+  const auto [a, b] = AroundValve();
+  fit.SetTool(ObjectKind::kValve, true);
+  fit.DrawRegion({a, b});
+  fit.DrawRegion({a - Eigen::Vector2d(5, 5), b + Eigen::Vector2d(5, 5)});
+  ASSERT_TRUE(WaitFor([&] { return !fit.Runner()->Busy(); }));
+  EXPECT_EQ(session.Objects().size(), 1u);
+  EXPECT_TRUE(notices.empty()) << notices[0].what.toStdString();
+}
+
 TEST_F(SessionTest, AClickIsNotARegion) {
   ASSERT_TRUE(ComputeDepthOf(ScanOfSession()));
   fit.DrawRegion({{100, 100}, {101, 101}});

@@ -1,9 +1,36 @@
 #include "ui/viewmodels/fit_view_model.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/detection/fit_option_table.h"
 #include "core/mission/provenance.h"
 
 namespace foresight {
+namespace {
+
+constexpr double kSameImage_rad = 1e-3;
+
+bool Overlap(const PixelBox& a, const PixelBox& b) {
+  const Eigen::Array2d shared = a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low);
+  const auto area = [](const Eigen::Array2d& sides) { return sides.max(0.0).prod(); };
+  return area(shared) > 0.5 * std::min(area(a.high - a.low), area(b.high - b.low));
+}
+
+/// Whether the operator has probably drawn round the same object again.
+bool MeanTheSame(const Roi& a, const Roi& b) {
+  if (const auto* drawn = std::get_if<ImageRoi>(&a)) {
+    const auto* again = std::get_if<ImageRoi>(&b);
+    return again != nullptr && std::abs(drawn->motor_rad - again->motor_rad) < kSameImage_rad &&
+           Overlap(drawn->Bounds(), again->Bounds());
+  }
+  const auto& box = std::get<BoxRoi>(a);
+  const auto* again = std::get_if<BoxRoi>(&b);
+  return again != nullptr && (box.Contains(again->base_from_box.translation()) ||
+                              again->Contains(box.base_from_box.translation()));
+}
+
+}  // namespace
 
 Result<ImageRoi> RegionThrough(RegionShape shape, double motor_rad,
                                const std::vector<Eigen::Vector2d>& points) {
@@ -102,8 +129,8 @@ void FitViewModel::DrawBox(const CloudRectangle& rectangle, bool cut) {
   if (object_tool_) fit();
 }
 
-QString FitViewModel::Doing() const {
-  switch (kind_) {
+QString FitViewModel::Doing(ObjectKind kind) {
+  switch (kind) {
     case ObjectKind::kValve:
       return tr("Fitting the valve");
     case ObjectKind::kDrill:
@@ -170,7 +197,7 @@ void FitViewModel::fit() {
   if (!CanFit() && !runner_.Busy()) {
     if (session_->DepthComing()) {
       waiting_ = true;
-      session_->Report({Notice::Level::kInfo, tr("%1 waits for the depth map.").arg(Doing()),
+      session_->Report({Notice::Level::kInfo, tr("%1 waits for the depth map.").arg(Doing(kind_)),
                         tr("It begins by itself; or choose lidar points and press Fit.")});
       Q_EMIT changed();
       return;
@@ -184,10 +211,14 @@ void FitViewModel::fit() {
   fitting_in_ = scan->uuid;
   std::optional<ScanPart> part;
   if (!session_->CurrentScan()) part = PartOf(*scan, session_->Part().of_lines);
+  DropFitsOfTheSame(*session_->Region());
+  const auto pending = std::make_shared<Pending>(kind_, *session_->Region());
   const auto work = [scan, part, cloud = session_->Cloud(), depth = session_->Depth(),
-                     mask = session_->Mask(), roi = *session_->Region(),
+                     mask = session_->Mask(), roi = pending->roi, stop = pending->stop,
                      mask_options = session_->MaskOptions(), source = From(),
-                     options](const RunContext& context) -> Result<Found> {
+                     options](RunContext context) mutable -> Result<Found> {
+    const std::stop_callback cancelled(context.stop, [&stop] { stop.request_stop(); });
+    context.stop = stop.get_token();
     const ProcessedScan processed{scan->rig, *cloud, scan->frames, depth.get(), mask.get()};
     FORESIGHT_TRY(Detection detection, FitInScan(processed, source, roi, options, context));
     FORESIGHT_TRY(Provenance provenance,
@@ -195,8 +226,19 @@ void FitViewModel::fit() {
     provenance.part = part;
     return Found{std::move(detection), ProvenanceToJson(provenance)};
   };
-  runner_.Run<Found>(Doing(), work,
-                     [this, scan, part](const Result<Found>& found) { Accept(scan, part, found); });
+  pending_.push_back(pending);
+  runner_.Run<Found>(Doing(kind_), work, [this, scan, part, pending](const Result<Found>& found) {
+    std::erase(pending_, pending);
+    if (!pending->replaced) Accept(pending->kind, scan, part, found);
+  });
+}
+
+void FitViewModel::DropFitsOfTheSame(const Roi& roi) {
+  for (const auto& pending : pending_) {
+    if (pending->kind != kind_ || !MeanTheSame(pending->roi, roi)) continue;
+    pending->replaced = true;
+    pending->stop.request_stop();
+  }
 }
 
 void FitViewModel::FitIfReady() {
@@ -210,10 +252,10 @@ void FitViewModel::StopWaiting() {
   Q_EMIT changed();
 }
 
-void FitViewModel::Accept(const std::shared_ptr<const Scan>& scan,
+void FitViewModel::Accept(ObjectKind kind, const std::shared_ptr<const Scan>& scan,
                           const std::optional<ScanPart>& part, const Result<Found>& found) {
   if (!found) {
-    session_->Report(NoticeOf(Doing(), found.error()));
+    session_->Report(NoticeOf(Doing(kind), found.error()));
     return;
   }
   if (!session_->ShownScan() || scan->uuid != session_->ShownScan()->uuid) return;

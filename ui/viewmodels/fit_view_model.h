@@ -2,8 +2,11 @@
 
 #include <Eigen/Core>
 #include <QObject>
+#include <deque>
 #include <map>
+#include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/detection/fit_in_scan.h"
@@ -72,6 +75,7 @@ class FitViewModel : public QObject {
   void setRegionTool(bool on);
   void leaveTools();
   /// At once or, where the depth map that it needs is being computed, as soon as that is there.
+  /// Another object's fit that runs comes first; one of the same object is dropped.
   void fit();
   /// The usual options of `Kind` again.
   void resetOptions();
@@ -80,21 +84,31 @@ class FitViewModel : public QObject {
   void changed();
 
  private:
-  QString Doing() const;
+  static QString Doing(ObjectKind kind);
   void FitIfReady();
   void StopWaiting();
+  /// A fit that runs or waits for those before it.
+  struct Pending {
+    ObjectKind kind;
+    Roi roi;
+    std::stop_source stop;
+    bool replaced = false;  ///< by one of the same object
+  };
+  /// Drops the fits of the object that the operator has drawn a new region round.
+  void DropFitsOfTheSame(const Roi& roi);
   /// What was found, with all that is needed to find it again.
   struct Found {
     Detection detection;
     std::string provenance_json;
   };
-  void Accept(const std::shared_ptr<const Scan>& scan, const std::optional<ScanPart>& part,
-              const Result<Found>& found);
+  void Accept(ObjectKind kind, const std::shared_ptr<const Scan>& scan,
+              const std::optional<ScanPart>& part, const Result<Found>& found);
 
   SessionModel* session_;
   std::string fitting_in_;  ///< uuid of the scan of the last fit
-  TaskRunner runner_{session_->Tasks()};
-  std::optional<FitSource> source_;  ///< that the operator chose
+  TaskRunner runner_{session_->Tasks(), TaskPolicy::kQueue};
+  std::deque<std::shared_ptr<Pending>> pending_;  ///< of `runner_`, in its order
+  std::optional<FitSource> source_;               ///< that the operator chose
   RegionShape shape_ = RegionShape::kRectangle;
   ObjectKind kind_ = ObjectKind::kValve;
   /// What the operator chose, by the option's key.

@@ -282,6 +282,10 @@ bool HeadViewModel::CanHome() const {
   return WhyNoHome().isEmpty();
 }
 
+QString HeadViewModel::WhyNotDuringScan() const {
+  return Scanning() ? tr("A scan is running; wait for its end.") : QString();
+}
+
 QString HeadViewModel::WhyNoHome() const {
   if (StopLatched()) return tr("The head was stopped. Release the stop first.");
   if (!answers_.Current()) return WhyNoWord();

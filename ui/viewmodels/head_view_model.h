@@ -103,6 +103,8 @@ class HeadViewModel : public QObject {
   QString WhyNoHome() const;
   /// Whether a scan was started and has not been handed over yet.
   bool Scanning() const { return live_ != nullptr; }
+  /// Why what needs the head or the mission file for itself has to wait; empty when it can be done.
+  QString WhyNotDuringScan() const;
   /// Whether the sweep is over and the scan still comes over the link. The next one may start.
   bool Receiving() const;
   /// Whether the head sweeps for this station: what was started here, or anything while this

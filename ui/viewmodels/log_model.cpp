@@ -8,6 +8,10 @@ namespace {
 constexpr int kInformationShown_ms = 10'000;
 constexpr std::size_t kMostEntries = 1000;
 
+int WeightOf(const Notice& notice) {
+  return static_cast<int>(notice.level) + (notice.topic == kStopTopic ? 10 : 0);
+}
+
 }  // namespace
 
 LogModel::LogModel(QObject* parent) : QObject(parent) {
@@ -18,7 +22,7 @@ LogModel::LogModel(QObject* parent) : QObject(parent) {
 const LogEntry* LogModel::Top() const {
   const LogEntry* top = nullptr;
   for (const LogEntry& entry : entries_)
-    if (!entry.acknowledged && (top == nullptr || entry.notice.level >= top->notice.level))
+    if (!entry.acknowledged && (top == nullptr || WeightOf(entry.notice) >= WeightOf(top->notice)))
       top = &entry;
   return top;
 }

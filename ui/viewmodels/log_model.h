@@ -30,8 +30,8 @@ class LogModel : public QObject {
   explicit LogModel(QObject* parent = nullptr);
 
   const std::deque<LogEntry>& Entries() const { return entries_; }
-  /// What stands on top: the weightiest that is not acknowledged, the newest of those; nullptr =
-  /// nothing.
+  /// What stands on top: the weightiest that is not acknowledged, the newest of those; what became
+  /// of the operator's STOP weighs more than any error. nullptr = nothing.
   const LogEntry* Top() const;
   /// How many warnings and errors are not acknowledged.
   int Open() const;

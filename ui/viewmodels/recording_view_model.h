@@ -56,6 +56,11 @@ class RecordingViewModel : public QObject {
   bool Stuck() const { return Waiting() > 0 && (failed_ || !Recording()); }
   /// Whether the file was moved or deleted under the recording: what it holds may be lost.
   bool FileHasMoved() const { return file_ && file_->HasMoved(); }
+  /// Whether something may be lost unless the operator chooses another file. Asks no file system: a
+  /// file that moved is known some seconds later.
+  bool NeedsOperator() const { return Stuck() || moved_; }
+  /// Whether nothing is lost when the program ends now.
+  bool AllIsSafe() const { return Waiting() == 0 && !FileHasMoved(); }
   /// The file that is recorded into; nullptr while there is none.
   std::shared_ptr<MissionFile> File() const { return file_; }
   /// The sink that writes a scan while it arrives; nullptr while there is no file to write.
