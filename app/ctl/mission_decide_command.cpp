@@ -3,6 +3,7 @@
 
 #include "app/ctl/choose_object.h"
 #include "app/ctl/command.h"
+#include "core/base/utc_text.h"
 #include "core/detection/candidates.h"
 #include "core/detection/detection_json.h"
 #include "core/mission/mission_file.h"

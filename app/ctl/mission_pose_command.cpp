@@ -2,8 +2,8 @@
 
 #include "app/ctl/command.h"
 #include "app/ctl/mission_beside.h"
+#include "core/base/utc_text.h"
 #include "core/mission/mission_file.h"
-#include "core/mission/new_records.h"
 #include "core/mission/pose_json.h"
 
 namespace foresight {

@@ -4,6 +4,7 @@
 #include <QFileInfo>
 #include <QSettings>
 
+#include "app/workstation/file_choice.h"
 #include "app/workstation/workbench.h"
 #include "ui/panels/import_dialog.h"
 
@@ -46,24 +47,15 @@ void AskHowToImport(QWidget* window, Workbench* bench, const QStringList& files,
   dialog->show();
 }
 
-void ChooseFilesToImport(QWidget* window, Workbench* bench) {
-  auto* dialog = new QFileDialog(
-      window, QFileDialog::tr("Import: a cloud or a bag, and its image, rig or calibration"), {},
-      QFileDialog::tr("Files to import (*.ply *.pcd *.bin *.bag *.xyz *.txt *.csv *.3d *.png *.jpg "
-                      "*.jpeg *.yaml *.yml);;All files (*)"));
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setObjectName(QStringLiteral("file_dialog"));
-  dialog->setFileMode(QFileDialog::ExistingFiles);
-  // A dialogue of the desktop's would keep the keys to itself, F12 among them.
-  dialog->setOption(QFileDialog::DontUseNativeDialog);
+void ChooseFilesToImport(const FileChoice* files, QWidget* window, Workbench* bench) {
   const QString folder = QFileInfo(bench->recording.Path()).absolutePath();
-  dialog->setDirectory(folder);
-  QObject::connect(dialog, &QFileDialog::filesSelected, bench,
-                   [window, bench, folder](const QStringList& files) {
-                     AskHowToImport(window, bench, files, folder);
-                   });
-  dialog->setModal(false);  // a scan may be running: the stop button must stay within reach
-  dialog->show();
+  files->ManyToOpen(
+      QFileDialog::tr("Import: a cloud or a bag, and its image, rig or calibration"),
+      QFileDialog::tr("Files to import (*.ply *.pcd *.bin *.bag *.xyz *.txt *.csv *.3d *.png *.jpg "
+                      "*.jpeg *.yaml *.yml);;All files (*)"),
+      [window, bench, folder](const QStringList& chosen) {
+        AskHowToImport(window, bench, chosen, folder);
+      });
 }
 
 }  // namespace foresight

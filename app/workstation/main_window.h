@@ -3,6 +3,7 @@
 #include <QMainWindow>
 #include <functional>
 
+#include "app/workstation/file_choice.h"
 #include "app/workstation/workbench.h"
 
 namespace ads {
@@ -11,7 +12,6 @@ class CDockManager;
 class CDockWidget;
 }  // namespace ads
 
-class QFileDialog;
 class QSettings;
 
 namespace foresight {
@@ -72,8 +72,14 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  void AddWindowCommands();
+  // window_commands.cpp
+  void AddFileCommands();
+  void AddViewCommands();
+  void AddHelpCommands();
   void AddCommandsOfResults();
+  void ChooseBundle();
+  void ChooseRecordingFile();
+
   void ShowComparison();
   void BuildMenus();
   void BuildCentre();
@@ -87,17 +93,9 @@ class MainWindow : public QMainWindow {
   void PlaceTimeline();
   bool OnLowScreen() const;
   void BringFloatingDocksBack();
-  /// Opens a dialogue that holds nothing up.
-  void Show(QFileDialog* dialog, const std::function<void(QString)>& chosen);
-  void ChooseBundle();
-  void ChooseFolder(const QString& title, const std::function<void(QString)>& chosen);
-  void ChooseRecordingFile();
-  void ChooseFiles(const QString& title, const QString& filter,
-                   const std::function<void(QStringList)>& chosen);
-  void ChooseFile(bool save, const QString& title, const QString& filter, const QString& suffix,
-                  const std::function<void(QString)>& chosen);
 
   Workbench* bench_;
+  FileChoice files_;
   Actions* actions_ = nullptr;
   ImagePane* image_;
   DepthPane* depth_;

@@ -92,11 +92,11 @@ void UnsavedQuestion::Ask() {
     QPushButton* lose = question_->addButton(tr("Quit and lose it"), QMessageBox::DestructiveRole);
     question_->setDefaultButton(stay);
     question_->setEscapeButton(stay);
-    connect(stay, &QPushButton::clicked, this, &UnsavedQuestion::stayed);
-    connect(other, &QPushButton::clicked, this, [this] {
-      Q_EMIT stayed();
-      choose_file_();
+    connect(question_, &QMessageBox::finished, this, [this, lose] {
+      // However it was closed, and by itself when all is safe.
+      if (question_->clickedButton() != lose) Q_EMIT stayed();
     });
+    connect(other, &QPushButton::clicked, this, [this] { choose_file_(); });
     connect(lose, &QPushButton::clicked, this, &UnsavedQuestion::CloseNow);
     question_->setModal(false);
   }

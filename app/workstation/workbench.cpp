@@ -82,6 +82,7 @@ void Workbench::ShowOpened() {
 void Workbench::ConnectLink(const std::shared_ptr<SensorHead>& sensor_head) {
   if (sensor_head->Link() == nullptr) return;
   link = std::make_unique<LinkViewModel>(sensor_head, &tasks);
+  region_first = std::make_unique<RegionFirst>(&head, &live.session, sensor_head->Link());
   send_pose = std::make_unique<SendPoseModel>(sensor_head, &live.session);
   robot_fit = std::make_unique<RobotFitModel>(sensor_head, &live.session, &live.fit, &live.depth);
   connect(link.get(), &LinkViewModel::noticed, &log, &LogModel::add);

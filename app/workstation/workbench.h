@@ -17,6 +17,7 @@
 #include "ui/viewmodels/log_model.h"
 #include "ui/viewmodels/mission_search_model.h"
 #include "ui/viewmodels/recording_view_model.h"
+#include "ui/viewmodels/region_first.h"
 #include "ui/viewmodels/replay_model.h"
 #include "ui/viewmodels/review_check_flow.h"
 #include "ui/viewmodels/review_view_model.h"
@@ -60,6 +61,7 @@ class Workbench : public QObject {
   ChainCalibrationModel head_calibration;
   /// Of a head that is elsewhere; nullptr where it is in this process.
   std::unique_ptr<LinkViewModel> link;
+  std::unique_ptr<RegionFirst> region_first;
   std::unique_ptr<SendPoseModel> send_pose;
   std::unique_ptr<RobotFitModel> robot_fit;
   CommandTable commands;

@@ -25,13 +25,19 @@ Value Quantile(std::vector<Value> values, double fraction) {
 }
 
 /// The value at `rank` of the sorted ones, from 0: one of the values, for those who count otherwise
-/// than Quantile does. O(n).
+/// than Quantile does. Changes the order of the values. O(n).
 template <class Value>
-Value ValueAtRank(std::vector<Value> values, std::size_t rank) {
+Value MoveToRank(std::vector<Value>& values, std::size_t rank) {
   FORESIGHT_EXPECTS(rank < values.size(), "a rank below the number of values");
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), at, values.end());
   return *at;
+}
+
+/// The same, and leaves the caller's values as they are.
+template <class Value>
+Value ValueAtRank(std::vector<Value> values, std::size_t rank) {
+  return MoveToRank(values, rank);
 }
 
 /// The value at rank n / 2 of the sorted ones: one of the values, of two middle ones the upper. NaN

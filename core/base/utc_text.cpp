@@ -17,11 +17,15 @@ std::string UtcText(std::int64_t utc_ns) {
                      clock.minutes().count(), clock.seconds().count(), clock.subseconds().count());
 }
 
+std::int64_t NowUtc_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 std::string UtcDateNow() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
   constexpr std::size_t kToSeconds = 19;
-  return UtcText(ns).substr(0, kToSeconds) + "Z";
+  return UtcText(NowUtc_ns()).substr(0, kToSeconds) + "Z";
 }
 
 }  // namespace foresight

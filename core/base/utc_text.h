@@ -5,6 +5,9 @@
 
 namespace foresight {
 
+/// Nanoseconds since 1970 by this computer's wall clock.
+std::int64_t NowUtc_ns();
+
 /// "2026-11-22T13:06:33.250Z" of nanoseconds since 1970.
 std::string UtcText(std::int64_t utc_ns);
 

@@ -8,7 +8,7 @@ namespace foresight {
 /// depths over the rays (exact for planes in space, whatever the lens), guided by CIELAB colour.
 /// First each sample finds the plane of its own neighbourhood, from several slopes; a pixel then
 /// starts from the plane of the best supported sample near it in place and colour. Defaults were
-/// chosen on seven Middlebury scenes; docs/evaluation.md.
+/// chosen on seven Middlebury scenes; docs/evaluation/depth.md.
 struct LocalPlaneOptions {
   double sigma_spatial_px = 0.0;  ///< 0 = 0.6 of the paper's sigma_s for the density, 12 px at 2 %
   double radius_in_sigmas = 2.0;  ///< Omega

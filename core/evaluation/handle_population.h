@@ -19,9 +19,9 @@ namespace foresight {
 /// The pose is right where the pivot is within 20 mm, the lever's direction within 10 deg and the
 /// door's normal within 5 deg; everything is, where the pivot is within 15 mm, the direction within
 /// 8 deg and the length within 20 mm as well: a gripper that opens 85 mm finds the lever between
-/// its fingers at two thirds of its length, and turns it about the right axis (docs/evaluation.md
-/// has the sums). Errors: "pivot_mm", "direction_deg", "normal_deg", "length_mm", "flip" (1 = it
-/// points the other way, by more than 90 deg).
+/// its fingers at two thirds of its length, and turns it about the right axis
+/// (docs/evaluation/handle.md, "Door handle fit"). Errors: "pivot_mm", "direction_deg",
+/// "normal_deg", "length_mm", "flip" (1 = it points the other way, by more than 90 deg).
 class HandlePopulation : public FitPopulation {
  public:
   ObjectKind Kind() const override { return ObjectKind::kHandle; }

@@ -7,13 +7,13 @@
 #include "core/base/atomic_file.h"
 #include "core/base/printable.h"
 #include "core/base/publish_file.h"
+#include "core/base/utc_text.h"
 #include "core/calibration/kitti_calibration.h"
 #include "core/exchange/import_bag.h"
 #include "core/io/cloud_columns.h"
 #include "core/io/jpeg.h"
 #include "core/io/png.h"
 #include "core/mission/mission_file.h"
-#include "core/mission/new_records.h"
 
 namespace foresight {
 namespace {

@@ -79,11 +79,10 @@ void BeamFootprints::LookBehind() {
     ranges.clear();
     for (const RangeRay& other : rays_.rays)
       if (other.direction.dot(rays_.rays[i].direction) > cosine) ranges.push_back(other.range_m);
-    const auto far = ranges.begin() + static_cast<std::ptrdiff_t>(
-                                          kFarFraction * static_cast<double>(ranges.size() - 1));
-    std::nth_element(ranges.begin(), far, ranges.end());
+    const double far = MoveToRank(
+        ranges, static_cast<std::size_t>(kFarFraction * static_cast<double>(ranges.size() - 1)));
     footprints_[i].reaches_background =
-        *far > footprints_[i].background_m - kBackgroundSigmas * sigma_m_;
+        far > footprints_[i].background_m - kBackgroundSigmas * sigma_m_;
   }
 }
 

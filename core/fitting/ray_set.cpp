@@ -136,6 +136,25 @@ Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, co
   return set;
 }
 
+std::optional<std::pair<int, int>> RowsInRegion(const RegisteredScan& scan, const SensorRig& rig,
+                                                const Roi& roi) {
+  if (!CheckRoi(roi)) return std::nullopt;
+  const RegionTest region(&rig, roi, BoxRays::kEndInside);
+  const auto is_seen = [&](int line) {
+    const Eigen::Vector3d origin = scan.origins[static_cast<std::size_t>(line)].cast<double>();
+    for (int beam = 0; beam < scan.beams; ++beam)
+      if (scan.Valid(line, beam) &&
+          region.Holds(origin, scan.points[scan.Index(line, beam)].cast<double>()))
+        return true;
+    return false;
+  };
+  int first = 0, last = scan.lines - 1;
+  while (first <= last && !is_seen(first)) ++first;
+  if (first > last) return std::nullopt;
+  while (!is_seen(last)) --last;
+  return std::pair(first, last);
+}
+
 Result<RaySet> RaysFromDepth(const DepthImage& masked_depth_m, const SensorRig& rig,
                              double motor_rad, const Roi& roi, int stride, double sigma_m,
                              double density, BoxRays box_rays) {

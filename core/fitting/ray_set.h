@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/depth/upsample.h"
@@ -70,6 +72,11 @@ enum class BoxRays {
 /// kTooFewPoints (nothing inside it). O(points).
 Result<RaySet> RaysFromScan(const RegisteredScan& scan, const SensorRig& rig, const Roi& roi,
                             double sigma_m, BoxRays box_rays = BoxRays::kEndInside);
+
+/// First and last row of a scan's points that has one in the region; nullopt where none has, or the
+/// region cannot be asked for. O(points).
+std::optional<std::pair<int, int>> RowsInRegion(const RegisteredScan& scan, const SensorRig& rig,
+                                                const Roi& roi);
 
 /// The masked dense depth of the image taken at `motor_rad` inside the region; every `stride`-th
 /// pixel in both directions, seen from the camera's centre. `density` is the fraction of pixels

@@ -32,14 +32,6 @@ Models LoadModels() {
   return models;
 }
 
-/// Features that models of earlier programs name otherwise.
-std::string NewName(const std::string& name) {
-  if (name == "inlier_share") return "inlier_ratio";
-  if (name == "log_rival_margin") return "log_alternative_margin";
-  if (name == "rival_margin_per_hit") return "alternative_margin_per_hit";
-  return name;
-}
-
 VerdictModel ModelFrom(YamlMap& map) {
   if (map.Integer("foresight_verdict") != kFormatVersion)
     map.Fault(map.Node("foresight_verdict"), "this version cannot be read");
@@ -58,7 +50,7 @@ VerdictModel ModelFrom(YamlMap& map) {
   model.bias = map.Number("bias");
   for (YamlMap& entry : map.List("features")) {
     VerdictModel::Feature feature;
-    feature.name = NewName(entry.Text("name"));
+    feature.name = entry.Text("name");
     feature.mean = entry.Number("mean");
     feature.deviation = entry.Number("deviation");
     feature.weight = entry.Number("weight");

@@ -3,9 +3,13 @@
 namespace foresight {
 namespace {
 
-Status AppendMissing(MissionFile& mission, std::int64_t id, const Scan& whole, const Scan& there) {
-  for (std::size_t i = there.lines.size(); i < whole.lines.size(); ++i)
+Status AppendMissing(MissionFile& mission, std::int64_t id, const Scan& whole, const Scan& there,
+                     const RunContext& context) {
+  const auto all = static_cast<double>(whole.lines.size());
+  for (std::size_t i = there.lines.size(); i < whole.lines.size(); ++i) {
     FORESIGHT_CHECK(mission.AppendLine(id, whole.lines[i]));
+    context.Report(0.8 * static_cast<double>(i) / all, "writing lines");
+  }
   if (there.given.empty() && !whole.given.empty())
     FORESIGHT_CHECK(mission.SetGivenCloud(id, whole.given));
   const auto samples = whole.track.samples();
@@ -35,7 +39,8 @@ bool IsAsWhole(const Scan& there, const Scan& whole) {
 
 }  // namespace
 
-Result<std::int64_t> CompleteScan(MissionFile& mission, const Scan& whole) {
+Result<std::int64_t> CompleteScan(MissionFile& mission, const Scan& whole,
+                                  const RunContext& context) {
   FORESIGHT_TRY(const auto found, mission.FindScan(whole.uuid));
   std::int64_t id = 0;
   Scan there;
@@ -51,14 +56,27 @@ Result<std::int64_t> CompleteScan(MissionFile& mission, const Scan& whole) {
   } else {
     FORESIGHT_TRY(id, mission.BeginScan(whole));
   }
-  const Status appended = mission.Batch([&] { return AppendMissing(mission, id, whole, there); });
-  if (!appended) {
-    static_cast<void>(
-        mission.EndScan(id, ScanState::kInterrupted, "not all of it could be written"));
+  const Status appended =
+      mission.Batch([&] { return AppendMissing(mission, id, whole, there, context); });
+  if (!appended) {  // the next scan must find the file free; the rest can be put in later
+    if (const Status ended = mission.EndScan(id, ScanState::kInterrupted, appended.error().message);
+        !ended)
+      return Fail(appended.error().code, "{}; and the scan could not be ended in the file: {}",
+                  appended.error().message, ended.error().message);
     return tl::unexpected(appended.error());
   }
   FORESIGHT_CHECK(mission.EndScan(id, whole.state, whole.reason));
   return id;
+}
+
+Result<bool> HoldsAllOf(const MissionFile& mission, std::int64_t id, const Scan& whole) {
+  FORESIGHT_TRY(const ScanSummary there, mission.Summary(id));
+  FORESIGHT_TRY(const MotorTrack track, mission.LoadTrack(id));
+  return there.lines == static_cast<std::int64_t>(whole.lines.size()) &&
+         there.images == static_cast<std::int64_t>(whole.frames.size()) &&
+         there.imported == !whole.given.empty() &&
+         track.samples().size() == whole.track.samples().size() && there.state == whole.state &&
+         there.reason == whole.reason;
 }
 
 }  // namespace foresight

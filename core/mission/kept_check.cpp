@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/base/utc_text.h"
 #include "core/base/version.h"
 #include "core/depth/depth_option_table.h"
 #include "core/detection/detection_json.h"

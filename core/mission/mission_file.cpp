@@ -229,6 +229,7 @@ struct MissionFile::Impl {
   std::atomic<bool> wants_thumbnail{false};
   std::optional<std::int64_t> last_seq;
   std::optional<double> last_sample_s;
+  bool in_batch = false;
 
   ScanRows Rows() { return {*database, file}; }
 
@@ -249,8 +250,63 @@ struct MissionFile::Impl {
     return Fail(ErrorCode::kState, "{}: scan {} is not being recorded", file, scan_id);
   }
 
+  /// Takes back what a batch wrote, and where the scan stood before it, unless it was committed.
+  class BatchGuard {
+   public:
+    explicit BatchGuard(Impl* impl)
+        : impl_(impl),
+          running_scan_(impl->running_scan),
+          wants_thumbnail_(impl->wants_thumbnail),
+          last_seq_(impl->last_seq),
+          last_sample_s_(impl->last_sample_s) {
+      impl->in_batch = true;
+    }
+    BatchGuard(BatchGuard&& other) noexcept
+        : impl_(std::exchange(other.impl_, nullptr)),
+          running_scan_(other.running_scan_),
+          wants_thumbnail_(other.wants_thumbnail_),
+          last_seq_(other.last_seq_),
+          last_sample_s_(other.last_sample_s_) {}
+    BatchGuard& operator=(BatchGuard&&) = delete;
+    ~BatchGuard() {
+      if (impl_ == nullptr) return;
+      if (impl_->database->InTransaction()) (void)impl_->database->Run("ROLLBACK");
+      impl_->in_batch = false;
+      impl_->running_scan = running_scan_;
+      impl_->wants_thumbnail = wants_thumbnail_;
+      impl_->last_seq = last_seq_;
+      impl_->last_sample_s = last_sample_s_;
+    }
+    Status Commit() {
+      FORESIGHT_CHECK(impl_->CheckBatch());
+      FORESIGHT_CHECK(impl_->database->Run("COMMIT"));
+      impl_->in_batch = false;
+      impl_ = nullptr;
+      return {};
+    }
+
+   private:
+    Impl* impl_;
+    std::int64_t running_scan_;
+    bool wants_thumbnail_;
+    std::optional<std::int64_t> last_seq_;
+    std::optional<double> last_sample_s_;
+  };
+
+  Result<BatchGuard> BeginBatch() {
+    FORESIGHT_CHECK(database->Run("BEGIN IMMEDIATE"));
+    return BatchGuard(this);
+  }
+
+  /// A write that the disk does not take makes SQLite take the whole batch back.
+  Status CheckBatch() const {
+    if (!in_batch || database->InTransaction()) return {};
+    return Fail(ErrorCode::kIo, "{}: the disk did not take it", file);
+  }
+
   /// Runs `body` as one call that is written whole or not at all.
   Status Write(const std::function<Status()>& body) {
+    FORESIGHT_CHECK(CheckBatch());
     FORESIGHT_TRY(Savepoint savepoint, Savepoint::Begin(*database));
     FORESIGHT_CHECK(body());
     return savepoint.Commit();
@@ -627,18 +683,10 @@ Status MissionFile::EndScan(std::int64_t scan_id, ScanState state, const std::st
 Status MissionFile::Batch(const std::function<Status()>& body) {
   const std::lock_guard lock(impl_->mutex);
   FORESIGHT_CHECK(impl_->CheckWritable());
-  if (impl_->database->InTransaction()) return body();  // a part of the batch around it
-  const std::int64_t running_before = impl_->running_scan;
-  FORESIGHT_CHECK(impl_->database->Run("BEGIN IMMEDIATE"));
-  Status status = body();
-  const Status committed =
-      impl_->database->InTransaction() ? impl_->database->Run("COMMIT") : Status{};
-  if (!committed) {
-    (void)impl_->database->Run("ROLLBACK");
-    impl_->running_scan = running_before;
-    return committed;
-  }
-  return status;
+  if (impl_->in_batch) return body();  // a part of the batch around it
+  FORESIGHT_TRY(Impl::BatchGuard guard, impl_->BeginBatch());
+  FORESIGHT_CHECK(body());
+  return guard.Commit();
 }
 
 Result<std::vector<ScanSummary>> MissionFile::ListScans() const {

@@ -88,8 +88,8 @@ class MissionFile {
   /// Where the end cannot be written (a full disk) the scan has ended all the same: another can
   /// begin, and this one can be continued.
   Status EndScan(std::int64_t scan_id, ScanState state, const std::string& reason);
-  /// Runs `body`, whose appends reach the disk together when it returns: ten times as many lines a
-  /// second. What was appended before a failure is kept.
+  /// Runs `body`, whose appends reach the disk together when it returns, ten times as many lines a
+  /// second: all of them or, where the body or the disk fails, none. The scan goes on where it was.
   Status Batch(const std::function<Status()>& body);
 
   // Reading. Each call sees one moment of the file, and decodes no more than it returns.

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "core/base/utc_text.h"
 #include "core/detection/detection_json.h"
 #include "core/mission/depth_numbers.h"
 
@@ -13,12 +14,6 @@ namespace foresight {
 std::string OperatorName() {
   const passwd* account = getpwuid(getuid());
   return account != nullptr && account->pw_name != nullptr ? account->pw_name : "operator";
-}
-
-std::int64_t NowUtc_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
 }
 
 DetectionRecord NewDetectionRecord(const Scan& scan, const Detection& detection,

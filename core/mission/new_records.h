@@ -9,8 +9,6 @@ namespace foresight {
 
 /// Who works at this computer, for records: the name of the user's account.
 std::string OperatorName();
-/// Nanoseconds since 1970, UTC.
-std::int64_t NowUtc_ns();
 
 /// A record of something found now in a scan, by the operator of this computer. `scan_id` is left
 /// for who knows the file.

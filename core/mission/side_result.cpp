@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "core/base/utc_text.h"
 #include "core/depth/depth_method.h"
 #include "core/depth/depth_option_table.h"
 #include "core/detection/fit_option_table.h"

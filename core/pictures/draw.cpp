@@ -27,33 +27,21 @@ cv::Point Fixed(const Eigen::Vector2d& pixel) {
   return {to_fixed(pixel.x()), to_fixed(pixel.y())};
 }
 
-void Draw(ColorImage& image, const std::vector<Eigen::Vector2d>& points, bool closed, Rgb8 color,
+void Draw(ColorImage& image, const std::vector<Eigen::Vector2d>& points, Rgb8 color,
           int thickness_px) {
   std::vector<cv::Point> fixed;
   for (const auto& point : points)
     if (point.allFinite()) fixed.push_back(Fixed(point));
   if (fixed.size() < 2) return;
   cv::Mat view = View(image);
-  cv::polylines(view, fixed, closed, Scalar(color), thickness_px, cv::LINE_AA, kShift);
+  cv::polylines(view, fixed, false, Scalar(color), thickness_px, cv::LINE_AA, kShift);
 }
 
 }  // namespace
 
 void DrawPolylines(ColorImage& image, const std::vector<std::vector<Eigen::Vector2d>>& lines,
                    Rgb8 color, int thickness_px) {
-  for (const auto& line : lines) Draw(image, line, false, color, thickness_px);
-}
-
-void DrawPolygon(ColorImage& image, const std::vector<Eigen::Vector2d>& corners, Rgb8 color,
-                 int thickness_px) {
-  Draw(image, corners, true, color, thickness_px);
-}
-
-void DrawDot(ColorImage& image, const Eigen::Vector2d& center, int radius_px, Rgb8 color) {
-  if (!center.allFinite()) return;
-  cv::Mat view = View(image);
-  cv::circle(view, Fixed(center), radius_px << kShift, Scalar(color), cv::FILLED, cv::LINE_AA,
-             kShift);
+  for (const auto& line : lines) Draw(image, line, color, thickness_px);
 }
 
 }  // namespace foresight

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -49,8 +51,9 @@ struct EarlyScan {
   /// In base: thinned lines that came ahead of the lines themselves; nullptr where the scan's own
   /// lines are more.
   std::shared_ptr<const RegisteredScan> cloud;
-  int lines = 0;     ///< of the scan, or of the cloud
-  int of_lines = 0;  ///< planned, or as the head measured; 0 = not known
+  std::vector<std::int64_t> cloud_seqs;  ///< LidarLine::seq of the cloud's lines
+  int lines = 0;                         ///< of the scan, or of the cloud
+  int of_lines = 0;                      ///< planned, or as the head measured; 0 = not known
 };
 
 /// What a head at the far end of a link has beside what every head has. Safe from any thread.
@@ -70,6 +73,8 @@ class HeadLink {
   virtual void Fetch(const std::string& scan_id) = 0;
   /// The same, before all others.
   virtual void FetchFirst(const std::string& scan_id) = 0;
+  /// Lines of the newest scan that come before its others, first and last seq; nullopt = none.
+  virtual void LinesFirst(std::optional<std::pair<std::int64_t, std::int64_t>> seqs) = 0;
   /// What has come stays here; the scan stays at the head.
   virtual void Pause(const std::string& scan_id) = 0;
 

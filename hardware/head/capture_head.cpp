@@ -5,6 +5,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/log.h"
+#include "core/base/utc_text.h"
 
 namespace foresight {
 namespace {
@@ -12,12 +13,6 @@ namespace {
 constexpr std::chrono::milliseconds kIdlePeriod{100};
 constexpr std::chrono::milliseconds kLiveViewPeriod{10};
 constexpr std::chrono::microseconds kHomingPoll{5000};
-
-std::int64_t WallClock_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace
 
@@ -99,7 +94,7 @@ Status CaptureHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> si
   ScanRequest request{stop_count_, Scan(), std::move(sink)};
   request.header.uuid = NewUuid();
   request.header.start_utc_ns =
-      WallClock_ns() - static_cast<std::int64_t>(devices_.clock->Now() * 1e9);
+      NowUtc_ns() - static_cast<std::int64_t>(devices_.clock->Now() * 1e9);
   request.header.source = options_.description;
   request.header.simulated = options_.simulated;
   request.header.plan = plan;

@@ -4,6 +4,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/log.h"
+#include "core/base/utc_text.h"
 #include "hardware/api/health_watch.h"
 
 namespace foresight {
@@ -130,19 +131,21 @@ void ScanRecorder::Work(const std::stop_token& stop) {
   }
 }
 
-/// Everything that waited goes to the disk in one commit, and is handed on after it.
+/// Everything that waited goes to the disk in one commit, and is handed on after it. Where that is
+/// not possible each piece goes by itself, up to the one that fails.
 void ScanRecorder::WriteAll(const std::deque<Piece>& pieces) {
-  std::optional<std::int64_t> last = running_;
-  std::deque<Piece> ends;  // of scans that were given up
+  const auto running = running_;
+  const int begun = begun_;
+  // What follows a scan that was given up is not its own; that has been told.
+  const auto is_wanted = [this](const Piece& piece) {
+    return running_ || std::holds_alternative<Scan>(piece);
+  };
   std::vector<const Piece*> on_disk;
   const Status status = mission_->Batch([&]() -> Status {
     for (const Piece& piece : pieces) {
-      if (!running_ && !std::holds_alternative<Scan>(piece)) continue;  // given up, and told
-      if (const Status written = Write(piece))
-        on_disk.push_back(&piece);
-      else
-        on_disk.push_back(&ends.emplace_back(GiveUp(written.error())));
-      if (running_) last = running_;
+      if (!is_wanted(piece)) continue;
+      FORESIGHT_CHECK(Write(piece));
+      on_disk.push_back(&piece);
     }
     return {};
   });
@@ -150,9 +153,15 @@ void ScanRecorder::WriteAll(const std::deque<Piece>& pieces) {
     for (const Piece* piece : on_disk) HandOn(*piece);
     return;
   }
-  // An end that was in the batch has not reached the disk either.
-  running_ = last;
-  HandOn(GiveUp(status.error()));
+  running_ = running;
+  begun_ = begun;
+  for (const Piece& piece : pieces) {
+    if (!is_wanted(piece)) continue;
+    if (const Status written = Write(piece))
+      HandOn(piece);
+    else
+      HandOn(GiveUp(written.error()));
+  }
 }
 
 Status ScanRecorder::Write(const Piece& piece) {
@@ -190,9 +199,7 @@ Status ScanRecorder::WriteHealth(std::int64_t scan_id, const Health& health) {
   const HeadDiagnosis diagnosis = Diagnose(health.at_end, health.at_start);
   const bool well = diagnosis.Worst() == DeviceCondition::kWell;
   EventRecord event;
-  event.utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                     std::chrono::system_clock::now().time_since_epoch())
-                     .count();
+  event.utc_ns = NowUtc_ns();
   event.source = "head";
   event.severity = well ? "info" : "warning";
   event.text = fmt::format("scan {}: lidar: {}; camera: {}; motor: {}", scan_id,

@@ -6,6 +6,7 @@
 #include <QAbstractButton>
 #include <QCloseEvent>
 #include <QTemporaryDir>
+#include <QTest>
 
 #include "tests/support/file_size_limit.h"
 #include "tests/ui/synthetic_scan.h"
@@ -18,14 +19,22 @@ class WindowOfRecording final : public QWidget {
  public:
   explicit WindowOfRecording(RecordingViewModel* recording)
       : question_(new UnsavedQuestion(
-            recording, [this] { ++asked_for_file; }, this)) {}
-  QMessageBox* Question() { return findChild<QMessageBox*>(QStringLiteral("unsavedQuestion")); }
+            recording, [this] { ++asked_for_file; }, this)) {
+    QObject::connect(question_, &UnsavedQuestion::stayed, this, [this] { ++stayed; });
+  }
+  /// The one on the screen: a closed one goes with the next events.
+  QMessageBox* Question() {
+    for (auto* question : findChildren<QMessageBox*>(QStringLiteral("unsavedQuestion")))
+      if (question->isVisible()) return question;
+    return nullptr;
+  }
   void Press(const char* text) {
     for (QAbstractButton* button : Question()->buttons())
       if (button->text() == text) return button->click();
     ADD_FAILURE() << "there is no button " << text;
   }
   int asked_for_file = 0;
+  int stayed = 0;
   bool refuses = false;
 
  protected:
@@ -68,6 +77,33 @@ TEST_F(UnsavedQuestionOnScreen, WhatNoFileTookIsLostOnlyIfTheOperatorMeansIt) {
   EXPECT_FALSE(window.close());
   window.Press("Quit and lose it");
   EXPECT_FALSE(window.isVisible());
+}
+
+// Who hears it forgets what the window was to close for.
+TEST_F(UnsavedQuestionOnScreen, HoweverTheQuestionIsClosedTheOperatorStays) {
+  Keep();
+  EXPECT_FALSE(window.close());
+  window.Press("Stay");
+  EXPECT_EQ(window.stayed, 1);
+  EXPECT_FALSE(window.close());
+  QTest::keyClick(window.Question(), Qt::Key_Escape);
+  EXPECT_EQ(window.stayed, 2);
+  EXPECT_FALSE(window.close());
+  window.Question()->close();
+  EXPECT_EQ(window.stayed, 3);
+  EXPECT_FALSE(window.close());
+  ASSERT_TRUE(recording.Begin(folder.filePath("m.foresight")));
+  ASSERT_TRUE(recording.WriteAll());
+  EXPECT_TRUE(WaitFor([&] { return window.stayed == 4; })) << "all is safe now";
+  EXPECT_TRUE(window.isVisible());
+}
+
+TEST_F(UnsavedQuestionOnScreen, WhoQuitsAndLosesItDoesNotStay) {
+  Keep();
+  EXPECT_FALSE(window.close());
+  window.Press("Quit and lose it");
+  EXPECT_FALSE(window.isVisible());
+  EXPECT_EQ(window.stayed, 0);
 }
 
 TEST_F(UnsavedQuestionOnScreen, AnotherFileTakesItAndTheWindowCloses) {

@@ -23,7 +23,7 @@ void TryItem(ChunkKind kind, std::string_view bytes) {
   bool taken = true;
   for (const Chunk& part : *parts) taken = builder.Take(part).has_value();
   Require(builder.Have().Has({kind, 0}) == taken, "what was refused is not there");
-  if (const auto cloud = builder.Cloud()) Require(cloud->lines > 0, "a cloud has lines");
+  if (const auto cloud = builder.Cloud()) Require(cloud->points.lines > 0, "a cloud has lines");
   Require(!builder.Whole(), "one item is no scan");
 }
 

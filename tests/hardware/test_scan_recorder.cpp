@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <future>
 #include <optional>
 
 #include "hardware/head/scan_assembler.h"
@@ -19,17 +20,25 @@ namespace {
 
 using testing::HasSubstr;
 
-void Send(ScanSink& sink, const Scan& scan) {
+void SendHeader(ScanSink& sink, const Scan& scan) {
   Scan header = scan;
   header.lines.clear();
   header.frames.clear();
   header.track = {};
   header.state = ScanState::kRunning;
   sink.OnScanStarted(header);
+}
+
+void SendRest(ScanSink& sink, const Scan& scan) {
   sink.OnMotorSamples(scan.track.samples());
   for (const LidarLine& line : scan.lines) sink.OnLine(line);
   for (const CameraFrame& frame : scan.frames) sink.OnFrame(frame);
   sink.OnScanEnded(scan.state, scan.reason);
+}
+
+void Send(ScanSink& sink, const Scan& scan) {
+  SendHeader(sink, scan);
+  SendRest(sink, scan);
 }
 
 TEST(ScanRecorder, TheMissionFileHoldsWhatTheAssemblerSaw) {
@@ -68,6 +77,54 @@ TEST(ScanRecorder, HandsOnNothingThatIsNotInTheFile) {
   EXPECT_EQ(then->Snapshot()->lines.size(), 5u);
   EXPECT_EQ(then->Snapshot()->state, ScanState::kInterrupted);
   EXPECT_THAT(then->Snapshot()->reason, HasSubstr("line 0 comes after line 4"));
+}
+
+TEST(ScanRecorder, HandsOnNothingThatAFullDiskTookBack) {
+  /// Holds the recorder's thread at the header until everything else waits for it.
+  class Holding final : public ScanSink {
+   public:
+    explicit Holding(std::shared_ptr<ScanSink> then) : then_(std::move(then)) {}
+    void OnScanStarted(const Scan& header) override {
+      then_->OnScanStarted(header);
+      held.set_value();
+      go.get_future().wait();
+    }
+    void OnLine(const LidarLine& line) override { then_->OnLine(line); }
+    void OnMotorSamples(std::span<const MotorSample> samples) override {
+      then_->OnMotorSamples(samples);
+    }
+    void OnFrame(const CameraFrame& frame) override { then_->OnFrame(frame); }
+    void OnScanEnded(ScanState state, const std::string& reason) override {
+      then_->OnScanEnded(state, reason);
+    }
+    std::promise<void> held, go;
+
+   private:
+    std::shared_ptr<ScanSink> then_;
+  };
+  const TemporaryFolder folder;
+  const std::shared_ptr<MissionFile> mission = MissionFile::Create(folder / "m.mission").value();
+  const auto then = std::make_shared<ScanAssembler>();
+  const auto holding = std::make_shared<Holding>(then);
+  ScanRecorder recorder(mission, holding);
+  Scan scan = SampleScan(1);
+  scan.frames.Edit(0) = NoiseFrame(scan.frames[0]);
+  SendHeader(recorder, scan);
+  holding->held.get_future().wait();
+  SendRest(recorder, scan);
+  {
+    // Room for the lines and not for an image.
+    const FileSizeLimit limit(std::filesystem::file_size(folder / "m.mission-wal") + 1'500'000);
+    holding->go.set_value();
+    ASSERT_FALSE(recorder.WaitUntilWritten());
+  }
+  const ScanSummary kept = mission->ListScans().value().at(0);
+  EXPECT_EQ(kept.lines, static_cast<std::int64_t>(scan.lines.size()));
+  EXPECT_EQ(kept.images, 0);
+  EXPECT_EQ(kept.state, ScanState::kInterrupted);
+  EXPECT_EQ(then->Snapshot()->lines.size(), scan.lines.size());
+  EXPECT_EQ(then->Snapshot()->frames.size(), 0u);
+  EXPECT_THAT(then->Snapshot()->reason, HasSubstr("20 of"));
 }
 
 TEST(ScanRecorder, WritesOnWhenWhoFollowsFails) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
+#include "core/base/utc_text.h"
 #include "core/geometry/angles.h"
 #include "core/mission/kept_check.h"
 #include "core/mission/new_records.h"
@@ -143,7 +144,7 @@ TEST(EvaluateHoldOut, ComparesMethodsOnTheLinesThatTheyWereNotGiven) {
   const Json rows = Json::parse(result.output);
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0]["beams"], rows[1]["beams"]);
-  // At Foresight's coverage, planes beat averages; evaluation.md has by how much.
+  // At Foresight's coverage, planes beat averages; docs/evaluation/depth.md has by how much.
   EXPECT_LT(rows[0]["our_mask"]["q95_mm"].get<double>(),
             rows[1]["our_mask"]["q95_mm"].get<double>());
   EXPECT_EQ(rows[0]["our_mask"]["coverage"], rows[1]["our_mask"]["coverage"]);

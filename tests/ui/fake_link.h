@@ -23,6 +23,10 @@ class FakeLink final : public HeadLink {
   }
   void Fetch(const std::string& scan_id) override { Note("fetch " + scan_id); }
   void FetchFirst(const std::string& scan_id) override { Note("first " + scan_id); }
+  void LinesFirst(std::optional<std::pair<std::int64_t, std::int64_t>> seqs) override {
+    Note(seqs ? "lines " + std::to_string(seqs->first) + " " + std::to_string(seqs->second)
+              : "lines in any order");
+  }
   void Pause(const std::string& scan_id) override { Note("pause " + scan_id); }
   bool MayOperate() const override { return may_operate; }
   Status TakeControl() override {

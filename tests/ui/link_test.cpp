@@ -158,6 +158,18 @@ TEST(HeadInThisProcess, InFaultItIsNotCalledStoppedEither) {
   EXPECT_EQ(model.Answers().Text().toStdString(), "Head: STOPPED");
 }
 
+TEST(HeadInThisProcess, WhileItStillMovesItIsNotCalledStopped) {
+  const auto head = std::make_shared<FakeHead>(DefaultSensorRig());
+  HeadViewModel model(head);
+  head->SetState(HeadState::kSweeping);
+  model.stop();
+  EXPECT_FALSE(model.Answers().StopConfirmed());
+  EXPECT_EQ(model.Answers().Text().toStdString(), "STOP answered, head still sweeping");
+  head->SetState(HeadState::kReady);
+  model.Poll();
+  EXPECT_EQ(model.Answers().Text().toStdString(), "Head: STOPPED");
+}
+
 TEST_F(HeadOverALink, AnAbortThatEndsInAFaultAsksToSeeThatTheHeadStands) {
   FallSilent(5.0);
   model.abort();

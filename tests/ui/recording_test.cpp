@@ -127,6 +127,27 @@ TEST_F(RecordingTest, AScanThatTheDiskDidNotTakeIsWrittenWholeWhenThereIsRoomAga
   EXPECT_TRUE(AllWritten());
 }
 
+TEST_F(RecordingTest, OfAScanWhoseLastSamplesTheDiskDidNotTakeTheRestIsWritten) {
+  {
+    const auto file = MissionFile::Create(path.toStdString()).value();
+    const std::int64_t id = file->BeginScan(*SmallScan()).value();
+    const auto samples = SmallScan()->track.samples();
+    ASSERT_TRUE(file->AppendMotorSamples(id, samples.first(samples.size() / 2)));
+    for (const LidarLine& line : SmallScan()->lines) ASSERT_TRUE(file->AppendLine(id, line));
+    for (const CameraFrame& frame : SmallScan()->frames) ASSERT_TRUE(file->AppendFrame(id, frame));
+    ASSERT_TRUE(file->EndScan(id, ScanState::kInterrupted, "the disk is full"));
+    ASSERT_TRUE(file->Close());
+  }
+  ASSERT_TRUE(recording->Begin(path));
+  recording->keepScan(SmallScan());
+  ASSERT_TRUE(AllWritten());
+  const auto file = MissionFile::OpenReadOnly(path.toStdString()).value();
+  const Scan kept = file->LoadScan(file->ListScans()->at(0).id).value();
+  EXPECT_EQ(kept.track, SmallScan()->track);
+  EXPECT_EQ(kept.state, SmallScan()->state);
+  EXPECT_EQ(kept.reason, SmallScan()->reason);
+}
+
 TEST_F(RecordingTest, LinesThatComeAfterTheEndAreKeptToo) {
   ASSERT_TRUE(recording->Begin(path));
   Scan early = *SmallScan();

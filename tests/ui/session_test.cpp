@@ -480,6 +480,17 @@ TEST_F(SessionTest, ACopyIsAnObjectOfItsOwnThatIsNotDecidedOn) {
   EXPECT_EQ(session.Objects()[1].decision, Decision::kOpen);
 }
 
+TEST_F(SessionTest, TheCopyOfAnObjectThatWasSentWasNotSent) {
+  FoundObject sent = ValveWithTwoAlternatives();
+  sent.robot = QStringLiteral("accepted");
+  sent.sendings = 1;
+  session.AddObject(sent);
+  session.CopySelected();
+  ASSERT_EQ(session.Objects().size(), 2u);
+  EXPECT_TRUE(session.Objects()[1].robot.isEmpty());
+  EXPECT_EQ(session.Objects()[1].sendings, 0);
+}
+
 TEST_F(SessionTest, TerrainIsComparedWithTheLastAcceptedOneOnly) {
   const auto terrain_of_another_scan = [] {
     FoundObject object;

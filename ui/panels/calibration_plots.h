@@ -16,7 +16,6 @@ class CoverageMap : public QWidget {
 
   void Show(const ViewCoverage& coverage, int width, int height, std::vector<ImageErrors> errors);
   /// How many times longer than the error an arrow is.
-  double Magnification() const { return magnification_; }
 
   bool hasHeightForWidth() const override { return true; }
   int heightForWidth(int width) const override;

@@ -183,10 +183,6 @@ QString DetectionCard::Badge() const {
   return badge_text_->text();
 }
 
-QString DetectionCard::AdviceText() const {
-  return advice_->text();
-}
-
 void DetectionCard::ShowAge(const FoundObject& object) {
   const auto age = std::chrono::steady_clock::now() - object.found;
   age_->SetText(tr("%1 ago").arg(AgeText(std::chrono::duration_cast<std::chrono::seconds>(age))));

@@ -24,9 +24,8 @@ class DetectionCard : public QFrame {
   explicit DetectionCard(QWidget* parent = nullptr);
   void Show(const FoundObject& object, int candidate, bool is_current, SessionMode mode);
   void ShowAge(const FoundObject& object);
-  /// What stands in the badge and in the advice.
+  /// What stands in the badge.
   QString Badge() const;
-  QString AdviceText() const;
 
  Q_SIGNALS:
   void nextAsked();

@@ -26,7 +26,6 @@ class MapPanel : public QWidget {
 
   QListWidget* Scans() { return scans_; }
   QListWidget* Changes() { return changes_; }
-  QPushButton* FindButton() { return find_; }
   QComboBox* Before() { return before_; }
   QComboBox* After() { return after_; }
   /// Low and high of x, y, z.

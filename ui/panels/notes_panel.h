@@ -23,9 +23,6 @@ class NotesPanel : public QWidget {
              QWidget* parent = nullptr);
 
   QListWidget* List() { return list_; }
-  /// Name, or text, and tags of the selected one.
-  QLineEdit* SelectedText() { return selected_text_; }
-  QLineEdit* SelectedTags() { return selected_tags_; }
   /// Those of a new note.
   QLineEdit* Text() { return text_; }
   QLineEdit* Tags() { return tags_; }

@@ -122,8 +122,7 @@ void HeadAnswers::LookAtStop(News* news) {
   if (!StopLatched()) return;
   const StopAnswer answer = link_ ? link_->stop : StopAnswer::kObeyed;
   const bool obeyed = answer == StopAnswer::kObeyed;
-  stop_confirmed_ =
-      link_ ? obeyed && Stands() && (Current() || stop_confirmed_) : !KnowsNotWhetherItStands();
+  stop_confirmed_ = obeyed && Stands() && (Current() || stop_confirmed_);
   if (stop_told_ == answer) return;
   stop_told_ = answer;
   news->over << kStopTopic;

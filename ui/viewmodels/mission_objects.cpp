@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/base/utc_text.h"
 #include "core/detection/candidates.h"
 #include "core/detection/detection_json.h"
+#include "core/mission/complete_scan.h"
 #include "core/mission/provenance.h"
 
 namespace foresight {
@@ -93,37 +95,13 @@ Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth) 
 }
 
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context) {
-  std::size_t lines = 0, images = 0;  // that the file has
   FORESIGHT_TRY(const auto known, file->FindScan(scan.uuid));
-  std::int64_t id = known.value_or(0);
-  if (!known) {
-    FORESIGHT_TRY(id, file->BeginScan(scan));
-  } else {
-    FORESIGHT_TRY(const ScanSummary kept, file->Summary(id));
-    lines = static_cast<std::size_t>(kept.lines);
-    images = static_cast<std::size_t>(kept.images);
-    if (lines >= scan.lines.size() && images >= scan.frames.size()) return {};
-    FORESIGHT_CHECK(file->ContinueScan(id));
+  if (known) {
+    FORESIGHT_TRY(const bool whole, HoldsAllOf(*file, *known, scan));
+    if (whole) return {};
   }
-  const Status appended = file->Batch([&]() -> Status {
-    const double all = static_cast<double>(scan.lines.size());
-    for (; lines < scan.lines.size(); ++lines) {
-      FORESIGHT_CHECK(file->AppendLine(id, scan.lines[lines]));
-      context.Report(0.8 * static_cast<double>(lines) / all, "writing lines");
-    }
-    FORESIGHT_CHECK(file->AppendMotorSamples(id, scan.track.samples()));
-    for (; images < scan.frames.size(); ++images)
-      FORESIGHT_CHECK(file->AppendFrame(id, scan.frames[images]));
-    return {};
-  });
-  if (!appended) {  // the next scan must find the file free; the rest comes when it is tried again
-    if (const Status ended = file->EndScan(id, ScanState::kInterrupted, appended.error().message);
-        !ended)
-      return Fail(appended.error().code, "{}; and the scan could not be ended in the file: {}",
-                  appended.error().message, ended.error().message);
-    return appended;
-  }
-  return file->EndScan(id, scan.state, scan.reason);
+  FORESIGHT_CHECK(CompleteScan(*file, scan, context));
+  return {};
 }
 
 }  // namespace foresight

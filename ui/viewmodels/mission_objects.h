@@ -32,8 +32,8 @@ Status KeepCheck(MissionFile* file, const KeptCheck& check);
 Status KeepDepth(MissionFile* file, const Scan& scan, const DepthResult& depth);
 
 /// Writes what the file does not have of a scan that has ended: all of it where its file could not
-/// be written, the end where the disk was full, lines that came late. What was written before a
-/// failure is kept, and the next try goes on there.
+/// be written, the end where the disk was full, lines that came late. Fails as CompleteScan does;
+/// the next try goes on where the file is then.
 Status AppendScan(MissionFile* file, const Scan& scan, const RunContext& context);
 
 }  // namespace foresight

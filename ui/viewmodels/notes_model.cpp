@@ -4,6 +4,7 @@
 #include <QDateTime>
 #include <algorithm>
 
+#include "core/base/utc_text.h"
 #include "core/measure/measurement_json.h"
 #include "core/mission/new_records.h"
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/utc_text.h"
 #include "core/mission/mission_timeline.h"
 #include "ui/viewmodels/mission_objects.h"
 #include "ui/viewmodels/no_scan_hint.h"

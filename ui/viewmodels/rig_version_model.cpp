@@ -14,13 +14,6 @@ namespace {
 
 const QString kBeforeFile = QStringLiteral("rig_before.yaml");
 
-/// Whole seconds, as rig files have them: "2026-11-22T13:06:33Z".
-std::string Now() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-  return UtcText(ns).substr(0, 19) + "Z";
-}
-
 QString ShortId(const SensorRig& rig) {
   return QString::fromStdString(ShortRigId(rig));
 }
@@ -48,7 +41,7 @@ QString RigVersionModel::FreeFile(const QString& name) {
 SensorRig RigVersionModel::ChildOfRigInForce() const {
   SensorRig rig = head_->Rig();
   rig.parent_id = RigId(rig);
-  rig.date_utc = Now();
+  rig.date_utc = UtcDateNow();
   return rig;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/utc_text.h"
 #include "core/mission/new_records.h"
 #include "core/mission/pose_json.h"
 

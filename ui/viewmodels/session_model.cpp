@@ -296,6 +296,8 @@ void SessionModel::CopySelected() {
   copy.decision = Decision::kOpen;
   copy.decided_candidate = 0;
   copy.kept = false;
+  copy.robot.clear();  // it was not sent
+  copy.sendings = 0;
   if (!copy.name.isEmpty()) copy.name = tr("Copy of %1").arg(copy.name);
   AddObject(std::move(copy));
 }

@@ -24,9 +24,6 @@ class UndoStack : public QObject {
 
   bool CanUndo() const { return done_ > 0; }
   bool CanRedo() const { return done_ < entries_.size(); }
-  /// Of the step that would be taken back or done again; empty where there is none.
-  QString UndoText() const { return CanUndo() ? entries_[done_ - 1].text : QString(); }
-  QString RedoText() const { return CanRedo() ? entries_[done_].text : QString(); }
 
  public Q_SLOTS:
   void undo();

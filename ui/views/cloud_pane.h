@@ -32,7 +32,6 @@ class CloudPane : public Pane {
 
   CloudCanvas* Canvas() { return canvas_; }
   QToolButton* ResidualButton() { return residuals_; }
-  QComboBox* SourceChoice() { return source_; }
   /// How many points are drawn.
   std::size_t PointCount() const { return point_count_; }
 

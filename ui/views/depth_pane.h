@@ -37,7 +37,6 @@ class DepthPane : public Pane {
 
   DepthCanvas* Canvas() { return canvas_; }
   QSlider* ThresholdSlider() { return slider_; }
-  QComboBox* MethodChoice() { return method_; }
   IterationBar* Iterations() { return iterations_; }
   /// What is said about the pixel under the cursor.
   QString Readout() const;

@@ -7,18 +7,9 @@
 #include "core/fitting/fit_origin.h"
 #include "core/fitting/verdict.h"
 #include "core/geometry/rigid.h"
+#include "core/objects/cylinder_model.h"
 
 namespace foresight {
-
-/// A pole, a pipe, a bottle: the part of it that was seen.
-struct CylinderModel {
-  double radius_m = 0.0;
-  double length_m = 0.0;  ///< of what lies in the region; it may go on
-
-  /// Fails with kInvalidOptions: a size that is not within 0 to kLargest_m.
-  Status Check() const;
-  static constexpr double kLargest_m = 10.0;
-};
 
 /// How well the measurements support a cylinder.
 struct CylinderEvidence {

@@ -9,8 +9,6 @@
 
 #include "core/base/quantile.h"
 #include "core/fitting/beam_model.h"
-#include "core/fitting/common_gates.h"
-#include "core/fitting/gate.h"
 #include "core/fitting/solids/solid_coverage.h"
 #include "core/fitting/solids/solid_tracer.h"
 #include "core/geometry/angles.h"
@@ -24,13 +22,6 @@ constexpr double kLeastSigma_m = 0.003, kLargestSigma_m = 0.060;
 constexpr int kLeastHits = 12;
 constexpr double kOnMantle = 0.999;  // of the radius
 constexpr double kWhollyOn = 0.9;    // of a footprint
-
-constexpr double kLikelyHits = 30.0;  // independent measurements
-constexpr double kLikelyInliers = 0.6;
-constexpr double kLikelySeeThrough = 0.10;
-constexpr double kLikelyArc_rad = 1.2;
-constexpr double kLikelyMargin_nats = 5.0;
-constexpr double kLikelyRadiusSigma = 0.15;  // of the radius
 
 SolidTracer TracerOf(const CylinderState& cylinder) {
   const SolidPart part = cylinder.Part();
@@ -70,7 +61,7 @@ double RangeSigmaFrom(const RaySet& rays, const CylinderState& cylinder) {
 CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinder) {
   const SolidTracer tracer = TracerOf(cylinder);
   const Eigen::Vector3d x = cylinder.axis.unitOrthogonal(), y = cylinder.axis.cross(x);
-  const double agree_m = BeamModel::kAgreeSigmas * SigmaOf(rays, kCylinderBeams);
+  const double agree_m = BeamModel::kAgreeSigmas * SigmaOf(rays, kRoundCylinderBeams);
   CylinderEvidence evidence;
   evidence.rays = static_cast<int>(rays.rays.size());
   evidence.range_sigma_m = rays.sigma_m;
@@ -117,11 +108,12 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
   for (int i = 0; i < kInner; ++i)
     moved.push_back(TracerOf(Retract(cylinder, steps[i] * CylinderStep::Unit(i))));
   const SolidTracer tracer = TracerOf(cylinder);
-  const double sigma_m = SigmaOf(rays, kCylinderBeams);
+  const double sigma_m = SigmaOf(rays, kRoundCylinderBeams);
   Eigen::Matrix<double, kInner, kInner> information =
       Eigen::Matrix<double, kInner, kInner>::Identity() * 1e-6;
   for (const RangeRay& ray : rays.rays) {
-    const double width_m = 0.5 * rays.footprint_rad * ray.range_m + kCylinderBeams.edge_error_m;
+    const double width_m =
+        0.5 * rays.footprint_rad * ray.range_m + kRoundCylinderBeams.edge_error_m;
     const SolidIntersection intersection = tracer.IntersectWithDepth(ray, kReach_m);
     if (intersection.part < 0) continue;
     const bool agrees =
@@ -159,70 +151,6 @@ void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetect
     detection.covariance.row(i).setConstant(std::nan(""));
     detection.covariance.col(i).setConstant(std::nan(""));
   }
-}
-
-namespace {
-
-/// Why it is not LIKELY: what it misses.
-std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& bounds,
-                                     const CylinderDetection& found) {
-  const CylinderEvidence& evidence = found.evidence;
-  std::vector<std::string> failed;
-  AddIfFailed(MeasurementsGate("it", evidence.hits * rays.Worth(), kLikelyHits), failed);
-  AddIfFailed(SeeThroughGate("it", evidence.see_through, kLikelySeeThrough), failed);
-  AddIfFailed(AgreementGate("it", evidence.inlier_ratio, kLikelyInliers), failed);
-  Gate box = AlternativeGate("box", evidence.box_margin_nats, kLikelyMargin_nats);
-  box.advice = "it may be square, or a wall's edge";
-  AddIfFailed(box, failed);
-  AddIfFailed({.what = "{} of its girth are seen",
-               .unit = Gate::Unit::kAngle,
-               .number = evidence.seen_arc_rad,
-               .limit = kLikelyArc_rad},
-              failed);
-  AddIfFailed({.what = "its radius is known to {}",
-               .unit = Gate::Unit::kLength,
-               .number = found.sigma_radius_m,
-               .side = Gate::Side::kAtMost,
-               .limit = kLikelyRadiusSigma * found.model.radius_m},
-              failed);
-  AddIfFailed({.what = "{} of its length are seen",
-               .unit = Gate::Unit::kLength,
-               .number = found.model.length_m,
-               .limit = found.model.radius_m,
-               .limit_note = "of this radius"},
-              failed);
-  AddIfOutside({.what = "its radius is {}",
-                .unit = Gate::Unit::kLength,
-                .number = found.model.radius_m,
-                .advice = "it is at the end of the range of radii"},
-               1.02 * bounds.min_radius_m, 0.98 * bounds.max_radius_m, failed);
-  return failed;
-}
-
-}  // namespace
-
-Status CylinderModel::Check() const {
-  const auto usable = [](double size_m) { return size_m > 0.0 && size_m <= kLargest_m; };
-  if (!usable(radius_m) || !usable(length_m))
-    return Fail(ErrorCode::kInvalidOptions,
-                "cylinder: radius_m {} or length_m {} is not within 0 to {}", radius_m, length_m,
-                kLargest_m);
-  return {};
-}
-
-void Assess(const RaySet& rays, const CylinderBounds& bounds, CylinderDetection& detection) {
-  constexpr const char* kNotCalibrated =
-      "never confirmed, as no probability was calibrated for cylinders";
-  Verdict& verdict = detection.verdict;
-  verdict.probability = std::nan("");
-  verdict.failed_gates = FailedGates(rays, bounds, detection);
-  const bool likely = verdict.failed_gates.empty();
-  verdict.level = likely ? VerdictLevel::kLikely : VerdictLevel::kUnsure;
-  verdict.reason =
-      likely ? fmt::format("{} beams on it, {:.0f} % of them agree; {}", detection.evidence.hits,
-                           100.0 * detection.evidence.inlier_ratio, kNotCalibrated)
-             : verdict.failed_gates.front();
-  verdict.failed_gates.push_back(kNotCalibrated);
 }
 
 }  // namespace foresight

@@ -16,7 +16,4 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
 /// clearances change with them.
 void SetSigmas(const RaySet& rays, const CylinderState& cylinder, CylinderDetection& detection);
 
-/// Never more than LIKELY.
-void Assess(const RaySet& rays, const CylinderBounds& bounds, CylinderDetection& detection);
-
 }  // namespace foresight

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/quantile.h"
 #include "core/fitting/best_distinct.h"
 
 namespace foresight {
@@ -100,10 +101,8 @@ class CirclesAlong {
         along.push_back(axis_.dot(points_[i]));
     if (along.size() < kLeastOn) return std::nullopt;
     const auto quantile = [&](double fraction) {
-      const auto place = along.begin() + static_cast<std::ptrdiff_t>(
-                                             fraction * static_cast<double>(along.size() - 1));
-      std::nth_element(along.begin(), place, along.end());
-      return *place;
+      return MoveToRank(along,
+                        static_cast<std::size_t>(fraction * static_cast<double>(along.size() - 1)));
     };
     const double low = quantile(kLow), high = quantile(kHigh);
     CylinderState cylinder;

@@ -7,8 +7,9 @@
 
 namespace foresight {
 
-/// How beams before a cylinder are looked at: no real pole is smooth and straight.
-inline constexpr BeamOptions kCylinderBeams;
+/// How beams before a cylinder are looked at where nothing is known of their footprints, and in a
+/// coarse search: no real pole is smooth and straight.
+inline constexpr BeamOptions kRoundCylinderBeams;
 /// The same where footprints are known (RaySet::footprint_height_rad): a pipe is hardly wider than
 /// one, which reads in between it and its wall.
 BeamOptions CylinderBeams(const RaySet& rays);

@@ -12,6 +12,7 @@
 #include "core/fitting/cylinder/cylinder_evidence.h"
 #include "core/fitting/cylinder/cylinder_search.h"
 #include "core/fitting/cylinder/cylinder_state.h"
+#include "core/fitting/cylinder/cylinder_verdict.h"
 #include "core/fitting/ray_selection.h"
 #include "core/geometry/rotation_between.h"
 
@@ -50,7 +51,7 @@ class CylinderFit {
           0.1 + 0.5 * static_cast<double>(count) / static_cast<double>(planes_.size() + 1),
           "looking for circles");
       const std::span<const Plane> behind = std::span(planes_).first(count);
-      const auto more = FindCylinders(BeamLikelihood(few, behind, kCylinderBeams),
+      const auto more = FindCylinders(BeamLikelihood(few, behind, kRoundCylinderBeams),
                                       PointsOff(behind), options_.up, bounds_, random);
       found.insert(found.end(), more.begin(), more.end());
       if (context.Cancelled()) return Cancelled();
@@ -60,7 +61,7 @@ class CylinderFit {
                   "nothing round in the region: draw it around a pole or a pipe");
     context.Report(0.6, "improving the cylinder");
     for (CylinderState& cylinder : found)
-      cylinder = AfterLocalSearchBeforePlanes(few, kCylinderBeams, cylinder, 0.06, 4);
+      cylinder = AfterLocalSearchBeforePlanes(few, kRoundCylinderBeams, cylinder, 0.06, 4);
     KeepBest(found, kFine);
     if (context.Cancelled()) return Cancelled();
     for (CylinderState& cylinder : found)

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/fitting/beam_likelihood.h"
 #include "core/fitting/drill/alternative_shapes.h"
 #include "core/fitting/drill/drill_covariance.h"
@@ -57,9 +58,7 @@ Status CheckForeground(const RaySet& rays, const SupportAndBackground& found) {
 Plane GuessedTable(const std::vector<Eigen::Vector3d>& foreground, const Eigen::Vector3d& up) {
   std::vector<double> heights;
   for (const Eigen::Vector3d& point : foreground) heights.push_back(up.dot(point));
-  const auto low = heights.begin() + std::ssize(heights) / 50;
-  std::nth_element(heights.begin(), low, heights.end());
-  return {up, *low};
+  return {up, MoveToRank(heights, heights.size() / 50)};
 }
 
 Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
@@ -85,7 +84,7 @@ class DrillFit {
         likelihood_(rays, around.planes, kDrillBeams),
         coarse_(few_rays, around.planes, kDrillBeams),
         coarse_beams_(WithoutImage(std::move(few_rays)), around.planes, kDrillBeams),
-        table_(around.table.value_or(GuessedTable(around.foreground, options.up))),
+        table_(around.table ? *around.table : GuessedTable(around.foreground, options.up)),
         base_from_table_(FrameOf(table_, Mean(around.foreground))) {
     prior_.max_tilt_rad = options.max_body_tilt_rad;
     if (!around.table) prior_.height_sigma_m = kUnknownHeight_m;

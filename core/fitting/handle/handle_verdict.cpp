@@ -27,7 +27,7 @@ constexpr double kRound_m = 0.03;  // beside the handle
 // and of the length: a factor on what the beams say, and what is added to it, as errors hardly grow
 // with what the beams say but for the door's normal. Chosen so that the spreads over predicted that
 // packaging/refit-verdicts prints of its training scenes are near 1 (docs/evaluation/handle.md,
-// "The door again" and "A lever that goes on").
+// "The door again" and "A lever that goes on behind its pivot").
 constexpr std::array<double, 6> kSigmaFactors = {1.0, 5.2, 1.0, 2.0, 2.8, 1.0};
 constexpr std::array<double, 6> kSigmaAdded = {0.0035, 0.0018, 0.0060, 0.0, 0.0, 0.019};  // m, rad
 constexpr double kLengthAdded_m = 0.0075;

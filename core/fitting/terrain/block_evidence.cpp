@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/geometry/angles.h"
 
 namespace foresight {
@@ -75,12 +76,8 @@ void ToFractions(const Eigen::Vector2d& half, double band_m, std::array<BlockEdg
 double Extent(std::vector<double>& values) {
   if (values.size() < 20) return 0.0;
   const std::size_t cut = values.size() / 50;
-  const auto low = values.begin() + static_cast<std::ptrdiff_t>(cut);
-  std::nth_element(values.begin(), low, values.end());
-  const double from = *low;
-  const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(cut);
-  std::nth_element(values.begin(), high, values.end());
-  return (*high - from) / 0.96;
+  const double low = MoveToRank(values, cut);
+  return (MoveToRank(values, values.size() - 1 - cut) - low) / 0.96;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/quantile.h"
 #include "core/fitting/terrain/range_plane.h"
 #include "core/geometry/angles.h"
 
@@ -110,12 +111,8 @@ BlockRectangle BoundsOf(const std::vector<PlaneView::Sample>& support) {
       across[i] = c * support[i].at.y() - s * support[i].at.x();
     }
     const auto bounds = [cut](std::vector<double>& values) -> Eigen::Vector2d {
-      const auto low = values.begin() + static_cast<std::ptrdiff_t>(cut);
-      std::nth_element(values.begin(), low, values.end());
-      const double least_value = *low;
-      const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(cut);
-      std::nth_element(values.begin(), high, values.end());
-      return {least_value, *high};
+      const double low = MoveToRank(values, cut);
+      return {low, MoveToRank(values, values.size() - 1 - cut)};
     };
     const Eigen::Vector2d u = bounds(along), v = bounds(across);
     const Eigen::Vector2d size(u[1] - u[0], v[1] - v[0]);

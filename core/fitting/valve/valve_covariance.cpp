@@ -20,7 +20,7 @@ constexpr std::array<double, 6> kFactors = {1.7, 1.7, 2.9, 1.1, 1.1, 1.0};
 // What all rays of a scan share and none tells: the head is not quite where it is believed to be,
 // and its ranges walk. Across the axis and along it; chosen so that no root mean square of errors
 // over deviations is far from 1 both at home and under varied conditions
-// (docs/evaluation/worlds.md, "Varied conditions").
+// (docs/evaluation/valve.md, "Varied conditions").
 constexpr double kSharedAcross_m = 0.0013;
 constexpr double kSharedAlong_m = 0.0025;
 

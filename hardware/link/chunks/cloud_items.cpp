@@ -154,15 +154,16 @@ Result<CloudBlock> DecodeCloudBlock(std::string_view bytes) {
   return block;
 }
 
-RegisteredScan RegisterCloud(const std::vector<const CloudBlock*>& blocks, const SensorRig& rig) {
+PlacedCloud RegisterCloud(const std::vector<const CloudBlock*>& blocks, const SensorRig& rig) {
   const LineRegistrar registrar(rig);
-  RegisteredScan cloud;
-  cloud.beams = registrar.beams();
+  PlacedCloud cloud;
+  cloud.points.beams = registrar.beams();
   for (const CloudBlock* block : blocks)
     for (const CloudLine& thinned : block->lines) {
       if (thinned.beams != registrar.beams()) continue;
-      const LineRegistrar::Rows rows = LineRegistrar::Append(cloud, 1);
+      const LineRegistrar::Rows rows = LineRegistrar::Append(cloud.points, 1);
       registrar.Place(FullLine(thinned, block->step.beams), TrackOf(thinned, rig.lidar), rows, 0);
+      cloud.seqs.push_back(thinned.seq);
     }
   return cloud;
 }

@@ -44,8 +44,12 @@ Result<std::string> EncodeCloudBlock(const Scan& scan, std::int64_t block, const
 /// Fails with kBadData.
 Result<CloudBlock> DecodeCloudBlock(std::string_view bytes);
 
-/// Lines of clouds in base, on the grid of the rig's beams. A line with another number of beams
-/// than the rig's lidar is left out.
-RegisteredScan RegisterCloud(const std::vector<const CloudBlock*>& blocks, const SensorRig& rig);
+/// Lines of clouds in base.
+struct PlacedCloud {
+  RegisteredScan points;           ///< on the grid of the rig's beams
+  std::vector<std::int64_t> seqs;  ///< of its lines
+};
+/// A line with another number of beams than the rig's lidar is left out.
+PlacedCloud RegisterCloud(const std::vector<const CloudBlock*>& blocks, const SensorRig& rig);
 
 }  // namespace foresight

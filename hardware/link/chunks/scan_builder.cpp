@@ -429,7 +429,7 @@ Result<Scan> ScanBuilder::Whole() const {
   return *whole_;
 }
 
-Result<RegisteredScan> ScanBuilder::Cloud() const {
+Result<PlacedCloud> ScanBuilder::Cloud() const {
   if (!rig_) return Fail(ErrorCode::kState, "scan {}: its rig is missing", scan_id_);
   std::map<std::int64_t, const CloudBlock*> blocks;
   for (const auto& [item, block] : coarse_) blocks[item] = &block;
@@ -443,8 +443,8 @@ Result<RegisteredScan> ScanBuilder::Cloud() const {
   if (points > kMostCloudPoints)
     return Fail(ErrorCode::kBadData, "scan {}: a cloud of {} points is not shown", scan_id_,
                 points);
-  RegisteredScan cloud = RegisterCloud(in_order, *rig_);
-  if (cloud.lines == 0)
+  PlacedCloud cloud = RegisterCloud(in_order, *rig_);
+  if (cloud.seqs.empty())
     return Fail(ErrorCode::kTooFewPoints, "scan {}: no line of a cloud is here", scan_id_);
   return cloud;
 }

@@ -89,9 +89,9 @@ class ScanBuilder {
   /// another than the head's. The first call once all is here reads the whole scan (0.1 s).
   Result<Scan> Whole() const;
 
-  /// In base: the lines of coarse and fine clouds in scan order, on the grid of the rig's beams.
+  /// The lines of coarse and fine clouds in scan order.
   /// Fails with kState before the rig is here, kTooFewPoints while there is no line.
-  Result<RegisteredScan> Cloud() const;
+  Result<PlacedCloud> Cloud() const;
   /// Images of a frame, smaller or with loss; nullptr = not here. Positions count from 0.
   const FrameItem* Thumbnail(std::int64_t position) const { return Find(thumbnails_, position); }
   const FrameItem* Preview(std::int64_t position) const { return Find(previews_, position); }

@@ -15,7 +15,6 @@ Status HeadMirror::Take(const link::Status& status, double desk_time_s) {
   if (desk_time_s < desk_time_s_) return {};
   FORESIGHT_TRY(said_, FromMessage(status, said_.health));
   desk_time_s_ = desk_time_s;
-  rig_id_ = status.rig_id();
   scan_id_ = status.scan_id();
   if (said_.message != message_then_) own_message_.clear();
   return {};
@@ -66,11 +65,6 @@ HeadStatus HeadMirror::Now() const {
     status.message = fmt::format("no word from the head for {:.0f} s{}", age_s,
                                  status.message.empty() ? "" : "; before: " + status.message);
   return status;
-}
-
-std::string HeadMirror::RigIdOnHead() const {
-  const std::lock_guard lock(mutex_);
-  return rig_id_;
 }
 
 std::string HeadMirror::ScanOnHead() const {

@@ -28,7 +28,6 @@ class HeadMirror {
   void Tell(const std::string& message);
 
   HeadStatus Now() const;
-  std::string RigIdOnHead() const;
   std::string ScanOnHead() const;
   /// Since the head's last word.
   double Age() const;
@@ -39,7 +38,6 @@ class HeadMirror {
   const std::string address_;
   mutable std::mutex mutex_;
   HeadStatus said_;
-  std::string rig_id_;
   std::string scan_id_;
   double desk_time_s_ = -1.0;
   double heard_s_ = LinkSession::Now();

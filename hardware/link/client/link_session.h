@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -58,6 +59,9 @@ class LinkSession {
   /// The desk's time of a message that just came.
   void Heard(double desk_time_s);
   double DeskTime() const;
+  /// Of the last sign of life, s; 0 = not known yet.
+  double RoundTrip() const { return round_trip_s_; }
+  void SetRoundTrip(double seconds) { round_trip_s_ = seconds; }
   /// Seconds of this computer's clock.
   static double Now();
 
@@ -66,6 +70,7 @@ class LinkSession {
 
   const std::string address_;
   ChannelRace race_;
+  std::atomic<double> round_trip_s_{0.0};
   mutable std::mutex mutex_;                ///< guards what follows
   std::shared_ptr<grpc::Channel> channel_;  ///< that stub_ is for
   std::shared_ptr<link::SensorHead::Stub> stub_;

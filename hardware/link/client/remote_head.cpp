@@ -4,6 +4,7 @@
 
 #include "core/base/contract.h"
 #include "core/base/log.h"
+#include "core/base/utc_text.h"
 #include "core/mission/plan_json.h"
 #include "core/sensor/rig_id.h"
 #include "hardware/link/client/fit_client.h"
@@ -52,7 +53,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::vector<ChannelMaker
   };
   fetching.burst = head->burst_.get();
   fetching.thin = options.thin;
-  fetching.round_trip = [raw] { return raw->watch_ ? raw->watch_->RoundTrip() : 0.0; };
+  fetching.round_trip = [raw] { return raw->session_.RoundTrip(); };
   head->stopper_ = std::make_unique<StopSender>(head->session_, [raw](const link::Outcome& o) {
     static_cast<void>(raw->mirror_.Take(o.status(), o.desk_time_s()));
   });
@@ -73,7 +74,7 @@ Result<std::shared_ptr<RemoteHead>> RemoteHead::Connect(std::vector<ChannelMaker
   return head;
 }
 
-/// In the opposite order of their making: the watch uses all others.
+/// In the opposite order of their making: the watch uses all others, and none of them the watch.
 RemoteHead::~RemoteHead() {
   watch_.reset();
   if (stand_) stand_->Leave();
@@ -172,7 +173,7 @@ LinkHealth RemoteHead::Health() const {
   LinkHealth health;
   health.connected = mirror_.Connected();
   health.age_s = mirror_.Age();
-  health.round_trip_s = watch_->RoundTrip();
+  health.round_trip_s = session_.RoundTrip();
   health.down_bytes_per_s = fetcher_->DownBytesPerS();
   for (const LinkedScan& scan : fetcher_->Scans())
     if (scan.place == LinkedScan::Place::kComing || scan.place == LinkedScan::Place::kWaiting)
@@ -280,9 +281,7 @@ Status RemoteHead::StartScan(const ScanPlan& plan, std::shared_ptr<ScanSink> sin
                 state == HeadState::kDisconnected ? ": home it first" : "");
   Scan header;
   header.uuid = NewUuid();
-  header.start_utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                            std::chrono::system_clock::now().time_since_epoch())
-                            .count();
+  header.start_utc_ns = NowUtc_ns();
   header.source = Describe();
   header.simulated = Simulated();
   header.plan = plan;

@@ -65,6 +65,9 @@ class RemoteHead final : public SensorHead, public HeadLink {
   std::shared_ptr<const EarlyScan> Early() const override { return fetcher_->Early(); }
   void Fetch(const std::string& scan_id) override { fetcher_->Fetch(scan_id); }
   void FetchFirst(const std::string& scan_id) override { fetcher_->FetchFirst(scan_id); }
+  void LinesFirst(std::optional<std::pair<std::int64_t, std::int64_t>> seqs) override {
+    fetcher_->LinesFirst(seqs);
+  }
   void Pause(const std::string& scan_id) override { fetcher_->Pause(scan_id); }
   std::shared_ptr<MovingStand> Stand() const override { return stand_; }
   bool MayOperate() const override { return session_.HeadIdentity().may_operate(); }

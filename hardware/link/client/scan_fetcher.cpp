@@ -111,8 +111,7 @@ void ScanFetcher::Expect(const Scan& header, std::shared_ptr<ScanSink> sink) {
   if (const auto planned = PredictScan(header.plan, header.rig))
     scan->shown.of_lines = planned->lines;
   scans_[header.uuid] = std::move(scan);
-  region_.reset();
-  images_first_.clear();
+  lines_first_.reset();
   newest_ = header.uuid;
   early_.reset();
 }
@@ -240,15 +239,9 @@ std::shared_ptr<const EarlyScan> ScanFetcher::Early() const {
   return early_;
 }
 
-void ScanFetcher::SetRegion(std::optional<NumberSet::Interval> lines) {
+void ScanFetcher::LinesFirst(std::optional<std::pair<std::int64_t, std::int64_t>> seqs) {
   const std::lock_guard lock(mutex_);
-  region_ = lines;
-  ++preferences_changed_;
-}
-
-void ScanFetcher::RequestImage(std::int64_t position) {
-  const std::lock_guard lock(mutex_);
-  images_first_.push_back(position);
+  lines_first_ = seqs;
   ++preferences_changed_;
 }
 
@@ -609,11 +602,10 @@ link::TransferPreferences ScanFetcher::Preferences() {
   // What is beside a burst path carries what is small.
   if (options_.burst && options_.burst->Carries()) thin_ = true;
   if (thin_) preferences.set_bytes_per_s(static_cast<std::int64_t>(kThinBytesPerS) - 1);
-  if (region_) {
-    preferences.mutable_lines_first()->set_first(region_->first);
-    preferences.mutable_lines_first()->set_last(region_->last);
+  if (lines_first_ && coming_ == newest_) {
+    preferences.mutable_lines_first()->set_first(lines_first_->first);
+    preferences.mutable_lines_first()->set_last(lines_first_->second);
   }
-  for (const std::int64_t position : images_first_) preferences.add_images_first(position);
   return preferences;
 }
 

@@ -62,10 +62,7 @@ class ScanFetcher {
   void FetchFirst(const std::string& scan_id);
   void Pause(const std::string& scan_id);
   double DownBytesPerS() const;
-  /// seq of lines that go first, of the newest scan; nullopt = none.
-  void SetRegion(std::optional<NumberSet::Interval> lines);
-  /// The lossless image of the newest scan at this position goes first.
-  void RequestImage(std::int64_t position);
+  void LinesFirst(std::optional<std::pair<std::int64_t, std::int64_t>> seqs);
 
  private:
   struct Fetched {
@@ -125,8 +122,7 @@ class ScanFetcher {
   std::string newest_;  ///< that was asked for: the scan that Early() is about
   std::int64_t order_ = 0;
   std::int64_t preferences_changed_ = 0;
-  std::optional<NumberSet::Interval> region_;
-  std::vector<std::int64_t> images_first_;
+  std::optional<std::pair<std::int64_t, std::int64_t>> lines_first_;
   std::shared_ptr<const EarlyScan> early_;
   TransferRate rate_;
   double early_s_ = 0.0;  ///< of the thread alone, as what follows

@@ -48,7 +48,7 @@ Status WatchClient::Watch(const std::stop_token& stop) {
     {
       const std::lock_guard lock(mutex_);
       if (event.answers() == number_ && signed_s_ > 0.0) {
-        round_trip_s_ = LinkSession::Now() - signed_s_;
+        session_.SetRoundTrip(LinkSession::Now() - signed_s_);
         signed_s_ = 0.0;
       }
     }

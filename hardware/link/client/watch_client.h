@@ -26,7 +26,6 @@ class WatchClient {
 
   /// Somebody is there; sent once a second while it is called.
   void OperatorSeen() { seen_s_ = LinkSession::Now(); }
-  double RoundTrip() const { return round_trip_s_; }
 
  private:
   void Work(const std::stop_token& stop);
@@ -37,7 +36,6 @@ class WatchClient {
   const double status_rate_hz_;
   const Hooks hooks_;
   std::atomic<double> seen_s_{-1e9};
-  std::atomic<double> round_trip_s_{0.0};
   std::mutex mutex_;  ///< guards what follows
   std::uint32_t number_ = 0;
   double signed_s_ = 0.0;

@@ -24,12 +24,6 @@ constexpr const char* kConfirmed = "link: a station has the whole scan";
 /// A scan's file holds this much more than its raw data at worst: rows, index, thumbnail.
 constexpr std::int64_t kFileOverhead_bytes = std::int64_t{4} << 20;
 
-std::int64_t UtcNow_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 std::int64_t SizeOf(const std::filesystem::path& path) {
   std::int64_t bytes = 0;
   for (const char* suffix : {"", "-wal"}) {
@@ -211,7 +205,7 @@ void ScanShelf::TakeIn(const std::filesystem::path& path) {
   if (const auto header = (*mission)->LoadHeader(summary.id)) Describe(*header, entry.scan);
   entry.scan.begun =
       std::chrono::steady_clock::now() -
-      std::chrono::nanoseconds(std::max<std::int64_t>(0, UtcNow_ns() - summary.begin_utc_ns));
+      std::chrono::nanoseconds(std::max<std::int64_t>(0, NowUtc_ns() - summary.begin_utc_ns));
   for (const EventRecord& event : *events)
     if (event.text == kConfirmed) entry.scan.confirmed = true;
   if (const Status closed = (*mission)->Close(); !closed) LogError("{}", closed.error().message);
@@ -277,7 +271,7 @@ Result<std::shared_ptr<ScanSink>> ScanShelf::Begin(const std::string& uuid,
     return Fail(ErrorCode::kInvalidInput, "the head has a scan {} already", uuid);
   FORESIGHT_CHECK(MakeRoom(expected.bytes + kFileOverhead_bytes));
   Entry entry;
-  const std::int64_t now_ns = UtcNow_ns();
+  const std::int64_t now_ns = NowUtc_ns();
   std::string name = UtcText(now_ns) + "-" + uuid.substr(0, 8);
   std::replace(name.begin(), name.end(), ':', '-');
   entry.path = options_.folder / (name + std::string(kSuffix));
@@ -376,7 +370,7 @@ Status ScanShelf::Confirm(const std::string& uuid, const std::string& by) {
     return Fail(ErrorCode::kState, "scan {} has not ended: nobody can have all of it", uuid);
   FORESIGHT_TRY(const auto mission, MissionFile::Open(entry.path));
   EventRecord event;
-  event.utc_ns = UtcNow_ns();
+  event.utc_ns = NowUtc_ns();
   event.source = by;
   event.severity = "info";
   event.text = kConfirmed;

@@ -39,7 +39,8 @@ std::vector<int> AttemptsOn(LinkPath path) {
 }
 
 void SetStationArguments(grpc::ChannelArguments& arguments, LinkPath path, int attempt_ms) {
-  // Bursts: measured over blackouts of 10 to 25 s (hardware.md, section 4).
+  // Bursts: measured over blackouts of 10 to 25 s (docs/performance.md, "The link through
+  // blackouts").
   const bool thin = path == LinkPath::kThin;
   const int keepalive_ms = thin ? 10'000 : 1'000;
   const int pause_ms = thin ? 1'000 : attempt_ms;
@@ -63,7 +64,7 @@ void SetHeadArguments(grpc::ServerBuilder& builder) {
   constexpr int kGatheredBytes = 256 << 10;  // of chunks that follow at once, on a wide path
   const auto set = [&](const char* name, int value) { builder.AddChannelArgument(name, value); };
   // A server that allows less answers pings of 1 s with GOAWAY, and the station
-  // then doubles its interval without a word (hardware.md, section 4).
+  // then doubles its interval without a word (docs/performance.md).
   set(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 500);
   set(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   set(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);

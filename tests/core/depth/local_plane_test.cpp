@@ -21,7 +21,7 @@ LocalPlaneOptions Window() {
 }
 
 /// Inverse depth linear in the pixels: a plane in space, up to 3 mm a pixel. Much steeper ones are
-/// beyond a level start: see docs/evaluation.md.
+/// beyond a level start: see docs/evaluation/depth.md.
 double SlantedPlane(int u, int v) {
   return 1.0 / (0.5 + 0.0008 * u - 0.0006 * v);
 }

@@ -5,7 +5,7 @@
 
 #include "core/base/random.h"
 #include "core/fitting/common_gates.h"
-#include "core/fitting/cylinder/cylinder_evidence.h"
+#include "core/fitting/cylinder/cylinder_verdict.h"
 #include "core/fitting/drill/drill_verdict.h"
 #include "core/fitting/handle/handle_verdict.h"
 #include "core/fitting/terrain/terrain_verdict.h"

@@ -77,19 +77,6 @@ TEST(VerdictModel, EvidenceBeyondAllThatWasSeenCountsAsTheFarthestSeen) {
   EXPECT_EQ(TwoFeatures().Probability(far), TwoFeatures().Probability(absurd));
 }
 
-TEST(VerdictModel, FeaturesUnderTheirOldNamesAreRead) {
-  VerdictModel model = TwoFeatures();
-  model.features = {{"inlier_share", 0.9, 0.1, 1.0},
-                    {"log_rival_margin", 3.0, 1.5, 2.0},
-                    {"rival_margin_per_hit", 0.1, 0.9, 1.0}};
-  const auto read = VerdictModelFromYaml(model.ToYaml(), "old.yaml");
-  ASSERT_TRUE(read) << read.error().message;
-  ASSERT_EQ(read->features.size(), 3u);
-  EXPECT_EQ(read->features[0].name, "inlier_ratio");
-  EXPECT_EQ(read->features[1].name, "log_alternative_margin");
-  EXPECT_EQ(read->features[2].name, "alternative_margin_per_hit");
-}
-
 TEST(VerdictModel, KnowsNothingWithoutANumber) {
   const double values[] = {std::nan(""), 0.1};
   EXPECT_EQ(TwoFeatures().Probability(values), 0.0);

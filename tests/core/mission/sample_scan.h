@@ -53,6 +53,19 @@ inline Scan SampleScan(std::uint64_t seed) {
   return scan;
 }
 
+/// The same frame with an image of 4 MB that no PNG makes smaller: more than SQLite keeps in
+/// memory.
+inline CameraFrame NoiseFrame(CameraFrame frame) {
+  Random random(7);
+  frame.image = ColorImage(1300, 1000);
+  for (Rgb8& pixel : frame.image.values()) {
+    const std::uint64_t bits = random.Next();
+    pixel = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8),
+             static_cast<std::uint8_t>(bits >> 16)};
+  }
+  return frame;
+}
+
 /// Records everything but the end; returns the scan's id.
 inline std::int64_t RecordWithoutEnd(MissionFile& mission, const Scan& scan) {
   const std::int64_t id = mission.BeginScan(scan).value();

@@ -1,4 +1,5 @@
 #include "core/mission/side_result.h"
+#include "core/base/utc_text.h"
 
 #include <gmock/gmock.h>
 

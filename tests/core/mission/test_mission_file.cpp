@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <new>
 #include <thread>
 
 #include "core/mission/mission_file.h"
@@ -307,18 +309,51 @@ TEST(MissionFile, ImpossibleLinesAreRefusedByName) {
   EXPECT_THAT(mission->AppendLine(id, timeless).error().message, HasSubstr("line 6: time nan"));
 }
 
-TEST(MissionFile, ABatchKeepsWhatCameBeforeItsFailure) {
+TEST(MissionFile, ABatchIsWrittenWholeOrNotAtAll) {
   const TemporaryFolder folder;
   const Scan scan = SampleScan(1);
   const auto mission = MissionFile::Create(folder / "m.mission").value();
   const std::int64_t id = mission->BeginScan(scan).value();
-  const Status status = mission->Batch([&]() -> Status {
-    FORESIGHT_CHECK(mission->AppendLine(id, scan.lines[0]));
-    FORESIGHT_CHECK(mission->AppendLine(id, scan.lines[1]));
-    return mission->AppendLine(id, scan.lines[0]);
-  });
-  EXPECT_EQ(status.error().code, ErrorCode::kInvalidInput);
-  EXPECT_EQ(mission->LoadScan(id).value().lines.size(), 2u);
+  const auto append = [&](std::initializer_list<std::size_t> lines) {
+    return mission->Batch([&]() -> Status {
+      for (const std::size_t line : lines)
+        FORESIGHT_CHECK(mission->AppendLine(id, scan.lines[line]));
+      return {};
+    });
+  };
+  EXPECT_EQ(append({0, 1, 0}).error().code, ErrorCode::kInvalidInput);
+  EXPECT_TRUE(mission->LoadScan(id).value().lines.empty());
+  ASSERT_TRUE(append({0, 1, 2})) << "it begins where the file is";
+  EXPECT_EQ(mission->LoadScan(id).value().lines.size(), 3u);
+  EXPECT_THROW((void)mission->Batch([&]() -> Status {
+    EXPECT_TRUE(mission->AppendLine(id, scan.lines[3]));
+    throw std::bad_alloc();
+  }),
+               std::bad_alloc);
+  EXPECT_EQ(mission->LoadScan(id).value().lines.size(), 3u);
+  ASSERT_TRUE(append({3}));
+}
+
+TEST(MissionFile, ABatchThatADiskDoesNotTakeIsAnErrorWhateverItsBodySays) {
+  const TemporaryFolder folder;
+  const Scan scan = SampleScan(1);
+  const auto mission = MissionFile::Create(folder / "m.mission").value();
+  const std::int64_t id = mission->BeginScan(scan).value();
+  {
+    // More than SQLite keeps in memory: it writes, fails and takes everything back before the end.
+    const FileSizeLimit disk_full(std::filesystem::file_size(folder / "m.mission-wal"));
+    const Status batch = mission->Batch([&]() -> Status {
+      EXPECT_TRUE(mission->AppendLine(id, scan.lines[0]));
+      EXPECT_FALSE(mission->AppendFrame(id, NoiseFrame(scan.frames[0])));
+      EXPECT_FALSE(mission->AppendLine(id, scan.lines[1])) << "what follows is of the batch";
+      return {};
+    });
+    ASSERT_FALSE(batch);
+    EXPECT_THAT(batch.error().message, HasSubstr("m.mission"));
+  }
+  EXPECT_EQ(mission->Summary(id).value().lines, 0);
+  ASSERT_TRUE(mission->AppendLine(id, scan.lines[0]));
+  EXPECT_EQ(mission->Summary(id).value().lines, 1);
 }
 
 TEST(MissionFile, ANegativeZeroIsNoDamage) {

@@ -1,4 +1,5 @@
 #include "core/report/mission_report.h"
+#include "core/base/utc_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -362,9 +362,8 @@ TEST(FitHandle, LengthsThatNoOtherThingHasAreNoFault) {
   options.min_length_m = 0.42;
   options.max_length_m = 0.60;
   const auto found = FitHandle(rays, options, {});
-  if (found) {
-    EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->verdict.reason;
-  }
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->verdict.reason;
 }
 
 TEST(DoorThing, APlateLiesWhereItIsPutAndIsTurned) {

@@ -89,7 +89,7 @@ TEST(RoomScan, ThinCloudsLieWhereTheWholeScanHasItsPoints) {
       if (chunk.id.kind == kind || chunk.id.kind == ChunkKind::kRig) {
         ASSERT_TRUE(builder.Take(chunk));
       }
-    const RegisteredScan cloud = builder.Cloud().value();
+    const RegisteredScan cloud = builder.Cloud().value().points;
     int points = 0;
     for (int line = 0; line < cloud.lines; ++line)
       for (int beam = 0; beam < cloud.beams; beam += step.beams) {
