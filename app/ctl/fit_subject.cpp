@@ -1,5 +1,6 @@
 #include "app/ctl/fit_subject.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "app/common/output.h"
@@ -125,12 +126,27 @@ Result<Detection> FitInPlainRays(const RaysOfRegion& rays_of, const FitSubject& 
   return detection;
 }
 
+/// "-2.1 to 3.4, ... m in x, y, z": where a cloud in millimetres, or in other axes, shows.
+std::string ExtentOf(const FitSubject& subject) {
+  Eigen::AlignedBox3d extent;
+  for (const Eigen::Vector3d& point : subject.points)
+    if (point.allFinite()) extent.extend(subject.rig.robot_from_base * point);
+  if (extent.isEmpty()) return "no place";
+  const Eigen::Vector3d low = extent.min(), high = extent.max();
+  return fmt::format("{:.1f} to {:.1f}, {:.1f} to {:.1f}, {:.1f} to {:.1f} m in x, y, z", low.x(),
+                     high.x(), low.y(), high.y(), low.z(), high.z());
+}
+
 Result<RaySet> RaysInCloudOf(const FitSubject& subject, const FitArguments& arguments,
                              const Roi& roi, BoxRays box_rays) {
   std::optional<double> sigma_m;
   if (arguments.noise_mm > 0.0) sigma_m = 1e-3 * arguments.noise_mm;
-  return RaysInCloud(subject.points, subject.places, subject.viewpoint, subject.rig, roi, sigma_m,
-                     box_rays);
+  auto rays = RaysInCloud(subject.points, subject.places, subject.viewpoint, subject.rig, roi,
+                          sigma_m, box_rays);
+  if (!rays && rays.error().code == ErrorCode::kTooFewPoints)
+    return Fail(ErrorCode::kTooFewPoints, "{}: its points lie at {} (metres, z up)",
+                rays.error().message, ExtentOf(subject));
+  return rays;
 }
 
 /// A scan's depth map by the method that a source names.

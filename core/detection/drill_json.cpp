@@ -52,7 +52,8 @@ Json EvidenceJson(const DrillEvidence& evidence) {
           {"gain_nats", evidence.gain_nats},
           {"alternative_margin_nats", evidence.alternative_margin_nats},
           {"best_alternative", evidence.best_alternative},
-          {"no_foot_margin_nats", NumberOrNull(evidence.no_foot_margin_nats)}};
+          {"no_foot_margin_nats", NumberOrNull(evidence.no_foot_margin_nats)},
+          {"nozzle_margin_nats", NumberOrNull(evidence.nozzle_margin_nats)}};
 }
 
 DrillCandidate DrillCandidateFrom(const Json& value) {
@@ -75,6 +76,7 @@ DrillEvidence DrillEvidenceFrom(const Json& value) {
       NumberFrom(Renamed(value, "alternative_margin_nats", "rival_margin_nats"));
   evidence.best_alternative = Renamed(value, "best_alternative", "best_rival");
   evidence.no_foot_margin_nats = NumberOrNone(value, "no_foot_margin_nats");
+  evidence.nozzle_margin_nats = NumberOrNone(value, "nozzle_margin_nats");
   return evidence;
 }
 

@@ -151,6 +151,7 @@ Result<Detection> FitInRegion(const RaysOfRegion& rays_of, const ImageOfRays& im
   const bool is_box = std::holds_alternative<BoxRoi>(roi);
   const auto rays_in_roi = [&](BoxRays box_rays) -> Result<RaySet> {
     FORESIGHT_TRY(RaySet rays, rays_of(roi, box_rays));
+    if (is_box) rays.box = std::get<BoxRoi>(roi);
     if (image_of && UsesImage(ObjectKindOf(options))) rays.image = image_of(rays);
     const bool is_handle = std::holds_alternative<FitHandleOptions>(options);
     if (!is_handle && !std::holds_alternative<FitDrillOptions>(options)) return rays;

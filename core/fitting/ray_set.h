@@ -41,6 +41,9 @@ struct RaySet {
   /// Full angle of a beam's footprint across its scan line; 0 = round, footprint_rad wide. Where a
   /// footprint lies on two surfaces the range is one in between.
   double footprint_height_rad = 0.0;
+  /// The box that the operator put round the object; nullopt where the region is another one. What
+  /// ends outside it, in front or behind, is not the object.
+  std::optional<BoxRoi> box = {};
   /// The lidar's own returns in the region, behind a dense map; null where they are not known. A
   /// map guesses between them, so they have a say in which of several answers is right and where it
   /// is.

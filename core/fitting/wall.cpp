@@ -1,6 +1,7 @@
 #include "core/fitting/wall.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace foresight {
 namespace {
@@ -8,9 +9,22 @@ namespace {
 constexpr double kMinWallFraction = 0.15;    // of the points that are looked at
 constexpr double kMaxBehindFraction = 0.20;  // more behind a plane than this: it is no background
 constexpr int kMaxPlanes = 3;
+constexpr std::size_t kFewInBox = 25;  // too few to look for anything
 
 Plane Facing(Plane plane, const Eigen::Vector3d& viewpoint) {
   return plane.Distance(viewpoint) >= 0.0 ? plane : Plane{-plane.normal, -plane.offset};
+}
+
+void SetForeground(const RaySet& rays, double clearance_m, WallSplit& split) {
+  std::vector<Eigen::Vector3d> in_box;
+  for (const RangeRay& ray : rays.rays) {
+    const Eigen::Vector3d point = ray.Point();
+    if (split.wall && split.wall->Distance(point) <= clearance_m) continue;
+    split.foreground.push_back(point);
+    if (rays.box && rays.box->Contains(point)) in_box.push_back(point);
+  }
+  // A box that misses most of its object tells less than what stands before the wall.
+  if (in_box.size() >= kFewInBox) split.foreground = std::move(in_box);
 }
 
 }  // namespace
@@ -45,8 +59,13 @@ WallSplit SplitWall(const RaySet& rays, Random& random) {
     else
       split.wall = facing;
   }
-  for (const Eigen::Vector3d& point : points)
-    if (!split.wall || split.wall->Distance(point) > clearance) split.foreground.push_back(point);
+  SetForeground(rays, clearance, split);
+  return split;
+}
+
+WallSplit NoWall(const RaySet& rays) {
+  WallSplit split;
+  SetForeground(rays, 0.0, split);
   return split;
 }
 

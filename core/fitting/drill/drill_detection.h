@@ -29,6 +29,9 @@ struct DrillEvidence {
   /// Ahead of the best tool of any proportions that stands on the end of its grip; none for a kind
   /// without feet, and in files of earlier programs.
   std::optional<double> no_foot_margin_nats = {};
+  /// Ahead of the same drill with a nozzle, longer than any chuck, in place of chuck and bit; none
+  /// for a kind without chuck, and in files of earlier programs.
+  std::optional<double> nozzle_margin_nats = {};
 };
 
 /// One answer to "where is the drill".

@@ -17,6 +17,7 @@
 #include "core/fitting/drill/drill_search.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/drill_verdict.h"
+#include "core/fitting/drill/drill_with_nozzle.h"
 #include "core/fitting/drill/drill_without_foot.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
@@ -41,6 +42,7 @@ constexpr double kAlternativeReach_m =
     0.06;  // round the drill: what an alternative must explain too
 // What a proportion costs that is known about three times better after the fit than before.
 constexpr double kKnownProportion_nats = 1.0;
+constexpr double kNozzle_m = 0.072;        // longer than any chuck
 constexpr double kUnknownHeight_m = 0.04;  // deviation of a foot's height without a table
 
 /// Streams of the seed: each stage draws its own numbers.
@@ -171,6 +173,7 @@ class DrillFit {
               SetSigmas(likelihood_.rays(), best, base_from_table_, prior_, detection);
           SetChuckMargins(best, detection, support);
           support.foot_nats = FootNats(best, detection);
+          detection.evidence.nozzle_margin_nats = NozzleMargin(best, detection);
         }};
     if (!ParallelFor(std::size(independent), context, [&](int i) { independent[i](); }))
       return Cancelled();
@@ -320,6 +323,19 @@ class DrillFit {
       std::erase_if(blunt, is_chuck);
       support.chuck_nats = own - LogLikelihoodOf(blunt, pose, likelihood_);
     }
+  }
+
+  /// Whether it ends in a chuck, and not in the nozzle of a hot air or glue tool.
+  std::optional<double> NozzleMargin(const DrillState& best,
+                                     const DrillDetection& detection) const {
+    const double own = best.log_likelihood - prior_(best);
+    std::optional<double> margin;
+    for (const auto& tool : WithNozzles(detection.best.model.parts, kNozzle_m)) {
+      const double ahead =
+          own - LogLikelihoodOf(tool, detection.best.base_from_object, likelihood_);
+      margin = std::min(margin.value_or(ahead), ahead);
+    }
+    return margin;
   }
 
   /// Whether it stands on a battery: hot air tools on a grip stand on the end of the grip.

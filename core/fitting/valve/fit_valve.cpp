@@ -226,7 +226,8 @@ void RankByImage(const RaySet& region, const BeamLikelihood& likelihood,
 }
 
 /// From rays of the region to the best valve among them; places are judged against the region.
-Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
+/// Without `has_wall` nothing flat is taken for one.
+Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays, bool has_wall,
                               const FitValveOptions& options, const RunContext& context) {
   context.Report(0.0, "looking for the wall");
   Random thinning(options.seed, kThinning);
@@ -235,7 +236,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays,
   RaySet few_rays = Thinned(rays, kGridRays, thinning);
   few_rays.beams = nullptr;
   rays.beams = ThinnedBeams(all_rays, options.max_rays, kMinRays, thinning);
-  const WallSplit split = SplitWall(rays, wall_random);
+  const WallSplit split = has_wall ? SplitWall(rays, wall_random) : NoWall(rays);
   if (context.Cancelled()) return Cancelled();
 
   context.Report(0.1, "looking for the rim");
@@ -350,9 +351,20 @@ Result<ValveDetection> FitValve(const RaySet& all_rays, const FitValveOptions& o
   const auto begin = std::chrono::steady_clock::now();
   FORESIGHT_CHECK(options.Check());
   FORESIGHT_TRY(const RaySet region, UsableRays(all_rays, kMinRays, "a wheel"));
-  FORESIGHT_TRY(ValveDetection detection, Search(region, region, options, context.Part(0.0, 0.5)));
+  bool has_wall = true;
+  Result<ValveDetection> found = Search(region, region, has_wall, options, context.Part(0.0, 0.4));
+  if (!found && found.error().code == ErrorCode::kNoConvergence) {
+    // The flat thing that all lies on may be the wheel itself, with nothing behind it.
+    Result<ValveDetection> free = Search(region, region, false, options, context.Part(0.4, 0.5));
+    if (!free && free.error().code == ErrorCode::kCancelled) return free;
+    has_wall = !free || free->verdict.level == VerdictLevel::kUnsure;
+    if (!has_wall) found = std::move(free);
+  }
+  if (!found) return found;
+  ValveDetection detection = std::move(*found);
   if (const auto around = RaysForCloserLook(region, detection.best, options)) {
-    Result<ValveDetection> closer = Search(region, *around, options, context.Part(0.5, 1.0));
+    Result<ValveDetection> closer =
+        Search(region, *around, has_wall, options, context.Part(0.5, 1.0));
     if (closer)
       detection = std::move(*closer);
     else if (closer.error().code == ErrorCode::kCancelled)

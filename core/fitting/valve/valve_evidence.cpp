@@ -155,8 +155,10 @@ Eigen::Vector3d MiddleOf(const ValveCandidate& valve) {
 int Misplacement(const RaySet& rays, const ValveCandidate& valve) {
   const ValveModel& model = valve.model;
   const bool endless = model.IsLever() && model.lever_length_m > 0.99 * kMaxLeverLength_m;
-  return (DistanceFromRegionCenter(rays, MiddleOf(valve)) > kMaxOffCenter_m ? 1 : 0) +
-         (endless ? 2 : 0);
+  const Eigen::Vector3d middle = MiddleOf(valve);
+  const bool beside = DistanceFromRegionCenter(rays, middle) > kMaxOffCenter_m ||
+                      (rays.box && !rays.box->Contains(middle));
+  return (beside ? 1 : 0) + (endless ? 2 : 0);
 }
 
 double ChanceOfBeingOff(const ValveDetection& detection) {

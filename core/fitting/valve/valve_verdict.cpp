@@ -124,6 +124,8 @@ Gate MarginGate(const ValveDetection& detection, double limit_nats) {
           .limit = limit_nats};
 }
 
+constexpr double kLeastOfRadius = 0.9, kMostOfRadius = 1.1;  // of the limits that were asked for
+
 /// Its limits are set by AddIfOutside.
 Gate RimRadiusGate(const ValveModel& model) {
   return {.what = "the rim's radius is {}",
@@ -139,8 +141,8 @@ std::vector<std::string> FailedExistenceGates(const ValveDetection& detection,
   std::vector<std::string> failed;
   AddIfFailed(SeeThroughGate(kObject, detection.evidence.see_through, kAbsurdSeeThrough), failed);
   if (model.IsLever()) return failed;
-  AddIfOutside(RimRadiusGate(model), 0.9 * options.min_rim_radius_m, 1.1 * options.max_rim_radius_m,
-               failed);
+  AddIfOutside(RimRadiusGate(model), kLeastOfRadius * options.min_rim_radius_m,
+               kMostOfRadius * options.max_rim_radius_m, failed);
   if (model.spokes == 0)
     failed.push_back("no spokes are seen: any round or flat thing looks like this");
   AddIfFailed(FilledGate(model), failed);
@@ -220,6 +222,11 @@ std::vector<FeatureGate> FeatureGates(const ValveDetection& detection, const Ver
 }
 
 }  // namespace
+
+bool HasSize(const ValveModel& model, const FitValveOptions& options) {
+  return model.IsLever() || (model.rim_radius_m >= kLeastOfRadius * options.min_rim_radius_m &&
+                             model.rim_radius_m <= kMostOfRadius * options.max_rim_radius_m);
+}
 
 Verdict AssessValve(const RaySet& rays, const RaySet& region, const ValveDetection& detection,
                     const FitValveOptions& options) {

@@ -5,6 +5,9 @@
 
 namespace foresight {
 
+/// Whether a wheel's rim has a radius that was asked for, but for a tenth; levers have none.
+bool HasSize(const ValveModel& model, const FitValveOptions& options);
+
 /// How far an operator may trust a detection whose evidence, sigmas and candidates are filled in.
 ///
 /// The probability is that of the shipped verdict model of lidar returns or of dense maps. Hard

@@ -111,6 +111,7 @@ DrillDetection SampleDrill() {
   drill.evidence.best_alternative = "box";
   drill.evidence.flip_margin_nats = 21.0;
   drill.evidence.no_foot_margin_nats = 63.5;
+  drill.evidence.nozzle_margin_nats = 12.25;
   drill.alternatives = {drill.best};
   drill.alternatives[0].log_likelihood = 80.0;
   drill.verdict = {VerdictLevel::kConfirmed, 0.97, "drill", {1.0}};
@@ -127,6 +128,7 @@ TEST(DetectionJson, ADrillSurvivesTheRoundTrip) {
   EXPECT_EQ(read->best.model.parts.size(), sample.best.model.parts.size());
   EXPECT_EQ(read->table->offset, 0.2);
   EXPECT_EQ(read->evidence.no_foot_margin_nats, 63.5);
+  EXPECT_EQ(read->evidence.nozzle_margin_nats, 12.25);
   std::string old = DetectionToJson(sample, {});
   old.replace(old.find("63.5"), 4, "null");
   const auto older = DetectionFromJson(old);

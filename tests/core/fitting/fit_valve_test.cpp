@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fitting/valve/valve_verdict.h"
 #include "core/geometry/angles.h"
 #include "tests/support/valve_rays.h"
 
@@ -59,6 +60,32 @@ ValveView FlatWheel(double view_rad) {
   view.distance_m = 1.1;
   view.view_rad = view_rad;
   return view;
+}
+
+// It is as flat as a wall, and all of the measurements lie on it.
+TEST(FitValve, AWheelWithNothingBehindItIsNotItsOwnWall) {
+  ValveScene scene = MakeValveScene(FlatWheel(0.3));
+  const auto object_from_base = scene.truth.base_from_object.Inverse();
+  std::erase_if(scene.rays.rays,
+                [&](const RangeRay& ray) { return (object_from_base * ray.Point()).z() < -0.05; });
+  const auto found = FitValve(scene.rays, {}, {});
+  ASSERT_TRUE(found) << found.error().message;
+  const ValveError error = CompareValves(found->best, scene.truth);
+  EXPECT_LT(error.center_m, 0.015);
+  EXPECT_TRUE(error.spokes_right) << found->best.model.spokes;
+}
+
+TEST(FitValve, WhatHasNotTheSizeThatWasAskedForStandsBehindWhatHas) {
+  FitValveOptions options;
+  options.min_rim_radius_m = 0.05;
+  options.max_rim_radius_m = 0.08;
+  ValveModel model;
+  model.rim_radius_m = 0.087;
+  EXPECT_TRUE(HasSize(model, options));
+  model.rim_radius_m = 0.171;
+  EXPECT_FALSE(HasSize(model, options));
+  model.rim_radius_m = 0.044;
+  EXPECT_FALSE(HasSize(model, options));
 }
 
 TEST(FitValve, AWheelOfFlatBarsIsPlacedAlongItsAxisWithinWhatItsSigmaSays) {

@@ -314,7 +314,8 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
                       .gain_nats = 500.0,
                       .alternative_margin_nats = random.Uniform(-50.0, 400.0),
                       .best_alternative = "box and cylinder",
-                      .no_foot_margin_nats = random.Uniform(-20.0, 100.0)};
+                      .no_foot_margin_nats = random.Uniform(-20.0, 100.0),
+                      .nozzle_margin_nats = random.Uniform(-5.0, 30.0)};
     const DrillSupport support = {.beam_sigma_yaw_rad = found.sigma_yaw_rad,
                                   .any_flip_margin_nats = random.Uniform(-20.0, 100.0),
                                   .flip_line_sigmas = random.Uniform(-1.0, 4.0),
@@ -358,6 +359,12 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
   found.evidence.no_foot_margin_nats = 20.0;  // a heat gun that stands on the end of its grip
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, foot);
   found.evidence.no_foot_margin_nats = 60.0;
+  const auto nozzle = ::testing::Contains(HasSubstr("a nozzle in place of its chuck"));
+  found.evidence.nozzle_margin_nats = 30.0;
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(nozzle));
+  found.evidence.nozzle_margin_nats = 2.0;  // a heat gun on a battery
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, nozzle);
+  found.evidence.nozzle_margin_nats = 30.0;
   support.chuck_nats = 0.0;
   const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);
