@@ -48,9 +48,9 @@ struct DrillSupport {
 /// a box or a cylinder is 150 : 1 likelier; hard gates
 /// keep what no probability should: a confirmed drill stands on a table near the region's centre,
 /// has enough measurements on it, is not seen through, shows its head and its chuck, explains the
-/// rays better than a box and a cylinder and than a tool without a foot, lies within the region,
-/// has no second direction close behind and no parameter at a bound. `rays` are those of the
-/// `region` that it was fitted to.
+/// rays better than a box and a cylinder, a tool without a foot or one with a nozzle, lies within
+/// the region, has no second direction close behind and no parameter at a bound. `rays` are those
+/// of the `region` that it was fitted to.
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,
                     const DrillState& drill, const DrillPrior& prior, const DrillSupport& support);
 

@@ -36,8 +36,8 @@ double MeasuredHits(const RaySet& rays, const ValveEvidence& evidence);
 Eigen::Vector3d MiddleOf(const ValveCandidate& valve);
 
 /// How little it can be what the region was drawn round, however well it fits: 0 = it can, 1 = it
-/// is too far from the region's middle, 2 = it is a lever as long as they get, which a pipe that
-/// runs on through the region looks like, 3 = both.
+/// is too far from the region's middle or outside of its box, 2 = it is a lever as long as they
+/// get, which a pipe that runs on through the region looks like, 3 = both.
 int Misplacement(const RaySet& rays, const ValveCandidate& valve);
 
 /// The chance that place or axis are off by more than is called right, by the deviations.
