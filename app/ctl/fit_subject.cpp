@@ -144,8 +144,8 @@ Result<RaySet> RaysInCloudOf(const FitSubject& subject, const FitArguments& argu
   auto rays = RaysInCloud(subject.points, subject.places, subject.viewpoint, subject.rig, roi,
                           sigma_m, box_rays);
   if (!rays && rays.error().code == ErrorCode::kTooFewPoints)
-    return Fail(ErrorCode::kTooFewPoints, "{}: its points lie at {} (metres, z up)",
-                rays.error().message, ExtentOf(subject));
+    return Fail(ErrorCode::kTooFewPoints, "{}: its points lie at {}, z up", rays.error().message,
+                ExtentOf(subject));
   return rays;
 }
 

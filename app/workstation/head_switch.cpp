@@ -40,11 +40,12 @@ HeadSwitch::HeadSwitch(Workbench* bench, std::string keys) : bench_(bench), keys
        .run = [this] { Open(); },
        .why_not =
            [bench] {
-             // The window closes for it.
-             return bench->recording.NeedsOperator()
+             const QString scans = bench->head.WhyNotDuringScan();
+             // The window closes for it. Another file can be chosen when the scan has ended.
+             return scans.isEmpty() && bench->recording.NeedsOperator()
                         ? tr("Not all that was recorded is in a file; record into another one "
                              "first (Ctrl+Shift+S).")
-                        : bench->head.WhyNotDuringScan();
+                        : scans;
            }});
 }
 

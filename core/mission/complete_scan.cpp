@@ -30,13 +30,6 @@ bool IsBeginOf(const Scan& there, const Scan& whole) {
          std::equal(there.frames.begin(), there.frames.end(), whole.frames.begin());
 }
 
-bool IsAsWhole(const Scan& there, const Scan& whole) {
-  return there.lines.size() == whole.lines.size() && there.frames.size() == whole.frames.size() &&
-         there.given.empty() == whole.given.empty() &&
-         there.track.samples().size() == whole.track.samples().size() &&
-         there.state == whole.state && there.reason == whole.reason;
-}
-
 }  // namespace
 
 Result<std::int64_t> CompleteScan(MissionFile& mission, const Scan& whole,
@@ -51,7 +44,8 @@ Result<std::int64_t> CompleteScan(MissionFile& mission, const Scan& whole,
       return Fail(ErrorCode::kInvalidInput,
                   "{}: scan {} is there with other lines or images: it is left as it is",
                   mission.path().string(), id);
-    if (IsAsWhole(there, whole)) return id;
+    FORESIGHT_TRY(const bool all, HoldsAllOf(mission, id, whole));
+    if (all) return id;
     FORESIGHT_CHECK(mission.ContinueScan(id));
   } else {
     FORESIGHT_TRY(id, mission.BeginScan(whole));
