@@ -15,7 +15,8 @@ Json EvidenceJson(const CylinderEvidence& evidence) {
           {"residual_mad_m", evidence.residual_mad_m},
           {"range_sigma_m", evidence.range_sigma_m},
           {"seen_arc_rad", evidence.seen_arc_rad},
-          {"box_margin_nats", evidence.box_margin_nats}};
+          {"box_margin_nats", evidence.box_margin_nats},
+          {"in_drawn_box", NumberOrNull(evidence.in_drawn_box)}};
 }
 
 CylinderEvidence CylinderEvidenceFrom(const Json& value) {
@@ -28,6 +29,7 @@ CylinderEvidence CylinderEvidenceFrom(const Json& value) {
   evidence.range_sigma_m = NumberFrom(value.at("range_sigma_m"));
   evidence.seen_arc_rad = NumberFrom(value.at("seen_arc_rad"));
   evidence.box_margin_nats = NumberFrom(value.at("box_margin_nats"));
+  evidence.in_drawn_box = NumberOrNone(value, "in_drawn_box");
   return evidence;
 }
 

@@ -31,15 +31,6 @@ Json CandidateJson(const DrillCandidate& drill,
           {"log_likelihood", drill.log_likelihood}};
 }
 
-Json NumberOrNull(const std::optional<double>& number) {
-  return number ? Json(*number) : Json(nullptr);
-}
-
-std::optional<double> NumberOrNone(const Json& value, const char* name) {
-  if (!value.contains(name) || value.at(name).is_null()) return std::nullopt;
-  return NumberFrom(value.at(name));
-}
-
 Json EvidenceJson(const DrillEvidence& evidence) {
   return {{"rays", evidence.rays},
           {"hits", evidence.hits},
@@ -53,7 +44,8 @@ Json EvidenceJson(const DrillEvidence& evidence) {
           {"alternative_margin_nats", evidence.alternative_margin_nats},
           {"best_alternative", evidence.best_alternative},
           {"no_foot_margin_nats", NumberOrNull(evidence.no_foot_margin_nats)},
-          {"nozzle_margin_nats", NumberOrNull(evidence.nozzle_margin_nats)}};
+          {"nozzle_margin_nats", NumberOrNull(evidence.nozzle_margin_nats)},
+          {"no_chuck_margin_nats", NumberOrNull(evidence.no_chuck_margin_nats)}};
 }
 
 DrillCandidate DrillCandidateFrom(const Json& value) {
@@ -77,6 +69,7 @@ DrillEvidence DrillEvidenceFrom(const Json& value) {
   evidence.best_alternative = Renamed(value, "best_alternative", "best_rival");
   evidence.no_foot_margin_nats = NumberOrNone(value, "no_foot_margin_nats");
   evidence.nozzle_margin_nats = NumberOrNone(value, "nozzle_margin_nats");
+  evidence.no_chuck_margin_nats = NumberOrNone(value, "no_chuck_margin_nats");
   return evidence;
 }
 

@@ -61,6 +61,15 @@ double NumberFrom(const Json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
+Json NumberOrNull(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
+std::optional<double> NumberOrNone(const Json& object, const char* key) {
+  if (!object.contains(key) || object.at(key).is_null()) return std::nullopt;
+  return NumberFrom(object.at(key));
+}
+
 double SizeIn(const Json& object, const char* key) {
   return NumberIn(object, key, 0.0, kLargestObject_m);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "core/fitting/fit_origin.h"
 #include "core/fitting/verdict.h"
@@ -16,6 +17,9 @@ using Json = nlohmann::json;
 Json ToJson(const Eigen::Vector2d& v);
 Json ToJson(const Eigen::Vector3d& v);
 double NumberFrom(const Json& value);
+/// Null where there is none; a member that is null or missing is none.
+Json NumberOrNull(const std::optional<double>& number);
+std::optional<double> NumberOrNone(const Json& object, const char* key);
 /// A length of a part of an object: 0 to kLargestObject_m.
 double SizeIn(const Json& object, const char* key);
 /// How many of something there were: 0 to 2^31 - 1.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/fitting/fit_origin.h"
@@ -22,6 +23,9 @@ struct CylinderEvidence {
   double range_sigma_m = 0.0;    ///< deviation of a range, found from those
   double seen_arc_rad = 0.0;     ///< of the circle that its agreeing hits span
   double box_margin_nats = 0.0;  ///< ahead of the best box in its place, parameters paid for
+  /// Of the agreeing hits, those that end in the box that the operator drew; none where the region
+  /// is another one, and in files of earlier programs.
+  std::optional<double> in_drawn_box = {};
 };
 
 /// A fitted cylinder. There is no calibrated probability for it, so it is never CONFIRMED.

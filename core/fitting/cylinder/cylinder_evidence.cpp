@@ -65,7 +65,7 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
   CylinderEvidence evidence;
   evidence.rays = static_cast<int>(rays.rays.size());
   evidence.range_sigma_m = rays.sigma_m;
-  int inliers = 0, through = 0;
+  int inliers = 0, through = 0, in_box = 0;
   std::vector<double> angles;
   const BeamFootprints footprints(rays, {}, CylinderBeams(rays));
   const CoverBeam cover = CoverBy(tracer);
@@ -84,6 +84,7 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
     if (behind > agree_m) ++through;
     if (std::abs(behind) > agree_m) continue;
     ++inliers;
+    if (rays.box && rays.box->Contains(ray.Point())) ++in_box;
     const Eigen::Vector3d at = cylinder.FromAxis(ray.origin + intersection.range_m * ray.direction);
     // A hit on an end is at any angle.
     if (at.norm() > kOnMantle * cylinder.radius_m)
@@ -92,6 +93,7 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
   if (evidence.hits == 0) return evidence;
   evidence.inlier_ratio = static_cast<double>(inliers) / evidence.hits;
   evidence.see_through = static_cast<double>(through) / evidence.hits;
+  if (rays.box) evidence.in_drawn_box = static_cast<double>(in_box) / std::max(1, inliers);
   evidence.seen_arc_rad = ArcOf(std::move(angles));
   if (auto differences = Differences(rays, cylinder); !differences.empty())
     evidence.residual_mad_m = UpperMedian(std::move(differences));

@@ -23,6 +23,13 @@ std::vector<std::string> FailedGates(const RaySet& rays, const CylinderBounds& b
   AddIfFailed(MeasurementsGate("it", evidence.hits * rays.Worth(), kLikelyHits), failed);
   AddIfFailed(SeeThroughGate("it", evidence.see_through, kLikelySeeThrough), failed);
   AddIfFailed(AgreementGate("it", evidence.inlier_ratio, kLikelyInliers), failed);
+  if (evidence.in_drawn_box)
+    AddIfFailed({.what = "{} of the beams on it end in the box that was drawn",
+                 .unit = Gate::Unit::kFraction,
+                 .number = *evidence.in_drawn_box,
+                 .limit = kLeastInDrawnBox,
+                 .advice = "it may be something in front of the box or behind it"},
+                failed);
   Gate box = AlternativeGate("box", evidence.box_margin_nats, kLikelyMargin_nats);
   box.advice = "it may be square, or a wall's edge";
   AddIfFailed(box, failed);

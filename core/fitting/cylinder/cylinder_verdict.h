@@ -5,6 +5,9 @@
 
 namespace foresight {
 
+/// Of the beams on a cylinder that the operator drew a box round, how many end in that box.
+inline constexpr double kLeastInDrawnBox = 0.5;
+
 /// Never more than LIKELY.
 void Assess(const RaySet& rays, const CylinderBounds& bounds, CylinderDetection& detection);
 

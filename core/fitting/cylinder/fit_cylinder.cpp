@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/fitting/best_distinct.h"
 #include "core/fitting/cylinder/background_planes.h"
 #include "core/fitting/cylinder/box_alternative.h"
 #include "core/fitting/cylinder/cylinder_evidence.h"
@@ -22,7 +23,9 @@ namespace {
 constexpr int kMinRays = 30;
 constexpr int kCoarseRays = 300;
 constexpr double kCoarseSigma_m = 0.030;  // a smoother hill to climb first
-constexpr std::size_t kFine = 3;
+constexpr std::size_t kFine = 6;
+constexpr double kAlike = 0.5;  // of a radius between two axes, and of the radius itself
+constexpr double kAlikeAxes = 0.9;
 constexpr int kSigmaRounds = 2;
 
 /// Streams of the seed: each stage draws its own numbers.
@@ -39,7 +42,8 @@ class CylinderFit {
     planes_ = FindFlatSurfaces(rays_, random);
   }
 
-  Result<CylinderState> Search(const RunContext& context) {
+  /// Different cylinders after local search, the likeliest first.
+  Result<std::vector<CylinderState>> Search(const RunContext& context) const {
     Random random(options_.seed, kSearch);
     RaySet few = Thinned(rays_, kCoarseRays, random);
     few.sigma_m = std::max(few.sigma_m, kCoarseSigma_m);
@@ -62,48 +66,71 @@ class CylinderFit {
     context.Report(0.6, "improving the cylinder");
     for (CylinderState& cylinder : found)
       cylinder = AfterLocalSearchBeforePlanes(few, kRoundCylinderBeams, cylinder, 0.06, 4);
-    KeepBest(found, kFine);
+    KeepBestDistinct(kFine, &CylinderState::score, Alike, found);
     if (context.Cancelled()) return Cancelled();
     for (CylinderState& cylinder : found)
       cylinder = AfterLocalSearchBeforePlanes(rays_, CylinderBeams(rays_), cylinder, 0.02, 4);
-    KeepBest(found, 1);
-    return WithOwnSigma(found.front());
+    KeepBestDistinct(kFine, &CylinderState::score, Alike, found);
+    return found;
   }
 
-  CylinderDetection Detection(const CylinderState& cylinder) const {
+  /// A table or a wall is round to the likelihood alone, a disc as large as itself: of different
+  /// cylinders the likeliest answers that nothing speaks against; where something speaks against
+  /// all, the likeliest that the operator's box holds.
+  Result<CylinderDetection> Best(const std::vector<CylinderState>& found,
+                                 const RunContext& context) const {
+    std::vector<CylinderDetection> tried;
+    for (const CylinderState& cylinder : found) {
+      context.Report(0.7 + 0.05 * static_cast<double>(tried.size()), "trying other shapes");
+      if (context.Cancelled()) return Cancelled();
+      RaySet rays = rays_;
+      const CylinderState own = WithOwnSigma(cylinder, rays);
+      tried.push_back(Detection(own, rays));
+      if (tried.back().verdict.level == VerdictLevel::kLikely) return tried.back();
+    }
+    const auto in_box = std::find_if(tried.begin(), tried.end(), [](const auto& detection) {
+      return detection.evidence.in_drawn_box.value_or(1.0) >= kLeastInDrawnBox;
+    });
+    return in_box != tried.end() ? *in_box : tried.front();
+  }
+
+ private:
+  CylinderDetection Detection(const CylinderState& cylinder, const RaySet& rays) const {
     CylinderDetection detection;
     const Eigen::Vector3d z =
         cylinder.axis.dot(options_.up) >= 0.0 ? cylinder.axis : -cylinder.axis;
     detection.base_from_object = {RotationBetween(Eigen::Vector3d::UnitZ(), z), cylinder.middle};
     detection.model = {cylinder.radius_m, cylinder.length_m};
-    detection.evidence = GatherEvidence(rays_, cylinder);
-    const BeamLikelihood likelihood(rays_, PlanesBeside(cylinder, planes_, rays_),
-                                    CylinderBeams(rays_));
+    detection.evidence = GatherEvidence(rays, cylinder);
+    const BeamLikelihood likelihood(rays, PlanesBeside(cylinder, planes_, rays),
+                                    CylinderBeams(rays));
     // Half of Schwarz's penalty for each parameter that a box has more.
     const double measurements =
-        std::max(2.0, static_cast<double>(rays_.rays.size()) * rays_.samples_per_ray);
+        std::max(2.0, static_cast<double>(rays.rays.size()) * rays.samples_per_ray);
     detection.evidence.box_margin_nats =
         cylinder.score - BestBoxScore(cylinder, likelihood) +
         0.5 * (kBoxAlternativeParameters - kCylinderParameters) * std::log(measurements);
-    SetSigmas(rays_, cylinder, detection);
-    Assess(rays_, bounds_, detection);
+    SetSigmas(rays, cylinder, detection);
+    Assess(rays, bounds_, detection);
     return detection;
   }
 
- private:
   static tl::unexpected<Error> Cancelled() {
     return Fail(ErrorCode::kCancelled, "fitting the cylinder was cancelled");
   }
 
-  static void KeepBest(std::vector<CylinderState>& cylinders, std::size_t count) {
-    std::stable_sort(cylinders.begin(), cylinders.end(),
-                     [](const auto& a, const auto& b) { return a.score > b.score; });
-    if (cylinders.size() > count) cylinders.resize(count);
+  /// Nearly the same surface: about the same axis and about as thick.
+  static bool Alike(const CylinderState& a, const CylinderState& b) {
+    const double least_m = std::min(a.radius_m, b.radius_m);
+    return a.FromAxis(b.middle).norm() < kAlike * least_m &&
+           std::abs(a.radius_m - b.radius_m) < kAlike * least_m &&
+           std::abs(a.axis.dot(b.axis)) > kAlikeAxes;
   }
 
   std::vector<Eigen::Vector3d> PointsOff(std::span<const Plane> planes) const {
     std::vector<Eigen::Vector3d> points;
-    for (const RangeRay& ray : rays_.rays) points.push_back(ray.Point());
+    for (const RangeRay& ray : rays_.rays)
+      if (!rays_.box || rays_.box->Contains(ray.Point())) points.push_back(ray.Point());
     for (const Plane& plane : planes)
       std::erase_if(points, [&](const Eigen::Vector3d& point) {
         return std::abs(plane.Distance(point)) < 2.5 * rays_.sigma_m;
@@ -120,12 +147,12 @@ class CylinderFit {
   }
 
   /// The ranges' deviation and the cylinder depend on each other.
-  CylinderState WithOwnSigma(CylinderState cylinder) {
+  CylinderState WithOwnSigma(CylinderState cylinder, RaySet& rays) const {
     for (int round = 0; round < kSigmaRounds; ++round) {
-      const double sigma_m = RangeSigmaFrom(rays_, cylinder);
+      const double sigma_m = RangeSigmaFrom(rays, cylinder);
       if (!std::isfinite(sigma_m)) break;
-      rays_.sigma_m = sigma_m;
-      cylinder = AfterLocalSearchBeforePlanes(rays_, CylinderBeams(rays_), cylinder, 0.01, 5);
+      rays.sigma_m = sigma_m;
+      cylinder = AfterLocalSearchBeforePlanes(rays, CylinderBeams(rays), cylinder, 0.01, 5);
     }
     return cylinder;
   }
@@ -158,9 +185,9 @@ Result<CylinderDetection> FitCylinder(const RaySet& all_rays, const FitCylinderO
   FORESIGHT_TRY(RaySet usable, UsableRays(all_rays, kMinRays, "a cylinder"));
   usable.beams = nullptr;  // a map is taken for what it is
   Random thinning(options.seed, kThinning);
-  CylinderFit fit(Thinned(usable, options.max_rays, thinning), options);
-  FORESIGHT_TRY(const CylinderState cylinder, fit.Search(context));
-  CylinderDetection detection = fit.Detection(cylinder);
+  const CylinderFit fit(Thinned(usable, options.max_rays, thinning), options);
+  FORESIGHT_TRY(const std::vector<CylinderState> found, fit.Search(context));
+  FORESIGHT_TRY(CylinderDetection detection, fit.Best(found, context));
   if (detection.evidence.hits == 0)
     return Fail(ErrorCode::kNoConvergence,
                 "nothing round in the region: draw it around a pole or a pipe");

@@ -32,6 +32,10 @@ struct DrillEvidence {
   /// Ahead of the same drill with a nozzle, longer than any chuck, in place of chuck and bit; none
   /// for a kind without chuck, and in files of earlier programs.
   std::optional<double> nozzle_margin_nats = {};
+  /// Ahead of the best tool of any proportions whose head goes on, as thick as it is, where a drill
+  /// has its chuck; none for a kind without a chuck that points ahead, and in files of earlier
+  /// programs.
+  std::optional<double> no_chuck_margin_nats = {};
 };
 
 /// One answer to "where is the drill".

@@ -17,8 +17,8 @@
 #include "core/fitting/drill/drill_search.h"
 #include "core/fitting/drill/drill_state.h"
 #include "core/fitting/drill/drill_verdict.h"
-#include "core/fitting/drill/drill_with_nozzle.h"
-#include "core/fitting/drill/drill_without_foot.h"
+#include "core/fitting/drill/named_part.h"
+#include "core/fitting/drill/other_tools.h"
 #include "core/fitting/drill/support_and_background.h"
 #include "core/fitting/ray_selection.h"
 #include "core/fitting/region_place.h"
@@ -162,11 +162,12 @@ class DrillFit {
     SetMargins(modes, flipped.log_likelihood, detection);
     support.proportions_nats = prior_(best);
     DrillState any_flipped, any_own_way;
-    std::optional<double> without_foot;
+    std::optional<double> without_foot, without_chuck;
     const std::function<void()> independent[] = {
         [&] { any_flipped = OfAnyProportions(flipped); },
         [&] { any_own_way = OfAnyProportions(best); },
         [&] { without_foot = LikelihoodOfTool(WithoutFoot(*best.kind), best); },
+        [&] { without_chuck = LikelihoodOfTool(WithoutChuck(*best.kind), best); },
         [&] { SetAlternativeMargin(best, detection); },
         [&] {
           support.beam_sigma_yaw_rad =
@@ -179,9 +180,10 @@ class DrillFit {
       return Cancelled();
     const double own_way = WithoutPrior(any_own_way);
     SetFlipOfAnyProportions(best, any_flipped, own_way, detection, support);
-    if (without_foot)
-      detection.evidence.no_foot_margin_nats =
-          std::max(best.log_likelihood - prior_(best), own_way) - *without_foot;
+    const double own = std::max(best.log_likelihood - prior_(best), own_way);
+    DrillEvidence& evidence = detection.evidence;
+    if (without_foot) evidence.no_foot_margin_nats = own - *without_foot;
+    if (without_chuck) evidence.no_chuck_margin_nats = own - *without_chuck;
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);
     return detection;
   }
@@ -309,20 +311,16 @@ class DrillFit {
     const auto& pose = detection.best.base_from_object;
     const double own = best.log_likelihood - prior_(best);
     std::vector<SolidPart> blunt = detection.best.model.parts;
-    const auto head = std::find_if(blunt.begin(), blunt.end(), [](const SolidPart& part) {
-      return part.name == DrillTemplate::kHead;
-    });
-    const auto is_chuck = [](const SolidPart& part) { return part.name == DrillTemplate::kChuck; };
-    const auto chuck = std::find_if(blunt.begin(), blunt.end(), is_chuck);
-    if (head != blunt.end() && chuck != blunt.end()) {
-      chuck->size_m.head<2>().setConstant(head->size_m.y());
-      support.blunt_margin_nats = own - LogLikelihoodOf(blunt, pose, likelihood_);
-      std::erase_if(blunt, [](const SolidPart& part) { return part.name == DrillTemplate::kBit; });
-      support.blunt_margin_nats =
-          std::min(support.blunt_margin_nats, own - LogLikelihoodOf(blunt, pose, likelihood_));
-      std::erase_if(blunt, is_chuck);
-      support.chuck_nats = own - LogLikelihoodOf(blunt, pose, likelihood_);
-    }
+    const SolidPart* head = NamedPart(blunt, DrillTemplate::kHead);
+    SolidPart* chuck = NamedPart(blunt, DrillTemplate::kChuck);
+    if (head == nullptr || chuck == nullptr) return;
+    chuck->size_m.head<2>().setConstant(head->size_m.y());
+    support.blunt_margin_nats = own - LogLikelihoodOf(blunt, pose, likelihood_);
+    std::erase_if(blunt, [](const SolidPart& part) { return part.name == DrillTemplate::kBit; });
+    support.blunt_margin_nats =
+        std::min(support.blunt_margin_nats, own - LogLikelihoodOf(blunt, pose, likelihood_));
+    std::erase_if(blunt, [](const SolidPart& part) { return part.name == DrillTemplate::kChuck; });
+    support.chuck_nats = own - LogLikelihoodOf(blunt, pose, likelihood_);
   }
 
   /// Whether it ends in a chuck, and not in the nozzle of a hot air or glue tool.
@@ -341,9 +339,7 @@ class DrillFit {
   /// Whether it stands on a battery: hot air tools on a grip stand on the end of the grip.
   double FootNats(const DrillState& best, const DrillDetection& detection) const {
     std::vector<SolidPart> parts = detection.best.model.parts;
-    const auto body = std::find_if(parts.begin(), parts.end(), [](const SolidPart& part) {
-      return part.name == DrillTemplate::kBody;
-    });
+    const SolidPart* body = NamedPart(parts, DrillTemplate::kBody);
     bool has_feet = false;
     for (SolidPart& part : parts) {
       if (part.name != DrillTemplate::kFoot) continue;

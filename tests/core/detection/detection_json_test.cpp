@@ -112,6 +112,7 @@ DrillDetection SampleDrill() {
   drill.evidence.flip_margin_nats = 21.0;
   drill.evidence.no_foot_margin_nats = 63.5;
   drill.evidence.nozzle_margin_nats = 12.25;
+  drill.evidence.no_chuck_margin_nats = 8.5;
   drill.alternatives = {drill.best};
   drill.alternatives[0].log_likelihood = 80.0;
   drill.verdict = {VerdictLevel::kConfirmed, 0.97, "drill", {1.0}};
@@ -129,6 +130,7 @@ TEST(DetectionJson, ADrillSurvivesTheRoundTrip) {
   EXPECT_EQ(read->table->offset, 0.2);
   EXPECT_EQ(read->evidence.no_foot_margin_nats, 63.5);
   EXPECT_EQ(read->evidence.nozzle_margin_nats, 12.25);
+  EXPECT_EQ(read->evidence.no_chuck_margin_nats, 8.5);
   std::string old = DetectionToJson(sample, {});
   old.replace(old.find("63.5"), 4, "null");
   const auto older = DetectionFromJson(old);
@@ -213,6 +215,7 @@ TEST(DetectionJson, ACylinderSurvivesTheRoundTripWithoutAProbability) {
   sample.sigma_radius_m = 0.004;
   sample.covariance(0, 0) = 1e-6;
   sample.evidence.hits = 77;
+  sample.evidence.in_drawn_box = 0.75;
   sample.verdict = {VerdictLevel::kLikely, std::nan(""), "77 beams on it", {}, {"never confirmed"}};
   sample.origin.roi = BoxRoi{sample.base_from_object, {0.3, 0.4, 0.5}};
   const std::string text = DetectionToJson(sample, {});
@@ -223,6 +226,7 @@ TEST(DetectionJson, ACylinderSurvivesTheRoundTripWithoutAProbability) {
   ASSERT_NE(read, nullptr);
   EXPECT_TRUE(std::isnan(read->verdict.probability));
   EXPECT_EQ(read->model.radius_m, 0.05);
+  EXPECT_EQ(read->evidence.in_drawn_box, 0.75);
   EXPECT_EQ(read->covariance(0, 0), 1e-6);
   EXPECT_TRUE(std::isnan(read->covariance(2, 2)));
   EXPECT_EQ(DetectionToJson(*read, {}), text);

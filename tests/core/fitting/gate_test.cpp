@@ -315,7 +315,8 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
                       .alternative_margin_nats = random.Uniform(-50.0, 400.0),
                       .best_alternative = "box and cylinder",
                       .no_foot_margin_nats = random.Uniform(-20.0, 100.0),
-                      .nozzle_margin_nats = random.Uniform(-5.0, 30.0)};
+                      .nozzle_margin_nats = random.Uniform(-5.0, 30.0),
+                      .no_chuck_margin_nats = random.Uniform(-20.0, 50.0)};
     const DrillSupport support = {.beam_sigma_yaw_rad = found.sigma_yaw_rad,
                                   .any_flip_margin_nats = random.Uniform(-20.0, 100.0),
                                   .flip_line_sigmas = random.Uniform(-1.0, 4.0),
@@ -365,6 +366,12 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
   found.evidence.nozzle_margin_nats = 2.0;  // a heat gun on a battery
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, nozzle);
   found.evidence.nozzle_margin_nats = 30.0;
+  const auto no_chuck = ::testing::Contains(HasSubstr("a tool without a chuck"));
+  found.evidence.no_chuck_margin_nats = 20.0;
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(no_chuck));
+  found.evidence.no_chuck_margin_nats = -15.0;  // one that is as wide as its barrel to the end
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, no_chuck);
+  found.evidence.no_chuck_margin_nats = 20.0;
   support.chuck_nats = 0.0;
   const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "core/base/random.h"
+#include "core/fitting/roi.h"
 #include "core/geometry/angles.h"
 #include "core/simulation/ray_caster.h"
 #include "core/simulation/shapes.h"
@@ -21,8 +23,10 @@ using Pose = Rigid<frame::Robot, frame::Object>;
 struct View {
   Shape shape;
   Pose at;
-  double wall_m = 0.0;    ///< ahead; 0 = none
-  double ground_m = 0.0;  ///< its height; 0 = none
+  double wall_m = 0.0;               ///< ahead; 0 = none
+  double ground_m = 0.0;             ///< its height; 0 = none
+  std::optional<Shape> behind = {};  ///< something else
+  Pose behind_at;
   double half_rad = 0.2;  ///< of the view, about the thing
   double spacing_rad = 0.006;
   double sigma_m = 0.010;
@@ -48,6 +52,7 @@ RaySet RaysOf(const View& view) {
     AddSolid(BoxShape({0.1, 20.0, 20.0}), At(view.wall_m + 0.05, 0.0, 0.0), *scene);
   if (view.ground_m != 0.0)
     AddSolid(BoxShape({40.0, 40.0, 0.1}), At(0.0, 0.0, view.ground_m - 0.05), *scene);
+  if (view.behind) AddSolid(*view.behind, view.behind_at, *scene);
   const RayCaster caster(scene);
   Random random(view.seed);
   const Eigen::Vector3d middle = view.at.translation();
@@ -186,6 +191,43 @@ TEST(FitCylinder, AWallAndABoxAreNotLikely) {
     EXPECT_EQ(found->verdict.level, VerdictLevel::kUnsure) << found->model.radius_m;
     EXPECT_FALSE(found->verdict.reason.empty());
   }
+}
+
+TEST(FitCylinder, AMugIsFoundOnATableThatIsRoundToTheLikelihood) {
+  View view;
+  view.shape = CylinderShape(0.042, 0.10);
+  view.at = At(1.2, 0.0, -0.5);
+  view.ground_m = -0.55;
+  view.half_rad = 0.12;
+  view.spacing_rad = 0.004;
+  for (view.seed = 1; view.seed <= 6; ++view.seed) {
+    const auto found = Fit(RaysOf(view));
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(found->model.radius_m, 0.042, 0.006) << view.seed;
+    EXPECT_EQ(found->verdict.level, VerdictLevel::kLikely) << found->verdict.reason;
+  }
+}
+
+TEST(FitCylinder, WhatStandsBehindTheDrawnBoxIsNotTheAnswer) {
+  // A pole in the box, and a larger barrel behind it, on which more of the beams end.
+  View view;
+  view.shape = CylinderShape(0.03, 0.12);
+  view.at = At(1.5, 0.0, 0.0);
+  view.half_rad = 0.16;
+  view.behind = CylinderShape(0.20, 1.0);
+  view.behind_at = At(2.4, 0.1, 0.0);
+  RaySet rays = RaysOf(view);
+  BoxRoi box;
+  box.base_from_box = {Eigen::Quaterniond::Identity(), view.at.translation()};
+  box.size_m = {0.2, 0.2, 0.2};
+  std::erase_if(rays.rays, [&](const RangeRay& ray) {
+    return !box.Crosses(ray.origin, ray.origin + ray.range_m * ray.direction);
+  });
+  rays.box = box;
+  const auto found = Fit(rays);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->model.radius_m, 0.03, 0.006);
+  EXPECT_EQ(found->evidence.in_drawn_box, 1.0);
 }
 
 TEST(FitCylinder, TheSameSeedGivesTheSameAnswer) {

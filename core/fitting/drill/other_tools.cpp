@@ -1,21 +1,15 @@
-#include "core/fitting/drill/drill_with_nozzle.h"
+#include "core/fitting/drill/other_tools.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/objects/drill_template.h"
+#include "core/fitting/drill/named_part.h"
 
 namespace foresight {
 namespace {
 
 constexpr double kFractions[] = {1.0, 0.8};  // of the chuck's thickness
 constexpr double kShortestPart_m = 0.010;
-
-const SolidPart* Named(const std::vector<SolidPart>& parts, const char* name) {
-  const auto found = std::find_if(parts.begin(), parts.end(),
-                                  [&](const SolidPart& part) { return part.name == name; });
-  return found == parts.end() ? nullptr : &*found;
-}
+constexpr double kForward = 0.9;  // of a bit that points ahead, not up
 
 /// Which of a part's own axes lies along a direction.
 int AxisAlong(const SolidPart& part, const Eigen::Vector3d& direction) {
@@ -44,13 +38,45 @@ bool CutAt(double end_m, const Eigen::Vector3d& direction, SolidPart& part) {
 
 }  // namespace
 
+std::optional<DrillTemplate> WithoutFoot(const DrillTemplate& kind) {
+  DrillTemplate tool = kind;
+  const auto feet = std::erase_if(
+      tool.parts, [](const SolidPart& part) { return part.name == DrillTemplate::kFoot; });
+  if (feet == 0) return std::nullopt;
+  SolidPart& grip = *NamedPart(tool.parts, DrillTemplate::kBody);
+  const Eigen::Vector3d middle = grip.object_from_part.translation();
+  const double top_m = middle.z() + 0.5 * grip.size_m.z();
+  grip.size_m.z() = top_m;
+  grip.object_from_part = {grip.object_from_part.rotation(), {middle.x(), middle.y(), 0.5 * top_m}};
+  return tool;
+}
+
+std::optional<DrillTemplate> WithoutChuck(const DrillTemplate& kind) {
+  const Eigen::Vector3d forward = Eigen::Vector3d::UnitX();
+  const SolidPart* chuck = NamedPart(kind.parts, DrillTemplate::kChuck);
+  if (chuck == nullptr || kind.bit_direction.dot(forward) < kForward) return std::nullopt;
+  const double end_m = EndAlong(*chuck, forward);
+  DrillTemplate tool = kind;
+  std::erase_if(tool.parts,
+                [](const SolidPart& part) { return part.name == DrillTemplate::kChuck; });
+  SolidPart* head = NamedPart(tool.parts, DrillTemplate::kGearCase);
+  if (head == nullptr) head = NamedPart(tool.parts, DrillTemplate::kHead);
+  if (head == nullptr) return std::nullopt;
+  const double longer_m = end_m - EndAlong(*head, forward);
+  head->size_m[AxisAlong(*head, forward)] += longer_m;
+  head->object_from_part = {head->object_from_part.rotation(),
+                            head->object_from_part.translation() + 0.5 * longer_m * forward};
+  tool.max_bit_length_m = 0.0;
+  return tool;
+}
+
 std::vector<std::vector<SolidPart>> WithNozzles(const std::vector<SolidPart>& drill,
                                                 double nozzle_m) {
   std::vector<std::vector<SolidPart>> tools;
-  const SolidPart* chuck = Named(drill, DrillTemplate::kChuck);
+  const SolidPart* chuck = NamedPart(drill, DrillTemplate::kChuck);
   if (chuck == nullptr) return tools;
   const Eigen::Vector3d middle = chuck->object_from_part.translation();
-  const SolidPart* bit = Named(drill, DrillTemplate::kBit);
+  const SolidPart* bit = NamedPart(drill, DrillTemplate::kBit);
   // A bit may point up.
   const Eigen::Vector3d ahead = bit != nullptr
                                     ? Eigen::Vector3d(bit->object_from_part.translation() - middle)
