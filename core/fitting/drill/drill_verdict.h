@@ -37,6 +37,9 @@ struct DrillSupport {
   double foot_nats = std::numeric_limits<double>::infinity();
   /// Log of the prior's density: how usual a drill of this place, size and build is.
   double proportions_nats = 0.0;
+  /// How much further ahead a drill of any proportions in its place is, what is unusual about it at
+  /// no cost: what is no drill is built as none.
+  double unusual_nats = 0.0;
   /// What the image says of its outline, and how far that is ahead of the drill turned by 180 deg;
   /// 0 without an image.
   OutlineSupport outline = {};
@@ -48,9 +51,9 @@ struct DrillSupport {
 /// a box or a cylinder is 150 : 1 likelier; hard gates
 /// keep what no probability should: a confirmed drill stands on a table near the region's centre,
 /// has enough measurements on it, is not seen through, shows its head and its chuck, explains the
-/// rays better than a box and a cylinder, a tool without a foot or one with a nozzle, lies within
-/// the region, has no second direction close behind and no parameter at a bound. `rays` are those
-/// of the `region` that it was fitted to.
+/// rays better than a box and a cylinder, a tool without a foot, without a chuck or with a nozzle,
+/// is built as drills are, lies within the region, has no second direction close behind and no
+/// parameter at a bound. `rays` are those of the `region` that it was fitted to.
 Verdict AssessDrill(const RaySet& rays, const RaySet& region, const DrillDetection& detection,
                     const DrillState& drill, const DrillPrior& prior, const DrillSupport& support);
 

@@ -322,7 +322,8 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
                                   .flip_line_sigmas = random.Uniform(-1.0, 4.0),
                                   .blunt_margin_nats = random.Uniform(-20.0, 100.0),
                                   .chuck_nats = random.Uniform(-20.0, 100.0),
-                                  .foot_nats = random.Uniform(-20.0, 100.0)};
+                                  .foot_nats = random.Uniform(-20.0, 100.0),
+                                  .unusual_nats = random.Uniform(-5.0, 60.0)};
     ExpectStatedGatesFail(AssessDrill(rays, rays, found, state, {}, support), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
@@ -372,6 +373,11 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
   found.evidence.no_chuck_margin_nats = -15.0;  // one that is as wide as its barrel to the end
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, no_chuck);
   found.evidence.no_chuck_margin_nats = 20.0;
+  const auto unusual = ::testing::Contains(HasSubstr("proportions that drills do not have"));
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(unusual));
+  support.unusual_nats = 48.0;  // a hot air tool on a battery
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, unusual);
+  support.unusual_nats = 0.0;
   support.chuck_nats = 0.0;
   const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);
