@@ -1,4 +1,5 @@
 #include "app/ctl/fit_arguments.h"
+#include "app/ctl/unit_option.h"
 
 #include "core/depth/depth_method.h"
 #include "core/detection/fit_option_table.h"
@@ -67,10 +68,14 @@ void AddFileArguments(CLI::App& command, FitArguments& arguments) {
                   "With --depth: fraction of its pixels with a measurement of their own")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
-  command.add_option(
-      "--cloud", arguments.cloud_file,
-      "Point cloud, in metres: PLY, PCD, .bin of four floats a point, or text. Regions and "
-      "robot_from_object of the answer are in the cloud's own frame");
+  command.add_option("--cloud", arguments.cloud_file,
+                     "Point cloud, in metres or as --unit says: PLY, PCD, .bin of four floats a "
+                     "point, or text. Regions and "
+                     "robot_from_object of the answer are in the cloud's own frame");
+  command
+      .add_option("--unit", arguments.unit,
+                  "With --cloud: unit of the file's coordinates: m, cm, mm; all else is in metres")
+      ->capture_default_str();
   command
       .add_option("--viewpoint", arguments.viewpoint,
                   "With --cloud: where it was seen from, x,y,z in metres")
@@ -139,7 +144,7 @@ Status RefuseDepthOptions(const FitArguments& a, const char* why) {
 }
 
 Status CheckForScan(const FitArguments& a) {
-  FORESIGHT_CHECK(RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm"},
+  FORESIGHT_CHECK(RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm", "--unit"},
                               "goes with --cloud, not with a mission"));
   FORESIGHT_CHECK(RefuseGiven(a, {"--density"}, "goes with --depth, not with a mission"));
   FORESIGHT_CHECK(
@@ -161,7 +166,7 @@ Status CheckForHead(const FitArguments& a) {
 Status CheckForDepthMap(const FitArguments& a) {
   FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --depth"));
   FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission: the map of --depth is made already"));
-  return RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm"},
+  return RefuseGiven(a, {"--viewpoint", "--up", "--noise-mm", "--unit"},
                      "goes with --cloud, not with --depth");
 }
 
@@ -169,6 +174,7 @@ Status CheckForCloud(const FitArguments& a) {
   FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --cloud"));
   FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission, not with --cloud"));
   FORESIGHT_CHECK(RefuseGiven(a, {"--density"}, "goes with --depth, not with --cloud"));
+  if (const auto unit_m = UnitFrom(a.unit); !unit_m) return tl::unexpected(unit_m.error());
   if (!a.rig.empty())
     return RefuseGiven(a, {"--up"},
                        "is not for a cloud with --rig, which says how the head stands");

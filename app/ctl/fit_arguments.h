@@ -31,6 +31,7 @@ struct FitArguments {
   std::string depth_file;  ///< instead of a mission, with `rig`
   double density = 0.02;
   std::string cloud_file;  ///< instead of a mission, with `viewpoint`
+  std::string unit = "m";  ///< of the cloud file's coordinates
   std::vector<double> viewpoint;
   std::vector<double> up = {0.0, 0.0, 1.0};
   double noise_mm = 0.0;  ///< deviation of a cloud's ranges; 0 = measured in the region

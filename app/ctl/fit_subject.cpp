@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/common/output.h"
+#include "app/ctl/unit_option.h"
 #include "core/depth/depth_method.h"
 #include "core/geometry/angles.h"
 #include "core/io/cloud_table.h"
@@ -85,8 +86,9 @@ Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
     FORESIGHT_TRY(subject.rig.robot_from_base, CloudFromBase(arguments.up));
   }
   const auto base_from_robot = subject.rig.robot_from_base.Inverse();
+  FORESIGHT_TRY(const double unit_m, UnitFrom(arguments.unit));
   for (const Eigen::Vector3d& point : cloud.points)
-    subject.points.push_back(base_from_robot * point);
+    subject.points.push_back(base_from_robot * (unit_m * point));
   subject.viewpoint = base_from_robot * Eigen::Vector3d(arguments.viewpoint.data());
   // Where points of several scans were put together, their numbers are no grid.
   auto places = GridOfTable(cloud, subject.points, subject.viewpoint);

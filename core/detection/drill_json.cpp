@@ -45,7 +45,8 @@ Json EvidenceJson(const DrillEvidence& evidence) {
           {"best_alternative", evidence.best_alternative},
           {"no_foot_margin_nats", NumberOrNull(evidence.no_foot_margin_nats)},
           {"nozzle_margin_nats", NumberOrNull(evidence.nozzle_margin_nats)},
-          {"no_chuck_margin_nats", NumberOrNull(evidence.no_chuck_margin_nats)}};
+          {"no_chuck_margin_nats", NumberOrNull(evidence.no_chuck_margin_nats)},
+          {"unusual_nats", NumberOrNull(evidence.unusual_nats)}};
 }
 
 DrillCandidate DrillCandidateFrom(const Json& value) {
@@ -70,6 +71,7 @@ DrillEvidence DrillEvidenceFrom(const Json& value) {
   evidence.no_foot_margin_nats = NumberOrNone(value, "no_foot_margin_nats");
   evidence.nozzle_margin_nats = NumberOrNone(value, "nozzle_margin_nats");
   evidence.no_chuck_margin_nats = NumberOrNone(value, "no_chuck_margin_nats");
+  evidence.unusual_nats = NumberOrNone(value, "unusual_nats");
   return evidence;
 }
 

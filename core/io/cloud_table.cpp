@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "core/base/atomic_file.h"
@@ -161,13 +162,48 @@ void TurnFrom3dtk(CloudTable& table) {
   for (Eigen::Vector3d& p : table.points) p = 0.01 * Eigen::Vector3d(p.z(), -p.x(), p.y());
 }
 
-/// The columns of a text file: of the first line that has numbers.
-std::vector<std::string_view> TextColumns(std::string_view bytes) {
-  while (const auto line = TakeLine(bytes)) {
-    const std::vector<std::string_view> words = Words(*line);
-    if (!words.empty() && words[0][0] != '#') return words;
+bool IsNumber(std::string_view word) {
+  const std::string text(word);
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0';
+}
+
+/// A column's name as TakeColumns knows it: without quotes and CloudCompare's "//", in small
+/// letters where it is not known as it is written.
+std::string ColumnName(std::string_view word) {
+  std::string name(word);
+  std::erase_if(name, [](char c) { return c == '"' || c == '\'' || c == '/'; });
+  if (MeaningOf(name)) return name;
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+/// The names of a text's columns: those of its first line where that has no number, which is taken
+/// off; else what three and four columns usually are.
+std::vector<std::string> TakeColumnNames(std::string_view& rows, std::size_t& count) {
+  std::string_view rest = rows;
+  const auto first = TakeLine(rest);
+  if (!first) return {};
+  const std::vector<std::string_view> words = Words(*first);
+  if (std::any_of(words.begin(), words.end(), IsNumber)) {
+    std::vector<std::string> usual(words.size());
+    constexpr std::array<const char*, 4> kUsual = {"x", "y", "z", "intensity"};
+    std::copy_n(kUsual.begin(), std::min<std::size_t>(words.size(), words.size() == 4 ? 4 : 3),
+                usual.begin());
+    return usual;
   }
-  return {};
+  rows = rest;
+  --count;
+  std::vector<std::string> names;
+  for (const std::string_view word : words) names.push_back(ColumnName(word));
+  return names;
+}
+
+bool AreWhole(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return value == std::floor(value); });
 }
 
 }  // namespace
@@ -232,18 +268,25 @@ Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& so
     if (++count > kMostCloudPoints)
       return Fail(ErrorCode::kBadData, "{}: more than {} points", source, kMostCloudPoints);
   }
-  const std::size_t width = TextColumns(rows).size();
-  if (width < 3)
+  std::string_view numbers = rows;
+  const std::vector<std::string> names = TakeColumnNames(numbers, count);
+  if (names.size() < 3)
     return Fail(ErrorCode::kBadData, "{}: is no text of points: {} numbers in its first line",
-                source, width);
-  const std::vector<std::size_t> wanted =
-      width == 4 ? std::vector<std::size_t>{0, 1, 2, 3} : std::vector<std::size_t>{0, 1, 2};
-  FORESIGHT_TRY(std::vector<std::vector<double>> values,
-                ColumnsFromText(rows, wanted, width, count, source));
-  constexpr std::array<const char*, 4> kNames = {"x", "y", "z", "intensity"};
+                source, names.size());
   std::vector<NamedColumn> columns;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    columns.push_back({kNames[i], true, false, std::move(values[i])});
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!IsCloudColumn(names[i])) continue;
+    columns.push_back({.name = names[i], .values = {}});
+    wanted.push_back(i);
+  }
+  FORESIGHT_TRY(
+      std::vector<std::vector<double>> values,
+      ColumnsFromText(numbers, wanted, names.size(), count, source, WhichAreCoordinates(columns)));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    columns[i].is_float = !AreWhole(values[i]);
+    columns[i].values = std::move(values[i]);
+  }
   FORESIGHT_CHECK(TakeColumns(std::move(columns), table, source));
   return table;
 }

@@ -51,8 +51,8 @@ Result<CloudTable> DecodePlyTable(std::string_view bytes, const std::string& sou
 Result<CloudTable> DecodePcdTable(std::string_view bytes, const std::string& source);
 /// Four little-endian floats a point, as KITTI has them: x, y, z, reflectance.
 Result<CloudTable> DecodeFloatRecordTable(std::string_view bytes, const std::string& source);
-/// A point a line, "x y z" or "x y z intensity", separated by blanks or commas; lines that begin
-/// with '#' are comments.
+/// A point a line, "x y z" or "x y z intensity", separated by blanks, commas or semicolons; a first
+/// line without numbers names the columns. Lines that begin with '#' are comments.
 Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& source);
 
 /// By the file's first bytes and name: PLY, PCD, floats (.bin), text (.xyz, .txt, .csv, .asc, .3d).

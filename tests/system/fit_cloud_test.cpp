@@ -85,6 +85,37 @@ TEST_F(FitOfACloud, ADrillIsFoundWhereTheCloudsUpIsWhatUpSays) {
   EXPECT_LT(there["best"]["robot_from_object"]["z_axis"][1].get<double>(), -0.99);
 }
 
+TEST_F(FitOfACloud, MayBeATableWithNamesAndInMillimetres) {
+  Scan("drill.yaml");
+  const auto points = ReadPointCloud(cloud_);
+  ASSERT_TRUE(points);
+  std::string csv = "intensity,X,Y,Z\n";
+  for (const Eigen::Vector3d& p : *points)
+    csv += fmt::format("7,{:.2f},{:.2f},{:.2f}\n", 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z());
+  const std::string table = folder_ / "cloud.csv";
+  ASSERT_TRUE(WriteFileAtomically(table, csv));
+  const auto fit = [&](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        "fit",         "drill",        "--cloud", file,
+        "--viewpoint", Numbers(head_), "--json",  Box({1.3, 0.1, 1.1}, {0.4, 0.4, 0.4})};
+    words.insert(words.end(), more.begin(), more.end());
+    return Ctl(words);
+  };
+  const ProgramResult in_metres = fit(cloud_, {});
+  const ProgramResult in_mm = fit(table, {"--unit", "mm"});
+  ASSERT_LE(in_mm.exit_code, 1) << in_mm.errors;
+  const auto one = nlohmann::json::parse(in_metres.output);
+  const auto other = nlohmann::json::parse(in_mm.output);
+  EXPECT_EQ(other["verdict"], one["verdict"]);
+  EXPECT_LT(
+      (PlaceIn(other["best"]["robot_from_object"]) - PlaceIn(one["best"]["robot_from_object"]))
+          .norm(),
+      0.010);
+  const ProgramResult wrong = fit(table, {"--unit", "inch"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.errors.find("none of m, cm and mm"), std::string::npos) << wrong.errors;
+}
+
 TEST_F(FitOfACloud, BlocksAreFoundWhereTheCloudsUpIsWhatUpSays) {
   Scan("terrain.yaml");
   const auto blocks = [](const nlohmann::json& answer) {

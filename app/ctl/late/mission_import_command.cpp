@@ -2,6 +2,7 @@
 
 #include "app/ctl/command.h"
 #include "app/ctl/late/late_command.h"
+#include "app/ctl/unit_option.h"
 #include "core/exchange/import_mission.h"
 #include "core/geometry/angles.h"
 
@@ -24,13 +25,6 @@ struct ImportArguments {
   std::vector<int> clouds;
   bool json = false;
 };
-
-Result<double> UnitFrom(const std::string& text) {
-  if (text == "m") return 1.0;
-  if (text == "cm") return 0.01;
-  if (text == "mm") return 0.001;
-  return Fail(ErrorCode::kInvalidOptions, "--unit '{}' is none of m, cm and mm", text);
-}
 
 Result<ImportOptions> OptionsFrom(const ImportArguments& arguments) {
   ImportOptions options;

@@ -162,6 +162,15 @@ Gate NoChuckGate(double margin_nats) {
           .advice = "it may be another tool"};
 }
 
+Gate UnusualGate(double nats) {
+  return {.what = "the odds for proportions that drills do not have are {}",
+          .unit = Gate::Unit::kOdds,
+          .number = nats,
+          .side = Gate::Side::kAtMost,
+          .limit = kMaxUnusual_nats,
+          .advice = "it may be another tool"};
+}
+
 /// What its direction has against it: the first of these that it misses.
 std::vector<Gate> DirectionGates(const DrillEvidence& evidence, const DrillSupport& support) {
   const bool image_tells = support.image_flip_nats >= kImageTellsWay_nats;
@@ -258,17 +267,11 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
     if (gate.Failed()) break;
   }
   AddLongChuck(model, failed);
-  AddIfFailed({.what = "the odds for proportions that drills do not have are {}",
-               .unit = Gate::Unit::kOdds,
-               .number = support.unusual_nats,
-               .side = Gate::Side::kAtMost,
-               .limit = kMaxUnusual_nats,
-               .advice = "it may be another tool"},
-              failed);
   if (evidence.no_foot_margin_nats) AddIfFailed(NoFootGate(*evidence.no_foot_margin_nats), failed);
   if (evidence.nozzle_margin_nats) AddIfFailed(NozzleGate(*evidence.nozzle_margin_nats), failed);
   if (evidence.no_chuck_margin_nats)
     AddIfFailed(NoChuckGate(*evidence.no_chuck_margin_nats), failed);
+  if (evidence.unusual_nats) AddIfFailed(UnusualGate(*evidence.unusual_nats), failed);
   AddFailedBoundGates(model, drill, prior, failed);
   AddIfFailed(
       OffCenterGate(kObject, region,

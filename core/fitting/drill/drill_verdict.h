@@ -37,9 +37,6 @@ struct DrillSupport {
   double foot_nats = std::numeric_limits<double>::infinity();
   /// Log of the prior's density: how usual a drill of this place, size and build is.
   double proportions_nats = 0.0;
-  /// How much further ahead a drill of any proportions in its place is, what is unusual about it at
-  /// no cost: what is no drill is built as none.
-  double unusual_nats = 0.0;
   /// What the image says of its outline, and how far that is ahead of the drill turned by 180 deg;
   /// 0 without an image.
   OutlineSupport outline = {};

@@ -180,10 +180,9 @@ class DrillFit {
       return Cancelled();
     const double own_way = WithoutPrior(any_own_way);
     SetFlipOfAnyProportions(best, any_flipped, own_way, detection, support);
-    const double usual = best.log_likelihood - prior_(best);
-    support.unusual_nats = own_way - usual;
-    const double own = std::max(usual, own_way);
+    const double usual = best.log_likelihood - prior_(best), own = std::max(usual, own_way);
     DrillEvidence& evidence = detection.evidence;
+    evidence.unusual_nats = own_way - usual;
     if (without_foot) evidence.no_foot_margin_nats = own - *without_foot;
     if (without_chuck) evidence.no_chuck_margin_nats = own - *without_chuck;
     detection.verdict = AssessDrill(likelihood_.rays(), region_, detection, best, prior_, support);

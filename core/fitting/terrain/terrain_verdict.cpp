@@ -51,7 +51,8 @@ Gate SizeGate(const BlockEvidence& evidence, double limit_nats, VerdictSource so
           .number = evidence.size_nats,
           .limit = limit_nats,
           .advice = source == VerdictSource::kCloud
-                        ? "lidar returns hardly show edges, fit to the dense map if there is one"
+                        ? "lidar returns hardly show edges: fit to a dense map, or give the image "
+                          "that shows it"
                         : "measure it, or look at it from another side"};
 }
 

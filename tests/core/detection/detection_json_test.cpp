@@ -113,6 +113,7 @@ DrillDetection SampleDrill() {
   drill.evidence.no_foot_margin_nats = 63.5;
   drill.evidence.nozzle_margin_nats = 12.25;
   drill.evidence.no_chuck_margin_nats = 8.5;
+  drill.evidence.unusual_nats = 1.75;
   drill.alternatives = {drill.best};
   drill.alternatives[0].log_likelihood = 80.0;
   drill.verdict = {VerdictLevel::kConfirmed, 0.97, "drill", {1.0}};
@@ -131,6 +132,7 @@ TEST(DetectionJson, ADrillSurvivesTheRoundTrip) {
   EXPECT_EQ(read->evidence.no_foot_margin_nats, 63.5);
   EXPECT_EQ(read->evidence.nozzle_margin_nats, 12.25);
   EXPECT_EQ(read->evidence.no_chuck_margin_nats, 8.5);
+  EXPECT_EQ(read->evidence.unusual_nats, 1.75);
   std::string old = DetectionToJson(sample, {});
   old.replace(old.find("63.5"), 4, "null");
   const auto older = DetectionFromJson(old);

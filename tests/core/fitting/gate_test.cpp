@@ -316,14 +316,14 @@ TEST(Reasons, OfDrillsFailAsTheyAreStated) {
                       .best_alternative = "box and cylinder",
                       .no_foot_margin_nats = random.Uniform(-20.0, 100.0),
                       .nozzle_margin_nats = random.Uniform(-5.0, 30.0),
-                      .no_chuck_margin_nats = random.Uniform(-20.0, 50.0)};
+                      .no_chuck_margin_nats = random.Uniform(-20.0, 50.0),
+                      .unusual_nats = random.Uniform(-5.0, 60.0)};
     const DrillSupport support = {.beam_sigma_yaw_rad = found.sigma_yaw_rad,
                                   .any_flip_margin_nats = random.Uniform(-20.0, 100.0),
                                   .flip_line_sigmas = random.Uniform(-1.0, 4.0),
                                   .blunt_margin_nats = random.Uniform(-20.0, 100.0),
                                   .chuck_nats = random.Uniform(-20.0, 100.0),
-                                  .foot_nats = random.Uniform(-20.0, 100.0),
-                                  .unusual_nats = random.Uniform(-5.0, 60.0)};
+                                  .foot_nats = random.Uniform(-20.0, 100.0)};
     ExpectStatedGatesFail(AssessDrill(rays, rays, found, state, {}, support), &stated);
   }
   EXPECT_GT(stated, kAnswers / 2);
@@ -375,9 +375,9 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
   found.evidence.no_chuck_margin_nats = 20.0;
   const auto unusual = ::testing::Contains(HasSubstr("proportions that drills do not have"));
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(unusual));
-  support.unusual_nats = 48.0;  // a hot air tool on a battery
+  found.evidence.unusual_nats = 48.0;  // a hot air tool on a battery
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, unusual);
-  support.unusual_nats = 0.0;
+  found.evidence.unusual_nats = 0.0;
   support.chuck_nats = 0.0;
   const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "core/base/atomic_file.h"
 #include "core/io/point_cloud_file.h"
+#include "core/io/read_point_cloud.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -96,6 +98,26 @@ TEST(CloudTable, AFileOf3dtkIsTurnedToMetresAheadLeftAndUp) {
   // 3DTK: 1 m to the right, 0.5 m up, 7 m ahead.
   const CloudTable table = ReadCloudTable(folder / "scan000.3d").value();
   EXPECT_TRUE(table.points[0].isApprox(Eigen::Vector3d(7.0, -1.0, 0.5), 1e-12));
+}
+
+TEST(CloudTable, ATextsFirstLineMayNameItsColumns) {
+  const auto table = DecodeTextTable(
+      "\"laser_id\",X,Y,Z,Intensity,t\n3,1,2,0.5,40,1000\n4,5,6,0.5,dim,2000\n", "c.csv");
+  ASSERT_TRUE(table) << table.error().message;
+  ASSERT_EQ(table->points.size(), 2u);
+  EXPECT_EQ(table->points[1], Eigen::Vector3d(5.0, 6.0, 0.5));
+  EXPECT_EQ(table->intensity[0], 40.0f);
+  EXPECT_TRUE(std::isnan(table->intensity[1]));
+  EXPECT_NEAR(table->time_s[1], 2e-6, 1e-15);
+  // CloudCompare's.
+  const auto compare = DecodeTextTable("//X Y Z R G B\n1 2 3 10 20 255\n", "c.txt");
+  ASSERT_TRUE(compare) << compare.error().message;
+  EXPECT_THAT(compare->color, ElementsAre(Rgb8{10, 20, 255}));
+  const auto no_height = DecodeTextTable("x,y,height\n1,2,3\n", "c.csv");
+  ASSERT_FALSE(no_height);
+  EXPECT_THAT(no_height.error().message, HasSubstr("no number 'z'"));
+  const auto empty = DecodeTextTable("x,y,z\n", "c.csv");
+  EXPECT_FALSE(empty && CheckCloudPoints(empty->points, "c.csv"));
 }
 
 TEST(CloudTable, WhatIsNoCloudIsRefusedByName) {
