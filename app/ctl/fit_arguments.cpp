@@ -1,6 +1,6 @@
 #include "app/ctl/fit_arguments.h"
-#include "app/ctl/unit_option.h"
 
+#include "app/ctl/unit_option.h"
 #include "core/depth/depth_method.h"
 #include "core/detection/fit_option_table.h"
 
@@ -74,7 +74,9 @@ void AddFileArguments(CLI::App& command, FitArguments& arguments) {
                      "robot_from_object of the answer are in the cloud's own frame");
   command
       .add_option("--unit", arguments.unit,
-                  "With --cloud: unit of the file's coordinates: m, cm, mm; all else is in metres")
+                  "With --cloud: unit of the file's coordinates: m, cm, mm (3DTK's are in cm); all "
+                  "else is in "
+                  "metres")
       ->capture_default_str();
   command
       .add_option("--viewpoint", arguments.viewpoint,

@@ -81,14 +81,14 @@ void NoteGrid(const std::string& file, const Result<GridPlaces>& of_table,
 }
 
 Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
-  FORESIGHT_TRY(const CloudTable cloud, ReadCloudTable(arguments.cloud_file));
+  FORESIGHT_TRY(const double unit_m, UnitFrom(arguments.unit));
+  FORESIGHT_TRY(const CloudTable cloud, ReadCloudTable(arguments.cloud_file, unit_m));
   if (arguments.rig.empty()) {
     FORESIGHT_TRY(subject.rig.robot_from_base, CloudFromBase(arguments.up));
   }
   const auto base_from_robot = subject.rig.robot_from_base.Inverse();
-  FORESIGHT_TRY(const double unit_m, UnitFrom(arguments.unit));
   for (const Eigen::Vector3d& point : cloud.points)
-    subject.points.push_back(base_from_robot * (unit_m * point));
+    subject.points.push_back(base_from_robot * point);
   subject.viewpoint = base_from_robot * Eigen::Vector3d(arguments.viewpoint.data());
   // Where points of several scans were put together, their numbers are no grid.
   auto places = GridOfTable(cloud, subject.points, subject.viewpoint);

@@ -3,6 +3,7 @@
 
 #include "core/base/parallel.h"
 #include "core/depth/aligned_samples.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
@@ -73,7 +74,7 @@ Result<AlignedSamples> AlignToImage(const RegisteredScan& scan, const SensorRig&
     return Fail(
         ErrorCode::kTooFewPoints,
         "no lidar return lies in the image taken at {:.1f} deg; scan a scope that covers it",
-        motor_rad * 57.29577951308232);
+        DegreesFromRadians(motor_rad));
   return aligned;
 }
 

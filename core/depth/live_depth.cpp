@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "core/geometry/angles.h"
+
 namespace foresight {
 namespace {
 
@@ -63,7 +65,7 @@ Status LiveDepth::AlignNewLines(const RegisteredScan& scan, const RunContext& co
   if (samples.empty())
     return Fail(ErrorCode::kTooFewPoints,
                 "no return of the {} lidar lines so far lies in the image taken at {:.1f} deg",
-                scan.lines, frame_.motor_angle_rad * 57.29577951308232);
+                scan.lines, DegreesFromRadians(frame_.motor_angle_rad));
   return {};
 }
 

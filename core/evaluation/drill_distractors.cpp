@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "core/geometry/angles.h"
 #include "core/simulation/shapes.h"
 
 namespace foresight {
@@ -59,7 +60,7 @@ void AddBottle(Thing& thing, Random& random) {
 void AddMug(Thing& thing, Random& random) {
   const double radius = random.Uniform(0.036, 0.045), height = random.Uniform(0.09, 0.12);
   thing.AddCylinder(radius, 0.0, height);
-  const Eigen::AngleAxisd upright(1.5707963267948966, Eigen::Vector3d::UnitX());
+  const Eigen::AngleAxisd upright(RadiansFromDegrees(90.0), Eigen::Vector3d::UnitX());
   thing.Add(TorusShape(0.030, 0.006), {Eigen::Quaterniond(upright), {radius, 0.0, 0.5 * height}});
 }
 

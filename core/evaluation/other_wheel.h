@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct OtherWheel {
   Section rim = Section::kRound;
   Eigen::Vector2d rim_m = {0.02, 0.02};  ///< radial and axial size of the section
   double rim_begin_rad = 0.0;            ///< a broken rim begins here ...
-  double rim_arc_rad = 6.283185307179586;
+  double rim_arc_rad = 2.0 * std::numbers::pi;
   double waves_m = 0.0;  ///< of the rim's radius, as a grip has them
   int waves = 0;
   std::vector<double> spokes_rad;

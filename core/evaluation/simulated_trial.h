@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/evaluation/method_score.h"
+#include "core/geometry/angles.h"
 #include "core/sensor/scan_plan.h"
 #include "core/simulation/world.h"
 
@@ -12,7 +13,7 @@ namespace foresight {
 /// How far a believed calibration is from the true head: a turn about and a shift along directions
 /// drawn at random, of exactly these sizes.
 struct CalibrationError {
-  double rotation_rad = 0.0017453292519943296;  ///< 0.1 deg: one pixel of the default camera
+  double rotation_rad = RadiansFromDegrees(0.1);  ///< one pixel of the default camera
   double translation_m = 0.003;
 
   Status Check() const;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/exchange/scan_record.h"
+#include "core/geometry/angles.h"
 #include "core/io/cloud_table.h"
 
 namespace foresight {
@@ -18,9 +19,9 @@ Result<CloudFrame> CloudFrameFromText(std::string_view text);
 /// A camera that nothing was taken with, for clouds without an image: its image is grey, so a depth
 /// map is made of the points alone.
 struct BlankView {
-  double azimuth_rad = 0.0;               ///< to the left of ahead
-  double elevation_rad = 0.0;             ///< up
-  double field_rad = 1.5707963267948966;  ///< across the width, below 170 deg
+  double azimuth_rad = 0.0;                     ///< to the left of ahead
+  double elevation_rad = 0.0;                   ///< up
+  double field_rad = RadiansFromDegrees(90.0);  ///< across the width, below 170 deg
   int width = 640;
   int height = 480;
 

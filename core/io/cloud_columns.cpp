@@ -44,15 +44,6 @@ double Decoded(const char* bytes, CloudScalar type, bool swap) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A number as programs print it, "nan", "-nan" and "inf" included.
-std::optional<double> ParseNumber(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
 }  // namespace
 
 std::size_t SizeOf(CloudScalar type) {
@@ -120,6 +111,14 @@ Result<std::vector<Eigen::Vector3d>> PointsFromText(std::string_view text,
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] = {columns[0][i], columns[1][i], columns[2][i]};
   return points;
+}
+
+std::optional<double> ParseNumber(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
 }
 
 std::optional<std::string_view> TakeLine(std::string_view& rest) {

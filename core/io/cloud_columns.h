@@ -48,6 +48,10 @@ Result<std::vector<Eigen::Vector3d>> PointsFromText(std::string_view text,
                                                     std::size_t fields, std::size_t count,
                                                     const std::string& source);
 
+/// A number as programs print it, "nan", "-nan" and "inf" included, whatever the locale; nullopt
+/// for anything else.
+std::optional<double> ParseNumber(std::string_view word);
+
 /// Takes the next line off `rest`, without its end; nullopt where there is none.
 std::optional<std::string_view> TakeLine(std::string_view& rest);
 std::vector<std::string_view> Words(std::string_view line);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "core/base/atomic_file.h"
@@ -162,13 +161,6 @@ void TurnFrom3dtk(CloudTable& table) {
   for (Eigen::Vector3d& p : table.points) p = 0.01 * Eigen::Vector3d(p.z(), -p.x(), p.y());
 }
 
-bool IsNumber(std::string_view word) {
-  const std::string text(word);
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == '\0';
-}
-
 /// A column's name as TakeColumns knows it: without quotes and CloudCompare's "//", in small
 /// letters where it is not known as it is written.
 std::string ColumnName(std::string_view word) {
@@ -187,7 +179,8 @@ std::vector<std::string> TakeColumnNames(std::string_view& rows, std::size_t& co
   const auto first = TakeLine(rest);
   if (!first) return {};
   const std::vector<std::string_view> words = Words(*first);
-  if (std::any_of(words.begin(), words.end(), IsNumber)) {
+  const auto is_number = [](std::string_view word) { return ParseNumber(word).has_value(); };
+  if (std::any_of(words.begin(), words.end(), is_number)) {
     std::vector<std::string> usual(words.size());
     constexpr std::array<const char*, 4> kUsual = {"x", "y", "z", "intensity"};
     std::copy_n(kUsual.begin(), std::min<std::size_t>(words.size(), words.size() == 4 ? 4 : 3),
@@ -201,9 +194,24 @@ std::vector<std::string> TakeColumnNames(std::string_view& rows, std::size_t& co
   return names;
 }
 
-bool AreWhole(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(),
-                     [](double value) { return value == std::floor(value); });
+/// A text does not say what its numbers are: times in whole numbers are nanoseconds, and colours
+/// are 0 to 255 where any of the three is above 1.
+void SetNumberTypes(std::vector<NamedColumn>& columns) {
+  const auto is_color = [](const NamedColumn& column) {
+    const auto meaning = MeaningOf(column.name);
+    return meaning && *meaning >= Meaning::kRed;
+  };
+  const auto above_one = [](double value) { return value > 1.0; };
+  const bool bytes = std::any_of(columns.begin(), columns.end(), [&](const NamedColumn& column) {
+    return is_color(column) && std::any_of(column.values.begin(), column.values.end(), above_one);
+  });
+  for (NamedColumn& column : columns)
+    column.is_float =
+        is_color(column)
+            ? !bytes
+            : !std::all_of(column.values.begin(), column.values.end(), [](double value) {
+                return !std::isfinite(value) || value == std::floor(value);
+              });
 }
 
 }  // namespace
@@ -253,6 +261,8 @@ Result<CloudTable> DecodeFloatRecordTable(std::string_view bytes, const std::str
 
 Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& source) {
   CloudTable table;
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   std::string text(bytes);
   std::replace(text.begin(), text.end(), ',', ' ');
   std::replace(text.begin(), text.end(), ';', ' ');
@@ -271,8 +281,13 @@ Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& so
   std::string_view numbers = rows;
   const std::vector<std::string> names = TakeColumnNames(numbers, count);
   if (names.size() < 3)
-    return Fail(ErrorCode::kBadData, "{}: is no text of points: {} numbers in its first line",
+    return Fail(ErrorCode::kBadData, "{}: is no text of points: {} columns in its first line",
                 source, names.size());
+  std::string_view first_point = numbers;
+  if (const auto line = TakeLine(first_point); line && Words(*line).size() != names.size())
+    return Fail(ErrorCode::kBadData,
+                "{}: its first line names {} columns, the next one has {} numbers", source,
+                names.size(), Words(*line).size());
   std::vector<NamedColumn> columns;
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -283,15 +298,13 @@ Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& so
   FORESIGHT_TRY(
       std::vector<std::vector<double>> values,
       ColumnsFromText(numbers, wanted, names.size(), count, source, WhichAreCoordinates(columns)));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    columns[i].is_float = !AreWhole(values[i]);
-    columns[i].values = std::move(values[i]);
-  }
+  for (std::size_t i = 0; i < values.size(); ++i) columns[i].values = std::move(values[i]);
+  SetNumberTypes(columns);
   FORESIGHT_CHECK(TakeColumns(std::move(columns), table, source));
   return table;
 }
 
-Result<CloudTable> ReadCloudTable(const std::filesystem::path& path) {
+Result<CloudTable> ReadCloudTable(const std::filesystem::path& path, double unit_m) {
   FORESIGHT_TRY(const std::string bytes, ReadFile(path));
   const std::string source = path.string();
   CloudTable table;
@@ -310,7 +323,10 @@ Result<CloudTable> ReadCloudTable(const std::filesystem::path& path) {
                 "as text of points does (.xyz, .txt, .csv, .asc, .pts, .3d)",
                 source);
   }
-  if (path.extension() == ".3d") TurnFrom3dtk(table);
+  if (path.extension() == ".3d")
+    TurnFrom3dtk(table);
+  else
+    for (Eigen::Vector3d& point : table.points) point *= unit_m;
   FORESIGHT_CHECK(CheckCloudPoints(table.points, source));
   return table;
 }

@@ -57,8 +57,8 @@ Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& so
 
 /// By the file's first bytes and name: PLY, PCD, floats (.bin), text (.xyz, .txt, .csv, .asc, .3d).
 /// Of a .3d file, 3DTK's, points are turned from its left-handed centimetres (x right, y up, z
-/// forward) to metres, x forward, y left, z up. Fails with kIo and with kBadData, also where a
-/// coordinate is beyond 100 km or no point is a number.
-Result<CloudTable> ReadCloudTable(const std::filesystem::path& path);
+/// forward) to metres, x forward, y left, z up; the coordinates of others are in `unit_m`. Fails
+/// with kIo and with kBadData, also where a coordinate is beyond 100 km or no point is a number.
+Result<CloudTable> ReadCloudTable(const std::filesystem::path& path, double unit_m = 1.0);
 
 }  // namespace foresight

@@ -29,9 +29,10 @@ Status CheckCloudPoints(std::span<const Eigen::Vector3d> points, const std::stri
     if (!points[i].allFinite()) continue;
     any = true;
     if (points[i].cwiseAbs().maxCoeff() > kFarthest_m)
-      return Fail(ErrorCode::kBadData,
-                  "{}: point {} at ({}, {}, {}) is beyond 100 km; coordinates are metres", source,
-                  i, points[i].x(), points[i].y(), points[i].z());
+      return Fail(
+          ErrorCode::kBadData,
+          "{}: point {} at ({}, {}, {}) is beyond 100 km; are its coordinates in another unit?",
+          source, i, points[i].x(), points[i].y(), points[i].z());
   }
   if (!any)
     return Fail(ErrorCode::kBadData, "{}: none of its {} points is a number", source,

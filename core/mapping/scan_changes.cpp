@@ -64,7 +64,7 @@ class Beams {
   }
 
  private:
-  static constexpr double kBin_rad = 0.017453292519943295;  // 1 deg
+  static constexpr double kBin_rad = RadiansFromDegrees(1.0);
   static constexpr double kHalfFootprint_rad = 0.004;
 
   struct Beam {

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 
@@ -12,9 +14,9 @@ namespace foresight {
 /// counter-clockwise seen from +z, 0 = x forward.
 struct LidarModel {
   int beams = 1081;
-  double first_angle_rad = -2.356194490192345;   ///< beam 0, -135 deg
-  double angle_step_rad = 0.004363323129985824;  ///< 0.25 deg
-  double period_s = 0.025;                       ///< one turn of the mirror
+  double first_angle_rad = RadiansFromDegrees(-135.0);  ///< beam 0
+  double angle_step_rad = RadiansFromDegrees(0.25);
+  double period_s = 0.025;  ///< one turn of the mirror
   double min_range_m = 0.1;
   double max_range_m = 30.0;
   double range_offset_m = 0.0;  ///< added to every range (calibration.md: estimated with the pose)
@@ -25,7 +27,7 @@ struct LidarModel {
   double BeamAngle(int beam) const { return first_angle_rad + beam * angle_step_rad; }
   /// Time of a beam after the line's stamp.
   double BeamTime(int beam) const {
-    return stamp_offset_s + period_s * beam * angle_step_rad / 6.283185307179586;
+    return stamp_offset_s + period_s * beam * angle_step_rad / (2.0 * std::numbers::pi);
   }
   /// Unit direction of a beam in the lidar's frame.
   Eigen::Vector3d BeamDirection(int beam) const;

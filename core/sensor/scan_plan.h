@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/geometry/angles.h"
 #include "core/sensor/sensor_rig.h"
 
 namespace foresight {
@@ -16,9 +17,9 @@ struct ScanPlan {
     kStopAndShoot  ///< after the sweep the head goes to each angle, stands still, and shoots
   };
 
-  double from_rad = -0.5235987755982988;         ///< -30 deg
-  double to_rad = 0.5235987755982988;            ///< +30 deg; below from_rad sweeps downwards
-  double speed_rad_s = 0.17453292519943295;      ///< 10 deg/s
+  double from_rad = RadiansFromDegrees(-30.0);
+  double to_rad = RadiansFromDegrees(30.0);  ///< below from_rad sweeps downwards
+  double speed_rad_s = RadiansFromDegrees(10.0);
   std::vector<double> image_angles_rad = {0.0};  ///< within the scope
   double exposure_s = 0.004;
   double gain_db = 0.0;
@@ -26,9 +27,9 @@ struct ScanPlan {
   double max_blur_px = 0.5;  ///< of an image taken on the fly, at the image centre
   int passes = 1;            ///< 2: there and back in one scan, lines of both
 
-  static constexpr double kMaxSpeed_rad_s = 2.0943951023931953;  ///< 120 deg/s
-  static constexpr double kMinAngle_rad = -1.5707963267948966;   ///< -90 deg
-  static constexpr double kMaxAngle_rad = 1.5707963267948966;    ///< +90 deg
+  static constexpr double kMaxSpeed_rad_s = RadiansFromDegrees(120.0);
+  static constexpr double kMinAngle_rad = RadiansFromDegrees(-90.0);
+  static constexpr double kMaxAngle_rad = RadiansFromDegrees(90.0);
 
   Status Check() const;
 
@@ -42,10 +43,10 @@ Result<ScanPlan::ImageMode> ImageModeFromString(const std::string& text);
 
 /// How a head moves between the parts of a scan; the defaults are the usual head's.
 struct HeadMotion {
-  double acceleration_rad_s2 = 6.981317007977318;  ///< 400 deg/s^2
+  double acceleration_rad_s2 = RadiansFromDegrees(400.0);
   double settle_s =
       0.06;  ///< constant speed before and after the scope, standstill before an image
-  double travel_speed_rad_s = 0.5235987755982988;  ///< 30 deg/s
+  double travel_speed_rad_s = RadiansFromDegrees(30.0);
 };
 
 /// What a plan will cost and give, before it is executed.

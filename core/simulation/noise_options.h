@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/base/result.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 
@@ -50,12 +51,12 @@ struct CameraNoise {
 };
 
 struct MotorNoise {
-  double encoder_step_rad = 0.0003490658503988659;  ///< 0.02 deg
-  double amplitude1_rad = 0.0013962634015954637;    ///< once a turn, 0.08 deg
-  double amplitude2_rad = 0.0005235987755982988;    ///< twice a turn, 0.03 deg
-  double amplitude50_rad = 0.0003490658503988659;   ///< fifty times a turn (motor poles), 0.02 deg
-  double backlash_rad = 0.0005235987755982988;      ///< between up and down, 0.03 deg
-  double jitter_rad = 3.4906585039886593e-05;       ///< 0.002 deg, from line to line
+  double encoder_step_rad = 0.0003490658503988659;   ///< 0.02 deg
+  double amplitude1_rad = RadiansFromDegrees(0.08);  ///< once a turn
+  double amplitude2_rad = RadiansFromDegrees(0.03);  ///< twice a turn
+  double amplitude50_rad = 0.0003490658503988659;    ///< fifty times a turn (motor poles), 0.02 deg
+  double backlash_rad = RadiansFromDegrees(0.03);    ///< between up and down
+  double jitter_rad = RadiansFromDegrees(0.002);     ///< from line to line
   bool enabled = true;  ///< false: the plate is where the shaft is; the encoder keeps its step
 
   Status Check() const;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/geometry/angles.h"
 #include "core/simulation/world.h"
 #include "hardware/emulator/emulated_axis.h"
 #include "hardware/emulator/home_switch.h"
@@ -11,9 +12,9 @@ namespace foresight {
 
 struct EmulatedDriveOptions {
   cia402::WordOrder word_order = cia402::WordOrder::kHighFirst;
-  double end_stop_rad = 2.0943951023931953;            ///< 120 deg either way
-  double quick_stop_rad_s2 = 20.943951023931952;       ///< 6085h, 1200 deg/s^2
-  double following_window_rad = 0.017453292519943295;  ///< 6065h, 1 deg
+  double end_stop_rad = RadiansFromDegrees(120.0);        ///< either way
+  double quick_stop_rad_s2 = RadiansFromDegrees(1200.0);  ///< 6085h
+  double following_window_rad = RadiansFromDegrees(1.0);  ///< 6065h
   double watchdog_s = 0.5;  ///< without a request of its host for so long it stops by itself
   HomeSwitchOptions home_switch;
 };

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "core/base/random.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 
 struct HomeSwitchOptions {
   double edge_rad = 0.0;                             ///< where it switches on, on average
-  double hysteresis_rad = 0.0010471975511965977;     ///< 0.06 deg: it switches off this far below
+  double hysteresis_rad = RadiansFromDegrees(0.06);  ///< it switches off this far below
   double repeatability_rad = 5.235987755982988e-05;  ///< sigma of each edge, 0.003 deg
 };
 

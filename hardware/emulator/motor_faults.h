@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/geometry/angles.h"
+
 namespace foresight {
 
 /// What can go wrong with an emulated motor, at a moment and for a while.
@@ -16,7 +18,7 @@ struct MotorFault {
     kEncoderOffset,   ///< the encoder says kEncoderOffset_rad too much: counts were lost
   };
   static constexpr int kKinds = 6;
-  static constexpr double kEncoderOffset_rad = 1.3962634015954636;  ///< 80 deg
+  static constexpr double kEncoderOffset_rad = RadiansFromDegrees(80.0);
 
   Kind kind = Kind::kTcpReset;
   double after_s = 0.0;  ///< since the emulator began

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "hardware/scip/scip_status.h"
@@ -19,7 +20,7 @@ ScipParameters ParametersOf(const LidarModel& lidar, const std::string& model) {
   parameters.model = model;
   parameters.min_range_mm = LidarLine::kFirstValidRange_mm;
   parameters.steps_per_turn =
-      static_cast<int>(std::lround(6.283185307179586 / lidar.angle_step_rad));
+      static_cast<int>(std::lround((2.0 * std::numbers::pi) / lidar.angle_step_rad));
   parameters.last_step = lidar.beams - 1;
   parameters.front_step =
       static_cast<int>(std::lround(-lidar.first_angle_rad / lidar.angle_step_rad));

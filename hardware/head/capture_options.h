@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/geometry/angles.h"
 #include "core/sensor/scan_plan.h"
 
 namespace foresight {
@@ -12,9 +13,9 @@ struct CaptureOptions {
   std::string description = "head";  ///< stands in every scan as its source
   bool simulated = false;
   /// The drive's; places the run-up so that the whole scope is swept at constant speed.
-  double acceleration_rad_s2 = 6.981317007977318;  ///< 400 deg/s^2
-  double settle_s = 0.06;                          ///< constant speed before and after the scope
-  double travel_speed_rad_s = 0.5235987755982988;  ///< to the start of a sweep, 30 deg/s
+  double acceleration_rad_s2 = RadiansFromDegrees(400.0);
+  double settle_s = 0.06;  ///< constant speed before and after the scope
+  double travel_speed_rad_s = RadiansFromDegrees(30.0);  ///< to the start of a sweep
   double homing_timeout_s = 60.0;
   /// A driver asks a silent lidar again after 0.25 s, and anew on a new connection after 0.75 s.
   double lidar_timeout_s = 1.5;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kStopPoll{5};
 /// A plate that moves by more between two captures at one stop is held by nothing.
-constexpr double kStands_rad = 0.0034906585039886592;  // 0.2 deg
+constexpr double kStands_rad = RadiansFromDegrees(0.2);
 
 }  // namespace
 

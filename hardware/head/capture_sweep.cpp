@@ -16,7 +16,7 @@ constexpr double kLateLines_s = 0.3;
 /// A GigE camera that does not answer is given up after five tries of half a second, twice.
 constexpr double kCameraAnswer_s = 6.0;
 /// As near to its target a motor counts as arrived.
-constexpr double kArrived_rad = 0.008726646259971648;  // 0.5 deg
+constexpr double kArrived_rad = RadiansFromDegrees(0.5);
 
 std::vector<double> InOrder(std::vector<double> angles_rad, double sign) {
   std::sort(angles_rad.begin(), angles_rad.end(),

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "core/geometry/angles.h"
 #include "core/sensor/motor_track.h"
 
 namespace foresight {
@@ -13,7 +14,7 @@ namespace foresight {
 class EncoderWatch {
  public:
   /// Allowed beyond the commanded motion: encoder steps, play of the gear, a ramp that overshoots.
-  static constexpr double kTolerance_rad = 0.008726646259971648;  ///< 0.5 deg
+  static constexpr double kTolerance_rad = RadiansFromDegrees(0.5);
   /// How wrong the time of one sample may be: half a slow round trip on a busy machine.
   static constexpr double kTiming_s = 0.01;
   /// Drives overshoot their speed a little.

@@ -62,7 +62,7 @@ Status ModbusMotor::StartHoming() {
   profile.edge_speed = std::max(1, Counts(options_.homing_edge_rad_s));
   profile.acceleration = Counts(options_.acceleration_rad_s2);
   // Twice the ramp from the search, and 2 deg for the switch's hysteresis and the polls.
-  constexpr double kSwitch_rad = 0.03490658503988659;
+  constexpr double kSwitch_rad = RadiansFromDegrees(2.0);
   profile.edge_window = Counts(options_.homing_search_rad_s * options_.homing_search_rad_s /
                                    options_.acceleration_rad_s2 +
                                kSwitch_rad);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/geometry/angles.h"
 #include "hardware/motor/cia402.h"
 
 namespace foresight {
@@ -17,12 +18,12 @@ struct ModbusMotorOptions {
 
   /// Moves beyond are refused. The defaults let every ScanPlan through with its run-up; a head
   /// whose cables allow less says so here.
-  double min_angle_rad = -2.007128639793479;  ///< -115 deg
-  double max_angle_rad = 2.007128639793479;
-  double max_speed_rad_s = 2.0943951023931953;      ///< 120 deg/s
-  double acceleration_rad_s2 = 6.981317007977318;   ///< 400 deg/s^2
-  double homing_search_rad_s = 0.3490658503988659;  ///< 20 deg/s, to the switch
-  double homing_edge_rad_s = 0.017453292519943295;  ///< 1 deg/s, onto its edge
+  double min_angle_rad = RadiansFromDegrees(-115.0);
+  double max_angle_rad = RadiansFromDegrees(115.0);
+  double max_speed_rad_s = RadiansFromDegrees(120.0);
+  double acceleration_rad_s2 = RadiansFromDegrees(400.0);
+  double homing_search_rad_s = RadiansFromDegrees(20.0);  ///< to the switch
+  double homing_edge_rad_s = RadiansFromDegrees(1.0);     ///< onto its edge
   double homing_timeout_s = 60.0;
 
   double poll_rate_hz = 240.0;  ///< while something is asked of the motor or it turns; else 20

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 
+#include "core/geometry/angles.h"
 #include "core/simulation/world.h"
 #include "hardware/api/motor.h"
 #include "hardware/simulated/simulated_clock.h"
@@ -15,8 +16,8 @@ namespace foresight {
 class SimulatedMotor final : public Motor {
  public:
   static constexpr double kPowerOnAngle_rad = 0.2;
-  static constexpr double kAcceleration_rad_s2 = 6.981317007977318;  ///< 400 deg/s^2
-  static constexpr double kEndStop_rad = 2.0943951023931953;         ///< 120 deg either way
+  static constexpr double kAcceleration_rad_s2 = RadiansFromDegrees(400.0);
+  static constexpr double kEndStop_rad = RadiansFromDegrees(120.0);  ///< either way
   static constexpr double kSampleRate_hz = 240.0;
 
   SimulatedMotor(std::shared_ptr<const World> world, std::shared_ptr<SimulatedClock> clock,

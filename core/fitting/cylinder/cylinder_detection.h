@@ -23,8 +23,8 @@ struct CylinderEvidence {
   double range_sigma_m = 0.0;    ///< deviation of a range, found from those
   double seen_arc_rad = 0.0;     ///< of the circle that its agreeing hits span
   double box_margin_nats = 0.0;  ///< ahead of the best box in its place, parameters paid for
-  /// Of the agreeing hits, those that end in the box that the operator drew; none where the region
-  /// is another one, and in files of earlier programs.
+  /// Fraction of the agreeing hits that end in the box that the operator drew; none where the
+  /// region is another one, and in files of earlier programs.
   std::optional<double> in_drawn_box = {};
 };
 

@@ -84,7 +84,10 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
     if (behind > agree_m) ++through;
     if (std::abs(behind) > agree_m) continue;
     ++inliers;
-    if (rays.box && rays.box->Contains(ray.Point())) ++in_box;
+    // A box drawn tightly ends among the noise of the ranges on its front.
+    if (rays.box && rays.box->Crosses(ray.origin + (ray.range_m - agree_m) * ray.direction,
+                                      ray.origin + (ray.range_m + agree_m) * ray.direction))
+      ++in_box;
     const Eigen::Vector3d at = cylinder.FromAxis(ray.origin + intersection.range_m * ray.direction);
     // A hit on an end is at any angle.
     if (at.norm() > kOnMantle * cylinder.radius_m)

@@ -5,7 +5,7 @@
 
 namespace foresight {
 
-/// Of the beams on a cylinder that the operator drew a box round, how many end in that box.
+/// The least fraction of the beams on a cylinder that end in the box that the operator drew.
 inline constexpr double kLeastInDrawnBox = 0.5;
 
 /// Never more than LIKELY.

@@ -23,9 +23,10 @@ namespace {
 constexpr int kMinRays = 30;
 constexpr int kCoarseRays = 300;
 constexpr double kCoarseSigma_m = 0.030;  // a smoother hill to climb first
-constexpr std::size_t kFine = 6;
-constexpr double kAlike = 0.5;  // of a radius between two axes, and of the radius itself
-constexpr double kAlikeAxes = 0.9;
+constexpr std::size_t kFine = 6;          // a table, a wall, what stands behind, and the object
+constexpr double kAlike = 0.5;            // of a radius between two axes, and of the radius itself
+constexpr double kAlikeAxes = 0.9;        // cosine of the angle between them: 26 deg
+constexpr double kOffPlane_sigmas = 2.5;
 constexpr int kSigmaRounds = 2;
 
 /// Streams of the seed: each stage draws its own numbers.
@@ -60,9 +61,7 @@ class CylinderFit {
       found.insert(found.end(), more.begin(), more.end());
       if (context.Cancelled()) return Cancelled();
     }
-    if (found.empty())
-      return Fail(ErrorCode::kNoConvergence,
-                  "nothing round in the region: draw it around a pole or a pipe");
+    if (found.empty()) return NothingRound();
     context.Report(0.6, "improving the cylinder");
     for (CylinderState& cylinder : found)
       cylinder = AfterLocalSearchBeforePlanes(few, kRoundCylinderBeams, cylinder, 0.06, 4);
@@ -74,9 +73,8 @@ class CylinderFit {
     return found;
   }
 
-  /// A table or a wall is round to the likelihood alone, a disc as large as itself: of different
-  /// cylinders the likeliest answers that nothing speaks against; where something speaks against
-  /// all, the likeliest that the operator's box holds.
+  /// The likeliest cylinder that passes all gates; where none does, the likeliest in the operator's
+  /// box. A table or a wall may be likelier than either: it is a disc as large as itself.
   Result<CylinderDetection> Best(const std::vector<CylinderState>& found,
                                  const RunContext& context) const {
     std::vector<CylinderDetection> tried;
@@ -85,9 +83,11 @@ class CylinderFit {
       if (context.Cancelled()) return Cancelled();
       RaySet rays = rays_;
       const CylinderState own = WithOwnSigma(cylinder, rays);
-      tried.push_back(Detection(own, rays));
-      if (tried.back().verdict.level == VerdictLevel::kLikely) return tried.back();
+      CylinderDetection detection = Detection(own, rays);
+      if (detection.verdict.level == VerdictLevel::kLikely) return detection;
+      if (detection.evidence.hits > 0) tried.push_back(std::move(detection));
     }
+    if (tried.empty()) return NothingRound();
     const auto in_box = std::find_if(tried.begin(), tried.end(), [](const auto& detection) {
       return detection.evidence.in_drawn_box.value_or(1.0) >= kLeastInDrawnBox;
     });
@@ -119,6 +119,11 @@ class CylinderFit {
     return Fail(ErrorCode::kCancelled, "fitting the cylinder was cancelled");
   }
 
+  static tl::unexpected<Error> NothingRound() {
+    return Fail(ErrorCode::kNoConvergence,
+                "nothing round in the region: draw it around a pole or a pipe");
+  }
+
   /// Nearly the same surface: about the same axis and about as thick.
   static bool Alike(const CylinderState& a, const CylinderState& b) {
     const double least_m = std::min(a.radius_m, b.radius_m);
@@ -129,11 +134,14 @@ class CylinderFit {
 
   std::vector<Eigen::Vector3d> PointsOff(std::span<const Plane> planes) const {
     std::vector<Eigen::Vector3d> points;
+    const double off_m = kOffPlane_sigmas * rays_.sigma_m;
     for (const RangeRay& ray : rays_.rays)
-      if (!rays_.box || rays_.box->Contains(ray.Point())) points.push_back(ray.Point());
+      if (!rays_.box || rays_.box->Crosses(ray.Point() - off_m * ray.direction,
+                                           ray.Point() + off_m * ray.direction))
+        points.push_back(ray.Point());
     for (const Plane& plane : planes)
       std::erase_if(points, [&](const Eigen::Vector3d& point) {
-        return std::abs(plane.Distance(point)) < 2.5 * rays_.sigma_m;
+        return std::abs(plane.Distance(point)) < off_m;
       });
     return points;
   }
@@ -188,9 +196,6 @@ Result<CylinderDetection> FitCylinder(const RaySet& all_rays, const FitCylinderO
   const CylinderFit fit(Thinned(usable, options.max_rays, thinning), options);
   FORESIGHT_TRY(const std::vector<CylinderState> found, fit.Search(context));
   FORESIGHT_TRY(CylinderDetection detection, fit.Best(found, context));
-  if (detection.evidence.hits == 0)
-    return Fail(ErrorCode::kNoConvergence,
-                "nothing round in the region: draw it around a pole or a pipe");
   detection.origin.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   context.Report(1.0, "cylinder fitted");

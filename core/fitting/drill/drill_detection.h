@@ -36,8 +36,8 @@ struct DrillEvidence {
   /// has its chuck; none for a kind without a chuck that points ahead, and in files of earlier
   /// programs.
   std::optional<double> no_chuck_margin_nats = {};
-  /// How much further ahead a drill of any proportions in its place is, what is unusual about it at
-  /// no cost: what is no drill is built as none. None in files of earlier programs.
+  /// How much likelier a drill of any proportions is in its place when unusual proportions cost
+  /// nothing; high for what is no drill. None in files of earlier programs.
   std::optional<double> unusual_nats = {};
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/fitting/beam_footprints.h"
 #include "core/fitting/drill/drill_detection.h"
+#include "core/geometry/angles.h"
 #include "core/geometry/plane.h"
 #include "core/objects/drill_template.h"
 
@@ -62,7 +63,7 @@ struct DrillState {
 /// that it is built as the template says.
 struct DrillPrior {
   double height_sigma_m = 0.005;
-  double max_tilt_rad = 0.2617993877991494;
+  double max_tilt_rad = RadiansFromDegrees(15.0);
   double scale_sigma = 0.08;
   double tilt_sigma_rad = 0.07;    ///< 4 deg
   double head_up_sigma_m = 0.012;  ///< against the template's

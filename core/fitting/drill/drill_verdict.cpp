@@ -22,14 +22,14 @@ constexpr double kMaxOutside_m = 0.025;  // of a part's middle; lines may be 44 
 constexpr const char* kObject = "the drill";
 constexpr double kMinHits = 40.0;  // independent measurements on the drill
 constexpr double kMinHead_nats = 10.0;
-// The probability weighs how far behind a turned drill and another tool are. These limits keep what
-// is hardly behind; chosen by hand on the training scenes of home and of varied conditions, with
-// what they cost in docs/evaluation/drill.md, "The drill a third time"; scan lines need not speak
-// for the way since "What a drill stands on", but not against it either.
 // Ahead of what points elsewhere: of 276 right drills that are sure, on training scenes of home and
 // of varied conditions, one has less; four turned ones had 6.8 to 8.5 (docs/evaluation/drill.md,
 // "The turned drill, and tools without a chuck").
 constexpr double kMinYawMargin_nats = 9.0;
+// The probability weighs how far behind the turned drill of any proportions is. These limits keep
+// what is hardly behind; chosen by hand on the training scenes of home and of varied conditions,
+// with what they cost in docs/evaluation/drill.md, "The drill a third time"; scan lines need not
+// speak for the way since "What a drill stands on", but not against it either.
 constexpr double kMinAnyFlipMargin_nats = 5.0;
 constexpr double kMinFlipLines_sigmas = 0.0;
 // Where the image says so much of the way, scan lines need not tell it: of 31 right and 2 wrong

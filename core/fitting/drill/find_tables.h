@@ -3,12 +3,13 @@
 #include <vector>
 
 #include "core/fitting/drill/region_planes.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 
 struct TableOptions {
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
-  double max_tilt_rad = 0.2617993877991494;        ///< 15 deg
+  double max_tilt_rad = RadiansFromDegrees(15.0);
 };
 
 /// The level surfaces among `beams`, those of a region that end on no wall, in base, normal up: the

@@ -276,6 +276,8 @@ class DrillFit {
     const DrillPrior any = AnyProportions(prior_);
     DrillState alike = drill;
     alike.kind = &*tool;
+    // Without a bit its head ends where the drill's chuck does.
+    alike.values[kDrillBit] = std::min(alike.values[kDrillBit], tool->max_bit_length_m);
     const auto climbed = [&](const DrillState& start) {
       return LocalSearch(coarse_, start, base_from_table_, any, LocalSearchEffort::kCoarse);
     };

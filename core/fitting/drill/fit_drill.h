@@ -7,15 +7,16 @@
 #include "core/base/run_context.h"
 #include "core/fitting/drill/drill_detection.h"
 #include "core/fitting/ray_set.h"
+#include "core/geometry/angles.h"
 #include "core/objects/drill_template.h"
 
 namespace foresight {
 
 struct FitDrillOptions {
   std::vector<DrillTemplate> templates = ShippedDrillTemplates();  ///< each is tried
-  Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
-  double max_table_tilt_rad = 0.2617993877991494;  ///< 15 deg from level
-  double max_body_tilt_rad = 0.2617993877991494;
+  Eigen::Vector3d up = -Eigen::Vector3d::UnitY();        ///< against gravity, in base, length 1
+  double max_table_tilt_rad = RadiansFromDegrees(15.0);  ///< from level
+  double max_body_tilt_rad = RadiansFromDegrees(15.0);
   int max_rays = 1200;  ///< a denser region is thinned to this many
   std::uint64_t seed = 1;
 

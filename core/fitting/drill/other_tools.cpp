@@ -1,7 +1,5 @@
 #include "core/fitting/drill/other_tools.h"
 
-#include <cmath>
-
 #include "core/fitting/drill/named_part.h"
 
 namespace foresight {

@@ -5,6 +5,7 @@
 
 #include "core/base/random.h"
 #include "core/fitting/ray_set.h"
+#include "core/geometry/angles.h"
 #include "core/geometry/plane.h"
 
 namespace foresight {
@@ -19,8 +20,8 @@ struct SupportAndBackground {
 
 struct SupportAndBackgroundOptions {
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
-  double max_table_tilt_rad = 0.2617993877991494;  ///< 15 deg
-  double depth_m = 0.36;                           ///< of what stands there, at most
+  double max_table_tilt_rad = RadiansFromDegrees(15.0);
+  double depth_m = 0.36;  ///< of what stands there, at most
 };
 
 /// Finds upright walls first, which must be wider than any drill and have nothing behind them; then

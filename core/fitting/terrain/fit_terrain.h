@@ -7,13 +7,14 @@
 #include "core/base/run_context.h"
 #include "core/fitting/ray_set.h"
 #include "core/fitting/terrain/terrain_detection.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 
 struct FitTerrainOptions {
   Eigen::Vector2d block_size_m = {0.397, 0.390};   ///< two standard cinder blocks side by side
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< against gravity, in base, length 1
-  double max_tilt_rad = 0.7853981633974483;        ///< of a surface, 45 deg
+  double max_tilt_rad = RadiansFromDegrees(45.0);  ///< of a surface
   double toehold_margin_m = 0.020;                 ///< kept from each side of a block
   bool graph_cut = true;  ///< false: planes stay as they grew (for comparison)
   bool place_together =

@@ -10,6 +10,7 @@
 #include "core/fitting/terrain/block_lattice.h"
 #include "core/fitting/terrain/block_outline.h"
 #include "core/fitting/terrain/block_size.h"
+#include "core/geometry/angles.h"
 
 namespace foresight {
 namespace {
@@ -63,7 +64,7 @@ TerrainSurface PlainSurface(const PlaneView& view, const BlockRectangle& bounds,
   BlockRectangle rectangle = bounds;
   if (rectangle.size_m.x() < rectangle.size_m.y()) {
     std::swap(rectangle.size_m.x(), rectangle.size_m.y());
-    rectangle.yaw_rad += 1.5707963267948966;
+    rectangle.yaw_rad += RadiansFromDegrees(90.0);
   }
   TerrainSurface surface;
   surface.base_from_object = PoseOf(view, rectangle);

@@ -378,6 +378,11 @@ TEST(Reasons, ADrillWhoseChuckNobodySawOrAFarLikelierBoxIsNotConfirmed) {
   found.evidence.unusual_nats = 48.0;  // a hot air tool on a battery
   EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, unusual);
   found.evidence.unusual_nats = 0.0;
+  const auto turned = ::testing::Contains(HasSubstr("turned by 180 deg are 4900 : 1"));
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, Not(turned));
+  found.evidence.flip_margin_nats = found.evidence.yaw_margin_nats = 8.5;
+  EXPECT_THAT(AssessDrill(rays, rays, found, state, {}, support).failed_gates, turned);
+  found.evidence.flip_margin_nats = found.evidence.yaw_margin_nats = 100.0;
   support.chuck_nats = 0.0;
   const Verdict unseen = AssessDrill(rays, rays, found, state, {}, support);
   EXPECT_NE(unseen.level, VerdictLevel::kConfirmed);

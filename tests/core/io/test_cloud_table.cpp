@@ -8,7 +8,6 @@
 
 #include "core/base/atomic_file.h"
 #include "core/io/point_cloud_file.h"
-#include "core/io/read_point_cloud.h"
 #include "tests/support/temporary_folder.h"
 
 namespace foresight {
@@ -116,8 +115,39 @@ TEST(CloudTable, ATextsFirstLineMayNameItsColumns) {
   const auto no_height = DecodeTextTable("x,y,height\n1,2,3\n", "c.csv");
   ASSERT_FALSE(no_height);
   EXPECT_THAT(no_height.error().message, HasSubstr("no number 'z'"));
-  const auto empty = DecodeTextTable("x,y,z\n", "c.csv");
-  EXPECT_FALSE(empty && CheckCloudPoints(empty->points, "c.csv"));
+  // As Excel and Windows write it.
+  const auto marked = DecodeTextTable("\xEF\xBB\xBFx,y,z\r\n1,2,3\r\n", "c.csv");
+  ASSERT_TRUE(marked) << marked.error().message;
+  EXPECT_EQ(marked->points[0], Eigen::Vector3d(1.0, 2.0, 3.0));
+}
+
+TEST(CloudTable, ATextsHeaderWithoutPointsOrWithAnIndexColumnIsRefused) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "none.csv", "x,y,z\n"));
+  ASSERT_TRUE(WriteFileAtomically(folder / "index.csv", ",x,y,z\n0,1,2,3\n"));
+  EXPECT_THAT(ReadCloudTable(folder / "none.csv").error().message, HasSubstr("none of its 0"));
+  EXPECT_THAT(ReadCloudTable(folder / "index.csv").error().message,
+              HasSubstr("names 3 columns, the next one has 4 numbers"));
+}
+
+TEST(CloudTable, AWordThatIsNoNumberChangesNoOtherNumberOfATextsColumn) {
+  const auto table =
+      DecodeTextTable("x,y,z,t,r,g,b\n1,2,3,1000,255,0,0\n1,2,4,-,nan,12.5,1\n", "c.csv");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_NEAR(table->time_s[0], 1e-6, 1e-15);
+  EXPECT_THAT(table->color, ElementsAre(Rgb8{255, 0, 0}, Rgb8{0, 12, 1}));
+  const auto bright = DecodeTextTable("x,y,z,r,g,b\n1,2,3,1,0.5,0\n", "c.csv");
+  ASSERT_TRUE(bright) << bright.error().message;
+  EXPECT_THAT(bright->color, ElementsAre(Rgb8{255, 127, 0}));
+}
+
+TEST(CloudTable, FarPointsInMillimetresAreNear) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "mm.xyz", "250000 0 0\n"));
+  EXPECT_FALSE(ReadCloudTable(folder / "mm.xyz"));
+  const auto table = ReadCloudTable(folder / "mm.xyz", 0.001);
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_NEAR(table->points[0].x(), 250.0, 1e-9);
 }
 
 TEST(CloudTable, WhatIsNoCloudIsRefusedByName) {
@@ -128,7 +158,7 @@ TEST(CloudTable, WhatIsNoCloudIsRefusedByName) {
   ASSERT_TRUE(WriteFileAtomically(folder / "d.xyz", "nan nan nan\n"));
   ASSERT_TRUE(WriteFileAtomically(folder / "e.xyz", "1e9 0 0\n"));
   const auto why = [&](const char* name) { return ReadCloudTable(folder / name).error().message; };
-  EXPECT_THAT(why("a.xyz"), HasSubstr("2 numbers in its first line"));
+  EXPECT_THAT(why("a.xyz"), HasSubstr("2 columns in its first line"));
   EXPECT_THAT(why("b.xyz"), HasSubstr("'x' is not a number"));
   EXPECT_THAT(why("c.las"), HasSubstr("is no point cloud"));
   EXPECT_THAT(why("d.xyz"), HasSubstr("none of its 1 points is a number"));
