@@ -26,6 +26,10 @@ constexpr double kCoarseSigma_m = 0.030;  // a smoother hill to climb first
 constexpr std::size_t kFine = 6;          // a table, a wall, what stands behind, and the object
 constexpr double kAlike = 0.5;            // of a radius between two axes, and of the radius itself
 constexpr double kAlikeAxes = 0.9;        // cosine of the angle between them: 26 deg
+// A box that is so much likelier is there, and no cylinder: tables, walls and edges are behind one
+// by 40 nats and more, thin pipes that are not told from a bar by 10.
+constexpr double kBoxInItsPlace_nats = -20.0;
+constexpr int kFewHits = 20;
 constexpr double kOffPlane_sigmas = 2.5;
 constexpr int kSigmaRounds = 2;
 
@@ -73,25 +77,27 @@ class CylinderFit {
     return found;
   }
 
-  /// The likeliest cylinder that passes all gates; where none does, the likeliest in the operator's
-  /// box. A table or a wall may be likelier than either: it is a disc as large as itself.
+  /// The likeliest cylinder that nothing refutes; where all are refuted, the likeliest in the
+  /// operator's box. A table or a wall may be likelier than either: it is a disc as large as
+  /// itself.
   Result<CylinderDetection> Best(const std::vector<CylinderState>& found,
                                  const RunContext& context) const {
-    std::vector<CylinderDetection> tried;
+    std::vector<CylinderDetection> refuted;
     for (const CylinderState& cylinder : found) {
-      context.Report(0.7 + 0.05 * static_cast<double>(tried.size()), "trying other shapes");
+      context.Report(0.7 + 0.05 * static_cast<double>(refuted.size()), "trying other shapes");
       if (context.Cancelled()) return Cancelled();
       RaySet rays = rays_;
       const CylinderState own = WithOwnSigma(cylinder, rays);
       CylinderDetection detection = Detection(own, rays);
-      if (detection.verdict.level == VerdictLevel::kLikely) return detection;
-      if (detection.evidence.hits > 0) tried.push_back(std::move(detection));
+      if (detection.evidence.hits == 0) continue;
+      if (!Refuted(detection.evidence)) return detection;
+      refuted.push_back(std::move(detection));
     }
-    if (tried.empty()) return NothingRound();
-    const auto in_box = std::find_if(tried.begin(), tried.end(), [](const auto& detection) {
-      return detection.evidence.in_drawn_box.value_or(1.0) >= kLeastInDrawnBox;
+    if (refuted.empty()) return NothingRound();
+    const auto in_box = std::find_if(refuted.begin(), refuted.end(), [](const auto& detection) {
+      return InDrawnBox(detection.evidence);
     });
-    return in_box != tried.end() ? *in_box : tried.front();
+    return in_box != refuted.end() ? *in_box : refuted.front();
   }
 
  private:
@@ -122,6 +128,16 @@ class CylinderFit {
   static tl::unexpected<Error> NothingRound() {
     return Fail(ErrorCode::kNoConvergence,
                 "nothing round in the region: draw it around a pole or a pipe");
+  }
+
+  static bool InDrawnBox(const CylinderEvidence& evidence) {
+    return evidence.in_drawn_box.value_or(1.0) >= kLeastInDrawnBox;
+  }
+
+  /// Something else, or too little to be anything.
+  static bool Refuted(const CylinderEvidence& evidence) {
+    return evidence.box_margin_nats < kBoxInItsPlace_nats || evidence.hits < kFewHits ||
+           !InDrawnBox(evidence);
   }
 
   /// Nearly the same surface: about the same axis and about as thick.
