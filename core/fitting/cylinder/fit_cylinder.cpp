@@ -27,8 +27,8 @@ constexpr std::size_t kFine = 6;          // a table, a wall, what stands behind
 constexpr double kAlike = 0.5;            // of a radius between two axes, and of the radius itself
 constexpr double kAlikeAxes = 0.9;        // cosine of the angle between them: 26 deg
 // A box that is so much likelier is there, and no cylinder: tables, walls and edges are behind one
-// by 40 nats and more, thin pipes that are not told from a bar by 10.
-constexpr double kBoxInItsPlace_nats = -20.0;
+// by 40 nats and more, thin pipes that are not told from a bar by up to 23.
+constexpr double kBoxInItsPlace_nats = -30.0;
 constexpr int kFewHits = 20;
 constexpr double kOffPlane_sigmas = 2.5;
 constexpr int kSigmaRounds = 2;
