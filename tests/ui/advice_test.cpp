@@ -36,6 +36,18 @@ TEST(Advice, AnAlternativeDoesNotBorrowTheTrustOfTheBestAnswer) {
   EXPECT_TRUE(ReasonFor(valve.detection, 1).isEmpty());
 }
 
+TEST(Advice, NobodyIsToldToStepThroughAlternativesThatAreNone) {
+  FoundObject valve = ConfirmedValve();
+  auto& found = std::get<ValveDetection>(valve.detection);
+  found.verdict.level = VerdictLevel::kLikely;
+  const auto says_so = [&] {
+    return AdviceFor(valve, 0, true, SessionMode::kLive).text.contains("alternatives");
+  };
+  EXPECT_TRUE(says_so());
+  found.alternatives.clear();
+  EXPECT_FALSE(says_so());
+}
+
 TEST(StateText, AnAcceptedAlternativeDoesNotBorrowTheVerdictOfTheBestAnswer) {
   FoundObject valve = ConfirmedValve();
   EXPECT_EQ(StateText(valve, true).toStdString(), "CONFIRMED");

@@ -51,7 +51,7 @@ QString DecisionText(const FoundObject& object) {
              : AdviceTexts::tr("%1: alternative %2").arg(word).arg(candidate);
 }
 
-QString ByLevel(VerdictLevel level, SessionMode mode) {
+QString ByLevel(VerdictLevel level, bool has_alternatives, SessionMode mode) {
   switch (level) {
     case VerdictLevel::kConfirmed:
       return mode == SessionMode::kSimulation
@@ -59,9 +59,11 @@ QString ByLevel(VerdictLevel level, SessionMode mode) {
                        "Good to act on, in this simulation. Compare the outline with the image.")
                  : AdviceTexts::tr("Good to act on. Compare the outline with the image.");
     case VerdictLevel::kLikely:
-      return AdviceTexts::tr(
-          "Compare the outline with the image and step through the alternatives before "
-          "acting.");
+      return has_alternatives
+                 ? AdviceTexts::tr(
+                       "Compare the outline with the image and step through the alternatives "
+                       "before acting.")
+                 : AdviceTexts::tr("Compare the outline with the image before acting.");
     case VerdictLevel::kUnsure:
       break;
   }
@@ -105,7 +107,7 @@ Advice AdviceFor(const FoundObject& object, int candidate, bool is_current, Sess
   advice.text = WhyNotToActOn(is_current, mode, object.decision);
   if (!advice.text.isEmpty()) return advice;
   advice.text =
-      own != nullptr ? ByLevel(own->level, mode)
+      own != nullptr ? ByLevel(own->level, CandidateCount(object.detection) > 1, mode)
       : advice.level == VerdictLevel::kLikely
           ? AdviceTexts::tr(
                 "About as likely as the best answer: compare both outlines with the image.")
