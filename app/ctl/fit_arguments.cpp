@@ -1,6 +1,5 @@
 #include "app/ctl/fit_arguments.h"
 
-#include "app/ctl/unit_option.h"
 #include "core/depth/depth_method.h"
 #include "core/detection/fit_option_table.h"
 
@@ -70,13 +69,12 @@ void AddFileArguments(CLI::App& command, FitArguments& arguments) {
       ->capture_default_str();
   command.add_option("--cloud", arguments.cloud_file,
                      "Point cloud, in metres or as --unit says: PLY, PCD, .bin of four floats a "
-                     "point, or text. Regions and "
-                     "robot_from_object of the answer are in the cloud's own frame");
+                     "point, or text. Regions and robot_from_object of the answer are in the "
+                     "cloud's own frame");
   command
       .add_option("--unit", arguments.unit,
-                  "With --cloud: unit of the file's coordinates: m, cm, mm (3DTK's are in cm); all "
-                  "else is in "
-                  "metres")
+                  "With --cloud: unit of the file's coordinates: m, cm, mm (3DTK's are in cm); "
+                  "all else is in metres")
       ->capture_default_str();
   command
       .add_option("--viewpoint", arguments.viewpoint,
@@ -176,7 +174,6 @@ Status CheckForCloud(const FitArguments& a) {
   FORESIGHT_CHECK(RefuseGiven(a, {"--scan", "--source"}, "goes with a mission, not with --cloud"));
   FORESIGHT_CHECK(RefuseDepthOptions(a, "goes with a mission, not with --cloud"));
   FORESIGHT_CHECK(RefuseGiven(a, {"--density"}, "goes with --depth, not with --cloud"));
-  if (const auto unit_m = UnitFrom(a.unit); !unit_m) return tl::unexpected(unit_m.error());
   if (!a.rig.empty())
     return RefuseGiven(a, {"--up"},
                        "is not for a cloud with --rig, which says how the head stands");

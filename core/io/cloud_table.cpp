@@ -323,10 +323,12 @@ Result<CloudTable> ReadCloudTable(const std::filesystem::path& path, double unit
                 "as text of points does (.xyz, .txt, .csv, .asc, .pts, .3d)",
                 source);
   }
-  if (path.extension() == ".3d")
+  if (path.extension() == ".3d") {
     TurnFrom3dtk(table);
-  else
+  } else {
     for (Eigen::Vector3d& point : table.points) point *= unit_m;
+    if (table.viewpoint) *table.viewpoint *= unit_m;
+  }
   FORESIGHT_CHECK(CheckCloudPoints(table.points, source));
   return table;
 }

@@ -58,6 +58,11 @@ double RangeSigmaFrom(const RaySet& rays, const CylinderState& cylinder) {
   return std::clamp(kMadToSigma * UpperMedian(differences), kLeastSigma_m, kLargestSigma_m);
 }
 
+bool EndsInDrawnBox(const RaySet& rays, const RangeRay& ray, double within_m) {
+  return rays.box && rays.box->Crosses(ray.Point() - within_m * ray.direction,
+                                       ray.Point() + within_m * ray.direction);
+}
+
 CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinder) {
   const SolidTracer tracer = TracerOf(cylinder);
   const Eigen::Vector3d x = cylinder.axis.unitOrthogonal(), y = cylinder.axis.cross(x);
@@ -84,10 +89,7 @@ CylinderEvidence GatherEvidence(const RaySet& rays, const CylinderState& cylinde
     if (behind > agree_m) ++through;
     if (std::abs(behind) > agree_m) continue;
     ++inliers;
-    // A box drawn tightly ends among the noise of the ranges on its front.
-    if (rays.box && rays.box->Crosses(ray.origin + (ray.range_m - agree_m) * ray.direction,
-                                      ray.origin + (ray.range_m + agree_m) * ray.direction))
-      ++in_box;
+    if (EndsInDrawnBox(rays, ray, agree_m)) ++in_box;
     const Eigen::Vector3d at = cylinder.FromAxis(ray.origin + intersection.range_m * ray.direction);
     // A hit on an end is at any angle.
     if (at.norm() > kOnMantle * cylinder.radius_m)

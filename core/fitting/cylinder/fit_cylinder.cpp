@@ -152,9 +152,7 @@ class CylinderFit {
     std::vector<Eigen::Vector3d> points;
     const double off_m = kOffPlane_sigmas * rays_.sigma_m;
     for (const RangeRay& ray : rays_.rays)
-      if (!rays_.box || rays_.box->Crosses(ray.Point() - off_m * ray.direction,
-                                           ray.Point() + off_m * ray.direction))
-        points.push_back(ray.Point());
+      if (!rays_.box || EndsInDrawnBox(rays_, ray, off_m)) points.push_back(ray.Point());
     for (const Plane& plane : planes)
       std::erase_if(points, [&](const Eigen::Vector3d& point) {
         return std::abs(plane.Distance(point)) < off_m;

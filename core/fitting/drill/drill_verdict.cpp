@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/fitting/beam_model.h"
 #include "core/fitting/common_gates.h"
@@ -109,57 +110,27 @@ Gate FlipLinesGate(const DrillSupport& support, double limit_sigmas) {
           .advice = "it may point either way: scan slower or move closer"};
 }
 
+/// How far it is ahead of another tool.
+Gate OtherToolGate(const char* what, double nats, double limit_nats) {
+  return {.what = what,
+          .unit = Gate::Unit::kOdds,
+          .number = nats,
+          .limit = limit_nats,
+          .advice = "it may be another tool"};
+}
+
 Gate ChuckGate(const DrillSupport& support, double limit_nats) {
   if (support.chuck_nats == 0.0)
     return {.what = "{} measurements tell whether it has a chuck",
             .number = 0.0,
             .limit = 1.0,
             .advice = "it may be another tool"};
-  return {.what = "the odds that it has a chuck are {}",
-          .unit = Gate::Unit::kOdds,
-          .number = support.chuck_nats,
-          .limit = limit_nats,
-          .advice = "it may be another tool"};
+  return OtherToolGate("the odds that it has a chuck are {}", support.chuck_nats, limit_nats);
 }
 
 Gate BluntGate(const DrillSupport& support, double limit_nats) {
-  return {.what = "the odds against a head that does not narrow are {}",
-          .unit = Gate::Unit::kOdds,
-          .number = support.blunt_margin_nats,
-          .limit = limit_nats,
-          .advice = "it may be another tool"};
-}
-
-Gate FootGate(const DrillSupport& support, double limit_nats) {
-  return {.what = "the odds that it stands on a foot wider than its grip are {}",
-          .unit = Gate::Unit::kOdds,
-          .number = support.foot_nats,
-          .limit = limit_nats,
-          .advice = "it may be another tool"};
-}
-
-Gate NoFootGate(double margin_nats) {
-  return {.what = "the odds against a tool that stands on the end of its grip are {}",
-          .unit = Gate::Unit::kOdds,
-          .number = margin_nats,
-          .limit = kMinNoFootMargin_nats,
-          .advice = "it may be another tool"};
-}
-
-Gate NozzleGate(double margin_nats) {
-  return {.what = "the odds against a nozzle in place of its chuck are {}",
-          .unit = Gate::Unit::kOdds,
-          .number = margin_nats,
-          .limit = kMinNozzleMargin_nats,
-          .advice = "it may be another tool"};
-}
-
-Gate NoChuckGate(double margin_nats) {
-  return {.what = "the odds against a tool without a chuck are {}",
-          .unit = Gate::Unit::kOdds,
-          .number = margin_nats,
-          .limit = kMinNoChuckMargin_nats,
-          .advice = "it may be another tool"};
+  return OtherToolGate("the odds against a head that does not narrow are {}",
+                       support.blunt_margin_nats, limit_nats);
 }
 
 Gate UnusualGate(double nats) {
@@ -267,10 +238,15 @@ std::vector<std::string> FailedGates(const RaySet& rays, const RaySet& region,
     if (gate.Failed()) break;
   }
   AddLongChuck(model, failed);
-  if (evidence.no_foot_margin_nats) AddIfFailed(NoFootGate(*evidence.no_foot_margin_nats), failed);
-  if (evidence.nozzle_margin_nats) AddIfFailed(NozzleGate(*evidence.nozzle_margin_nats), failed);
-  if (evidence.no_chuck_margin_nats)
-    AddIfFailed(NoChuckGate(*evidence.no_chuck_margin_nats), failed);
+  const auto add_other_tool = [&](const char* what, std::optional<double> nats, double limit_nats) {
+    if (nats) AddIfFailed(OtherToolGate(what, *nats, limit_nats), failed);
+  };
+  add_other_tool("the odds against a tool that stands on the end of its grip are {}",
+                 evidence.no_foot_margin_nats, kMinNoFootMargin_nats);
+  add_other_tool("the odds against a nozzle in place of its chuck are {}",
+                 evidence.nozzle_margin_nats, kMinNozzleMargin_nats);
+  add_other_tool("the odds against a tool without a chuck are {}", evidence.no_chuck_margin_nats,
+                 kMinNoChuckMargin_nats);
   if (evidence.unusual_nats) AddIfFailed(UnusualGate(*evidence.unusual_nats), failed);
   AddFailedBoundGates(model, drill, prior, failed);
   AddIfFailed(
@@ -307,7 +283,8 @@ std::vector<FeatureGate> FeatureGates(const DrillDetection& detection, const Dri
           {"log_any_flip", AnyFlipGate(support, usual_nats("log_any_flip"))},
           {"flip_line_sigmas", FlipLinesGate(support, mean("flip_line_sigmas"))},
           {"log_chuck", ChuckGate(support, usual_nats("log_chuck"))},
-          {"log_foot", FootGate(support, usual_nats("log_foot"))},
+          {"log_foot", OtherToolGate("the odds that it stands on a foot wider than its grip are {}",
+                                     support.foot_nats, usual_nats("log_foot"))},
           {"log_blunt_margin", BluntGate(support, usual_nats("log_blunt_margin"))},
           {"log_alternative_margin",
            AlternativeGate(evidence.best_alternative, evidence.alternative_margin_nats,
