@@ -36,6 +36,7 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"further_spoke_nats", evidence.further_spoke_nats},
           {"rim_nats", evidence.rim_nats},
           {"weakest_arc_nats", evidence.weakest_arc_nats},
+          {"weakest_quarter_nats", evidence.weakest_quarter_nats},
           {"outline_nats_per_px", evidence.outline_nats_per_px},
           {"weakest_outline_nats_per_px", evidence.weakest_outline_nats_per_px},
           {"further_outline_nats_per_px", evidence.further_outline_nats_per_px}};
@@ -74,6 +75,7 @@ ValveEvidence ValveEvidenceFrom(const Json& value) {
         std::pair("further_spoke_nats", &evidence.further_spoke_nats),
         std::pair("rim_nats", &evidence.rim_nats),
         std::pair("weakest_arc_nats", &evidence.weakest_arc_nats),
+        std::pair("weakest_quarter_nats", &evidence.weakest_quarter_nats),
         std::pair("outline_nats_per_px", &evidence.outline_nats_per_px),
         std::pair("weakest_outline_nats_per_px", &evidence.weakest_outline_nats_per_px),
         std::pair("further_outline_nats_per_px", &evidence.further_outline_nats_per_px)})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -19,7 +20,7 @@ constexpr double kMiddleBegins = 0.3;
 constexpr double kMiddleEnds = 0.8;
 constexpr double kSpokeStep_rad = RadiansFromDegrees(5.0);
 constexpr double kBesideSpoke_rad = RadiansFromDegrees(15.0);
-constexpr int kArcs = 8;  // of a rim
+constexpr std::size_t kArcs = 32;  // of a rim
 
 double SpokeLength(const ValveModel& model) {
   return std::hypot(model.rim_radius_m, model.dish_m);
@@ -43,8 +44,22 @@ struct SpokeNats {
   }
 };
 
-int ArcOf(const ValveIntersection& intersection) {
-  return std::clamp(static_cast<int>(intersection.FractionOfRim() * kArcs), 0, kArcs - 1);
+using RimNats = std::array<double, kArcs>;
+
+std::size_t ArcOf(const ValveIntersection& intersection) {
+  const double arcs = kArcs;
+  return static_cast<std::size_t>(std::clamp(intersection.FractionOfRim() * arcs, 0.0, arcs - 1.0));
+}
+
+/// Of every stretch of so many arcs, wherever it begins, the least.
+double WeakestStretch(const RimNats& rim, std::size_t arcs) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t first = 0; first < kArcs; ++first) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < arcs; ++i) sum += rim[(first + i) % kArcs];
+    least = std::min(least, sum);
+  }
+  return least;
 }
 
 ValveCandidate Turned(const ValveCandidate& valve, double turn_rad) {
@@ -91,7 +106,7 @@ std::vector<double> TurnsToFurtherSpokes(const ValveModel& model) {
 
 void AddEvidenceOfParts(const BeamLikelihood& likelihood, const ValveCandidate& valve,
                         ValveEvidence& evidence) {
-  evidence.rim_nats = evidence.weakest_arc_nats = 0.0;
+  evidence.rim_nats = evidence.weakest_arc_nats = evidence.weakest_quarter_nats = 0.0;
   evidence.weakest_spoke_nats = evidence.weakest_spoke_middle_nats = 0.0;
   evidence.further_spoke_nats = 0.0;
   if (valve.model.IsLever()) return;
@@ -100,18 +115,19 @@ void AddEvidenceOfParts(const BeamLikelihood& likelihood, const ValveCandidate& 
   const ValveTracer tracer(valve, ValveParts::kAll);
   const double length_m = SpokeLength(valve.model);
   std::vector<SpokeNats> spokes(static_cast<std::size_t>(valve.model.spokes));
-  std::array<double, kArcs> arcs = {};
+  RimNats rim = {};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const double gain = gains(static_cast<Eigen::Index>(i));
     if (gain == 0.0) continue;  // too far from all of it
     const ValveIntersection intersection = tracer.Intersect(rays[i]);
     if (intersection.part == ValvePart::kRim)
-      arcs[static_cast<std::size_t>(ArcOf(intersection))] += gain;
+      rim[ArcOf(intersection)] += gain;
     else if (intersection.part == ValvePart::kSpoke)
       spokes[static_cast<std::size_t>(intersection.spoke)].Add(intersection, gain, length_m);
   }
-  evidence.rim_nats = std::accumulate(arcs.begin(), arcs.end(), 0.0);
-  evidence.weakest_arc_nats = *std::min_element(arcs.begin(), arcs.end());
+  evidence.rim_nats = std::accumulate(rim.begin(), rim.end(), 0.0);
+  evidence.weakest_arc_nats = WeakestStretch(rim, kArcs / 8);
+  evidence.weakest_quarter_nats = WeakestStretch(rim, kArcs / 4);
   if (spokes.empty()) return;
   const auto weakest = [&](double SpokeNats::*nats) {
     double least = spokes.front().*nats;

@@ -12,8 +12,8 @@ namespace foresight {
 std::vector<double> TurnsToFurtherSpokes(const ValveModel& model);
 
 /// What the measured rays say of a valve's rim, of each of its spokes and of spokes that it has
-/// not: ValveEvidence::rim_nats, weakest_spoke_nats, weakest_spoke_middle_nats and
-/// further_spoke_nats.
+/// not: ValveEvidence::rim_nats, weakest_arc_nats, weakest_quarter_nats, weakest_spoke_nats,
+/// weakest_spoke_middle_nats and further_spoke_nats.
 void AddEvidenceOfParts(const BeamLikelihood& likelihood, const ValveCandidate& valve,
                         ValveEvidence& evidence);
 

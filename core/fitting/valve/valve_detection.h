@@ -36,8 +36,9 @@ struct ValveEvidence {
   double further_spoke_nats = 0.0;
   /// How much the beams on and beside the rim speak for it; 0 for a lever.
   double rim_nats = 0.0;
-  /// The same of the eighth of the rim that they speak for least.
+  /// The same of the eighth and of the quarter of the rim that they speak for least.
   double weakest_arc_nats = 0.0;
+  double weakest_quarter_nats = 0.0;
   /// How well the outline of rim and spokes lies on the image's edges, nats a pixel: all of it, and
   /// the part that does worst. 0 without an image.
   double outline_nats_per_px = 0.0;

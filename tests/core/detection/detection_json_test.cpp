@@ -31,6 +31,7 @@ ValveDetection Sample() {
   detection.evidence.further_spoke_nats = 7.25;
   detection.evidence.rim_nats = 640.5;
   detection.evidence.weakest_arc_nats = -4.5;
+  detection.evidence.weakest_quarter_nats = 12.5;
   detection.evidence.outline_nats_per_px = 0.125;
   detection.evidence.weakest_outline_nats_per_px = -0.25;
   detection.evidence.further_outline_nats_per_px = 0.0625;
@@ -69,6 +70,7 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->evidence.further_spoke_nats, 7.25);
   EXPECT_EQ(read->evidence.rim_nats, 640.5);
   EXPECT_EQ(read->evidence.weakest_arc_nats, -4.5);
+  EXPECT_EQ(read->evidence.weakest_quarter_nats, 12.5);
   EXPECT_EQ(read->evidence.outline_nats_per_px, 0.125);
   EXPECT_EQ(read->evidence.weakest_outline_nats_per_px, -0.25);
   EXPECT_EQ(read->evidence.further_outline_nats_per_px, 0.0625);

@@ -198,7 +198,8 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
                       .weakest_spoke_middle_nats = random.Uniform(-20.0, 100.0),
                       .further_spoke_nats = random.Uniform(0.0, 40.0),
                       .rim_nats = random.Uniform(-20.0, 100.0),
-                      .weakest_arc_nats = random.Uniform(-10.0, 50.0)};
+                      .weakest_arc_nats = random.Uniform(-10.0, 50.0),
+                      .weakest_quarter_nats = random.Uniform(-10.0, 50.0)};
     if (random.Index(3) == 0) found.evidence.margin_nats = random.Uniform(-5.0, 12.0);
     found.alternatives.push_back(found.best);
     found.alternatives.front().model.spokes = 5;
@@ -231,7 +232,8 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
                     .margin_line_sigmas = 6.0,
                     .weakest_spoke_nats = 100.0,
                     .weakest_spoke_middle_nats = 60.0,
-                    .rim_nats = 600.0};
+                    .rim_nats = 600.0,
+                    .weakest_quarter_nats = 80.0};
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
   found.evidence.arc_coverage = 0.35;
   const Verdict verdict = AssessValve(rays, rays, found, {});
@@ -250,11 +252,17 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
       "the odds that there is one more spoke are 10^17 : 1 (at most 10^9 : 1): spokes that do "
       "not stand evenly look like this");
   found.evidence.further_spoke_nats = 0.0;
-  found.evidence.weakest_arc_nats = -9.0;
+  found.evidence.weakest_arc_nats = -11.0;
+  EXPECT_EQ(
+      AssessValve(rays, rays, found, {}).reason,
+      "the odds that every part of the rim is there are 1 : 60000 (at least 1 : 22000): a wheel "
+      "whose rim is broken looks like this");
+  found.evidence.weakest_arc_nats = 0.0;  // something hides it
+  found.evidence.weakest_quarter_nats = 0.0;
   EXPECT_EQ(AssessValve(rays, rays, found, {}).reason,
-            "the odds that every part of the rim is there are 1 : 8100 (at least 1 : 150): a wheel "
-            "whose rim is broken looks like this");
-  found.evidence.weakest_arc_nats = 0.0;     // something hides it
+            "the odds that every quarter of the rim is there are 1 : 1 (at least 150 : 1): a "
+            "broken rim whose gap is hidden looks like this");
+  found.evidence.weakest_quarter_nats = 6.0;
   found.evidence.further_spoke_nats = 12.0;  // beams beside a spoke
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
   found.best.model.spoke_radius_m = 0.04;

@@ -164,6 +164,21 @@ class EvidenceOfParts : public ::testing::Test {
     return Of(valve);
   }
 
+  /// Of the true valve, a part of whose rim no beam goes to.
+  ValveEvidence WithHiddenRim(double fraction) const {
+    RaySet seen = scene_.rays;
+    const auto object_from_base = scene_.truth.base_from_object.Inverse();
+    std::erase_if(seen.rays, [&](const RangeRay& ray) {
+      const Eigen::Vector3d origin = object_from_base * ray.origin;
+      const Eigen::Vector3d direction = object_from_base.rotation() * ray.direction;
+      const Eigen::Vector3d through = origin - origin.z() / direction.z() * direction;
+      return std::abs(std::atan2(through.y(), through.x()) - 0.6) < std::numbers::pi * fraction;
+    });
+    ValveEvidence evidence;
+    AddEvidenceOfParts(ValveLikelihood(seen, WallOf(seen)), scene_.truth, evidence);
+    return evidence;
+  }
+
   const ValveScene scene_ = FourSpokes();
   const BeamLikelihood likelihood_ = ValveLikelihood(scene_.rays, WallOf(scene_.rays));
 };
@@ -187,6 +202,16 @@ TEST_F(EvidenceOfParts, BeamsSpeakAgainstAPartOfTheRimWhereThereIsNone) {
       beside.base_from_object.rotation(),
       beside.base_from_object * Eigen::Vector3d(0.3 * beside.model.rim_radius_m, 0.0, 0.0)};
   EXPECT_LT(Of(beside).weakest_arc_nats, -10.0);
+}
+
+TEST_F(EvidenceOfParts, AQuarterOfTheRimThatNoBeamSeesHasNothingForIt) {
+  const double open = Of(scene_.truth).weakest_quarter_nats;
+  const ValveEvidence eighth = WithHiddenRim(0.16);
+  const ValveEvidence quarter = WithHiddenRim(0.29);
+  EXPECT_NEAR(eighth.weakest_arc_nats, 0.0, 2.0);
+  EXPECT_GT(eighth.weakest_quarter_nats, 10.0);
+  EXPECT_LT(eighth.weakest_quarter_nats, 0.7 * open);
+  EXPECT_NEAR(quarter.weakest_quarter_nats, 0.0, 2.0);
 }
 
 TEST_F(EvidenceOfParts, BeamsSpeakForASpokeThatIsLeftOut) {
