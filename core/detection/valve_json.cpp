@@ -37,6 +37,7 @@ Json EvidenceJson(const ValveEvidence& evidence) {
           {"rim_nats", evidence.rim_nats},
           {"weakest_arc_nats", evidence.weakest_arc_nats},
           {"weakest_quarter_nats", evidence.weakest_quarter_nats},
+          {"pipe_margin_nats", NumberOrNull(evidence.pipe_margin_nats)},
           {"outline_nats_per_px", evidence.outline_nats_per_px},
           {"weakest_outline_nats_per_px", evidence.weakest_outline_nats_per_px},
           {"further_outline_nats_per_px", evidence.further_outline_nats_per_px}};
@@ -80,6 +81,7 @@ ValveEvidence ValveEvidenceFrom(const Json& value) {
         std::pair("weakest_outline_nats_per_px", &evidence.weakest_outline_nats_per_px),
         std::pair("further_outline_nats_per_px", &evidence.further_outline_nats_per_px)})
     if (value.contains(name)) *member = NumberFrom(value[name]);
+  evidence.pipe_margin_nats = NumberOrNone(value, "pipe_margin_nats");
   return evidence;
 }
 

@@ -21,7 +21,8 @@ struct ValveView {
   double turn_rad = 0.2;       ///< of the wheel around its axis
   double wall_m = 0.12;        ///< from the rim's plane back to the wall
   double wall_turn_rad = 0.0;  ///< of the wall about x: near 90 deg it is a floor, wall_m below
-  enum class Object { kWheel, kNothing, kBox, kBall } object = Object::kWheel;
+  /// kRing: the rim alone, before a pipe along x that goes on beyond it.
+  enum class Object { kWheel, kNothing, kBox, kBall, kRing } object = Object::kWheel;
   bool pipe = true;                  ///< a pipe runs along the wall beside the wheel
   double half_angle_rad = 0.0;       ///< of the region; 0 = a third more than the rim
   double line_spacing_rad = 0.0087;  ///< 0.5 deg
@@ -61,6 +62,11 @@ inline double SceneDistance(const ValveView& view, const Eigen::Vector3d& p) {
     const Eigen::Vector3d half(far, 0.7 * far, 0.5 * view.wall_m);
     const Eigen::Vector3d q = (p + Eigen::Vector3d(0, 0, half.z())).cwiseAbs() - half;
     return std::min(distance, q.cwiseMax(0.0).norm() + std::min(0.0, q.maxCoeff()));
+  }
+  if (view.object == ValveView::Object::kRing) {
+    const Eigen::Vector3d begin(-1.0, 0.0, -view.model.dish_m), end(1.0, 0.0, -view.model.dish_m);
+    const double ring = std::hypot(p.head<2>().norm() - far, p.z()) - view.model.tube_radius_m;
+    return std::min({distance, ring, CapsuleDistance(p, begin, end, view.model.spoke_radius_m)});
   }
   const Eigen::Vector3d hub(0.0, 0.0, -view.model.dish_m);
   const Eigen::Vector3d foot(0.0, 0.0, -view.wall_m);

@@ -15,6 +15,7 @@
 #include "core/fitting/valve/part_evidence.h"
 #include "core/fitting/valve/refine.h"
 #include "core/fitting/valve/rim_search.h"
+#include "core/fitting/valve/ring_before_pipe.h"
 #include "core/fitting/valve/spoke_search.h"
 #include "core/fitting/valve/thin_rims.h"
 #include "core/fitting/valve/valve_covariance.h"
@@ -282,6 +283,7 @@ Result<ValveDetection> Search(const RaySet& region, const RaySet& all_rays, bool
     detection.evidence.margin_line_sigmas =
         likelihood.DeviationsAhead(CoverBy(valves[0]), CoverBy(valves[1]));
   AddEvidenceOfParts(likelihood, detection.best, detection.evidence);
+  detection.evidence.pipe_margin_nats = MarginOverPipe(likelihood.Measured(), detection.best);
   if (region.image) AddEvidenceOfOutline(*region.image, detection.best, detection.evidence);
   WidenSigmas(likelihood.Footprints(), detection);
   detection.verdict = AssessValve(rays, region, detection, options);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/fitting/fit_origin.h"
@@ -39,6 +40,9 @@ struct ValveEvidence {
   /// The same of the eighth and of the quarter of the rim that they speak for least.
   double weakest_arc_nats = 0.0;
   double weakest_quarter_nats = 0.0;
+  /// Log likelihood ahead of the rim before a pipe that looks like the spokes; nullopt but for two
+  /// spokes.
+  std::optional<double> pipe_margin_nats = std::nullopt;
   /// How well the outline of rim and spokes lies on the image's edges, nats a pixel: all of it, and
   /// the part that does worst. 0 without an image.
   double outline_nats_per_px = 0.0;

@@ -32,6 +32,7 @@ ValveDetection Sample() {
   detection.evidence.rim_nats = 640.5;
   detection.evidence.weakest_arc_nats = -4.5;
   detection.evidence.weakest_quarter_nats = 12.5;
+  detection.evidence.pipe_margin_nats = 31.5;
   detection.evidence.outline_nats_per_px = 0.125;
   detection.evidence.weakest_outline_nats_per_px = -0.25;
   detection.evidence.further_outline_nats_per_px = 0.0625;
@@ -71,6 +72,7 @@ TEST(DetectionJson, SurvivesTheRoundTrip) {
   EXPECT_EQ(read->evidence.rim_nats, 640.5);
   EXPECT_EQ(read->evidence.weakest_arc_nats, -4.5);
   EXPECT_EQ(read->evidence.weakest_quarter_nats, 12.5);
+  EXPECT_EQ(read->evidence.pipe_margin_nats, 31.5);
   EXPECT_EQ(read->evidence.outline_nats_per_px, 0.125);
   EXPECT_EQ(read->evidence.weakest_outline_nats_per_px, -0.25);
   EXPECT_EQ(read->evidence.further_outline_nats_per_px, 0.0625);

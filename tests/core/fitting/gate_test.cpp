@@ -199,14 +199,16 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
                       .further_spoke_nats = random.Uniform(0.0, 40.0),
                       .rim_nats = random.Uniform(-20.0, 100.0),
                       .weakest_arc_nats = random.Uniform(-10.0, 50.0),
-                      .weakest_quarter_nats = random.Uniform(-10.0, 50.0)};
+                      .weakest_quarter_nats = random.Uniform(-10.0, 50.0),
+                      .pipe_margin_nats = random.Uniform(-10.0, 50.0)};
     if (random.Index(3) == 0) found.evidence.margin_nats = random.Uniform(-5.0, 12.0);
     found.alternatives.push_back(found.best);
     found.alternatives.front().model.spokes = 5;
     const Verdict verdict = AssessValve(rays, rays, found, {});
     ExpectStatedGatesFail(verdict, &stated);
     if (found.evidence.margin_nats >= kFarBehind_nats) {
-      EXPECT_THAT(verdict.reason, Not(HasSubstr(" against "))) << found.evidence.margin_nats;
+      EXPECT_THAT(verdict.reason, Not(HasSubstr(" against 5 spokes")))
+          << found.evidence.margin_nats;
     }
   }
   EXPECT_GT(stated, kAnswers / 2);
@@ -263,6 +265,11 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
             "the odds that every quarter of the rim is there are 1 : 1 (at least 150 : 1): a "
             "broken rim whose gap is hidden looks like this");
   found.evidence.weakest_quarter_nats = 6.0;
+  found.evidence.pipe_margin_nats = -55.0;
+  EXPECT_EQ(AssessValve(rays, rays, found, {}).reason,
+            "the odds against a pipe behind a ring are 1 : 10^24 (at least 150 : 1): check the two "
+            "spokes in the image");
+  found.evidence.pipe_margin_nats = 20.0;
   found.evidence.further_spoke_nats = 12.0;  // beams beside a spoke
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
   found.best.model.spoke_radius_m = 0.04;
