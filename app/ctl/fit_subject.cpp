@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/common/output.h"
-#include "app/ctl/unit_option.h"
 #include "core/depth/depth_method.h"
 #include "core/geometry/angles.h"
 #include "core/io/cloud_table.h"
@@ -81,7 +80,7 @@ void NoteGrid(const std::string& file, const Result<GridPlaces>& of_table,
 }
 
 Status OpenCloud(const FitArguments& arguments, FitSubject& subject) {
-  FORESIGHT_TRY(const double unit_m, UnitFrom(arguments.unit));
+  FORESIGHT_TRY(const double unit_m, MetresIn(arguments.unit));
   FORESIGHT_TRY(const CloudTable cloud, ReadCloudTable(arguments.cloud_file, unit_m));
   if (arguments.rig.empty()) {
     FORESIGHT_TRY(subject.rig.robot_from_base, CloudFromBase(arguments.up));

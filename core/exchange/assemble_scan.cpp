@@ -49,7 +49,6 @@ class Assembler {
 
   Result<ImportedScan> Run() {
     FORESIGHT_CHECK(options_.Check());
-    ScaleToMetres();
     FORESIGHT_CHECK(ChooseViewpoint());
     FORESIGHT_CHECK(FindGrid());
     FORESIGHT_CHECK(FindCamera());
@@ -73,12 +72,6 @@ class Assembler {
   }
   /// The points' frame where the rig is known.
   CloudFrame Frame() const { return options_.frame.value_or(CloudFrame::kRobot); }
-
-  void ScaleToMetres() {
-    if (options_.unit_m == 1.0) return;
-    for (Eigen::Vector3d& point : parts_.cloud.points) point *= options_.unit_m;
-    if (parts_.cloud.viewpoint) *parts_.cloud.viewpoint *= options_.unit_m;
-  }
 
   Status ChooseViewpoint() {
     if (options_.viewpoint) {

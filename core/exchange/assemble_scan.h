@@ -34,7 +34,7 @@ struct ImportOptions {
   std::optional<CloudFrame> frame;
   std::optional<Eigen::Vector3d> viewpoint;       ///< in the cloud's frame, metres
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< in the cloud's frame; without a rig
-  double unit_m = 1.0;                            ///< of the file's coordinates
+  double unit_m = 1.0;                            ///< of a file's coordinates; 3DTK's know theirs
   std::vector<double> image_angles_rad;           ///< of the motor, of the images in their order
   std::optional<BlankView> view;
   int kitti_camera = 2;
@@ -54,7 +54,7 @@ struct CameraOnCloud {
 /// What is put together to a scan.
 struct ScanParts {
   std::string name;  ///< of the file, for its source
-  CloudTable cloud;
+  CloudTable cloud;  ///< in metres
   std::vector<CameraFrame> images;
   std::optional<ScanRecord> record;
   std::optional<CameraOnCloud> camera;

@@ -321,6 +321,7 @@ class BagImport {
                      ? name_
                      : fmt::format("{}, cloud {} of {}", name_, number + 1, cloud_->times.size());
     FORESIGHT_TRY(parts.cloud, TableFrom(message, where));
+    ScaleToMetres(options_.unit_m, parts.cloud);
     if (record_ != nullptr) {
       FORESIGHT_CHECK(TakeOwnScan(number, parts));
     } else {

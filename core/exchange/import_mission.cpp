@@ -242,7 +242,7 @@ class Importer {
   Result<ScanParts> PartsOf(const Group& group) const {
     ScanParts parts;
     parts.name = group.name;
-    FORESIGHT_TRY(parts.cloud, ReadCloudTable(group.cloud));
+    FORESIGHT_TRY(parts.cloud, ReadCloudTable(group.cloud, options_.unit_m));
     if (!group.record.empty()) {
       FORESIGHT_TRY(const std::string json, ReadFile(group.record));
       FORESIGHT_TRY(parts.record, ScanRecordFromJson(json, group.record.string()));

@@ -304,6 +304,18 @@ Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& so
   return table;
 }
 
+Result<double> MetresIn(const std::string& unit) {
+  if (unit == "m") return 1.0;
+  if (unit == "cm") return 0.01;
+  if (unit == "mm") return 0.001;
+  return Fail(ErrorCode::kInvalidOptions, "unit '{}' is none of m, cm and mm", unit);
+}
+
+void ScaleToMetres(double unit_m, CloudTable& table) {
+  for (Eigen::Vector3d& point : table.points) point *= unit_m;
+  if (table.viewpoint) *table.viewpoint *= unit_m;
+}
+
 Result<CloudTable> ReadCloudTable(const std::filesystem::path& path, double unit_m) {
   FORESIGHT_TRY(const std::string bytes, ReadFile(path));
   const std::string source = path.string();
@@ -323,12 +335,10 @@ Result<CloudTable> ReadCloudTable(const std::filesystem::path& path, double unit
                 "as text of points does (.xyz, .txt, .csv, .asc, .pts, .3d)",
                 source);
   }
-  if (path.extension() == ".3d") {
+  if (path.extension() == ".3d")
     TurnFrom3dtk(table);
-  } else {
-    for (Eigen::Vector3d& point : table.points) point *= unit_m;
-    if (table.viewpoint) *table.viewpoint *= unit_m;
-  }
+  else
+    ScaleToMetres(unit_m, table);
   FORESIGHT_CHECK(CheckCloudPoints(table.points, source));
   return table;
 }

@@ -55,6 +55,11 @@ Result<CloudTable> DecodeFloatRecordTable(std::string_view bytes, const std::str
 /// line without numbers names the columns. Lines that begin with '#' are comments.
 Result<CloudTable> DecodeTextTable(std::string_view bytes, const std::string& source);
 
+/// Metres in one of the unit m, cm or mm. Fails with kInvalidOptions for another name.
+Result<double> MetresIn(const std::string& unit);
+/// From coordinates in `unit_m` to metres.
+void ScaleToMetres(double unit_m, CloudTable& table);
+
 /// By the file's first bytes and name: PLY, PCD, floats (.bin), text (.xyz, .txt, .csv, .asc, .3d).
 /// Of a .3d file, 3DTK's, points are turned from its left-handed centimetres (x right, y up, z
 /// forward) to metres, x forward, y left, z up; the coordinates of others are in `unit_m`. Fails

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/geometry/angles.h"
+#include "core/io/cloud_table.h"
 
 namespace foresight {
 namespace {
@@ -67,7 +68,7 @@ Status Take(const ImportField& field, const QString& text, ImportOptions& option
   } else if (field.key == QLatin1String("frame")) {
     FORESIGHT_TRY(options.frame, CloudFrameFromText(text.toStdString()));
   } else if (field.key == QLatin1String("unit")) {
-    options.unit_m = text == QLatin1String("mm") ? 0.001 : text == QLatin1String("cm") ? 0.01 : 1.0;
+    FORESIGHT_TRY(options.unit_m, MetresIn(text.toStdString()));
   } else if (field.key == QLatin1String("kitti-camera")) {
     options.kitti_camera = text.toInt();
   } else if (field.key == QLatin1String("cloud-topic")) {

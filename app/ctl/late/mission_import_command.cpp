@@ -2,9 +2,9 @@
 
 #include "app/ctl/command.h"
 #include "app/ctl/late/late_command.h"
-#include "app/ctl/unit_option.h"
 #include "core/exchange/import_mission.h"
 #include "core/geometry/angles.h"
+#include "core/io/cloud_table.h"
 
 namespace foresight {
 namespace {
@@ -36,7 +36,7 @@ Result<ImportOptions> OptionsFrom(const ImportArguments& arguments) {
   }
   if (!arguments.viewpoint.empty()) options.viewpoint = Eigen::Vector3d(arguments.viewpoint.data());
   options.up = Eigen::Vector3d(arguments.up.data());
-  FORESIGHT_TRY(options.unit_m, UnitFrom(arguments.unit));
+  FORESIGHT_TRY(options.unit_m, MetresIn(arguments.unit));
   for (const double angle : arguments.image_deg)
     options.image_angles_rad.push_back(RadiansFromDegrees(angle));
   if (!arguments.view.empty()) {

@@ -98,7 +98,7 @@ PatternSearchOptions Steps(LocalSearchEffort effort) {
   add({{kDrillFoot, 0.080}});
   // Thicker or thinner, as tall and on as large a foot as before.
   add({{kDrillScale, 0.040}, {kDrillHeadUp, -0.040 * kHeadHeight_m}, {kDrillFoot, -0.040}});
-  options.rounds = effort == LocalSearchEffort::kFine ? 4 : 2;
+  options.rounds = effort == LocalSearchEffort::kFine ? 5 : 3;
   if (effort == LocalSearchEffort::kCoarse) return options;
   add({{kDrillFootHeight, 0.10}});
   add({{kDrillGrip, 0.06}});

@@ -467,6 +467,25 @@ TEST_F(ImportOfFiles, AKittiFrameGetsItsGridItsImageAndItsCamera) {
   EXPECT_THAT(log, HasSubstr("when it was measured is not in the file"));
 }
 
+TEST_F(ImportOfFiles, FarPointsInMillimetresAreNear) {
+  Write("mm.xyz", "250000 0 0\n250000 100 0\n250000 0 100\n");
+  EXPECT_THAT(Why({folder_ / "mm.xyz"}), HasSubstr("are its coordinates in another unit?"));
+  ImportOptions options;
+  options.unit_m = 0.001;
+  const auto report = Import({folder_ / "mm.xyz"}, target_, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_NEAR(ScanOf(target_).given.points[0].norm(), 250.0f, 0.2f);
+}
+
+TEST_F(ImportOfFiles, AUnitIsNotTakenTwiceWhereTheFileKnowsItsOwn) {
+  Write("scan000.3d", "0 0 400\n10 0 400\n0 10 400\n");  // centimetres
+  ImportOptions options;
+  options.unit_m = 0.01;
+  const auto report = Import({folder_ / "scan000.3d"}, target_, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_NEAR(ScanOf(target_).given.points[0].norm(), 4.0f, 0.01f);
+}
+
 TEST_F(ImportOfFiles, SeveralCloudsBecomeSeveralScansWithTheirOwnImages) {
   WriteTurns("a.bin");
   WriteTurns("b.bin");

@@ -32,6 +32,30 @@ TEST(PatternSearch, FollowsARidgeAcrossItsSteps) {
   EXPECT_LT((found.values - Eigen::Vector2d(2.5, 2.5)).norm(), 0.1);
 }
 
+TEST(PatternSearch, StepsToTheTopOfAParabolaWhereBothWaysLeadDown) {
+  const Eigen::Vector2d top(0.3, -0.2);
+  int tries = 0;
+  const auto hill = [&](const Eigen::VectorXd& at) {
+    ++tries;
+    return -(at - top).squaredNorm();
+  };
+  PatternSearchOptions options = UnitSteps(1);
+  options.passes = 1;
+  const PatternSearchResult found = ClimbByPatternSearch(Eigen::VectorXd::Zero(2), hill, options);
+  EXPECT_LT((found.values - top).norm(), 1e-9);
+  EXPECT_LE(tries, 8);  // the start, three along each direction, and once more the same way
+}
+
+TEST(PatternSearch, ADirectionWhoseTopIsReachedRests) {
+  int tries = 0;
+  const auto top = [&](const Eigen::VectorXd& at) {
+    ++tries;
+    return -at.squaredNorm();
+  };
+  ClimbByPatternSearch(Eigen::VectorXd::Zero(2), top, UnitSteps(4));
+  EXPECT_LE(tries, 9);  // the start, and two along each direction of the first and third round
+}
+
 TEST(PatternSearch, StaysWhereEverythingElseIsWorse) {
   const Eigen::Vector2d start(0.3, 0.4);
   const auto spike = [&](const Eigen::VectorXd& at) { return at == start ? 1.0 : 0.0; };
