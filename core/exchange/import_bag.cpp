@@ -94,7 +94,9 @@ std::optional<CloudScalar> ScalarOf(std::uint8_t type) {
   return kTypes[type - 1U];
 }
 
-Result<CloudTable> TableFrom(const BagCloudMessage& message, const std::string& source) {
+/// In metres; the message's coordinates are in `unit_m`.
+Result<CloudTable> TableFrom(const BagCloudMessage& message, double unit_m,
+                             const std::string& source) {
   const std::size_t count = std::size_t{message.width} * message.height;
   const std::size_t row = std::size_t{message.width} * message.point_step;
   const std::size_t row_step = message.height > 1 ? message.row_step : row;
@@ -127,6 +129,7 @@ Result<CloudTable> TableFrom(const BagCloudMessage& message, const std::string& 
   table.width = message.width;
   table.height = message.height;
   FORESIGHT_CHECK(TakeColumns(std::move(columns), table, source));
+  ScaleToMetres(unit_m, table);
   FORESIGHT_CHECK(CheckCloudPoints(table.points, source));
   return table;
 }
@@ -320,8 +323,7 @@ class BagImport {
     parts.name = cloud_->times.size() == 1
                      ? name_
                      : fmt::format("{}, cloud {} of {}", name_, number + 1, cloud_->times.size());
-    FORESIGHT_TRY(parts.cloud, TableFrom(message, where));
-    ScaleToMetres(options_.unit_m, parts.cloud);
+    FORESIGHT_TRY(parts.cloud, TableFrom(message, options_.unit_m, where));
     if (record_ != nullptr) {
       FORESIGHT_CHECK(TakeOwnScan(number, parts));
     } else {

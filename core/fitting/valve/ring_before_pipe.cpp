@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <utility>
 
 #include "core/fitting/sampled_coverage.h"
 #include "core/fitting/solids/pattern_search.h"

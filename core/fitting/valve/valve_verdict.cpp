@@ -94,11 +94,11 @@ Gate EveryQuarterGate(const ValveEvidence& evidence, double limit_nats) {
 }
 
 Gate PipeGate(double margin_nats, double limit_nats) {
-  return {.what = "the odds against a pipe behind a ring are {}",
+  return {.what = "the odds that its two spokes are no pipe behind a ring are {}",
           .unit = Gate::Unit::kOdds,
           .number = margin_nats,
           .limit = limit_nats,
-          .advice = "check the two spokes in the image"};
+          .advice = "check them in the image"};
 }
 
 Gate BeingOffGate(const ValveDetection& detection, double limit) {

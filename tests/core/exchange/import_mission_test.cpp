@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <numbers>
 
@@ -440,6 +441,15 @@ class ImportOfFiles : public testing::Test {
     return report ? "" : report.error().message;
   }
 
+  /// Metres to the first point of a file that is imported in this unit; NaN where it is not.
+  float RangeOfFirst(const char* name, double unit_m) {
+    ImportOptions options;
+    options.unit_m = unit_m;
+    const auto report = Import({folder_ / name}, target_, options);
+    EXPECT_TRUE(report) << report.error().message;
+    return report ? ScanOf(target_).given.points[0].norm() : std::nanf("");
+  }
+
   TemporaryFolder folder_;
   const fs::path target_ = folder_ / "m.foresight";
 };
@@ -470,20 +480,29 @@ TEST_F(ImportOfFiles, AKittiFrameGetsItsGridItsImageAndItsCamera) {
 TEST_F(ImportOfFiles, FarPointsInMillimetresAreNear) {
   Write("mm.xyz", "250000 0 0\n250000 100 0\n250000 0 100\n");
   EXPECT_THAT(Why({folder_ / "mm.xyz"}), HasSubstr("are its coordinates in another unit?"));
-  ImportOptions options;
-  options.unit_m = 0.001;
-  const auto report = Import({folder_ / "mm.xyz"}, target_, options);
-  ASSERT_TRUE(report) << report.error().message;
-  EXPECT_NEAR(ScanOf(target_).given.points[0].norm(), 250.0f, 0.2f);
+  EXPECT_NEAR(RangeOfFirst("mm.xyz", 0.001), 250.0f, 0.2f);
+}
+
+TEST_F(ImportOfFiles, FarPointsInMillimetresOfABagAreNear) {
+  BagFile out;
+  ASSERT_EQ(out.Open((folder_ / "mm.bag").string()), "");
+  BagCloud cloud{"map", {}, 0, {}};
+  for (const char* axis : {"x", "y", "z"}) cloud.fields.push_back({axis, BagField::Type::kFloat32});
+  for (int i = 0; i < 3; ++i) {
+    const float xyz[3] = {250'000.0f, 100.0f * static_cast<float>(i), 0.0f};
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(xyz);
+    cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof(xyz));
+    ++cloud.points;
+  }
+  ASSERT_EQ(out.WriteCloud("/cloud", 1795352793250000000, cloud), "");
+  ASSERT_EQ(out.Close(), "");
+  EXPECT_THAT(Why({folder_ / "mm.bag"}), HasSubstr("are its coordinates in another unit?"));
+  EXPECT_NEAR(RangeOfFirst("mm.bag", 0.001), 250.0f, 0.2f);
 }
 
 TEST_F(ImportOfFiles, AUnitIsNotTakenTwiceWhereTheFileKnowsItsOwn) {
   Write("scan000.3d", "0 0 400\n10 0 400\n0 10 400\n");  // centimetres
-  ImportOptions options;
-  options.unit_m = 0.01;
-  const auto report = Import({folder_ / "scan000.3d"}, target_, options);
-  ASSERT_TRUE(report) << report.error().message;
-  EXPECT_NEAR(ScanOf(target_).given.points[0].norm(), 4.0f, 0.01f);
+  EXPECT_NEAR(RangeOfFirst("scan000.3d", 0.01), 4.0f, 0.01f);
 }
 
 TEST_F(ImportOfFiles, SeveralCloudsBecomeSeveralScansWithTheirOwnImages) {

@@ -207,8 +207,7 @@ TEST(Reasons, OfValvesFailAsTheyAreStated) {
     const Verdict verdict = AssessValve(rays, rays, found, {});
     ExpectStatedGatesFail(verdict, &stated);
     if (found.evidence.margin_nats >= kFarBehind_nats) {
-      EXPECT_THAT(verdict.reason, Not(HasSubstr(" against 5 spokes")))
-          << found.evidence.margin_nats;
+      EXPECT_THAT(verdict.reason, Not(HasSubstr(" against "))) << found.evidence.margin_nats;
     }
   }
   EXPECT_GT(stated, kAnswers / 2);
@@ -266,9 +265,10 @@ TEST(Reasons, SpokesWithoutARimOrUnevenOnesAreNotConfirmed) {
             "broken rim whose gap is hidden looks like this");
   found.evidence.weakest_quarter_nats = 6.0;
   found.evidence.pipe_margin_nats = -55.0;
-  EXPECT_EQ(AssessValve(rays, rays, found, {}).reason,
-            "the odds against a pipe behind a ring are 1 : 10^24 (at least 150 : 1): check the two "
-            "spokes in the image");
+  EXPECT_EQ(
+      AssessValve(rays, rays, found, {}).reason,
+      "the odds that its two spokes are no pipe behind a ring are 1 : 10^24 (at least 150 : 1): "
+      "check them in the image");
   found.evidence.pipe_margin_nats = 20.0;
   found.evidence.further_spoke_nats = 12.0;  // beams beside a spoke
   EXPECT_EQ(AssessValve(rays, rays, found, {}).level, VerdictLevel::kConfirmed);
