@@ -8,7 +8,9 @@
 
 #include "core/base/parallel.h"
 #include "core/fitting/best_distinct.h"
+#include "core/fitting/drill/drill_slopes.h"
 #include "core/fitting/solids/pattern_search.h"
+#include "core/fitting/solids/principal_axes_climb.h"
 #include "core/fitting/solids/solid_coverage.h"
 
 namespace foresight {
@@ -98,7 +100,7 @@ PatternSearchOptions Steps(LocalSearchEffort effort) {
   add({{kDrillFoot, 0.080}});
   // Thicker or thinner, as tall and on as large a foot as before.
   add({{kDrillScale, 0.040}, {kDrillHeadUp, -0.040 * kHeadHeight_m}, {kDrillFoot, -0.040}});
-  options.rounds = effort == LocalSearchEffort::kFine ? 5 : 3;
+  options.rounds = 3;
   if (effort == LocalSearchEffort::kCoarse) return options;
   add({{kDrillFootHeight, 0.10}});
   add({{kDrillGrip, 0.06}});
@@ -264,8 +266,16 @@ DrillState LocalSearch(const BeamLikelihood& likelihood, const DrillState& start
   }
   if (effort != LocalSearchEffort::kCoarse) options.steps.push_back(GripAlone(yaw));
   const PatternSearchResult found = ClimbByPatternSearch(best.values, score, options);
-  best.values = found.values;
-  best.log_likelihood = found.score;
+  const auto shape_at = [&](const Eigen::VectorXd& values) -> ScoreShape {
+    DrillState at = best;
+    at.values = values;
+    const DrillSlopes slopes = SlopesOf(likelihood.rays(), at, base_from_table, prior);
+    return {slopes.scores.colwise().sum().transpose() + prior.Gradient(at), slopes.information};
+  };
+  const PatternSearchResult top =
+      effort == LocalSearchEffort::kFine ? ClimbAlongPrincipalAxes(found, score, shape_at) : found;
+  best.values = top.values;
+  best.log_likelihood = top.score;
   return best;
 }
 

@@ -33,8 +33,7 @@ DrillState OfKind(const BeamLikelihood& likelihood, const DrillTemplate& kind,
 
 enum class LocalSearchEffort {
   kCoarse,  ///< some parameters, to 2.5 mm
-  kRough,   ///< all, to 2.5 mm
-  kFine,    ///< all, to 0.6 mm
+  kFine,    ///< all, and along what the rays know least in the end
 };
 
 /// Climbs the likelihood over all parameters of a drill, the bit's length by trying lengths first.

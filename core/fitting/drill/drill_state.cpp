@@ -94,6 +94,14 @@ DrillStep DrillPrior::Information() const {
   return information;
 }
 
+DrillStep DrillPrior::Gradient(const DrillState& state) const {
+  DrillStep off = state.values;
+  off[kDrillScale] -= 1.0;
+  off[kDrillRake] -= state.kind->usual_rake_rad;
+  for (const int p : {int{kDrillX}, int{kDrillY}, int{kDrillYaw}, int{kDrillBit}}) off[p] = 0.0;
+  return -Information().cwiseProduct(off);
+}
+
 DrillPrior AnyProportions(DrillPrior prior) {
   prior.head_up_sigma_m *= 1.5;
   prior.front_sigma_m *= 1.5;

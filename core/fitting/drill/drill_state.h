@@ -84,6 +84,8 @@ struct DrillPrior {
   double operator()(const DrillState& state) const;
   /// The diagonal of its information.
   DrillStep Information() const;
+  /// Where the log of the density leads up: its slopes.
+  DrillStep Gradient(const DrillState& state) const;
 };
 
 /// A prior that hardly knows how drills are built: head and foot may be what fits best.

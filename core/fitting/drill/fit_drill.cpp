@@ -285,7 +285,7 @@ class DrillFit {
     const DrillState usual = climbed(OfKind(coarse_, *tool, drill, base_from_table_, any));
     const DrillState& better = near.log_likelihood > usual.log_likelihood ? near : usual;
     return WithoutPrior(
-        LocalSearch(likelihood_, better, base_from_table_, any, LocalSearchEffort::kRough));
+        LocalSearch(likelihood_, better, base_from_table_, any, LocalSearchEffort::kFine));
   }
 
   /// No drill is its template, and a head that is longer behind than the template's is a drill that
