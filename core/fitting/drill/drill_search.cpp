@@ -246,14 +246,17 @@ DrillState LocalSearch(const BeamLikelihood& likelihood, const DrillState& start
   best.log_likelihood = Score(likelihood, start, base_from_table, prior);
   if (effort != LocalSearchEffort::kCoarse)
     best = WithBestBit(likelihood, best, base_from_table, prior);
-  // A lean about the middle of the body, whose place is known best, moves the foot.
+  const auto at = [&](const Eigen::VectorXd& values) {
+    DrillState state = best;
+    state.values = values;
+    return state;
+  };
   const auto score = [&](const Eigen::VectorXd& values) {
-    DrillState tried = best;
-    tried.values = values;
-    return Score(likelihood, tried, base_from_table, prior);
+    return Score(likelihood, at(values), base_from_table, prior);
   };
   PatternSearchOptions options = Steps(effort);
   const double yaw = best.yaw();
+  // A lean about the middle of the body, whose place is known best, moves the foot.
   for (const int tilt : {int{kDrillTiltX}, int{kDrillTiltY}, int{kDrillRake}}) {
     constexpr double kLean_rad = 0.05;
     const Eigen::Vector2d along = tilt == kDrillTiltX
@@ -267,10 +270,9 @@ DrillState LocalSearch(const BeamLikelihood& likelihood, const DrillState& start
   if (effort != LocalSearchEffort::kCoarse) options.steps.push_back(GripAlone(yaw));
   const PatternSearchResult found = ClimbByPatternSearch(best.values, score, options);
   const auto shape_at = [&](const Eigen::VectorXd& values) -> ScoreShape {
-    DrillState at = best;
-    at.values = values;
-    const DrillSlopes slopes = SlopesOf(likelihood.rays(), at, base_from_table, prior);
-    return {slopes.scores.colwise().sum().transpose() + prior.Gradient(at), slopes.information};
+    const DrillState state = at(values);
+    const DrillSlopes slopes = SlopesOf(likelihood.rays(), state, base_from_table, prior);
+    return {slopes.scores.colwise().sum().transpose() + prior.Gradient(state), slopes.information};
   };
   const PatternSearchResult top =
       effort == LocalSearchEffort::kFine ? ClimbAlongPrincipalAxes(found, score, shape_at) : found;

@@ -23,8 +23,8 @@ double ErrorOf(const RangeRay& ray, const SolidIntersection& intersection, bool 
 
 DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFrame& base_from_table,
                      const DrillPrior& prior) {
-  constexpr double kStep = 1e-3;  // metres and radians
-  constexpr double kReach_m = 0.02;
+  constexpr double kStep = 1e-3;        // metres and radians
+  constexpr double kNearMiss_m = 0.02;  // beside the drill, of a ray that may graze it
   const double sigma = SigmaOf(rays, kDrillBeams);
   const auto tracer_at = [&](const DrillState& state) {
     return SolidTracer(state.Model().parts, state.Pose(base_from_table));
@@ -40,7 +40,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
   slopes.scores = Eigen::MatrixXd::Zero(std::ssize(rays.rays), kDrillParameters);
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
     const RangeRay& ray = rays.rays[i];
-    const SolidIntersection intersection = here.IntersectWithDepth(ray, kReach_m);
+    const SolidIntersection intersection = here.IntersectWithDepth(ray, kNearMiss_m);
     if (intersection.part < 0) continue;
     const double width = 0.5 * rays.footprint_rad * ray.range_m + kDrillBeams.edge_error_m;
     const bool inside = intersection.Hits();
@@ -52,7 +52,7 @@ DrillSlopes SlopesOf(const RaySet& rays, const DrillState& drill, const TableFra
     DrillStep slope;
     for (int p = 0; p < kDrillParameters; ++p) {
       const SolidIntersection there =
-          moved[static_cast<std::size_t>(p)].IntersectWithDepth(ray, kReach_m);
+          moved[static_cast<std::size_t>(p)].IntersectWithDepth(ray, kNearMiss_m);
       const double change = outline ? (there.clearance_m - intersection.clearance_m) / width
                                     : (there.range_m - intersection.range_m) / sigma;
       const bool same = there.part == intersection.part && there.Hits() == inside;

@@ -56,8 +56,7 @@ PatternSearchResult ClimbAlongPrincipalAxes(
   PatternSearchOptions options;
   options.steps = PrincipalSteps(shape.information);
   options.rounds = kRounds;
-  PatternSearchResult climbed = ClimbByPatternSearch(best.values, score, options);
-  return climbed.score > best.score ? climbed : best;
+  return ClimbByPatternSearch(best.values, score, options);
 }
 
 }  // namespace foresight
