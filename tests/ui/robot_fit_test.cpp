@@ -134,7 +134,7 @@ TEST_F(RobotFit, AFailureAndAnUnreadableAnswerAreSaidAndListNothing) {
   EXPECT_TRUE(session.Objects().empty());
 }
 
-TEST_F(RobotFit, AnAnswerOfAScanThatIsGoneIsDropped) {
+TEST_F(RobotFit, AnAnswerThatComesAfterTheNextScanIsListedWithItsOwn) {
   DrawRegion();
   HeadAnswers();
   model.fit();
@@ -142,7 +142,9 @@ TEST_F(RobotFit, AnAnswerOfAScanThatIsGoneIsDropped) {
   other.uuid = "0c2f1a3e-0000-4000-8000-000000000002";
   session.SetScan(std::make_shared<const Scan>(other));
   ASSERT_TRUE(WaitFor([&] { return !model.Runner()->Busy(); }));
-  EXPECT_TRUE(session.Objects().empty());
+  ASSERT_EQ(session.Objects().size(), 1u);
+  EXPECT_EQ(session.Objects()[0].scan_uuid, scan.uuid);
+  EXPECT_FALSE(session.IsCurrent(session.Objects()[0]));
 }
 
 }  // namespace

@@ -423,6 +423,7 @@ TEST_F(SessionTest, AcceptingWhatIsUnsureIsPossibleAndSaidOnce) {
   std::get<ValveDetection>(valve.detection).verdict = {
       VerdictLevel::kUnsure, 0.3, "Little of the rim is seen.", {}};
   session.AddObject(valve);
+  notices.clear();
   QStringList over;
   QObject::connect(&session, &SessionModel::settled, [&](const QString& topic) { over << topic; });
   session.Decide(Decision::kAccepted);
@@ -447,6 +448,7 @@ TEST_F(SessionTest, AnUnsureAnswerAsLikelyAsTheBestOneIsWarnedOfWithTheBestOnesR
   found.alternatives[0].log_likelihood = found.best.log_likelihood;
   found.alternatives[1].log_likelihood = found.best.log_likelihood - 275.0;
   session.AddObject(valve);
+  notices.clear();
   session.nextCandidate();
   session.Decide(Decision::kAccepted);
   session.nextCandidate();

@@ -81,7 +81,26 @@ TEST_F(WaitingFit, WhoChoosesLidarPointsWaitsForNoMap) {
   EXPECT_EQ(session.Objects().size(), 1u);
 }
 
-TEST_F(WaitingFit, AnotherScanOrNoRegionEndsTheWait) {
+TEST_F(WaitingFit, ItWaitsOnWhenLateLinesOfItsScanCome) {
+  DrawTerrain();
+  ASSERT_TRUE(fit.Waiting());
+  session.SetScan(std::make_shared<const Scan>(*FloorScan()));
+  EXPECT_TRUE(fit.Waiting());
+  ASSERT_TRUE(Idle());
+  ASSERT_EQ(session.Objects().size(), 1u) << testing::PrintToString(notices);
+  EXPECT_EQ(OriginOf(session.Objects()[0].detection).source, "jbu");
+}
+
+TEST_F(WaitingFit, AnotherScanEndsTheWaitAndThatIsSaid) {
+  DrawTerrain();
+  ASSERT_TRUE(fit.Waiting());
+  session.ExpectScan();
+  ASSERT_TRUE(Idle());
+  EXPECT_TRUE(session.Objects().empty());
+  EXPECT_THAT(notices, Contains(HasSubstr("another scan came before the depth map")));
+}
+
+TEST_F(WaitingFit, NoRegionEndsTheWait) {
   DrawTerrain();
   ASSERT_TRUE(fit.Waiting());
   session.SetRoi(std::nullopt);

@@ -52,11 +52,7 @@ FitViewModel::FitViewModel(SessionModel* session, QObject* parent)
   // Queued: the mask follows its map.
   for (auto signal : {&SessionModel::depthChanged, &SessionModel::depthComingChanged})
     connect(session_, signal, this, &FitViewModel::FitIfReady, Qt::QueuedConnection);
-  connect(session_, &SessionModel::scanChanged, this, &FitViewModel::StopWaiting);
-  connect(session_, &SessionModel::scanChanged, this, [this] {
-    // An image that came, or the rest of the lines, does not make the answer worthless.
-    if (!session_->ShownScan() || session_->ShownScan()->uuid != fitting_in_) runner_.cancel();
-  });
+  connect(session_, &SessionModel::scanChanged, this, &FitViewModel::LeaveScan);
   connect(&runner_, &TaskRunner::changed, this, &FitViewModel::changed);
 }
 
@@ -197,6 +193,7 @@ void FitViewModel::fit() {
   if (!CanFit() && !runner_.Busy()) {
     if (session_->DepthComing()) {
       waiting_ = true;
+      fitting_in_ = session_->ShownScan()->uuid;
       session_->Report({Notice::Level::kInfo, tr("%1 waits for the depth map.").arg(Doing(kind_)),
                         tr("It begins by itself; or choose lidar points and press Fit.")});
       Q_EMIT changed();
@@ -212,7 +209,7 @@ void FitViewModel::fit() {
   std::optional<ScanPart> part;
   if (!session_->CurrentScan()) part = PartOf(*scan, session_->Part().of_lines);
   DropFitsOfTheSame(*session_->Region());
-  const auto pending = std::make_shared<Pending>(kind_, *session_->Region());
+  const auto pending = std::make_shared<Pending>(fitting_in_, kind_, *session_->Region());
   const auto work = [scan, part, cloud = session_->Cloud(), depth = session_->Depth(),
                      mask = session_->Mask(), roi = pending->roi, stop = pending->stop,
                      mask_options = session_->MaskOptions(), source = From(),
@@ -235,7 +232,9 @@ void FitViewModel::fit() {
 
 void FitViewModel::DropFitsOfTheSame(const Roi& roi) {
   for (const auto& pending : pending_) {
-    if (pending->kind != kind_ || !MeanTheSame(pending->roi, roi)) continue;
+    if (pending->scan_uuid != fitting_in_ || pending->kind != kind_ ||
+        !MeanTheSame(pending->roi, roi))
+      continue;
     pending->replaced = true;
     pending->stop.request_stop();
   }
@@ -244,6 +243,19 @@ void FitViewModel::DropFitsOfTheSame(const Roi& roi) {
 void FitViewModel::FitIfReady() {
   // Where the map failed the usual source is another one now.
   if (waiting_ && (CanFit() || !session_->DepthComing())) fit();
+}
+
+void FitViewModel::LeaveScan() {
+  // An image that came, or the rest of the lines, does not make the answer worthless.
+  if (session_->ShownScan() && session_->ShownScan()->uuid == fitting_in_) return;
+  if (waiting_)
+    session_->Report(
+        {Notice::Level::kWarning,
+         tr("%1 did not begin: another scan came before the depth map.").arg(Doing(kind_)),
+         tr("Draw the region again in the scan that is shown.")});
+  StopWaiting();
+  // A live scan is not shown again: its answers are kept with it.
+  if (session_->Mode() == SessionMode::kReplay) runner_.cancel();
 }
 
 void FitViewModel::StopWaiting() {
@@ -258,14 +270,14 @@ void FitViewModel::Accept(ObjectKind kind, const std::shared_ptr<const Scan>& sc
     session_->Report(NoticeOf(Doing(kind), found.error()));
     return;
   }
-  if (!session_->ShownScan() || scan->uuid != session_->ShownScan()->uuid) return;
   FoundObject object;
   object.part = part;
   object.detection = found->detection;
   object.provenance_json = found->provenance_json;
   object.rig = scan->rig;
   object.scan_uuid = scan->uuid;
-  object.scan_time = session_->ScanTime();
+  object.scan_time = BeginTimeOf(*scan);
+  if (session_->Mode() == SessionMode::kReplay && !session_->IsCurrent(object)) return;
   session_->AddObject(object);
 }
 

@@ -75,7 +75,8 @@ class FitViewModel : public QObject {
   void setRegionTool(bool on);
   void leaveTools();
   /// At once or, where the depth map that it needs is being computed, as soon as that is there.
-  /// Another object's fit that runs comes first; one of the same object is dropped.
+  /// Another object's fit that runs comes first; one of the same object is dropped. Where another
+  /// scan comes meanwhile a live scan's fit is ended and listed; in review the fit is cancelled.
   void fit();
   /// The usual options of `Kind` again.
   void resetOptions();
@@ -86,15 +87,18 @@ class FitViewModel : public QObject {
  private:
   static QString Doing(ObjectKind kind);
   void FitIfReady();
+  /// Another scan is shown, or none.
+  void LeaveScan();
   void StopWaiting();
   /// A fit that runs or waits for those before it.
   struct Pending {
+    std::string scan_uuid;
     ObjectKind kind;
     Roi roi;
     std::stop_source stop;
     bool replaced = false;  ///< by one of the same object
   };
-  /// Drops the fits of the object that the operator has drawn a new region round.
+  /// Drops the fits of the object that the operator has drawn a new region round in the same scan.
   void DropFitsOfTheSame(const Roi& roi);
   /// What was found, with all that is needed to find it again.
   struct Found {
@@ -105,7 +109,7 @@ class FitViewModel : public QObject {
               const std::optional<ScanPart>& part, const Result<Found>& found);
 
   SessionModel* session_;
-  std::string fitting_in_;  ///< uuid of the scan of the last fit
+  std::string fitting_in_;  ///< uuid of the scan of the last fit, or of the one that waits
   TaskRunner runner_{session_->Tasks(), TaskPolicy::kQueue};
   std::deque<std::shared_ptr<Pending>> pending_;  ///< of `runner_`, in its order
   std::optional<FitSource> source_;               ///< that the operator chose

@@ -64,7 +64,6 @@ void RobotFitModel::fit() {
 void RobotFitModel::Accept(const std::shared_ptr<const Scan>& scan, const Result<HeadFit>& made) {
   const QString doing = tr("Fitting on the robot");
   if (!made) return session_->Report(NoticeOf(doing, made.error()));
-  if (!session_->ShownScan() || scan->uuid != session_->ShownScan()->uuid) return;
   const auto detection = DetectionFromJson(made->detection_json);
   if (!detection) return session_->Report(NoticeOf(doing, detection.error()));
   const auto provenance = ProvenanceFromJson(made->provenance_json, "the robot's fit");
@@ -75,7 +74,7 @@ void RobotFitModel::Accept(const std::shared_ptr<const Scan>& scan, const Result
   object.provenance_json = made->provenance_json;
   object.rig = scan->rig;
   object.scan_uuid = scan->uuid;
-  object.scan_time = session_->ScanTime();
+  object.scan_time = BeginTimeOf(*scan);
   object.by_robot = true;
   session_->AddObject(object);
   session_->Report({Notice::Level::kInfo, tr("The robot made the fit."),

@@ -13,13 +13,18 @@ const QString kObjectTopic = QStringLiteral("object");
 
 }  // namespace
 
+QDateTime BeginTimeOf(const Scan& scan) {
+  if (scan.start_utc_ns == 0) return {};
+  return QDateTime::fromMSecsSinceEpoch(BeginUtc_ns(scan) / 1'000'000);
+}
+
 SessionModel::SessionModel(SessionMode mode, TaskQueue* tasks, QObject* parent)
     : QObject(parent), mode_(mode), tasks_(tasks) {
   qRegisterMetaType<Notice>("foresight::Notice");
 }
 
 void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
-  const bool was_coming = scan && arriving_ && arriving_->uuid == scan->uuid;
+  const bool same = scan && ShownScan() && ShownScan()->uuid == scan->uuid;
   scan_ = std::move(scan);
   expects_scan_ = false;
   image_index_ = -1;  // all of it before the first signal: who hears one may ask for anything
@@ -28,7 +33,7 @@ void SessionModel::SetScan(std::shared_ptr<const Scan> scan) {
   cloud_.reset();
   part_ = {};
   arriving_.reset();
-  if (!was_coming) {
+  if (!same) {
     roi_.reset();
     undo_.Forget(kRegionTopic);
   }
@@ -71,8 +76,7 @@ void SessionModel::SetEarlier(const EarlierContents& earlier) {
 }
 
 QDateTime SessionModel::ScanTime() const {
-  if (!ShownScan() || ShownScan()->start_utc_ns == 0) return {};
-  return QDateTime::fromMSecsSinceEpoch(BeginUtc_ns(*ShownScan()) / 1'000'000);
+  return ShownScan() ? BeginTimeOf(*ShownScan()) : QDateTime();
 }
 
 void SessionModel::SelectImage(int index) {
@@ -128,8 +132,21 @@ void SessionModel::ShowRoi(std::optional<Roi> roi) {
 }
 
 void SessionModel::AddObject(FoundObject object) {
+  const bool late = !IsCurrent(object);
+  // The operator may be about to accept what is selected in the scan on the screen.
+  const bool select = !late || Selected() == nullptr || !IsCurrent(*Selected());
+  List(std::move(object), select);
+  if (late)
+    Report({Notice::Level::kInfo, tr("A fit in the scan before has ended."),
+            tr("What it found is the last object in the list.")});
+}
+
+void SessionModel::List(FoundObject object, bool select) {
   objects_.push_back(std::move(object));
-  SelectObject(static_cast<int>(objects_.size()) - 1);
+  if (select)
+    SelectObject(static_cast<int>(objects_.size()) - 1);
+  else
+    Q_EMIT objectsChanged();
   Q_EMIT objectAdded(objects_.back());
 }
 
@@ -299,7 +316,7 @@ void SessionModel::CopySelected() {
   copy.robot.clear();  // it was not sent
   copy.sendings = 0;
   if (!copy.name.isEmpty()) copy.name = tr("Copy of %1").arg(copy.name);
-  AddObject(std::move(copy));
+  List(std::move(copy), true);
 }
 
 void SessionModel::SelectObject(int index) {

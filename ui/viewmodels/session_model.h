@@ -58,6 +58,9 @@ struct CloudPart {
   int of_lines = 0;  ///< expected; 0 = not known
 };
 
+/// BeginUtc_ns of a scan; invalid where the head did not know the time.
+QDateTime BeginTimeOf(const Scan& scan);
+
 /// What a mission held before this sitting.
 struct EarlierContents {
   int scans = 0;
@@ -95,8 +98,8 @@ class SessionModel : public QObject {
   NotesModel* Notes() { return &notes_; }
   const NotesModel* Notes() const { return &notes_; }
 
-  /// A new scan: drops the points and depth of the one before and, unless it is the one that was on
-  /// its way, the region; found objects stay listed.
+  /// A new scan: drops the points and depth of the one before and, unless that was an earlier part
+  /// of the same scan, the region; found objects stay listed.
   void SetScan(std::shared_ptr<const Scan> scan);
   const std::shared_ptr<const Scan>& CurrentScan() const { return scan_; }
   /// Drops the scan as SetScan(nullptr) does, because a new one is on its way.
@@ -143,7 +146,8 @@ class SessionModel : public QObject {
   void SetRoi(std::optional<Roi> roi);
   const std::optional<Roi>& Region() const { return roi_; }
 
-  /// A new object, selected at once; `objectAdded` asks for it to be kept.
+  /// A new object; `objectAdded` asks for it to be kept. It is selected at once, but where it is of
+  /// an earlier scan it takes no selection from an object of the scan that is shown.
   void AddObject(FoundObject object);
   /// Objects out of a file, in place of those that are listed.
   void ShowObjects(std::vector<FoundObject> objects);
@@ -200,6 +204,7 @@ class SessionModel : public QObject {
   void settled(const QString& topic);
 
  private:
+  void List(FoundObject object, bool select);
   void StepCandidate(int by);
   void ShowRoi(std::optional<Roi> roi);
   FoundObject* Find(const std::string& uuid);
