@@ -48,9 +48,28 @@ BeamFootprints::BeamFootprints(RaySet rays, std::span<const Plane> background,
       footprint.samples.push_back(
           (ray.direction + (k - 0.5 * (options.samples - 1)) * spacing_rad * normal).normalized());
   }
+  AddSamples();
   if (!background_) return;
   if (options.look_behind) LookBehind();
   MeasureTail();
+}
+
+void BeamFootprints::AddSamples() {
+  samples_.Reserve(footprints_.size() * static_cast<std::size_t>(options_.samples));
+  for (std::size_t i = 0; i < footprints_.size(); ++i) {
+    const RangeRay& ray = rays_.rays[i];
+    const double reach_m = EdgeOf(i).Reach();
+    if (footprints_[i].samples.empty())
+      samples_.Add(ray.origin.data(), ray.direction.data(), reach_m);
+    for (const Eigen::Vector3d& direction : footprints_[i].samples)
+      samples_.Add(ray.origin.data(), direction.data(), reach_m);
+  }
+  samples_.Pad();
+}
+
+SampleEdge BeamFootprints::EdgeOf(std::size_t i) const {
+  const double half_m = HalfWidth(i);
+  return {options_.early_return * half_m, 0.5 * half_m + options_.edge_error_m};
 }
 
 // Nothing but noise ends behind a wall.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/fitting/ray_columns.h"
 #include "core/fitting/ray_set.h"
 #include "core/geometry/plane.h"
 
@@ -52,6 +53,16 @@ struct BeamOptions {
   bool stronger_return = false;
 };
 
+/// Where an object's outline has to lie beside a sample of a footprint for half of the beams to
+/// return from the object, and how far from there all or none do: an error function.
+struct SampleEdge {
+  double shift_m = 0.0;  ///< clearance of the sample's middle where half of the beams return
+  double width_m = 0.0;  ///< deviation of the error function
+
+  /// An object further from a sample than this changes nothing.
+  double Reach() const { return shift_m + 3.0 * width_m; }
+};
+
 /// Deviation of a range of the object's, the shape's error included.
 double SigmaOf(const RaySet& rays, const BeamOptions& options);
 
@@ -85,6 +96,10 @@ class BeamFootprints {
   std::span<const Eigen::Vector3d> SampleDirections(std::size_t i) const {
     return footprints_[i].samples;
   }
+  /// Of each of its samples, at the ray's range.
+  SampleEdge EdgeOf(std::size_t i) const;
+  /// All samples of all footprints, one after another: one of a footprint without SampleDirections.
+  const RayColumns& Samples() const { return samples_; }
 
   ExpectedBeam Expect(std::size_t i, const BeamCoverage& coverage) const;
   /// SigmaOf.
@@ -104,6 +119,7 @@ class BeamFootprints {
   };
 
   void LookBehind();
+  void AddSamples();
   void MeasureTail();
 
   RaySet rays_;
@@ -112,6 +128,7 @@ class BeamFootprints {
   double sigma_m_;
   double tail_ = 1.0;  ///< how much further off than normal errors the worst ones are
   std::vector<Footprint> footprints_;
+  RayColumns samples_;
 };
 
 }  // namespace foresight

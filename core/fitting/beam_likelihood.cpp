@@ -69,7 +69,22 @@ double BeamLikelihood::OfRays(const CoverBeam& object) const {
   return rays().samples_per_ray * sum;
 }
 
+double BeamLikelihood::OfRays(const CoverBeams& object) const {
+  std::vector<BeamCoverage> covers(backgrounds_.size());
+  object(footprints_, covers);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < covers.size(); ++i)
+    sum += covers[i].fraction > 0.0 ? std::log(DensityOf(i, footprints_.Expect(i, covers[i])))
+                                    : backgrounds_[i].log_density;
+  return rays().samples_per_ray * sum;
+}
+
 double BeamLikelihood::operator()(const CoverBeam& object) const {
+  const double own = OfRays(object);
+  return behind_map_ ? BeamModel::kMapWithBeams * own + behind_map_->OfRays(object) : own;
+}
+
+double BeamLikelihood::operator()(const CoverBeams& object) const {
   const double own = OfRays(object);
   return behind_map_ ? BeamModel::kMapWithBeams * own + behind_map_->OfRays(object) : own;
 }

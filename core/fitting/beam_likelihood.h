@@ -19,6 +19,10 @@ namespace foresight {
 using CoverBeam =
     std::function<std::optional<BeamCoverage>(const BeamFootprints& footprints, std::size_t ray)>;
 
+/// The same for all rays at once; a fraction of 0 where nothing does.
+using CoverBeams =
+    std::function<void(const BeamFootprints& footprints, std::span<BeamCoverage> of_rays)>;
+
 /// How well one object explains every ray of a region: those that should intersect it, and those
 /// that went past or through it. The one beam model of the fits (docs/adr/0024-one-beam-model.md):
 /// what differs between objects is the coverage alone. The same rays score every shape, so that
@@ -49,6 +53,7 @@ class BeamLikelihood {
 
   /// Log likelihood of all rays in nats, counted as independent measurements.
   double operator()(const CoverBeam& object) const;
+  double operator()(const CoverBeams& object) const;
   /// The same with nothing there but the planes.
   double Nothing() const;
 
@@ -69,6 +74,7 @@ class BeamLikelihood {
   };
 
   double OfRays(const CoverBeam& object) const;
+  double OfRays(const CoverBeams& object) const;
   double LogOfRay(std::size_t ray, const CoverBeam& object) const;
   double OfNothing() const;
   double DensityOf(std::size_t ray, const ExpectedBeam& expected) const;

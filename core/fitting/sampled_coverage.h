@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "core/fitting/beam_likelihood.h"
 #include "core/fitting/ray_set.h"
@@ -23,5 +24,13 @@ using IntersectBeam =
 /// a footprint (BeamOptions::samples) an error function of how far the ray passes from the outline,
 /// whose deviation is a quarter of the sample's width and the outline's own error.
 CoverBeam CoverBySamples(IntersectBeam object);
+
+/// The same of all rays at once: clearance (infinite where a ray does not come within its reach)
+/// and range, a place for each of the rays with their padding.
+using IntersectBeams = std::function<void(const RayColumns& rays, std::span<double> clearance_m,
+                                          std::span<double> range_m)>;
+
+/// CoverBySamples for all rays at once.
+CoverBeams CoverAllBySamples(IntersectBeams object);
 
 }  // namespace foresight

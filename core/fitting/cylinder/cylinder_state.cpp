@@ -33,7 +33,7 @@ BeamOptions CylinderBeams(const RaySet& rays) {
 }
 
 double LogLikelihoodOf(const SolidPart& solid_in_base, const BeamLikelihood& likelihood) {
-  return likelihood(CoverBy(SolidTracer({&solid_in_base, 1}, {})));
+  return likelihood(CoverAllBy(SolidTracer({&solid_in_base, 1}, {})));
 }
 
 CylinderState Retract(const CylinderState& cylinder, const CylinderStep& step) {

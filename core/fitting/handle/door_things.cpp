@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/fitting/solids/solid_coverage.h"
@@ -104,6 +105,32 @@ std::optional<BeamIntersection> DoorThing::Intersect(const RangeRay& ray, double
   return best;
 }
 
+PlacedDoorThing DoorThing::Placed() const {
+  PlacedDoorThing placed;
+  for (const Bar& bar : bars_) {
+    PlacedDoorThing::Bar& made = placed.bars.emplace_back();
+    Eigen::Vector3d::Map(made.from) = bar.from;
+    Eigen::Vector3d::Map(made.along) = bar.along;
+    made.length_m = bar.length_m;
+    made.radius_m = bar.radius_m;
+    Eigen::Vector3d::Map(made.middle) = bar.middle;
+    made.bound_m = bar.bound_m;
+  }
+  for (const TurnedPlate& turned : plates_) {
+    PlacedDoorThing::Plate& made = placed.plates.emplace_back();
+    made.front_m = turned.plate.front_m;
+    Eigen::Vector2d::Map(made.at) = turned.plate.at;
+    Eigen::Vector2d::Map(made.along) = turned.along;
+    made.radius_m = turned.plate.radius_m;
+    Eigen::Vector2d::Map(made.half_m) = turned.plate.half_m;
+  }
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(placed.object_from_base) = object_from_base_;
+  Eigen::Vector3d::Map(placed.offset) = -(object_from_base_ * position_);
+  Eigen::Vector3d::Map(placed.middle) = middle_;
+  placed.bound_m = bound_m_;
+  return placed;
+}
+
 std::vector<SolidPart> DoorThing::Parts() const {
   std::vector<SolidPart> parts;
   // A bar that goes on as the next one, bent a little, is outlined along its sides alone.
@@ -163,12 +190,20 @@ CoverBeam CoverBy(DoorThing thing) {
   });
 }
 
+CoverBeams CoverAllBy(const DoorThing& thing) {
+  return CoverAllBySamples([placed = thing.Placed()](const RayColumns& rays,
+                                                     std::span<double> clearance_m,
+                                                     std::span<double> range_m) {
+    IntersectColumns(placed, rays, clearance_m, range_m);
+  });
+}
+
 OutlineSupport OfImage(const DoorThing& thing, const RaySet& rays) {
   return OfImage(thing.Parts(), thing.base_from_object(), rays);
 }
 
 double LogLikelihoodOf(const DoorThing& thing, const BeamLikelihood& likelihood) {
-  return likelihood(CoverBy(thing)) + OfImage(thing, likelihood.rays()).nats;
+  return likelihood(CoverAllBy(thing)) + OfImage(thing, likelihood.rays()).nats;
 }
 
 }  // namespace foresight

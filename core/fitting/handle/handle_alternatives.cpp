@@ -206,7 +206,7 @@ class OtherThings {
     box.size_m = size_m;
     parts.push_back(std::move(box));
     return OfImage(parts, pose, likelihood_.rays()).nats +
-           likelihood_(CoverBy(SolidTracer(parts, pose)));
+           likelihood_(CoverAllBy(SolidTracer(parts, pose)));
   }
 
   /// Of a bar (middle, turn, height, length, radius) on posts along it.

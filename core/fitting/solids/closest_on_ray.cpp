@@ -13,9 +13,6 @@ constexpr double kInfinite_m = std::numeric_limits<double>::infinity();
 constexpr double kParallel = 1e-12;     // of a direction's squared part
 constexpr double kNewtonStep_m = 1e-5;  // where it has settled
 constexpr int kNewtonSteps = 12;
-constexpr int kTangents = 30;
-constexpr double kDepthError_m = 1e-7;
-constexpr double kLeastRadial_m = 1e-12;
 
 /// How far a coordinate lies beyond a slab of this half thickness, with its sign.
 double Beyond(double coordinate, double half) {
@@ -107,33 +104,33 @@ ClosestApproach BesideCylinder(const RayBesideSolid& ray, const Eigen::Vector3d&
   return at(range_m);
 }
 
-/// How far beyond the faces of a box or a cylinder a point of the line is, the farthest of them,
-/// and how that changes along the line.
-struct Tangent {
-  double range_m;
-  double beyond_m;
-  double slope;
-};
+// Along the line every face's signed distance is a straight line; where the largest of them is
+// least, one that falls crosses one that rises.
+double DeepestInBox(const RayBesideSolid& ray, const Eigen::Vector3d& half) {
+  const Eigen::Array3d steep = ray.direction.array().abs().max(kParallel);
+  const Eigen::Array3d ahead =
+      (ray.direction.array() < 0.0).select(-ray.origin.array(), ray.origin.array());
+  const Eigen::Array3d falling = -ahead - half.array(), rising = ahead - half.array();
+  double deepest_m = -kInfinite_m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      deepest_m = std::max(deepest_m,
+                           (steep[j] * falling[i] + steep[i] * rising[j]) / (steep[i] + steep[j]));
+  return deepest_m;
+}
 
-Tangent BeyondFaces(SolidPart::Shape shape, const RayBesideSolid& ray, const Eigen::Vector3d& half,
-                    double range_m) {
-  const Eigen::Vector3d point = At(ray, range_m);
-  const auto beyond_slab = [&](int i) {
-    return Tangent{range_m, std::abs(point[i]) - half[i],
-                   std::copysign(1.0, point[i]) * ray.direction[i]};
-  };
-  Tangent farthest = beyond_slab(2);
-  const auto consider = [&farthest](const Tangent& face) {
-    if (face.beyond_m > farthest.beyond_m) farthest = face;
-  };
-  if (shape == SolidPart::Shape::kBox) {
-    consider(beyond_slab(0));
-    consider(beyond_slab(1));
-    return farthest;
-  }
-  const double radial = std::max(point.head<2>().norm(), kLeastRadial_m);
-  consider({range_m, radial - half.x(), point.head<2>().dot(ray.direction.head<2>()) / radial});
-  return farthest;
+// Deepest in the mantle where the line is nearest to the axis, unless an end is nearer there: then
+// where it is as far from both on the way to the middle.
+double DeepestInCylinder(const RayBesideSolid& ray, const Eigen::Vector3d& half) {
+  const Eigen::Vector3d nearest = At(ray, NearestToAxis(ray));
+  const double radial2 = nearest.head<2>().squaredNorm();
+  const double in_mantle_m = std::sqrt(radial2) - half.x();
+  const double z = std::abs(nearest.z()), beyond_end_m = z - half.z();
+  if (in_mantle_m >= beyond_end_m) return in_mantle_m;
+  const double across2 = ray.direction.head<2>().squaredNorm(), down = std::abs(ray.direction.z());
+  const double wide_m = half.x() + beyond_end_m, wide2 = wide_m * wide_m - radial2;
+  const double way_m = wide2 / (wide_m * down + std::sqrt(across2 * wide2 + down * down * radial2));
+  return std::max(beyond_end_m - down * way_m, -half.z());
 }
 
 }  // namespace
@@ -151,26 +148,17 @@ ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
   return {kInfinite_m, kInfinite_m};
 }
 
-// How far a point is beyond all faces is convex along a line: two tangents, one from each side,
-// cross below the least value, and the next tangent is taken there.
-ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
-                              const Eigen::Vector3d& half, double bound_m, double enough_m) {
-  // Of a capsule's middle line that is known everywhere.
-  if (shape == SolidPart::Shape::kCapsule) return BesideCapsule(ray, half);
-  const double middle = -ray.origin.dot(ray.direction);
-  Tangent low = BeyondFaces(shape, ray, half, middle - bound_m);
-  Tangent high = BeyondFaces(shape, ray, half, middle + bound_m);
-  Tangent next = low;
-  for (int step = 0; step < kTangents && low.slope < 0.0 && high.slope > 0.0; ++step) {
-    const double range_m =
-        (high.beyond_m - low.beyond_m + low.slope * low.range_m - high.slope * high.range_m) /
-        (low.slope - high.slope);
-    const double least_m = low.beyond_m + low.slope * (range_m - low.range_m);
-    next = BeyondFaces(shape, ray, half, range_m);
-    if (next.beyond_m - least_m < kDepthError_m || next.beyond_m < -enough_m) break;
-    (next.slope < 0.0 ? low : high) = next;
+double DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
+                     const Eigen::Vector3d& half) {
+  switch (shape) {
+    case SolidPart::Shape::kBox:
+      return DeepestInBox(ray, half);
+    case SolidPart::Shape::kCylinder:
+      return DeepestInCylinder(ray, half);
+    case SolidPart::Shape::kCapsule:
+      return BesideCapsule(ray, half).distance_m;
   }
-  return {next.beyond_m, next.range_m};
+  return kInfinite_m;
 }
 
 }  // namespace foresight

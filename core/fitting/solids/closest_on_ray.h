@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 
 #include "core/objects/solid_part.h"
 
@@ -25,10 +24,9 @@ struct ClosestApproach {
 ClosestApproach ClosestBeside(SolidPart::Shape shape, const RayBesideSolid& ray,
                               const Eigen::Vector3d& half);
 
-/// How deep a line that enters the solid gets: the least signed distance along it, or one below
-/// -`enough_m`. `bound_m` is the radius of a sphere round the solid.
-ClosestApproach DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
-                              const Eigen::Vector3d& half, double bound_m,
-                              double enough_m = std::numeric_limits<double>::infinity());
+/// How deep a line that enters the solid gets: the least signed distance along it, in metres and in
+/// closed form.
+double DeepestInside(SolidPart::Shape shape, const RayBesideSolid& ray,
+                     const Eigen::Vector3d& half);
 
 }  // namespace foresight

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -80,15 +81,23 @@ float MedianOf(const Gradient& gradient, const Crop& crop) {
   return static_cast<float>(Quantile(std::move(lengths), 0.5));
 }
 
-Eigen::Vector2f Direction(int turn, int turns) {
-  const double angle = std::numbers::pi * turn / turns;
-  return Eigen::Vector2d(std::cos(angle), std::sin(angle)).cast<float>();
+/// Directions of half a circle.
+std::vector<Eigen::Vector2d> HalfACircle(int turns) {
+  std::vector<Eigen::Vector2d> directions;
+  for (int turn = 0; turn < turns; ++turn) {
+    const double angle = std::numbers::pi * turn / turns;
+    directions.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return directions;
 }
 
-/// Which of the directions of half a circle is nearest.
-std::size_t TurnOf(const Eigen::Vector2d& direction, int turns) {
-  const double angle = std::atan2(direction.y(), direction.x()) + std::numbers::pi;
-  return static_cast<std::size_t>(std::lround(angle * turns / std::numbers::pi) % turns);
+/// Which of the directions is nearest, or nearest to the opposite way.
+std::size_t TurnOf(const Eigen::Vector2d& direction, std::span<const Eigen::Vector2d> turns) {
+  const auto further = [&direction](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::abs(direction.dot(a)) < std::abs(direction.dot(b));
+  };
+  return static_cast<std::size_t>(std::max_element(turns.begin(), turns.end(), further) -
+                                  turns.begin());
 }
 
 /// At each pixel the largest value that lies along the direction, the less the further away.
@@ -151,8 +160,9 @@ void ImageEdges::FindEdges(const ColorImage& image) {
   const Crop crop{left_, top_, width_, height_};
   const Gradient gradient = GradientOf(image, crop);
   const float usual = MedianOf(gradient, crop) + static_cast<float>(kGreyLevel);
-  for (int turn = 0; turn < kTurns; ++turn) {
-    const Eigen::Vector2f across = Direction(turn, kTurns);
+  turns_ = HalfACircle(kTurns);
+  for (const Eigen::Vector2d& turn : turns_) {
+    const Eigen::Vector2f across = turn.cast<float>();
     Image<float> response(width_, height_);
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
@@ -180,35 +190,47 @@ std::optional<double> ImageEdges::ResponseAt(const Eigen::Vector2d& pixel, std::
          down * ((1.0 - right) * response(x, y + 1) + right * response(x + 1, y + 1));
 }
 
-bool ImageEdges::IsOutline(const Eigen::Vector2d& at, const Eigen::Vector2d& across,
-                           const RangeAlong& range_along) const {
-  const auto ray_a = RayThrough(at - kAside_px * across);
-  const auto ray_b = RayThrough(at + kAside_px * across);
-  if (!ray_a || !ray_b) return false;
-  const auto range_a = range_along(*ray_a), range_b = range_along(*ray_b);
-  if (range_a.has_value() != range_b.has_value()) return true;
-  return range_a.has_value() && std::abs(*range_a - *range_b) > kStep_m;
+std::vector<ImageEdges::Piece> ImageEdges::WhereSomethingEnds(
+    std::span<const Piece> pieces, std::span<const Eigen::Vector3d> beside,
+    const RangesAlong& ranges_along) {
+  std::vector<double> range_m(beside.size());
+  ranges_along(beside, range_m);
+  std::vector<Piece> outline;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const double a_m = range_m[2 * i], b_m = range_m[2 * i + 1];
+    const bool both_miss = std::isinf(a_m) && std::isinf(b_m);
+    if (!both_miss && std::abs(a_m - b_m) > kStep_m) outline.push_back(pieces[i]);
+  }
+  return outline;
 }
 
 std::vector<ImageEdges::Piece> ImageEdges::PiecesAlong(std::span<const Edge> edges,
-                                                       const RangeAlong& range_along) const {
+                                                       const RangesAlong& ranges_along) const {
   std::vector<Piece> pieces;
   if (Empty()) return pieces;
+  std::vector<Eigen::Vector3d> beside;
   for (const Edge& edge : edges) {
     const Eigen::Vector2d along = edge.to_px - edge.from_px;
     const double length_px = along.norm();
     if (!(length_px > 0.0)) continue;
     const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()) / length_px;
-    const std::size_t turn = TurnOf(across, kTurns);
+    const std::size_t turn = TurnOf(across, turns_);
     const int count = std::max(1, static_cast<int>(length_px / kPiece_px + 0.5));
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector2d at = edge.from_px + (i + 0.5) / count * along;
-      if (range_along && !IsOutline(at, across, range_along)) continue;
-      if (const auto response = ResponseAt(at, turn))
-        pieces.push_back({at, *response, length_px / count, turn});
+      const auto response = ResponseAt(at, turn);
+      if (!response) continue;
+      if (ranges_along) {
+        const auto ray_a = RayThrough(at - kAside_px * across);
+        const auto ray_b = RayThrough(at + kAside_px * across);
+        if (!ray_a || !ray_b) continue;
+        beside.push_back(*ray_a);
+        beside.push_back(*ray_b);
+      }
+      pieces.push_back({at, *response, length_px / count, turn});
     }
   }
-  return pieces;
+  return ranges_along ? WhereSomethingEnds(pieces, beside, ranges_along) : pieces;
 }
 
 std::vector<ImageEdges::Piece> ImageEdges::PiecesOf(
@@ -219,18 +241,30 @@ std::vector<ImageEdges::Piece> ImageEdges::PiecesOf(
   for (const SolidPart& part : parts) {
     const auto base_from_part = base_from_object * part.object_from_part;
     const auto camera_from_part = view_.camera_from_base * base_from_part;
+    // Most edges go on where the last one ended.
+    Eigen::Vector3d last = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    std::optional<Eigen::Vector2d> last_px;
     for (const PartEdge& edge : EdgesSeenFrom(part, base_from_part.Inverse() * eye_)) {
-      const auto from = view_.camera.Project(camera_from_part * edge.from);
+      const auto from =
+          edge.from == last ? last_px : view_.camera.Project(camera_from_part * edge.from);
       const auto to = view_.camera.Project(camera_from_part * edge.to);
       if (from && to) edges.push_back({*from, *to});
+      last = edge.to;
+      last_px = to;
     }
   }
-  const SolidTracer tracer(parts, base_from_object);
-  return PiecesAlong(edges, [&](const Eigen::Vector3d& ray) {
-    const SolidIntersection entry =
-        tracer.Intersect({.origin = eye_, .direction = ray, .range_m = 0.0}, 0.0);
-    return entry.Hits() ? std::optional(entry.range_m) : std::nullopt;
-  });
+  const PlacedSolids solids = SolidTracer(parts, base_from_object).Placed();
+  return PiecesAlong(edges,
+                     [&](std::span<const Eigen::Vector3d> directions, std::span<double> ranges_m) {
+                       RayColumns rays;
+                       rays.Reserve(directions.size());
+                       for (const Eigen::Vector3d& direction : directions)
+                         rays.Add(eye_.data(), direction.data(), 0.0);
+                       rays.Pad();
+                       std::vector<double> padded_m(rays.Padded());
+                       EnterColumns(solids, rays, padded_m);
+                       std::copy_n(padded_m.begin(), ranges_m.size(), ranges_m.begin());
+                     });
 }
 
 std::vector<ImageEdges::Piece> ImageEdges::Moved(std::span<const Piece> pieces,

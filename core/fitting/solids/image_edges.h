@@ -71,11 +71,14 @@ class ImageEdges {
     Eigen::Vector2d from_px;
     Eigen::Vector2d to_px;
   };
-  /// Where a ray from Eye(), in base, first enters what is looked at; nothing where it misses that.
-  using RangeAlong = std::function<std::optional<double>(const Eigen::Vector3d&)>;
-  /// The pieces of edges of anything else, where they are an outline; without `range_along` all of
+  /// Where rays from Eye(), of these directions in base, first enter what is looked at; infinite
+  /// where they miss that.
+  using RangesAlong =
+      std::function<void(std::span<const Eigen::Vector3d> directions, std::span<double> ranges_m)>;
+  /// The pieces of edges of anything else, where they are an outline; without `ranges_along` all of
   /// them.
-  std::vector<Piece> PiecesAlong(std::span<const Edge> edges, const RangeAlong& range_along) const;
+  std::vector<Piece> PiecesAlong(std::span<const Edge> edges,
+                                 const RangesAlong& ranges_along) const;
   /// The same pieces as if they lay beside where they do: a rig that is off by little moves all of
   /// an outline alike. What leaves the region is left out.
   std::vector<Piece> Moved(std::span<const Piece> pieces, const Eigen::Vector2d& by_px) const;
@@ -97,8 +100,10 @@ class ImageEdges {
 
   void FindEdges(const ColorImage& image);
   std::optional<Eigen::Vector3d> RayThrough(const Eigen::Vector2d& pixel) const;
-  bool IsOutline(const Eigen::Vector2d& at, const Eigen::Vector2d& across,
-                 const RangeAlong& range_along) const;
+  /// Of pieces, and the rays on either side of each, those where something ends.
+  static std::vector<Piece> WhereSomethingEnds(std::span<const Piece> pieces,
+                                               std::span<const Eigen::Vector3d> beside,
+                                               const RangesAlong& ranges_along);
   /// `turn`: which of the directions lies across.
   std::optional<double> ResponseAt(const Eigen::Vector2d& pixel, std::size_t turn) const;
 
@@ -106,7 +111,8 @@ class ImageEdges {
   Eigen::Vector3d eye_;  ///< in base
   double independent_per_px_;
   int left_ = 0, top_ = 0, width_ = 0, height_ = 0;  ///< what is kept of the image
-  std::vector<Image<float>> responses_;              ///< across each of the directions
+  std::vector<Eigen::Vector2d> turns_;               ///< the directions, of length 1
+  std::vector<Image<float>> responses_;              ///< across each of them
   Image<Eigen::Vector3f> rays_;                      ///< in base; zero = the lens shows nothing
 };
 

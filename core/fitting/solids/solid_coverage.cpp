@@ -18,11 +18,19 @@ CoverBeam CoverBy(SolidTracer solids) {
   return CoverBySamples(IntersectionWith(std::move(solids)));
 }
 
+CoverBeams CoverAllBy(const SolidTracer& solids) {
+  return CoverAllBySamples([placed = solids.Placed()](const RayColumns& rays,
+                                                      std::span<double> clearance_m,
+                                                      std::span<double> range_m) {
+    IntersectColumns(placed, rays, clearance_m, range_m);
+  });
+}
+
 double LogLikelihoodOf(std::span<const SolidPart> parts,
                        const Rigid<frame::Base, frame::Object>& base_from_object,
                        const BeamLikelihood& likelihood) {
   return OfImage(parts, base_from_object, likelihood.rays()).nats +
-         likelihood(CoverBy(SolidTracer(parts, base_from_object)));
+         likelihood(CoverAllBy(SolidTracer(parts, base_from_object)));
 }
 
 OutlineSupport OfImage(std::span<const SolidPart> parts,

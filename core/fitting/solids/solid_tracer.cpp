@@ -12,6 +12,7 @@ namespace {
 using Shape = SolidPart::Shape;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUnmeasuredDepth_m = -1.0;
+constexpr double kLeastDepth_m = 1e-9;
 // Parts that a ray enters one after another within this are one body, without an edge between them.
 constexpr double kSameSurface_m = 0.02;
 
@@ -144,11 +145,10 @@ SolidIntersection SolidTracer::IntersectWithDepth(const RangeRay& ray, double re
   SolidIntersection intersection = Intersect(ray, reach_m);
   if (!intersection.Hits()) return intersection;
   const auto depth_in = [&](const Part& part) {
-    return DeepestInside(part.shape, InPart(ray, part), part.half, part.bound_m, reach_m)
-        .distance_m;
+    return DeepestInside(part.shape, InPart(ray, part), part.half);
   };
   const auto first = static_cast<std::size_t>(intersection.part);
-  intersection.clearance_m = std::min(depth_in(parts_[first]), -1e-9);
+  intersection.clearance_m = depth_in(parts_[first]);
   for (std::size_t i = 0; i < parts_.size() && intersection.clearance_m > -reach_m; ++i) {
     const Part& part = parts_[i];
     if (i == first || !PassesNear(ray, part.middle, part.bound_m)) continue;
@@ -156,7 +156,27 @@ SolidIntersection SolidTracer::IntersectWithDepth(const RangeRay& ray, double re
     if (enter - intersection.range_m < kSameSurface_m)
       intersection.clearance_m = std::min(intersection.clearance_m, depth_in(part));
   }
+  intersection.clearance_m =
+      std::clamp(intersection.clearance_m, -std::max(reach_m, kLeastDepth_m), -kLeastDepth_m);
   return intersection;
+}
+
+PlacedSolids SolidTracer::Placed() const {
+  PlacedSolids placed;
+  placed.bound_m = bound_m_;
+  Eigen::Vector3d::Map(placed.middle) = middle_;
+  for (const Part& part : parts_) {
+    PlacedSolid& solid = placed.parts.emplace_back();
+    solid.shape = part.shape == Shape::kBox        ? PlacedSolid::Shape::kBox
+                  : part.shape == Shape::kCylinder ? PlacedSolid::Shape::kCylinder
+                                                   : PlacedSolid::Shape::kCapsule;
+    Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(solid.part_from_base) = part.part_from_base;
+    Eigen::Vector3d::Map(solid.offset) = part.offset;
+    Eigen::Vector3d::Map(solid.middle) = part.middle;
+    Eigen::Vector3d::Map(solid.half) = part.half;
+    solid.bound_m = part.bound_m;
+  }
+  return placed;
 }
 
 }  // namespace foresight

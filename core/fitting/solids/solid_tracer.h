@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fitting/ray_set.h"
+#include "core/fitting/solids/intersect_columns.h"
 #include "core/objects/solid_part.h"
 
 namespace foresight {
@@ -30,9 +31,11 @@ class SolidTracer {
   /// m.
   SolidIntersection Intersect(const RangeRay& ray, double reach_m) const;
   /// The same with a hit's depth: how far the ray gets inside the solid that it enters first, or
-  /// inside another that it enters within 20 mm of that; where that is more than `reach_m` it may
-  /// be more still. Solids that only touch keep the edge between them.
+  /// inside another that it enters within 20 mm of that, `reach_m` at most. Solids that only touch
+  /// keep the edge between them.
   SolidIntersection IntersectWithDepth(const RangeRay& ray, double reach_m) const;
+  /// For IntersectColumns, which does the same.
+  PlacedSolids Placed() const;
 
  private:
   struct Part {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "core/fitting/valve/part_evidence.h"
@@ -70,10 +71,14 @@ class SeenValve {
 
   /// Where a part's outline is the valve's.
   std::vector<ImageEdges::Piece> PiecesOf(const MiddleLine& part) const {
-    return image_.PiecesAlong(SidesOf(part), [this](const Eigen::Vector3d& ray) {
+    const auto range_along = [this](const Eigen::Vector3d& ray) {
       const ValveIntersection entry =
           tracer_.Intersect({.origin = image_.Eye(), .direction = ray, .range_m = 0.0}, 0.0);
-      return entry.Clearance() < 0.0 ? std::optional(entry.Range()) : std::nullopt;
+      return entry.Clearance() < 0.0 ? entry.Range() : std::numeric_limits<double>::infinity();
+    };
+    return image_.PiecesAlong(SidesOf(part), [&](std::span<const Eigen::Vector3d> directions,
+                                                 std::span<double> ranges_m) {
+      std::transform(directions.begin(), directions.end(), ranges_m.begin(), range_along);
     });
   }
 

@@ -81,13 +81,27 @@ TEST(ClosestOnRay, DeepestInsideIsNoLessDeepThanTheMiddleOfWhatIsPassed) {
       RayBesideSolid ray;
       ray.origin = 1.5 * Within(1.0, random).normalized();
       ray.direction = (Within(0.01, random) - ray.origin).normalized();
-      const ClosestApproach deepest = DeepestInside(shape, ray, half, 0.2);
-      EXPECT_LT(deepest.distance_m, -0.015) << i;
-      EXPECT_NEAR(deepest.distance_m, BySteps(shape, ray, half), 1e-6) << i;
-      const double enough = DeepestInside(shape, ray, half, 0.2, 0.010).distance_m;
-      EXPECT_LT(enough, -0.010) << i;
-      EXPECT_GE(enough, deepest.distance_m - 1e-6) << i;
+      const double deepest_m = DeepestInside(shape, ray, half);
+      EXPECT_LT(deepest_m, -0.015) << i;
+      EXPECT_NEAR(deepest_m, BySteps(shape, ray, half), 1e-6) << i;
     }
+  }
+}
+
+TEST(ClosestOnRay, DeepestInsideIsWhatSmallStepsFindWhereverTheLineEnters) {
+  Random random(14);
+  for (const SolidPart::Shape shape : {SolidPart::Shape::kBox, SolidPart::Shape::kCylinder}) {
+    int checked = 0;
+    for (int i = 0; i < 1500; ++i) {
+      const Eigen::Vector3d half(random.Uniform(0.02, 0.12), random.Uniform(0.02, 0.12),
+                                 random.Uniform(0.01, 0.12));
+      const RayBesideSolid ray = RandomRay(i, random);
+      const double truth_m = BySteps(shape, ray, half);
+      if (truth_m > -1e-6) continue;  // it misses the solid
+      ++checked;
+      EXPECT_NEAR(DeepestInside(shape, ray, half), truth_m, 1e-6) << i;
+    }
+    EXPECT_GT(checked, 150);
   }
 }
 
