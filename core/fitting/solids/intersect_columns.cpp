@@ -1,7 +1,5 @@
 #include "core/fitting/solids/intersect_columns.h"
 
-#include <algorithm>
-
 // This file is compiled once per instruction set, and the processor's best is called. No product is
 // fused with a sum (CMakeLists.txt): every set then gives the same numbers.
 #undef HWY_TARGET_INCLUDE
