@@ -6,8 +6,8 @@
 // Compiled once per instruction set, as row_filter.cpp is.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/depth/plane_filter_samples.cpp"
-#define HWY_DISABLED_TARGETS \
-  (HWY_AVX3_DL | HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "core/base/highway_targets.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

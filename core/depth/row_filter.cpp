@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
-// This file is compiled once per instruction set, and the processor's best is called. Wider than
-// AVX-512 there is nothing to gain from; scalable registers cannot be kept in structs.
+// This file is compiled once per instruction set, and the processor's best is called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/depth/row_filter.cpp"
-#define HWY_DISABLED_TARGETS \
-  (HWY_AVX3_DL | HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "core/base/highway_targets.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -58,14 +58,15 @@ double BeamLikelihood::DensityOf(std::size_t i, const ExpectedBeam& expected) co
          (1.0 - good - missed) * BeamModel::kUniform;
 }
 
-double BeamLikelihood::LogOfRay(std::size_t i, const CoverBeam& object) const {
-  const auto expected = Expect(i, object);
-  return expected ? std::log(DensityOf(i, *expected)) : backgrounds_[i].log_density;
+double BeamLikelihood::LogOfRay(std::size_t i, const BeamCoverage& coverage) const {
+  return coverage.fraction > 0.0 ? std::log(DensityOf(i, footprints_.Expect(i, coverage)))
+                                 : backgrounds_[i].log_density;
 }
 
 double BeamLikelihood::OfRays(const CoverBeam& object) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < backgrounds_.size(); ++i) sum += LogOfRay(i, object);
+  for (std::size_t i = 0; i < backgrounds_.size(); ++i)
+    sum += LogOfRay(i, object(footprints_, i).value_or(BeamCoverage()));
   return rays().samples_per_ray * sum;
 }
 
@@ -73,27 +74,30 @@ double BeamLikelihood::OfRays(const CoverBeams& object) const {
   std::vector<BeamCoverage> covers(backgrounds_.size());
   object(footprints_, covers);
   double sum = 0.0;
-  for (std::size_t i = 0; i < covers.size(); ++i)
-    sum += covers[i].fraction > 0.0 ? std::log(DensityOf(i, footprints_.Expect(i, covers[i])))
-                                    : backgrounds_[i].log_density;
+  for (std::size_t i = 0; i < covers.size(); ++i) sum += LogOfRay(i, covers[i]);
   return rays().samples_per_ray * sum;
 }
 
-double BeamLikelihood::operator()(const CoverBeam& object) const {
+template <class Cover>
+double BeamLikelihood::WithBeamsBehind(const Cover& object) const {
   const double own = OfRays(object);
   return behind_map_ ? BeamModel::kMapWithBeams * own + behind_map_->OfRays(object) : own;
 }
 
+double BeamLikelihood::operator()(const CoverBeam& object) const {
+  return WithBeamsBehind(object);
+}
+
 double BeamLikelihood::operator()(const CoverBeams& object) const {
-  const double own = OfRays(object);
-  return behind_map_ ? BeamModel::kMapWithBeams * own + behind_map_->OfRays(object) : own;
+  return WithBeamsBehind(object);
 }
 
 Eigen::VectorXd BeamLikelihood::Gains(const CoverBeam& object) const {
   if (behind_map_) return behind_map_->Gains(object);
   Eigen::VectorXd gains(std::ssize(backgrounds_));
   for (std::size_t i = 0; i < backgrounds_.size(); ++i)
-    gains[static_cast<Eigen::Index>(i)] = LogOfRay(i, object) - backgrounds_[i].log_density;
+    gains[static_cast<Eigen::Index>(i)] =
+        LogOfRay(i, object(footprints_, i).value_or(BeamCoverage())) - backgrounds_[i].log_density;
   return rays().samples_per_ray * gains;
 }
 

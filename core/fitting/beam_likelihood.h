@@ -75,7 +75,9 @@ class BeamLikelihood {
 
   double OfRays(const CoverBeam& object) const;
   double OfRays(const CoverBeams& object) const;
-  double LogOfRay(std::size_t ray, const CoverBeam& object) const;
+  template <class Cover>
+  double WithBeamsBehind(const Cover& object) const;
+  double LogOfRay(std::size_t ray, const BeamCoverage& coverage) const;
   double OfNothing() const;
   double DensityOf(std::size_t ray, const ExpectedBeam& expected) const;
 

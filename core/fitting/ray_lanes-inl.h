@@ -54,6 +54,8 @@ HWY_INLINE Lane DotAcross(const Lanes3& a, const Lanes3& b) {
 HWY_INLINE Lanes3 AllOf(const double* values) {
   return Lanes3(All(values[0]), All(values[1]), All(values[2]));
 }
+
+/// A ray a lane.
 struct RayLanes {
   Lanes3 origin, direction;
 
@@ -101,6 +103,23 @@ HWY_INLINE RayLanes RayAt(const RayColumns& rays, std::size_t i) {
                         HWY_ATTR { return hn::LoadU(d, column.data() + i); };
   return RayLanes(Lanes3(load(rays.origin_x), load(rays.origin_y), load(rays.origin_z)),
                   Lanes3(load(rays.direction_x), load(rays.direction_y), load(rays.direction_z)));
+}
+
+/// Clearance and range of all rays: what `intersect` says of those that come near the sphere round
+/// an object, asked with the ray, its reach and which lanes come near; infinite for the others.
+template <class Intersect>
+HWY_INLINE void IntersectNear(const double* middle, double bound_m, const RayColumns& rays,
+                              const Intersect& intersect, double* clearances_m, double* ranges_m) {
+  const Doubles d;
+  for (std::size_t i = 0; i < rays.Padded(); i += hn::Lanes(d)) {
+    const RayLanes ray = RayAt(rays, i);
+    const Lane reach = hn::LoadU(d, rays.reach_m.data() + i);
+    const LaneMask near = PassesNear(ray, middle, hn::Add(All(bound_m), reach));
+    ApproachLanes intersection(All(kInfiniteLane), All(kInfiniteLane));
+    if (Any(near)) intersection = intersect(ray, reach, near);
+    hn::StoreU(intersection.distance, d, clearances_m + i);
+    hn::StoreU(intersection.range, d, ranges_m + i);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kReach_m = 0.018;  // of a beam at 1.5 m
 
-/// 1200 beams of a region at 1.5 m, a quarter of them on or next to the drill.
+/// 1200 beams of a region at 1.5 m, most of them beside the drill.
 struct Region {
   std::vector<RangeRay> rays;
   RayColumns columns;

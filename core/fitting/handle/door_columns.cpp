@@ -3,8 +3,8 @@
 // Compiled once per instruction set, as solids/intersect_columns.cpp is.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/fitting/handle/door_columns.cpp"
-#define HWY_DISABLED_TARGETS \
-  (HWY_AVX3_DL | HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "core/base/highway_targets.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -89,20 +89,15 @@ HWY_INLINE void ConsiderPlate(const PlacedDoorThing::Plate& plate, const RayLane
 
 void IntersectDoorColumnsHere(const PlacedDoorThing& thing, const RayColumns& rays,
                               double* clearances_m, double* ranges_m) {
-  const Doubles d;
-  for (std::size_t i = 0; i < rays.Padded(); i += hn::Lanes(d)) {
-    const RayLanes ray = RayAt(rays, i);
-    BestLanes best(hn::LoadU(d, rays.reach_m.data() + i));
-    const LaneMask near = PassesNear(ray, thing.middle, hn::Add(All(thing.bound_m), best.reach));
-    if (Any(near)) {
-      const RayLanes local = Moved(thing.object_from_base, thing.offset, ray);
-      for (const PlacedDoorThing::Bar& bar : thing.bars) ConsiderBar(bar, local, near, best);
-      for (const PlacedDoorThing::Plate& plate : thing.plates)
-        ConsiderPlate(plate, local, near, best);
-    }
-    hn::StoreU(best.clearance, d, clearances_m + i);
-    hn::StoreU(best.range, d, ranges_m + i);
-  }
+  const auto intersect = [&](const RayLanes& ray, Lane reach, LaneMask near) HWY_ATTR {
+    BestLanes best(reach);
+    const RayLanes local = Moved(thing.object_from_base, thing.offset, ray);
+    for (const PlacedDoorThing::Bar& bar : thing.bars) ConsiderBar(bar, local, near, best);
+    for (const PlacedDoorThing::Plate& plate : thing.plates)
+      ConsiderPlate(plate, local, near, best);
+    return ApproachLanes(best.clearance, best.range);
+  };
+  IntersectNear(thing.middle, thing.bound_m, rays, intersect, clearances_m, ranges_m);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,8 +4,8 @@
 // fused with a sum (CMakeLists.txt): every set then gives the same numbers.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/fitting/solids/intersect_columns.cpp"
-#define HWY_DISABLED_TARGETS \
-  (HWY_AVX3_DL | HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "core/base/highway_targets.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -100,16 +100,9 @@ HWY_INLINE ApproachLanes IntersectLanes(const PlacedSolids& solids, const RayLan
 
 void IntersectColumnsHere(const PlacedSolids& solids, const RayColumns& rays, double* enters,
                           double* clearances_m, double* ranges_m) {
-  const Doubles d;
-  for (std::size_t i = 0; i < rays.Padded(); i += hn::Lanes(d)) {
-    const RayLanes ray = RayAt(rays, i);
-    const Lane reach = hn::LoadU(d, rays.reach_m.data() + i);
-    const LaneMask near = PassesNear(ray, solids.middle, hn::Add(All(solids.bound_m), reach));
-    ApproachLanes intersection(All(kInfiniteLane), All(kInfiniteLane));
-    if (Any(near)) intersection = IntersectLanes(solids, ray, reach, near, enters);
-    hn::StoreU(intersection.distance, d, clearances_m + i);
-    hn::StoreU(intersection.range, d, ranges_m + i);
-  }
+  const auto intersect = [&](const RayLanes& ray, Lane reach, LaneMask near)
+                             HWY_ATTR { return IntersectLanes(solids, ray, reach, near, enters); };
+  IntersectNear(solids.middle, solids.bound_m, rays, intersect, clearances_m, ranges_m);
 }
 
 }  // namespace HWY_NAMESPACE
